@@ -1,0 +1,2 @@
+//! The `meshsweep` program.
+fn main() {}

@@ -1,0 +1,3 @@
+//! Builder.
+pub mod lp;
+pub mod mesh;

@@ -1,0 +1,1 @@
+//! Oracles, generators and corrupters that the tests, benches and fuzz targets share.
