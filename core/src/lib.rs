@@ -1,3 +1,42 @@
+//! Geometric questions about triangle meshes, answered from a binary blob where it lies: no heap, no recursion, no panic.
+//!
+//! A host tool (`meshsweep-alloc`) turns a mesh into a blob; [`Model::open`] checks every byte of it once; the functions
+//! of [`query`] then answer with intervals that contain the true distance to the input mesh in real arithmetic.
+//!
+//! ```
+//! use meshsweep_core::{Model, QueueEntry, query::{Stop, closest_point}};
+//! # fn probe(blob: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
+//! let model = Model::open(blob)?;
+//! let mut queue = [QueueEntry::EMPTY; 256]; // `model.capacities()` says what this mesh needs
+//! let answer = closest_point(&model, [0.1, 0.2, 0.3], &Stop::EXACT, &mut queue)?;
+//! assert!(answer.lower <= answer.upper);
+//! # Ok(()) }
+//! ```
+//!
+//! # Layers
+//! Each layer may use those to its left and no other: `num` ← `geom` ← `refine` ← `query`, with `blob` under the last two.
+//! `geom` knows no bytes and `blob` knows no geometry.
+//!
+//! | folder | owns |
+//! | --- | --- |
+//! | [`num`] | directed rounding, stored radii, every tolerance with its derivation |
+//! | [`geom`] | closed-form kernels: point–triangle, segment–triangle, swept triangle |
+//! | [`blob`] | the format: header, sections, checked views; the only place that reads bytes |
+//! | [`refine`] | split tables: the selectively refined hull, the faces of a level |
+//! | [`query`] | one file per question; stop rules, intervals, work counters |
+//!
+//! # The same bits everywhere
+//! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is `libm`'s, which is correctly
+//! rounded on every target. The same blob and query give the same bits on a workstation and on a Cortex-M0.
+
 #![no_std]
 #![forbid(unsafe_code)]
-//! Core.
+
+pub mod blob;
+pub mod geom;
+pub mod num;
+pub mod query;
+pub mod refine;
+
+pub use blob::{Model, OpenError};
+pub use query::{QueryError, QueueEntry};

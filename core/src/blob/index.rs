@@ -1,0 +1,34 @@
+//! One type for each kind of index, so that one cannot be passed for another.
+
+macro_rules! index {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub u32);
+
+        impl $name {
+            /// For addressing slices.
+            #[inline(always)]
+            pub fn usize(self) -> usize {
+                self.0 as usize
+            }
+        }
+    };
+}
+
+index! {
+    /// A vertex of any level: base vertices first, then two for each split.
+    VertIdx
+}
+index! {
+    /// A vertex split, coarse to fine.
+    SplitIdx
+}
+index! {
+    /// A node of the cover tree.
+    NodeIdx
+}
+index! {
+    /// A triangle of the surface, in the blob's order.
+    TriIdx
+}

@@ -1,0 +1,70 @@
+//! Little-endian reads that cannot fail in any way but `None`.
+
+/// A byte slice read by offset.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bytes<'a>(pub(super) &'a [u8]);
+
+impl<'a> Bytes<'a> {
+    pub(super) fn len(self) -> usize {
+        self.0.len()
+    }
+
+    #[inline(always)]
+    pub(super) fn slice(self, at: usize, len: usize) -> Option<&'a [u8]> {
+        self.0.get(at..)?.get(..len)
+    }
+
+    #[inline(always)]
+    pub(super) fn array<const N: usize>(self, at: usize) -> Option<[u8; N]> {
+        self.0.get(at..)?.first_chunk::<N>().copied()
+    }
+
+    #[inline(always)]
+    pub(super) fn u8(self, at: usize) -> Option<u8> {
+        self.0.get(at).copied()
+    }
+
+    #[inline(always)]
+    pub(super) fn u16(self, at: usize) -> Option<u16> {
+        self.array(at).map(u16::from_le_bytes)
+    }
+
+    #[inline(always)]
+    pub(super) fn u32(self, at: usize) -> Option<u32> {
+        self.array(at).map(u32::from_le_bytes)
+    }
+
+    #[inline(always)]
+    pub(super) fn f32(self, at: usize) -> Option<f32> {
+        self.array(at).map(f32::from_le_bytes)
+    }
+
+    /// An index of `width` bytes.
+    #[inline(always)]
+    pub(super) fn index(self, at: usize, width: usize) -> Option<u32> {
+        match width {
+            2 => self.u16(at).map(u32::from),
+            3 => self.array::<3>(at).map(|[a, b, c]| u32::from_le_bytes([a, b, c, 0])),
+            4 => self.u32(at),
+            _ => self.u8(at).map(u32::from),
+        }
+    }
+
+    /// Three indices of `width` bytes, side by side.
+    #[inline(always)]
+    pub(super) fn index3(self, at: usize, width: usize) -> Option<[u32; 3]> {
+        match width {
+            2 => self.array::<6>(at).map(|[a, b, c, d, e, f]| {
+                [[a, b], [c, d], [e, f]].map(|pair| u32::from(u16::from_le_bytes(pair)))
+            }),
+            3 => self.array::<9>(at).map(|[a, b, c, d, e, f, g, h, i]| {
+                [[a, b, c, 0], [d, e, f, 0], [g, h, i, 0]].map(u32::from_le_bytes)
+            }),
+            _ => Some([
+                self.index(at, width)?,
+                self.index(at.checked_add(width)?, width)?,
+                self.index(at.checked_add(width.checked_mul(2)?)?, width)?,
+            ]),
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Point–triangle distance in f64, as an interval that contains the real one.
+//!
+//! Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5. The upper end is the length of the residual
+//! `ap − u·ab − v·ac`; the lower end is a supporting plane, which holds whatever region rounding may have chosen.
+//! Derivation: `core/docs/rounding.md` §4.
+
+use crate::num::tolerance::{POINT_INTERVAL, U64};
+use glam::DVec3;
+
+/// Distance of a point and a triangle: `lower ≤ distance ≤ upper` in real arithmetic.
+#[derive(Clone, Copy, Debug)]
+pub struct PointTriangle {
+    /// Not above the distance.
+    pub lower: f64,
+    /// Not below the distance.
+    pub upper: f64,
+    /// Squared length of the residual as computed: what ties are decided by.
+    pub distance_sq: f64,
+    /// The closest point is `a + u·(b − a) + v·(c − a)`, `u, v ≥ 0`, `u + v ≤ 1` up to one rounding.
+    pub u: f64,
+    /// See [`u`](Self::u).
+    pub v: f64,
+}
+
+/// Distance interval of `p` and the triangle `a b c`.
+///
+/// Degenerate triangles (segments, points) are defined: the nearest point of what is left. The width of the interval is a
+/// few 1e-16 of the lengths involved; on a needle of aspect ratio `k` the lower end loses `k` times that.
+/// Coordinates must be finite and below 1e75, so that no product overflows.
+#[inline]
+pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
+    let ap = p - a;
+    let ab = b - a;
+    let ac = c - a;
+    let (u, v, direction) = closest(ap, ab, ac);
+    let residual = ap - ab * u - ac * v;
+    let distance_sq = residual.dot(residual);
+    let length = libm::sqrt(distance_sq);
+    let norms = norm_1(ap) + norm_1(ab) + norm_1(ac);
+    let margin = POINT_INTERVAL * U64 * norms;
+
+    // Whatever `direction` is, no point of the triangle is nearer than the nearest corner along it.
+    let g = direction.unwrap_or(residual);
+    let along = g.dot(ap);
+    let support = 0f64.max(g.dot(ab)).max(g.dot(ac));
+    let gg = g.dot(g);
+    let lower = if gg > 0.0 { (along - support) / libm::sqrt(gg) - margin } else { 0.0 };
+    PointTriangle { lower: lower.max(0.0), upper: length + margin, distance_sq, u, v }
+}
+
+/// Barycentric coordinates of the closest point, and the direction to certify it by where a better one than the residual is known.
+#[inline]
+fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
+    let d1 = ab.dot(ap);
+    let d2 = ac.dot(ap);
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return (0.0, 0.0, Some(ap));
+    }
+    let aa = ab.dot(ab);
+    let bb = ab.dot(ac);
+    let cc = ac.dot(ac);
+    let d3 = d1 - aa;
+    let d4 = d2 - bb;
+    if d3 >= 0.0 && d4 <= d3 {
+        return (1.0, 0.0, Some(ap - ab));
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && aa > 0.0 {
+        let u = d1 / aa;
+        return (u, 0.0, Some(orthogonal(ap - ab * u, ab, aa)));
+    }
+    let d5 = d1 - bb;
+    let d6 = d2 - cc;
+    if d6 >= 0.0 && d5 <= d6 {
+        return (0.0, 1.0, Some(ap - ac));
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && cc > 0.0 {
+        let v = d2 / cc;
+        return (0.0, v, Some(orthogonal(ap - ac * v, ac, cc)));
+    }
+    let va = d3 * d6 - d5 * d4;
+    let e4 = d4 - d3;
+    let e5 = d5 - d6;
+    if va <= 0.0 && e4 >= 0.0 && e5 >= 0.0 && e4 + e5 > 0.0 {
+        let v = e4 / (e4 + e5);
+        let bc = ac - ab;
+        let residual = ap - ab * (1.0 - v) - ac * v;
+        return (1.0 - v, v, Some(orthogonal(residual, bc, bc.dot(bc))));
+    }
+    let sum = va + vb + vc;
+    if sum <= 0.0 {
+        // Only a triangle that rounding has flattened to nothing gets here; corner `a` is a true, if poor, upper bound.
+        return (0.0, 0.0, None);
+    }
+    let inverse = 1.0 / sum;
+    let (u, v) = (vb * inverse, vc * inverse);
+    let u = u.max(0.0).min(1.0);
+    let v = v.max(0.0).min(1.0 - u);
+    // Near the surface the residual is all rounding; the normal is not.
+    let normal = ab.cross(ac);
+    let facing = if normal.dot(ap) < 0.0 { -normal } else { normal };
+    (u, v, Some(facing))
+}
+
+/// `r` without what rounding left of it along `edge`. Once more is enough (Kahan, Parlett).
+#[inline]
+fn orthogonal(r: DVec3, edge: DVec3, edge_sq: f64) -> DVec3 {
+    if edge_sq > 0.0 { r - edge * (r.dot(edge) / edge_sq) } else { r }
+}
+
+/// Sum of absolute coordinates: an upper bound of the length that needs no square root.
+#[inline]
+fn norm_1(x: DVec3) -> f64 {
+    x.x.abs() + x.y.abs() + x.z.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const A: DVec3 = DVec3::new(0.0, 0.0, 0.0);
+    const B: DVec3 = DVec3::new(1.0, 0.0, 0.0);
+    const C: DVec3 = DVec3::new(0.0, 1.0, 0.0);
+
+    fn check(p: DVec3, expected: f64) {
+        let d = point_triangle(p, A, B, C);
+        assert!(d.lower <= expected && expected <= d.upper, "{p} {d:?}");
+        assert!(d.upper - d.lower < 1e-13, "{p} {d:?}");
+    }
+
+    #[test]
+    fn all_seven_regions_have_a_tight_interval() {
+        check(DVec3::new(0.25, 0.25, 2.0), 2.0);
+        check(DVec3::new(0.25, 0.25, -1e-9), 1e-9);
+        check(DVec3::new(-3.0, -4.0, 0.0), 5.0);
+        check(DVec3::new(4.0, -4.0, 0.0), 5.0);
+        check(DVec3::new(-4.0, 4.0, 0.0), 5.0);
+        check(DVec3::new(0.5, -2.0, 0.0), 2.0);
+        check(DVec3::new(-2.0, 0.5, 0.0), 2.0);
+        check(DVec3::new(1.5, 1.5, 0.0), libm::sqrt(2.0));
+        check(DVec3::new(0.3, 0.3, 0.0), 0.0);
+    }
+
+    #[test]
+    fn degenerate_triangles_are_segments_and_points() {
+        let p = DVec3::new(1.0, 2.0, 2.0);
+        for (a, b, c, expected) in [
+            (A, A, A, 3.0),
+            (A, B, B, libm::sqrt(8.0)),
+            (A, A, B, libm::sqrt(8.0)),
+            (A, B, A, libm::sqrt(8.0)),
+            (A, B * 0.5, B, libm::sqrt(8.0)),
+        ] {
+            let d = point_triangle(p, a, b, c);
+            assert!(d.lower <= expected && expected <= d.upper, "{d:?}");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Segment–triangle intersection in f64 that never misses: what rounding leaves undecided counts as a hit.
+//!
+//! Signs of the three triple products `d · (B × C)`, `d · (C × A)`, `d · (A × B)` with the corners taken from the
+//! segment's start (Segura & Feito 1998). `x × y = −(y × x)` holds bit for bit, so that two triangles which share an edge
+//! agree on its side, and the closed test with a proved margin leaves no gap along edges and at vertices.
+//! Derivation: `core/docs/rounding.md` §5.
+
+use super::point_triangle;
+use crate::num::tolerance::{COPLANAR_TOUCH, TRIPLE_PRODUCT, U64};
+use glam::DVec3;
+
+/// Where a segment meets a triangle. Parameters run from 0 at the segment's start to 1 at its end.
+#[derive(Clone, Copy, Debug)]
+pub struct SegmentTriangle {
+    /// Best estimate of the first parameter at which they meet.
+    pub t: f64,
+    /// The real first parameter is not below this.
+    pub t_lower: f64,
+    /// The real first parameter is not above this (both hold if they meet at all).
+    pub t_upper: f64,
+}
+
+/// First common point of the closed segment `a b` and the closed triangle `v0 v1 v2`.
+///
+/// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths involved: a caller
+/// that must never hear "clear" by mistake wants exactly that. Both facings hit. A segment in the triangle's plane hits at
+/// the first point that it shares with it; a segment of zero length hits if its point lies on the triangle.
+pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<SegmentTriangle> {
+    let d = b - a;
+    let (p, q, r) = (v0 - a, v1 - a, v2 - a);
+    let (np, nq, nr, nd) = (norm_1(p), norm_1(q), norm_1(r), norm_1(d));
+    let unit = TRIPLE_PRODUCT * U64;
+    let u = d.dot(q.cross(r));
+    let v = d.dot(r.cross(p));
+    let w = d.dot(p.cross(q));
+    let (eu, ev, ew) = (unit * nd * nq * nr, unit * nd * nr * np, unit * nd * np * nq);
+    let positive = u >= -eu && v >= -ev && w >= -ew;
+    let negative = u <= eu && v <= ev && w <= ew;
+    if !positive && !negative {
+        return None;
+    }
+    let (e1, e2) = (q - p, r - p);
+    let normal = e1.cross(e2);
+    let across = d.dot(normal);
+    let across_error = unit * nd * norm_1(e1) * norm_1(e2);
+    if across.abs() <= across_error {
+        return in_plane(a, b, [v0, v1, v2]);
+    }
+    let height = p.dot(normal);
+    let height_error = unit * np * norm_1(e1) * norm_1(e2);
+    let t = height / across;
+    // |δt| ≤ (δheight + |t| δacross) / (|across| − δacross), and what the corners' own rounding adds.
+    let error = (height_error + t.abs() * across_error) / (across.abs() - across_error) + 8.0 * U64 * t.abs();
+    if t + error < 0.0 || t - error > 1.0 {
+        return None;
+    }
+    Some(SegmentTriangle {
+        t: t.max(0.0).min(1.0),
+        t_lower: (t - error).max(0.0),
+        t_upper: (t + error).min(1.0),
+    })
+}
+
+/// The segment lies in the plane of the triangle up to rounding, or one of them is degenerate.
+fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> {
+    let [v0, v1, v2] = corners;
+    let d = b - a;
+    let (p, q, r) = (v0 - a, v1 - a, v2 - a);
+    let touch = COPLANAR_TOUCH * U64 * (norm_1(p) + norm_1(q) + norm_1(r) + norm_1(d));
+    if point_triangle(a, v0, v1, v2).lower <= touch {
+        return Some(SegmentTriangle { t: 0.0, t_lower: 0.0, t_upper: 0.0 });
+    }
+    // The start is outside, so the first common point lies on an edge.
+    let mut first: Option<f64> = None;
+    for (from, to) in [(v0, v1), (v1, v2), (v2, v0)] {
+        if let Some(t) = edge_crossing(a, d, from, to, touch) {
+            first = Some(first.map_or(t, |best| best.min(t)));
+        }
+    }
+    let t = first?;
+    // The crossing of nearly parallel lines is ill-conditioned; the shadow of the triangle on the segment is not.
+    let dd = d.dot(d);
+    let shadow = if dd > 0.0 {
+        let nearest = d.dot(p).min(d.dot(q)).min(d.dot(r));
+        (nearest - touch * libm::sqrt(dd)) / dd - 16.0 * U64
+    } else {
+        0.0
+    };
+    Some(SegmentTriangle { t, t_lower: shadow.max(0.0).min(t), t_upper: 1.0 })
+}
+
+/// Parameter on `a + t·d` at which the segment comes within `touch` of the edge, if it does.
+fn edge_crossing(a: DVec3, d: DVec3, from: DVec3, to: DVec3, touch: f64) -> Option<f64> {
+    // Closest points of two segments (Ericson 5.1.9), both ends clamped, the better of two orders.
+    let e = to - from;
+    let s = a - from;
+    let (dd, ee, de) = (d.dot(d), e.dot(e), d.dot(e));
+    let (ds, es) = (d.dot(s), e.dot(s));
+    let clamp = |x: f64| x.max(0.0).min(1.0);
+    let divide = |x: f64, by: f64| if by > 0.0 { clamp(x / by) } else { 0.0 };
+    let distance = |t: f64, k: f64| {
+        let gap = s + d * t - e * k;
+        libm::sqrt(gap.dot(gap))
+    };
+    let mut first: Option<f64> = None;
+    let mut consider = |t: f64, k: f64| {
+        if distance(t, k) <= touch {
+            first = Some(first.map_or(t, |best| best.min(t)));
+        }
+    };
+    let denominator = dd * ee - de * de;
+    let t = divide(de * es - ds * ee, denominator);
+    let k = divide(de * t + es, ee);
+    consider(divide(de * k - ds, dd), k);
+    // Parallel overlaps and touching ends.
+    consider(divide(-ds, dd), 0.0);
+    consider(divide(de - ds, dd), 1.0);
+    consider(0.0, divide(es, ee));
+    consider(1.0, divide(de + es, ee));
+    first
+}
+
+#[inline]
+fn norm_1(x: DVec3) -> f64 {
+    x.x.abs() + x.y.abs() + x.z.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const T: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+
+    fn hit(a: [f64; 3], b: [f64; 3]) -> Option<f64> {
+        segment_triangle(DVec3::from(a), DVec3::from(b), T).map(|h| {
+            assert!(h.t_lower <= h.t && h.t <= h.t_upper, "{h:?}");
+            h.t
+        })
+    }
+
+    #[test]
+    fn interior_edge_and_vertex_hit_from_both_sides() {
+        for z in [1.0, -1.0] {
+            for (x, y) in [(0.25, 0.25), (0.5, 0.0), (0.5, 0.5), (0.0, 0.0), (1.0, 0.0), (0.0, 1.0)] {
+                assert_eq!(hit([x, y, z], [x, y, -z]), Some(0.5), "{x} {y} {z}");
+            }
+        }
+        assert_eq!(hit([0.25, 0.25, 0.0], [0.25, 0.25, 1.0]), Some(0.0));
+    }
+
+    #[test]
+    fn clear_misses_are_misses() {
+        assert_eq!(hit([0.6, 0.6, 1.0], [0.6, 0.6, -1.0]), None);
+        assert_eq!(hit([0.2, 0.2, 1.0], [0.2, 0.2, 0.1]), None);
+        assert_eq!(hit([-0.1, 0.2, 0.0], [-0.1, 0.9, 0.0]), None);
+    }
+
+    #[test]
+    fn segments_in_the_plane_hit_where_they_enter() {
+        let t = hit([-1.0, 0.25, 0.0], [1.0, 0.25, 0.0]).expect("crosses in the plane");
+        assert!((t - 0.5).abs() < 1e-12, "{t}");
+        assert_eq!(hit([0.2, 0.2, 0.0], [0.3, 0.3, 0.0]), Some(0.0));
+        let along_an_edge = hit([-1.0, 0.0, 0.0], [2.0, 0.0, 0.0]).expect("along an edge");
+        assert!((along_an_edge - 1.0 / 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn zero_length_segments_and_flat_triangles_are_defined() {
+        assert_eq!(hit([0.2, 0.2, 0.0], [0.2, 0.2, 0.0]), Some(0.0));
+        assert_eq!(hit([0.2, 0.2, 0.1], [0.2, 0.2, 0.1]), None);
+        let needle = [DVec3::ZERO, DVec3::X, DVec3::X * 0.5];
+        assert!(segment_triangle(DVec3::new(0.5, 0.0, 1.0), DVec3::new(0.5, 0.0, -1.0), needle).is_some());
+        assert!(segment_triangle(DVec3::new(0.5, 0.1, 1.0), DVec3::new(0.5, 0.1, -1.0), needle).is_none());
+    }
+}

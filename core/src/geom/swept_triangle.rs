@@ -1,0 +1,193 @@
+//! Lower bounds, in f32, of the distance from a point or a segment to a triangle swept by a sphere (Guéziec 2000, 3.1).
+//!
+//! A bound of this file may be too low by rounding but never too high: it is a supporting plane, which holds for any
+//! direction, so a region misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §2, §3.
+
+use super::{Aabb, Clipped};
+use crate::num::tolerance::{POINT_BOUND, SEGMENT_BOUND, TRUSTED_DIRECTION_SQ, U32, U64, UNDERFLOW};
+use glam::Vec3;
+
+/// A lower bound of the distance from the origin to the triangle `a b c`, exact up to rounding: (8.3 units of f32's
+/// roundoff) × (farthest corner + longest edge). Zero where the direction is too short to trust.
+#[inline(always)]
+pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
+    let ap = -a;
+    let ab = b - a;
+    let ac = c - a;
+    let r = residual(ap, ab, ac);
+    let rr = r.dot(r);
+    if rr < TRUSTED_DIRECTION_SQ {
+        return 0.0;
+    }
+    let along = r.dot(ap) - 0f32.max(r.dot(ab)).max(r.dot(ac));
+    along / libm::sqrtf(rr)
+}
+
+/// Vector from the (approximately) closest point to the query. Any finite result is safe, so no branch needs a proof.
+#[inline(always)]
+fn residual(ap: Vec3, ab: Vec3, ac: Vec3) -> Vec3 {
+    let d1 = ab.dot(ap);
+    let d2 = ac.dot(ap);
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return ap;
+    }
+    let aa = ab.dot(ab);
+    let bb = ab.dot(ac);
+    let d3 = d1 - aa;
+    let d4 = d2 - bb;
+    if d3 >= 0.0 && d4 <= d3 {
+        return ap - ab;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && aa > 0.0 {
+        return ap - ab * (d1 / aa);
+    }
+    let cc = ac.dot(ac);
+    let d5 = d1 - bb;
+    let d6 = d2 - cc;
+    if d6 >= 0.0 && d5 <= d6 {
+        return ap - ac;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && cc > 0.0 {
+        return ap - ac * (d2 / cc);
+    }
+    let va = d3 * d6 - d5 * d4;
+    let e4 = d4 - d3;
+    let e5 = d5 - d6;
+    if va <= 0.0 && e4 >= 0.0 && e5 >= 0.0 && e4 + e5 > 0.0 {
+        let v = e4 / (e4 + e5);
+        return ap - ab * (1.0 - v) - ac * v;
+    }
+    let sum = va + vb + vc;
+    if sum <= 0.0 {
+        return ap;
+    }
+    let inverse = 1.0 / sum;
+    ap - ab * (vb * inverse) - ac * (vc * inverse)
+}
+
+/// A query point with the rounding margin that holds for every triangle inside one box.
+#[derive(Clone, Copy, Debug)]
+pub struct PointProbe {
+    point: Vec3,
+    margin: f32,
+}
+
+impl PointProbe {
+    /// For triangles whose corners all lie in `bounds`.
+    pub fn new(point: Vec3, bounds: &Aabb) -> Self {
+        let farthest = (point - bounds.min).abs().max((bounds.max - point).abs());
+        let edge = bounds.max - bounds.min;
+        let norms = farthest.x + farthest.y + farthest.z + edge.x + edge.y + edge.z;
+        PointProbe { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
+    }
+
+    /// Not above the distance from the point to the triangle swept by `radius`; never negative.
+    #[inline(always)]
+    pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32) -> f32 {
+        let bound = direction_bound(a - self.point, b - self.point, c - self.point) - (radius + self.margin);
+        bound.max(0.0)
+    }
+}
+
+/// A segment, clipped to the box of the model, with its rounding margin.
+#[derive(Clone, Copy, Debug)]
+pub struct SegmentProbe {
+    start: Vec3,
+    direction: Vec3,
+    /// 1 / |direction|², or zero where the segment is too short to have a direction.
+    inverse_sq: f32,
+    length: f32,
+    margin: f32,
+    /// Parameter of `start` on the unclipped segment, and what one unit of `direction` is there.
+    t_start: f32,
+    t_scale: f32,
+}
+
+impl SegmentProbe {
+    /// For triangles whose corners all lie in `bounds`, which `segment` was clipped to.
+    pub fn new(segment: &Clipped, bounds: &Aabb) -> Self {
+        let start = segment.start.as_vec3();
+        let end = segment.end.as_vec3();
+        let direction = end - start;
+        let length_sq = direction.dot(direction);
+        let edge = bounds.max - bounds.min;
+        let reach = (start - bounds.min).abs().max((bounds.max - start).abs());
+        let ends = start.abs() + end.abs();
+        let norms = 2.0 * (edge.x + edge.y + edge.z + reach.x + reach.y + reach.z) + ends.x + ends.y + ends.z;
+        // The clipped ends are off by roundings of the unclipped ones.
+        let clipping = (16.0 * U64 * segment.magnitude) as f32;
+        let margin = SEGMENT_BOUND * U32 * norms + clipping + UNDERFLOW;
+        let has_direction = length_sq >= TRUSTED_DIRECTION_SQ;
+        let length = libm::sqrtf(length_sq);
+        SegmentProbe {
+            start,
+            direction,
+            inverse_sq: if has_direction { 1.0 / length_sq } else { 0.0 },
+            length,
+            // Without a direction the segment is a point, and its length is part of the doubt.
+            margin: if has_direction { margin } else { margin + 2.0 * length },
+            t_start: segment.t_start as f32,
+            t_scale: (segment.t_end - segment.t_start) as f32,
+        }
+    }
+
+    /// `Some(t)` if the segment may come within `radius` of the triangle, and then at no parameter below `t` of the
+    /// unclipped segment; `None` only if it certainly does not.
+    #[inline(always)]
+    pub fn enter(&self, corners: [Vec3; 3], radius: f32) -> Option<f32> {
+        let reach = radius + self.margin;
+        let [a, b, c] = corners.map(|corner| corner - self.start);
+        let [sa, sb, sc] = [a, b, c].map(|e| e.dot(self.direction) * self.inverse_sq);
+        let slack = reach * self.length * self.inverse_sq;
+        let first = sa.min(sb).min(sc) - slack;
+        let last = sa.max(sb).max(sc) + slack;
+        if first > 1.0 || last < 0.0 {
+            return None;
+        }
+        // Seen along the segment, the distance of its line and the triangle is that of a point and a triangle.
+        let across =
+            direction_bound(a - self.direction * sa, b - self.direction * sb, c - self.direction * sc);
+        if across > reach {
+            return None;
+        }
+        Some(self.t_start + first.max(0.0) * self.t_scale - 16.0 * U32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn point_bound_is_below_the_distance_and_close_to_it() {
+        let bounds = Aabb { min: Vec3::splat(-1.0), max: Vec3::splat(1.0) };
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        for (point, distance) in
+            [(Vec3::new(0.2, 0.2, 3.0), 3.0), (Vec3::new(-3.0, -4.0, 0.0), 5.0), (Vec3::new(0.5, -2.0, 0.0), 2.0)]
+        {
+            let lower = PointProbe::new(point, &bounds).lower(corners, 0.25);
+            assert!(lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4, "{lower} {distance}");
+        }
+    }
+
+    #[test]
+    fn segment_probe_separates_what_is_apart_and_keeps_what_touches() {
+        let bounds = Aabb { min: Vec3::splat(-1.0), max: Vec3::splat(1.0) };
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let probe = |a: [f64; 3], b: [f64; 3]| {
+            let clipped = bounds.clip(DVec3::from(a), DVec3::from(b)).expect("meets the box");
+            SegmentProbe::new(&clipped, &bounds)
+        };
+        let through = probe([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]);
+        let t = through.enter(corners, 0.0).expect("crosses");
+        assert!(t <= 0.5 && t > 0.49, "{t}");
+        assert!(probe([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.25).is_none());
+        assert!(probe([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.31).is_some());
+        assert!(probe([0.2, 0.2, 1.0], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
+        assert!(probe([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
+        assert!(probe([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.51).is_some());
+    }
+}

@@ -1,0 +1,40 @@
+//! Every tolerance of the crate, in one place. Derivations: `core/docs/rounding.md`, whose section each constant names.
+//!
+//! All of them are relative: multiplied by lengths of the model and the query at hand, or in the local frame, where the
+//! model's largest coordinate lies in [½, 1).
+
+/// Unit roundoff of f32, 2^-24.
+pub const U32: f32 = f32::EPSILON / 2.0;
+
+/// Unit roundoff of f64, 2^-53.
+pub const U64: f64 = f64::EPSILON / 2.0;
+
+/// Rounding of the f32 lower bound of a point–triangle distance, in units of [`U32`] times (distance to the farthest
+/// corner + longest edge). Proved: 9.3 (§2). Smaller loses the guarantee; larger opens a few more nodes.
+pub const POINT_BOUND: f32 = 16.0;
+
+/// Rounding of the f32 lower bound of a segment–triangle distance, in the same units. Proved: 27 (§3).
+pub const SEGMENT_BOUND: f32 = 48.0;
+
+/// Rounding of the f64 point–triangle interval, in units of [`U64`] times the 1-norms of `ap`, `ab`, `ac`.
+/// Proved: 11.4 (§4). Larger widens the reported interval, which at 16 is still below one unit of f32.
+pub const POINT_INTERVAL: f64 = 16.0;
+
+/// Rounding of a triple product `d · (b × c)` in f64, in units of [`U64`] times the product of the 1-norms.
+/// Proved: 9.1 (§5). It decides how near a segment that just misses an edge may pass and still be called a hit.
+pub const TRIPLE_PRODUCT: f64 = 16.0;
+
+/// Distance, in units of [`U64`] times the 1-norms in play, below which a segment in the plane of a triangle touches it (§5).
+pub const COPLANAR_TOUCH: f64 = 64.0;
+
+/// Squared length, in the local frame, below which a direction in f32 is not trusted: 2^-100. Products of two such
+/// components stay above the subnormal range. Below it a lower bound falls back to zero, which is always true (§2).
+pub const TRUSTED_DIRECTION_SQ: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);
+
+/// What underflow can cost a bound in the local frame, 2^-96: every term that underflows loses less than 2^-146, and it
+/// is divided by a direction no shorter than 2^-50 (§2).
+pub const UNDERFLOW: f32 = 1.0 / ((1u64 << 48) as f32 * (1u64 << 48) as f32);
+
+/// Largest query coordinate in the local frame for which f32 bounds are computed: 2^40. Products of four lengths stay
+/// below 2^90. Beyond it the whole model subtends less than a unit of f32, and the answer is read off its box.
+pub const FAR: f64 = (1u64 << 40) as f64;

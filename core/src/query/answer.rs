@@ -1,0 +1,163 @@
+//! Stop rules, answers, counters and errors.
+
+/// When a query may stop before its answer is exact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Stop when `upper ≤ lower · (1 + relative)`. 0 for exact.
+    pub relative: f32,
+    /// Stop when `upper − lower ≤ absolute`, input units. 0 for exact.
+    pub absolute: f32,
+    /// Stop after opening so many nodes.
+    pub steps: u32,
+}
+
+impl Stop {
+    /// Go on until the interval is as narrow as arithmetic allows.
+    pub const EXACT: Stop = Stop { relative: 0.0, absolute: 0.0, steps: u32::MAX };
+
+    pub(super) fn check(&self) -> Result<(), QueryError> {
+        let fine = |x: f32| x >= 0.0 && x.is_finite();
+        if fine(self.relative) && fine(self.absolute) { Ok(()) } else { Err(QueryError::Tolerance) }
+    }
+}
+
+impl Default for Stop {
+    fn default() -> Self {
+        Stop::EXACT
+    }
+}
+
+/// Why a query ended. Whatever the reason, its interval holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// Nothing is left to look at.
+    Exact,
+    /// The tolerance of [`Stop`] was met.
+    Tolerance,
+    /// The step budget of [`Stop`] was used up.
+    Steps,
+    /// The caller's memory was too short; [`Model::capacities`](crate::Model::capacities) says what is needed.
+    Capacity,
+    /// The blob was cut after a coarser level.
+    Level,
+}
+
+/// What a query did: the price of its accuracy, the same number on every target.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Cover nodes or boxes tested.
+    pub nodes: u32,
+    /// Triangles of surface or hull tested in f32.
+    pub triangles: u32,
+    /// Triangles evaluated in f64.
+    pub exact: u32,
+    /// Nodes opened, or vertex splits performed.
+    pub splits: u32,
+}
+
+impl Work {
+    /// One number for a column: everything tested and opened.
+    pub fn total(&self) -> u32 {
+        self.nodes.saturating_add(self.triangles).saturating_add(self.exact).saturating_add(self.splits)
+    }
+}
+
+/// Closest point of the surface: `lower ≤ distance to the input mesh ≤ upper`, in real arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosestPoint {
+    /// Not above the distance, input units.
+    pub lower: f32,
+    /// Not below the distance, input units.
+    pub upper: f32,
+    /// A point of the surface at most `upper` away, rounded to f32; on a cut blob a point of the hull.
+    pub point: [f32; 3],
+    /// Number in the input file of the triangle that holds `point`; ties go to the least in blob order. `None` on a cut blob.
+    pub triangle: Option<u32>,
+    /// What it cost.
+    pub work: Work,
+    /// Why it ended.
+    pub ended: Ended,
+}
+
+/// A common point of a segment and the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Parameter, 0 at the segment's start, 1 at its end.
+    pub t: f32,
+    /// The point.
+    pub point: [f32; 3],
+    /// Number of the triangle in the input file; `None` on a cut blob, where the hit is a hull's.
+    pub triangle: Option<u32>,
+}
+
+impl Hit {
+    /// Any value, for filling arrays.
+    pub const EMPTY: Hit = Hit { t: f32::INFINITY, point: [0.0; 3], triangle: None };
+}
+
+/// First hit of a segment.
+///
+/// The segment is proved clear of the surface before `lower` (everywhere, if `lower` is infinite). If `hit` is there and
+/// `ended` is [`Ended::Exact`], the first common point has a parameter in `lower ..= upper`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentHit {
+    /// No common point below this parameter; infinity if there is none at all.
+    pub lower: f32,
+    /// The first common point is not above this parameter; infinity if none is known.
+    pub upper: f32,
+    /// The first hit found.
+    pub hit: Option<Hit>,
+    /// What it cost.
+    pub work: Work,
+    /// Why it ended.
+    pub ended: Ended,
+}
+
+impl SegmentHit {
+    /// Proved: no point of the segment lies on the input mesh.
+    pub fn is_clear(&self) -> bool {
+        self.lower == f32::INFINITY
+    }
+}
+
+/// How a search for all hits went; the hits are in the caller's slice, by rising `t`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AllHits {
+    /// Hits in the slice.
+    pub stored: usize,
+    /// Hits that did not fit; those kept are the first.
+    pub dropped: u32,
+    /// What it cost.
+    pub work: Work,
+    /// Why it ended. Unless [`Ended::Exact`], more hits may exist.
+    pub ended: Ended,
+}
+
+/// Why a query was refused. Nothing was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum QueryError {
+    /// A coordinate of the query is NaN or infinite.
+    NotFinite,
+    /// A tolerance is negative, NaN or infinite.
+    Tolerance,
+    /// An end of a segment is farther than 2^40 times the model's size from its origin: clip the segment first.
+    OutOfDomain,
+    /// The caller's queue is empty.
+    NoQueue,
+    /// The model is not one that `Model::open` returned. Cannot happen.
+    Model,
+}
+
+impl core::fmt::Display for QueryError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            QueryError::NotFinite => "a coordinate of the query is NaN or infinite",
+            QueryError::Tolerance => "a tolerance is negative, NaN or infinite",
+            QueryError::OutOfDomain => "a segment's end is farther than 2^40 model sizes away: clip it first",
+            QueryError::NoQueue => "the queue has no entries",
+            QueryError::Model => "the model was not opened",
+        })
+    }
+}
+
+impl core::error::Error for QueryError {}

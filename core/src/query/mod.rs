@@ -1,0 +1,21 @@
+//! What a caller asks: one file per question, with stop rules, intervals and work counters.
+//!
+//! | question | function | engine |
+//! | --- | --- | --- |
+//! | closest point, distance interval | [`closest_point`] | cover tree, best first (Guéziec 2000, 4.3) |
+//! | first hit of a segment | [`first_hit`] | cover tree |
+//! | all hits of a segment | [`all_hits`] | cover tree |
+//! | hits of a segment from outside | [`outer_hits`] | selectively refined hull (Platis & Theoharis 2003, 3.2) |
+
+mod answer;
+mod closest;
+mod frame;
+mod frontier;
+mod outer_hits;
+mod segment;
+
+pub use answer::{AllHits, ClosestPoint, Ended, Hit, QueryError, SegmentHit, Stop, Work};
+pub use closest::closest_point;
+pub use frontier::QueueEntry;
+pub use outer_hits::{OuterHits, Search, outer_hits};
+pub use segment::{all_hits, first_hit};

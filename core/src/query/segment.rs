@@ -1,0 +1,302 @@
+//! First hit and all hits of a segment, on the cover tree.
+//!
+//! A node is opened because the segment may meet the swept triangle that covers its part of the surface, not because it
+//! crosses a hull face; so hits below an unbroken hull (paper 000, Figure 5) are found, wherever the segment starts.
+
+use super::answer::{AllHits, Ended, Hit, QueryError, SegmentHit, Stop, Work};
+use super::frame::Frame;
+use super::frontier::{Frontier, QueueEntry};
+use crate::blob::{Children, Model, NodeIdx, TriIdx};
+use crate::geom::{Clipped, SegmentProbe, SegmentTriangle, segment_triangle};
+use crate::num::{down_to_f32, up_to_f32};
+use glam::DVec3;
+
+/// First common point of the closed segment `a b` (input units) and the surface, both facings.
+///
+/// If [`SegmentHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the lengths involved, or within the
+/// stored surface's error, of an edge may be reported as a hit. Segments in the plane of a triangle hit where they enter
+/// it; a segment of zero length hits if its point lies on the surface. On a cut blob, `hit` is the first place where the
+/// surface may be.
+///
+/// Of [`Stop`] only `steps` matters. `queue` as for [`closest_point`](super::closest_point).
+///
+/// # Errors
+/// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoQueue`], [`QueryError::Tolerance`].
+pub fn first_hit(
+    model: &Model<'_>,
+    a: [f32; 3],
+    b: [f32; 3],
+    stop: &Stop,
+    queue: &mut [QueueEntry],
+) -> Result<SegmentHit, QueryError> {
+    stop.check()?;
+    let mut first = First { best: None, least_lower: f64::INFINITY };
+    let traced = trace(model, a, b, stop, queue, &mut first)?;
+    let open = f64::from(traced.unopened);
+    let hit = first.best.map(|best| Hit {
+        t: best.meet.t as f32,
+        point: best.point,
+        triangle: model.source(TriIdx(best.triangle)),
+    });
+    let lower = first.least_lower.min(open);
+    Ok(SegmentHit {
+        lower: if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY },
+        upper: first.best.map_or(f32::INFINITY, |best| up_to_f32(best.meet.t_upper)),
+        hit,
+        work: traced.work,
+        ended: traced.ended,
+    })
+}
+
+/// All common points of the closed segment `a b` and the surface, by rising parameter, into `hits`.
+///
+/// Each triangle that the segment meets gives one hit, so that a segment through an edge or a vertex gives one for each
+/// triangle there. What does not fit in `hits` is counted in [`AllHits::dropped`]; the first ones are kept.
+///
+/// # Errors
+/// As [`first_hit`].
+pub fn all_hits(
+    model: &Model<'_>,
+    a: [f32; 3],
+    b: [f32; 3],
+    queue: &mut [QueueEntry],
+    hits: &mut [Hit],
+) -> Result<AllHits, QueryError> {
+    let mut all = All { model, hits, stored: 0, dropped: 0 };
+    let traced = trace(model, a, b, &Stop::EXACT, queue, &mut all)?;
+    Ok(AllHits { stored: all.stored, dropped: all.dropped, work: traced.work, ended: traced.ended })
+}
+
+/// Adds a hit to those found so far, kept by rising `t`, then triangle; counts what falls off the end.
+pub(super) fn insert(hits: &mut [Hit], stored: &mut usize, dropped: &mut u32, hit: Hit) {
+    let after = |x: &Hit| x.t > hit.t || (x.t == hit.t && x.triangle > hit.triangle);
+    let at = hits.iter().take(*stored).position(after).unwrap_or(*stored);
+    if *stored < hits.len() {
+        *stored += 1;
+    } else {
+        *dropped += 1;
+    }
+    if let Some(tail) = hits.get_mut(at..*stored)
+        && !tail.is_empty()
+    {
+        tail.rotate_right(1);
+        if let Some(slot) = tail.first_mut() {
+            *slot = hit;
+        }
+    }
+}
+
+/// A triangle that the segment meets.
+#[derive(Clone, Copy)]
+struct Met {
+    meet: SegmentTriangle,
+    triangle: u32,
+    point: [f32; 3],
+}
+
+/// What to do with hits, and how far along the segment it is worth looking.
+trait Collect {
+    fn add(&mut self, met: Met);
+    /// Nothing beyond this parameter matters.
+    fn limit(&self) -> f32;
+}
+
+struct First {
+    best: Option<Met>,
+    least_lower: f64,
+}
+
+impl Collect for First {
+    fn add(&mut self, met: Met) {
+        self.least_lower = self.least_lower.min(met.meet.t_lower);
+        let earlier = self.best.is_none_or(|best| {
+            met.meet.t < best.meet.t || (met.meet.t == best.meet.t && met.triangle < best.triangle)
+        });
+        if earlier {
+            self.best = Some(met);
+        }
+    }
+
+    fn limit(&self) -> f32 {
+        self.best.map_or(f32::INFINITY, |best| up_to_f32(best.meet.t_upper))
+    }
+}
+
+struct All<'a> {
+    model: &'a Model<'a>,
+    hits: &'a mut [Hit],
+    stored: usize,
+    dropped: u32,
+}
+
+impl Collect for All<'_> {
+    fn add(&mut self, met: Met) {
+        let triangle = self.model.source(TriIdx(met.triangle));
+        let hit = Hit { t: met.meet.t as f32, point: met.point, triangle };
+        insert(self.hits, &mut self.stored, &mut self.dropped, hit);
+    }
+
+    fn limit(&self) -> f32 {
+        f32::INFINITY
+    }
+}
+
+struct Traced {
+    work: Work,
+    ended: Ended,
+    /// Least parameter at which something that was not opened may be hit.
+    unopened: f32,
+}
+
+fn trace(
+    model: &Model<'_>,
+    a: [f32; 3],
+    b: [f32; 3],
+    stop: &Stop,
+    queue: &mut [QueueEntry],
+    collect: &mut dyn Collect,
+) -> Result<Traced, QueryError> {
+    let frame = Frame::of(model);
+    let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
+    if queue.is_empty() {
+        return Err(QueryError::NoQueue);
+    }
+    let mut traced = Traced { work: Work { nodes: 1, ..Work::default() }, ended: Ended::Exact, unopened: f32::INFINITY };
+    let surface_error = model.header().surface_error;
+    let mut bounds = model.header().surface_box;
+    bounds.min -= surface_error;
+    bounds.max += surface_error;
+    let Some(clipped) = bounds.clip(start, end) else { return Ok(traced) };
+    let mut hull = model.header().hull_box;
+    hull.min = hull.min.min(bounds.min);
+    hull.max = hull.max.max(bounds.max);
+    let mut walk = Walk { model, frame, start, end, probe: SegmentProbe::new(&clipped, &hull), clipped, surface_error, cut: false };
+    let frontier = Frontier::new(queue, model.capacities().queue);
+    walk.run(frontier, stop, collect, &mut traced).ok_or(QueryError::Model)?;
+    Ok(traced)
+}
+
+struct Walk<'a> {
+    model: &'a Model<'a>,
+    frame: Frame,
+    start: DVec3,
+    end: DVec3,
+    probe: SegmentProbe,
+    clipped: Clipped,
+    surface_error: f32,
+    cut: bool,
+}
+
+impl Walk<'_> {
+    fn run(
+        &mut self,
+        mut frontier: Frontier<'_>,
+        stop: &Stop,
+        collect: &mut dyn Collect,
+        traced: &mut Traced,
+    ) -> Option<()> {
+        frontier.begin_children(1);
+        self.visit(0, &mut frontier, collect, &mut traced.work)?;
+        while let Some(entry) = frontier.pop() {
+            if entry.key > collect.limit() {
+                continue;
+            }
+            if traced.work.splits >= stop.steps {
+                traced.unopened = entry.key.min(frontier.lower());
+                traced.ended = Ended::Steps;
+                return Some(());
+            }
+            self.open(entry, &mut frontier, collect, traced)?;
+        }
+        if frontier.dropped() <= collect.limit() && frontier.dropped().is_finite() {
+            traced.unopened = traced.unopened.min(frontier.dropped());
+            traced.ended = Ended::Capacity;
+        } else if self.cut {
+            traced.ended = Ended::Level;
+        }
+        Some(())
+    }
+
+    fn open(
+        &mut self,
+        entry: QueueEntry,
+        frontier: &mut Frontier<'_>,
+        collect: &mut dyn Collect,
+        traced: &mut Traced,
+    ) -> Option<()> {
+        traced.work.splits += 1;
+        let node = self.model.node(NodeIdx(entry.node))?;
+        match node.children {
+            Children::Nodes { first, count } => {
+                frontier.begin_children(count);
+                for child in first..first.checked_add(count)? {
+                    self.visit(child, frontier, collect, &mut traced.work)?;
+                }
+            }
+            Children::Triangles { first, count } => {
+                for triangle in first..first.checked_add(count)? {
+                    self.triangle(TriIdx(triangle), collect, &mut traced.work)?;
+                }
+            }
+            Children::Cut => self.cut_node(entry, collect),
+        }
+        Some(())
+    }
+
+    #[inline]
+    fn visit(
+        &self,
+        node: u32,
+        frontier: &mut Frontier<'_>,
+        collect: &dyn Collect,
+        work: &mut Work,
+    ) -> Option<()> {
+        work.nodes += 1;
+        let record = self.model.node(NodeIdx(node))?;
+        let corners = self.model.positions(record.corners)?;
+        if let Some(key) = self.probe.enter(corners, record.radius + self.surface_error)
+            && key <= collect.limit()
+        {
+            frontier.push(QueueEntry { key, node });
+        }
+        Some(())
+    }
+
+    #[inline]
+    fn triangle(&self, triangle: TriIdx, collect: &mut dyn Collect, work: &mut Work) -> Option<()> {
+        work.triangles += 1;
+        let corners = self.model.positions(self.model.surface_triangle(triangle)?)?;
+        let Some(key) = self.probe.enter(corners, self.surface_error) else { return Some(()) };
+        if key > collect.limit() {
+            return Some(());
+        }
+        work.exact += 1;
+        let met = segment_triangle(self.start, self.end, corners.map(|v| v.as_dvec3()));
+        let met = match met {
+            Some(meet) if self.surface_error == 0.0 => Some(meet),
+            // The input surface may lie up to `surface_error` from the stored one: a hit's parameter is that uncertain,
+            // and a near miss may be one.
+            Some(meet) => Some(SegmentTriangle { t_lower: f64::from(key.max(0.0)).min(meet.t), t_upper: 1.0, ..meet }),
+            None if self.surface_error > 0.0 => {
+                let t = f64::from(key.max(0.0));
+                Some(SegmentTriangle { t, t_lower: t, t_upper: 1.0 })
+            }
+            None => None,
+        };
+        if let Some(meet) = met {
+            let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
+            collect.add(Met { meet, triangle: triangle.0, point });
+        }
+        Some(())
+    }
+
+    /// All that is known below a cut is that the surface may be hit from here on.
+    fn cut_node(&mut self, entry: QueueEntry, collect: &mut dyn Collect) {
+        self.cut = true;
+        let t = f64::from(entry.key).max(self.clipped.t_start.min(1.0)).max(0.0);
+        let point = self.frame.point(self.start + (self.end - self.start) * t);
+        let t_lower = f64::from(entry.key.max(0.0));
+        let meet = SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 };
+        collect.add(Met { meet, triangle: u32::MAX, point });
+    }
+}
