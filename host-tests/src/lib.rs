@@ -1,1 +1,3 @@
 //! Oracles, generators and corrupters that the tests, benches and fuzz targets share.
+
+pub mod generate;

@@ -1,1 +1,183 @@
-//! Linear programs.
+//! Linear programs in one, two and three variables, for the vertex that replaces a collapsed edge.
+//!
+//! Minimise `c·x` subject to `nᵢ·x ≥ dᵢ`: Seidel's incremental algorithm. Constraints are inserted one by one. If the
+//! optimum so far violates the next, the new optimum lies on its plane, which leaves a program with one variable less:
+//!
+//! ```text
+//! minimise ─ insertion ─ plane ─ insertion ─ line ─ interval
+//! ```
+//!
+//! # The second term
+//! Where a star is flat the optimum is a whole face. A vanishing second term chooses from it: the objective is
+//! `c·x + eps·|x|²/2`, and its optimum is unique, namely the projection of the *pull* `−c/eps` onto the polyhedron. On
+//! a plane or a line it is the point nearest to the pull, too, so that the same scheme serves. Below some positive
+//! `eps`, which depends on the constraints, the answer is the linear optimum nearest to the origin and no longer moves.
+//!
+//! The pull lies as far out as `1/eps`, and digits that pass through it are lost. So it only gives directions: a point
+//! on a plane is the plane's foot plus the pull's component along the plane; a point on a line is the foot of the
+//! line, from the two planes alone, plus a parameter; a vertex is where that parameter is cut off. A returned vertex is
+//! within about 1e-15 of its planes for every `eps`.
+//!
+//! # Infinity
+//! The regularised program has an optimum whenever it is feasible, also where the linear one descends for ever. If the
+//! objective falls along a unit ray with slope `s`, then the regularised optimum `x` has `eps·|x| ≥ s`: multiply its
+//! Karush–Kuhn–Tucker condition `c + eps·x = Σ λᵢnᵢ` by the ray. So a near optimum proves that no steep ray exists;
+//! only for a far one a second program, the projection of `−c` onto the cone `nᵢ·x ≥ 0` of all rays, decides. The
+//! result is the steepest ray, and zero if there is none.
+//!
+//! # Decisions
+//! *No shuffle.* Seidel inserts in random order, and a violated constraint meets all before it. Here the next
+//! constraint is always a violated one, chosen by a rule, and meets only those that were inserted: four or five for
+//! a star. The rule uses no chance, so the answer has the same bits in every run. The price is that no bound on the
+//! expected time holds; the worst case is cubic in the number of constraints.
+//!
+//! | ns per solve, 10 planes, `eps` = 1e-6 | noisy | smooth | flat | aligned | crease | ridge | corner |
+//! | --- | --- | --- | --- | --- | --- | --- | --- |
+//! | random order | 653 | 623 | 424 | 92 | 671 | 534 | 457 |
+//! | most violated first | 607 | 809 | 191 | 94 | 364 | 439 | 549 |
+//! | most violated first, far points pulled back to the star | 434 | 290 | 240 | 72 | 304 | 318 | 366 |
+//!
+//! *No symbolic `eps`.* With an infinitesimal one, a flat star whose planes differ by rounding would send the vertex to
+//! the far end of the star, for the objective does fall in that direction. A finite `eps` weighs the slope against
+//! the distance.
+//!
+//! *One plane's line moved before giving up.* Where nearly parallel planes meet a third in a vertex, their line is known
+//! only to `1e-16 / sin φ`, and seems to miss the third; see `RELAXATION` in `tolerance.rs`.
+//!
+//! Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete & Computational
+//! Geometry 6 (1991), §2.
+
+mod insertion;
+mod interval;
+mod line;
+mod plane;
+mod tolerance;
+
+use glam::DVec3;
+use insertion::insert;
+pub use interval::Interval;
+use plane::Plane;
+use tolerance::DESCENT;
+
+/// The points `x` with `normal · x >= offset`.
+///
+/// The normal has length 1 to within rounding, or is zero: then the half-space is everything if `offset <= 0` and
+/// nothing otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// Unit vector into the half-space, or zero.
+    pub normal: DVec3,
+    /// Distance of the bounding plane from the origin, along `normal`, in star radii.
+    pub offset: f64,
+}
+
+/// What a program came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The regularised optimum. It violates no constraint by more than 1e-12, times `1 + |x|₁`; where constraints
+    /// contradict each other by less than 1e-10 it may violate those by as much.
+    Optimal(DVec3),
+    /// No point satisfies all constraints, or every such point is more than 1e9 away; or the input was not finite.
+    Infeasible,
+    /// The linear objective falls for ever along a ray, by more than 1e-5 of its own length per unit.
+    Unbounded,
+}
+
+/// Minimises `objective · x + eps·|x|²/2` over the intersection of `constraints`, which may be empty.
+///
+/// The frame has its origin at the star's middle and the star's radius as unit: the second term pulls towards the
+/// origin, and tolerances are fractions of the radius. If `x*` is any optimum of the linear program then the answer
+/// exceeds its value by at most `eps·|x*|²/2`; where several are optimal, the answer tends to the one nearest to the
+/// origin.
+///
+/// Choose `eps` between 1e-3 and 1e-9 times the objective's length, best 1e-6. It is the slope below which the star
+/// counts as flat: a face that is level to within `eps` yields the point nearest to the origin. Above 1e-5 most
+/// vertices need the test for a ray, which doubles the time; below 1e-9 the rounding of `objective / eps` (1e-16 of it)
+/// moves the answer on flat stars by more than 1e-7.
+///
+/// Deterministic: the same input, in the same order, gives the same bits. `constraints` are permuted.
+///
+/// A half-space without normal and with a positive offset makes the program infeasible. Parallel, equal and redundant
+/// half-spaces are no special case. If `eps` is not positive or any number is not finite: [`Outcome::Infeasible`].
+///
+/// About 300 ns for a star of 10 planes; no allocation.
+#[must_use]
+pub fn minimise(objective: DVec3, constraints: &mut [HalfSpace], eps: f64) -> Outcome {
+    if !(are_finite(constraints) && objective.is_finite()) {
+        return Outcome::Infeasible;
+    }
+    let optimum = optimum::<false>(-objective / eps, constraints);
+    outcome(objective, eps, optimum, |pull| optimum_of_cone(pull, constraints))
+}
+
+fn optimum_of_cone(pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
+    optimum::<true>(pull, constraints)
+}
+
+/// The point nearest to `pull` that satisfies `constraints`.
+#[inline(always)]
+fn optimum<const CONE: bool>(pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
+    insert::<CONE>(pull, constraints, |h, _, inserted| plane::nearest::<CONE>(h, pull, inserted))
+}
+
+/// [`minimise`] in two variables: among the points of the boundary of `plane` only.
+///
+/// [`Outcome::Infeasible`] also if `plane` has no normal.
+#[must_use]
+pub fn minimise_on_plane(
+    objective: DVec3,
+    plane: HalfSpace,
+    constraints: &mut [HalfSpace],
+    eps: f64,
+) -> Outcome {
+    if !(are_finite(constraints) && are_finite(&[plane]) && objective.is_finite()) {
+        return Outcome::Infeasible;
+    }
+    let optimum = plane::nearest::<false>(&plane, -objective / eps, constraints);
+    outcome(objective, eps, optimum, |pull| plane::nearest::<true>(&plane, pull, constraints))
+}
+
+/// [`minimise`] in one variable: among the points that lie on the boundaries of both `planes` only.
+///
+/// [`Outcome::Infeasible`] also if the planes are parallel or have no normal.
+#[must_use]
+pub fn minimise_on_line(
+    objective: DVec3,
+    planes: [HalfSpace; 2],
+    constraints: &[HalfSpace],
+    eps: f64,
+) -> Outcome {
+    if !(are_finite(constraints) && are_finite(&planes) && objective.is_finite()) {
+        return Outcome::Infeasible;
+    }
+    let [first, second] = planes;
+    let optimum = Plane::of::<false>(&first)
+        .and_then(|first| line::nearest::<false>(&first, &second, None, -objective / eps, constraints));
+    outcome(objective, eps, optimum, |pull| {
+        line::nearest::<true>(&Plane::of::<true>(&first)?, &second, None, pull, constraints)
+    })
+}
+
+/// The outcome of a program with the given regularised optimum. `on_rays` projects onto its cone of rays to infinity.
+#[inline(always)]
+fn outcome(
+    objective: DVec3,
+    eps: f64,
+    optimum: Option<DVec3>,
+    on_rays: impl FnOnce(DVec3) -> Option<DVec3>,
+) -> Outcome {
+    let Some(optimum) = optimum.filter(|point| eps > 0.0 && point.is_finite()) else {
+        return Outcome::Infeasible;
+    };
+    let length_sq = objective.length_squared();
+    let proven = eps * eps * optimum.length_squared() <= DESCENT * DESCENT * length_sq || length_sq == 0.0;
+    let steepest = |ray: DVec3| ray.length_squared() > DESCENT * DESCENT;
+    if !proven && on_rays(-objective / length_sq.sqrt()).is_some_and(steepest) {
+        return Outcome::Unbounded;
+    }
+    Outcome::Optimal(optimum)
+}
+
+fn are_finite(constraints: &[HalfSpace]) -> bool {
+    constraints.iter().all(|h| (h.normal.x + h.normal.y + h.normal.z + h.offset).is_finite())
+}

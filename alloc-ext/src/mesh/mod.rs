@@ -1,1 +1,120 @@
-//! Mesh input.
+//! Mesh files in, a clean triangle mesh out.
+//!
+//! ```text
+//! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for a hull
+//! ```
+//!
+//! [`read`] takes PLY, OBJ and STL. [`repair`] mends what can be mended without moving the surface and reports each
+//! mend with its place; it accepts any triangle soup. [`require_closed_manifold`] is the further demand of an outer
+//! hull, kept apart because a distance index is content with a soup.
+//!
+//! Numbers of vertices, faces and triangles count from 0 in file order. A *face* is what the file lists, perhaps a
+//! polygon; a *triangle* is one after fan triangulation, numbered through in file order.
+
+mod boundary;
+mod caps;
+mod collinear;
+mod duplicate;
+mod edges;
+mod error;
+mod hash;
+mod manifold;
+mod nesting;
+mod obj;
+mod outward;
+mod ply;
+mod read;
+mod repair;
+mod report;
+mod round;
+mod stl;
+mod text;
+mod vertex_fans;
+mod weld;
+mod winding;
+
+use std::path::{Path, PathBuf};
+
+pub use error::{EdgePlace, MeshError};
+pub use manifold::require_closed_manifold;
+pub use read::{read, read_bytes};
+pub use repair::repair;
+pub use report::{Finding, Place, RepairReport};
+
+/// A triangle mesh as the rest of the builder takes it.
+///
+/// [`repair`] guarantees: coordinates finite and without −0.0, indices in range, every vertex used, no triangle with a
+/// repeated vertex or zero area, no two triangles on the same three vertices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Vertex positions in the file's unit and frame.
+    pub positions: Vec<[f32; 3]>,
+    /// Three vertex indices per triangle, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Per triangle its number in the input file: polygons are fan-triangulated in file order, then numbered from 0.
+    /// Two triangles share a number where an edge flip removed a flat cap (see [`RepairReport::flipped_caps`]).
+    pub source: Vec<u32>,
+    /// Upper bound, rounded up, of the Euclidean distance that any vertex moved when it was rounded to `f32`, in the
+    /// file's unit; 0 if every coordinate was an `f32` already. For text, the input is the decimal number as written,
+    /// except that a decimal whose nearest `f64` is an `f32` counts as that `f32`.
+    pub rounding: f64,
+}
+
+impl Mesh {
+    /// A mesh taken as it is: `source` counts from 0, `rounding` is 0. Nothing is checked; pass the arrays through
+    /// [`RawMesh::from_f32`] and [`repair`] if they are not known to be clean.
+    #[must_use]
+    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+        let source = (0..triangles.len() as u32).collect();
+        Self { positions, triangles, source, rounding: 0.0 }
+    }
+
+    /// Corners of triangle `triangle`, or `None` if it or one of its vertices does not exist.
+    #[must_use]
+    pub fn corners(&self, triangle: usize) -> Option<[[f32; 3]; 3]> {
+        let [a, b, c] = *self.triangles.get(triangle)?;
+        let at = |v: u32| self.positions.get(v as usize).copied();
+        Some([at(a)?, at(b)?, at(c)?])
+    }
+}
+
+/// A mesh as read: finite coordinates, indices in range, at least one triangle; nothing else is promised.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawMesh {
+    /// Vertex positions in the file's unit and frame. STL shares no vertices, so it gives three per triangle.
+    pub positions: Vec<[f64; 3]>,
+    /// Three vertex indices per triangle, in the file's winding; polygons are split into fans about their first vertex.
+    pub triangles: Vec<[u32; 3]>,
+    /// Where it came from; only for messages.
+    pub file: PathBuf,
+    /// True if the coordinates were decimal text, so that `positions` holds the nearest `f64` of each.
+    pub decimal: bool,
+}
+
+impl RawMesh {
+    /// A raw mesh from arrays in memory. [`repair`] checks coordinates and indices.
+    #[must_use]
+    pub fn from_f32(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
+        let positions = positions.iter().map(|p| p.map(f64::from)).collect();
+        Self::from_f64(positions, triangles.to_vec())
+    }
+
+    /// As [`RawMesh::from_f32`], for coordinates that [`repair`] has yet to round.
+    #[must_use]
+    pub fn from_f64(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+        Self { positions, triangles, file: PathBuf::from("(memory)"), decimal: false }
+    }
+}
+
+/// Reads, repairs and checks a mesh for a hull in one step.
+///
+/// # Errors
+/// Those of [`read`], [`repair`] and [`require_closed_manifold`]; for an open mesh the error names the dropped
+/// zero-area triangle that is the likely cause, if there is one.
+pub fn load_closed(path: &Path) -> Result<(Mesh, RepairReport), MeshError> {
+    let (mesh, report) = repair(read(path)?)?;
+    match require_closed_manifold(&mesh) {
+        Ok(()) => Ok((mesh, report)),
+        Err(error) => Err(report.explain(error)),
+    }
+}

@@ -1,2 +1,76 @@
-//! `cargo xtask`.
-fn main() {}
+//! `cargo xtask`: what takes more than one cargo command. This file only dispatches.
+//!
+//! ```text
+//! checks (fmt, clippy, tests, docs) ┐
+//! firmware ─┬ images ─ cross ───────┼─ toolbox (Debian packages, unpacked aside)
+//!           ├ qemu ─────────────────┘
+//!           ├ reading (what an image printed) ─ compared with the host's own run
+//!           ├ proof   (no panic left)
+//!           └ elf     (sizes) ─ table
+//! ```
+
+mod blobs;
+mod boards;
+mod checks;
+mod cross;
+mod elf;
+mod firmware;
+mod images;
+mod process;
+mod proof;
+mod qemu;
+mod reading;
+mod stand_in;
+mod steps;
+mod table;
+mod toolbox;
+mod workspace;
+
+use std::process::ExitCode;
+
+use steps::Steps;
+
+const USAGE: &str = "\
+cargo xtask setup                   makes sure of the cross targets and of QEMU
+cargo xtask test                    setup, then everything that has to hold
+cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
+
+environment:
+  MESHSWEEP_STD=rustup|debian       where the cross targets' std comes from (default: rustup, else debian)
+  MESHSWEEP_TOOLS=DIR               where Debian packages are unpacked (default: ~/.cache/meshsweep-tools)";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let mut steps = Steps::new();
+    match words.as_slice() {
+        ["setup"] => {
+            firmware::setup(&mut steps);
+        }
+        ["test"] => {
+            // First, because it is what fails on a new machine, and it tells the remedy.
+            let tools = firmware::setup(&mut steps);
+            checks::run(&mut steps);
+            if let Some(tools) = tools {
+                firmware::run(&mut steps, &tools, None);
+            }
+        }
+        ["firmware", rest @ ..] => {
+            let json = match rest {
+                [] => None,
+                ["--json", file] => Some(std::path::Path::new(*file)),
+                _ => return usage(),
+            };
+            if let Some(tools) = firmware::setup(&mut steps) {
+                firmware::run(&mut steps, &tools, json);
+            }
+        }
+        _ => return usage(),
+    }
+    steps.finish()
+}
+
+fn usage() -> ExitCode {
+    eprintln!("{USAGE}");
+    ExitCode::from(2)
+}

@@ -1,0 +1,76 @@
+//! What was collapsed, in order: enough to undo every step out of order.
+
+use glam::DVec3;
+
+/// One edge collapse. Labels number vertices for good: the mesh's own first, then one for each collapse.
+#[derive(Clone, Copy, Debug)]
+pub struct Collapse {
+    /// First end of the collapsed edge.
+    pub origin: u32,
+    /// Second end.
+    pub destination: u32,
+    /// The vertex that replaces both.
+    pub vertex: u32,
+    /// Position of the right wing in the ring; the left wing is at 0.
+    pub right: u32,
+    /// Where its ring begins in [`History::rings`].
+    pub ring_start: u32,
+    /// Ring vertices: triangles of the coarse fragment; the fine one has two more.
+    pub ring_len: u32,
+}
+
+/// All collapses, fine to coarse, and the triangles that they make.
+///
+/// Triangle instances: the mesh's own triangles first, then for each collapse its `ring_len` coarse triangles, triangle `i` being
+/// `(vertex, ring[i], ring[i + 1])`.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    /// Positions by label, as stored.
+    pub positions: Vec<DVec3>,
+    /// Vertices of the original mesh.
+    pub original_vertices: u32,
+    /// Triangles of the original mesh.
+    pub original_triangles: Vec<[u32; 3]>,
+    /// The collapses.
+    pub collapses: Vec<Collapse>,
+    /// Ring labels of all collapses, counter-clockwise, each starting at the left wing.
+    pub rings: Vec<u32>,
+    /// Instances of the fine fragment of each collapse, `ring_len + 2` each, in the slot order of
+    /// [`Split`](meshsweep_core::blob::Split).
+    pub fine: Vec<u32>,
+    /// Corners (labels) of the base hull.
+    pub base: Vec<[u32; 3]>,
+    /// Instances of the base hull's triangles.
+    pub base_instances: Vec<u32>,
+}
+
+impl History {
+    /// Ring of a collapse.
+    pub fn ring(&self, collapse: &Collapse) -> &[u32] {
+        let start = collapse.ring_start as usize;
+        &self.rings[start..start + collapse.ring_len as usize]
+    }
+
+    /// Fine instances of collapse number `index`: two more than its ring has vertices.
+    pub fn fine(&self, index: usize) -> &[u32] {
+        let collapse = &self.collapses[index];
+        let start = collapse.ring_start as usize + 2 * index;
+        &self.fine[start..start + collapse.ring_len as usize + 2]
+    }
+
+    /// First coarse instance of collapse number `index`.
+    pub fn first_coarse(&self, index: usize) -> u32 {
+        self.original_triangles.len() as u32 + self.collapses[index].ring_start
+    }
+
+    /// Instances in all.
+    pub fn instances(&self) -> usize {
+        self.original_triangles.len() + self.rings.len()
+    }
+
+    /// Corners (labels) of coarse triangle `i` of a collapse.
+    pub fn coarse_corners(&self, collapse: &Collapse, i: usize) -> [u32; 3] {
+        let ring = self.ring(collapse);
+        [collapse.vertex, ring[i], ring[(i + 1) % ring.len()]]
+    }
+}

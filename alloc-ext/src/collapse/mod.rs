@@ -1,0 +1,49 @@
+//! The edge-collapse engine: priorities, conditions, placement by a linear program, and a history that can be inverted.
+//!
+//! Progressive hulls after Platis & Theoharis 2003, 3.1. Topology never looks at positions (`star`), placement never at
+//! topology (`placement`), and the queue at neither (`queue`).
+
+mod engine;
+mod history;
+mod placement;
+mod queue;
+mod star;
+
+pub use engine::{Engine, Progress, Stuck};
+pub use history::{Collapse, History};
+pub use star::Connectivity;
+
+/// How candidate edges are ordered (paper 000, 3.1.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Priority {
+    /// Volume that the collapse would add, from the program's own optimum: tighter hulls.
+    #[default]
+    Program,
+    /// Volume of the tetrahedra between the star and the centre of its link: no program before the collapse itself.
+    Span,
+}
+
+/// The paper's conditions (3.1.4), with its values as defaults (4.1), and the program's second term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conditions {
+    /// Largest valence of the resulting vertex. Paper: 12.
+    pub max_valence: usize,
+    /// Least ratio of the star's worst compactness after and before. Paper: 0.8.
+    pub compactness_ratio: f64,
+    /// Largest deviation of a face's normal, as its cosine. Paper: cos π/4.
+    pub min_normal_cosine: f64,
+    /// Weight of the second term of the program, in the star's frame. It decides where a flat star puts the vertex, and
+    /// it rounds off sharp ones. `core/DESIGN.md` has the measurement behind the default.
+    pub second_term: f64,
+}
+
+impl Default for Conditions {
+    fn default() -> Self {
+        Conditions {
+            max_valence: 12,
+            compactness_ratio: 0.8,
+            min_normal_cosine: core::f64::consts::FRAC_1_SQRT_2,
+            second_term: 1e-3,
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! The program in one variable, on the line where two planes meet.
+
+use glam::DVec3;
+
+use super::HalfSpace;
+use super::insertion::offset;
+use super::interval::Interval;
+use super::plane::Plane;
+use super::tolerance::{CONTRADICTION, PARALLEL, RELAXATION, scale};
+
+/// A line, by its point nearest to the origin.
+#[derive(Clone, Copy)]
+struct Line {
+    base: DVec3,
+    /// Along the line, of any length.
+    direction: DVec3,
+    /// No `normal · direction` below this tells the line from a parallel of the plane.
+    least_rate: f64,
+}
+
+/// The point nearest to `pull` on the line of `first` and `second`'s plane that satisfies `constraints`.
+///
+/// `without` is the answer without `second`. It stays the answer where the planes are parallel and contradict each
+/// other by no more than rounding. `None` if no point of the line satisfies the constraints.
+#[inline(always)]
+pub(super) fn nearest<const CONE: bool>(
+    first: &Plane,
+    second: &HalfSpace,
+    without: Option<DVec3>,
+    pull: DVec3,
+    constraints: &[HalfSpace],
+) -> Option<DVec3> {
+    // Nearly parallel normals are equal in their leading digits. Their difference is exact, so that the product with
+    // it keeps all its digits where `first × second` would cancel.
+    let facing = 1.0f64.copysign(first.normal.dot(second.normal));
+    let direction = first.normal.cross(second.normal - first.normal * facing);
+    let sine_sq = direction.length_squared();
+    let missing = offset::<CONE>(second) - second.normal.dot(first.foot);
+    if sine_sq < PARALLEL * PARALLEL {
+        return without.filter(|_| missing <= CONTRADICTION * scale(first.foot));
+    }
+    let inverse = 1.0 / sine_sq;
+    // In `first`, across the line, towards the inside of `second`; as long as the sine, so that a step of `missing`
+    // over the sine's square along it ends in `second`.
+    let inward = direction.cross(first.normal);
+    let base = first.foot + inward * (missing * inverse);
+    let target = direction.dot(pull) * inverse;
+    let line = Line { base, direction, least_rate: PARALLEL * (scale(direction) - 1.0) };
+    if let Some(t) = line.clip::<CONE>(constraints).and_then(|interval| interval.nearest(target)) {
+        return Some(base + direction * t);
+    }
+    let outward = inward * -inverse;
+    line.nearest_in_doubt::<CONE>(target, outward, constraints)
+}
+
+impl Line {
+    /// What `constraints` leave of the line; `None` if one parallel to it excludes all.
+    #[inline(always)]
+    fn clip<const CONE: bool>(&self, constraints: &[HalfSpace]) -> Option<Interval> {
+        let mut interval = Interval::ALL;
+        for h in constraints {
+            let rate = h.normal.dot(self.direction);
+            let bound = offset::<CONE>(h) - h.normal.dot(self.base);
+            if rate.abs() > self.least_rate {
+                interval.clip(rate, bound);
+            } else if bound > CONTRADICTION * scale(self.base) {
+                return None;
+            }
+        }
+        Some(interval)
+    }
+
+    /// The answer where `constraints` seem to exclude the whole line, but by no more than rounding would.
+    ///
+    /// `outward` crosses the line, and moving by it takes the line out of its second half-space by 1.
+    #[cold]
+    #[inline(never)]
+    fn nearest_in_doubt<const CONE: bool>(
+        &self,
+        target: f64,
+        outward: DVec3,
+        constraints: &[HalfSpace],
+    ) -> Option<DVec3> {
+        let moved = self.base + outward * (RELAXATION * scale(self.base));
+        [self.base, moved].into_iter().find_map(|base| {
+            let interval = Self { base, ..*self }.clip::<CONE>(constraints)?;
+            let point = base + self.direction * interval.nearest_or_middle(target);
+            let tolerance = CONTRADICTION * scale(base);
+            let holds = |h: &HalfSpace| offset::<CONE>(h) - h.normal.dot(point) <= tolerance;
+            constraints.iter().all(holds).then_some(point)
+        })
+    }
+}

@@ -1,0 +1,200 @@
+//! What can be wrong with a mesh, said so that its owner can mend it.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// An edge, by what its owner can find again in the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgePlace {
+    /// Input number of a triangle on the edge.
+    pub triangle: u32,
+    /// One end, in the file's unit and frame.
+    pub from: [f32; 3],
+    /// The other end.
+    pub to: [f32; 3],
+}
+
+/// Why a mesh was refused. Each message names the place and, in one line, the remedy. Lists hold the first five places.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[allow(
+    missing_docs,
+    reason = "a variant's sentence says what its fields are; their names are the terms of that sentence"
+)]
+pub enum MeshError {
+    /// The file could not be opened or read.
+    Unreadable { file: PathBuf, reason: String },
+    /// The extension is none of `ply`, `obj`, `stl`.
+    UnknownExtension { file: PathBuf },
+    /// The content does not follow its format.
+    Malformed { file: PathBuf, line: Option<usize>, place: String, reason: String },
+    /// The file ends before what it announced: `what` says of which kind of thing, `found` is the number, or an upper
+    /// bound of it, of the one that it breaks off at.
+    Truncated { file: PathBuf, what: String, wanted: u64, found: u64 },
+    /// A coordinate is NaN or infinite.
+    NotFinite { file: PathBuf, line: Option<usize>, vertex: usize, at: [f64; 3] },
+    /// A face names a vertex that is not there. `index` is as written in the file (OBJ counts from 1).
+    IndexOutOfRange { file: PathBuf, line: Option<usize>, face: usize, index: i64, vertex_count: usize },
+    /// The file holds no face.
+    NoTriangles { file: PathBuf },
+    /// More vertices or triangles than 32-bit numbers can name.
+    TooMany { file: PathBuf, what: &'static str, count: usize },
+    /// A coordinate is beyond the largest `f32`.
+    TooLarge { file: PathBuf, vertex: usize, at: [f64; 3] },
+    /// No coordinate reaches the smallest normal `f32`.
+    TooSmall { file: PathBuf, largest: f64 },
+    /// Every triangle had zero area.
+    NoArea { file: PathBuf, dropped: usize },
+    /// Edges with one triangle only, so the mesh does not enclose a volume. Places: one edge of each of five holes.
+    Open {
+        edge_count: usize,
+        hole_count: usize,
+        largest_hole: usize,
+        /// Holes whose corners all lie on one line: a T-junction or a zero-area triangle.
+        slit_count: usize,
+        places: Vec<EdgePlace>,
+        /// Input number of a dropped zero-area triangle on one of the holes; filled by `RepairReport::explain`.
+        dropped_triangle: Option<u32>,
+    },
+    /// Edges with more than two triangles.
+    NonManifoldEdges { count: usize, most: usize, places: Vec<EdgePlace> },
+    /// Vertices in which several triangle fans meet; `repair` splits them.
+    NonManifoldVertices { count: usize, places: Vec<[f32; 3]> },
+    /// One-sided parts, such as a Möbius strip: no winding is consistent.
+    NonOrientable { part_count: usize, places: Vec<EdgePlace> },
+    /// Neighbours wound against each other; `repair` unifies them.
+    InconsistentWinding { edge_count: usize, places: Vec<EdgePlace> },
+    /// Outermost parts whose triangles face inwards; `repair` turns them.
+    InsideOut { part_count: usize, places: Vec<[f32; 3]> },
+    /// A closed part whose volume cannot be told from zero; `bound` is the rounding error of the sum.
+    ZeroVolume { triangle: u32, at: [f32; 3], volume: f64, bound: f64 },
+    /// An index, coordinate or length of a `Mesh` that breaks the type's promise.
+    Invalid { reason: String },
+}
+
+impl std::error::Error for MeshError {}
+
+impl fmt::Display for MeshError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable { file, reason } => {
+                write!(f, "{}: {reason}; check that the file exists and may be read", file.display())
+            }
+            Self::UnknownExtension { file } => {
+                write!(f, "{}: unknown kind of mesh file; convert it to .ply, .obj or .stl", file.display())
+            }
+            Self::Malformed { file, line, place, reason } => {
+                write!(f, "{}{}: {place}: {reason}; export the mesh again", file.display(), Line(*line))
+            }
+            Self::Truncated { file, what, wanted, found } => write!(
+                f,
+                "{}: the file ends at {what} {found} of {wanted}; copy or export it again",
+                file.display()
+            ),
+            Self::NotFinite { file, line, vertex, at } => write!(
+                f,
+                "{}{}: vertex {vertex} is at {at:?}; remove the vertex or give it finite coordinates",
+                file.display(),
+                Line(*line)
+            ),
+            Self::IndexOutOfRange { file, line, face, index, vertex_count } => write!(
+                f,
+                "{}{}: face {face} names vertex {index}, but there are {vertex_count} vertices; remove or renumber the face",
+                file.display(),
+                Line(*line)
+            ),
+            Self::NoTriangles { file } => {
+                write!(f, "{}: no triangles; export the surface, not points or curves", file.display())
+            }
+            Self::TooMany { file, what, count } => write!(
+                f,
+                "{}: {count} {what} are more than 32-bit numbers can name; simplify or divide the mesh",
+                file.display()
+            ),
+            Self::TooLarge { file, vertex, at } => write!(
+                f,
+                "{}: vertex {vertex} at {at:?} is beyond the range of f32 (3.4e38); choose a larger unit",
+                file.display()
+            ),
+            Self::TooSmall { file, largest } => write!(
+                f,
+                "{}: the largest coordinate, {largest:e}, is below f32's normal range (1.2e-38); choose a smaller unit",
+                file.display()
+            ),
+            Self::NoArea { file, dropped } => write!(
+                f,
+                "{}: all {dropped} triangles have zero area; export with more digits or in a smaller unit",
+                file.display()
+            ),
+            Self::Open { edge_count, hole_count, largest_hole, slit_count, places, dropped_triangle } => {
+                write!(
+                    f,
+                    "not closed: {edge_count} boundary edges in {hole_count} holes, the largest of {largest_hole} edges"
+                )?;
+                if *slit_count > 0 {
+                    write!(f, "; {slit_count} of them are slits (T-junctions or zero-area triangles)")?;
+                }
+                if let Some(triangle) = dropped_triangle {
+                    write!(f, "; likely cause: zero-area triangle {triangle} was dropped there")?;
+                }
+                write!(f, "; fill the holes, or build without a hull{}", Edges(places))
+            }
+            Self::NonManifoldEdges { count, most, places } => write!(
+                f,
+                "{count} non-manifold edges, with up to {most} triangles; separate or unite the parts that meet there{}",
+                Edges(places)
+            ),
+            Self::NonManifoldVertices { count, places } => {
+                write!(f, "{count} vertices join several fans; run repair{}", Points(places))
+            }
+            Self::NonOrientable { part_count, places } => write!(
+                f,
+                "{part_count} one-sided parts (as a Möbius strip) have no outside; cut or thicken them{}",
+                Edges(places)
+            ),
+            Self::InconsistentWinding { edge_count, places } => write!(
+                f,
+                "{edge_count} edges join triangles wound against each other; run repair{}",
+                Edges(places)
+            ),
+            Self::InsideOut { part_count, places } => {
+                write!(f, "{part_count} outermost parts are inside out; run repair{}", Points(places))
+            }
+            Self::ZeroVolume { triangle, at, volume, bound } => write!(
+                f,
+                "the closed part with triangle {triangle} at {at:?} has no volume ({volume:e} ± {bound:e}); remove or thicken it"
+            ),
+            Self::Invalid { reason } => write!(f, "not a valid mesh: {reason}; run repair"),
+        }
+    }
+}
+
+struct Line(Option<usize>);
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |line| write!(f, ", line {line}"))
+    }
+}
+
+struct Edges<'a>(&'a [EdgePlace]);
+
+impl fmt::Display for Edges<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for edge in self.0 {
+            write!(f, "\n  triangle {}, edge {:?} to {:?}", edge.triangle, edge.from, edge.to)?;
+        }
+        Ok(())
+    }
+}
+
+struct Points<'a>(&'a [[f32; 3]]);
+
+impl fmt::Display for Points<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for point in self.0 {
+            write!(f, "\n  at {point:?}")?;
+        }
+        Ok(())
+    }
+}

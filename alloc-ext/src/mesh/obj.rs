@@ -1,0 +1,91 @@
+//! Wavefront OBJ: the `v` and `f` statements; all others say nothing about the surface.
+
+use std::path::Path;
+
+use super::text::{lines, point};
+use super::{MeshError, RawMesh};
+
+/// Reads `v x y z …` and `f v[/vt[/vn]] …`, indices from 1 or relative (negative), `\` at a line's end continuing it.
+/// Faces of one or two vertices are skipped: they have no surface.
+pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    let mut face = 0;
+    let mut corners: Vec<u32> = Vec::new();
+    // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the final count.
+    let mut highest: Option<(u32, usize, usize)> = None;
+    let mut joined = String::new();
+    for (number, text) in lines(bytes) {
+        let text = text.trim_end();
+        if let Some(part) = text.strip_suffix('\\') {
+            joined.push_str(part);
+            joined.push(' ');
+            continue;
+        }
+        let whole;
+        let statement = if joined.is_empty() {
+            text
+        } else {
+            whole = std::mem::take(&mut joined) + text;
+            &whole
+        };
+        let statement = statement.split('#').next().unwrap_or("");
+        let mut words = statement.split_ascii_whitespace();
+        match words.next() {
+            Some("v") => positions.push(point(file, number, positions.len(), &mut words)?),
+            Some("f") => {
+                corners.clear();
+                for word in words {
+                    let vertex = index(file, number, face, word, positions.len())?;
+                    if highest.is_none_or(|(most, ..)| vertex > most) {
+                        highest = Some((vertex, number, face));
+                    }
+                    corners.push(vertex);
+                }
+                fan(&corners, &mut triangles);
+                face += 1;
+            }
+            _ => {}
+        }
+    }
+    match highest {
+        Some((vertex, line, face)) if vertex as usize >= positions.len() => Err(MeshError::IndexOutOfRange {
+            file: file.to_owned(),
+            line: Some(line),
+            face,
+            index: i64::from(vertex) + 1,
+            vertex_count: positions.len(),
+        }),
+        _ => Ok(RawMesh { positions, triangles, file: file.to_owned(), decimal: true }),
+    }
+}
+
+/// The vertex (from 0) that a word of an `f` statement names, `vertex_count` vertices having been read so far.
+fn index(file: &Path, line: usize, face: usize, word: &str, vertex_count: usize) -> Result<u32, MeshError> {
+    let number = word.split('/').next().unwrap_or("");
+    let index: i64 = number.parse().map_err(|_| MeshError::Malformed {
+        file: file.to_owned(),
+        line: Some(line),
+        place: format!("face {face}"),
+        reason: format!("{word:?} does not name a vertex"),
+    })?;
+    let from_zero = match index {
+        0 => None,
+        1.. => Some(index - 1),
+        _ => i64::try_from(vertex_count).ok().map(|count| count + index),
+    };
+    from_zero.and_then(|v| u32::try_from(v).ok()).ok_or(MeshError::IndexOutOfRange {
+        file: file.to_owned(),
+        line: Some(line),
+        face,
+        index,
+        vertex_count,
+    })
+}
+
+/// Splits a polygon into the fan about its first vertex, in order.
+pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
+    if let [first, rest @ ..] = corners {
+        triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+    }
+}

@@ -1,0 +1,163 @@
+//! The stages of repair, in order; each leaves one promise of [`Mesh`] kept.
+
+use super::caps::remove_caps;
+use super::duplicate::{drop_duplicates, retain};
+use super::edges::EdgeTable;
+use super::outward::closed_parts;
+use super::read::check;
+use super::report::RepairReport;
+use super::round::round;
+use super::vertex_fans::{fans, split};
+use super::weld::weld;
+use super::winding::{Parts, propagate};
+use super::{Mesh, MeshError, RawMesh};
+
+/// Mends what can be mended without moving the surface (beyond the rounding to `f32`), and says what it did.
+///
+/// In this order: round to `f32`; weld equal positions; drop triangles with a repeated corner; drop duplicates, keeping
+/// the first of each whatever the winding; remove zero-area triangles, by an edge flip where that keeps the mesh
+/// closed; split vertices in which several fans meet; wind each part consistently, as most of its triangles are; turn
+/// closed outermost parts that are inside out, with all that lies inside them; drop unreferenced vertices.
+///
+/// Any triangle soup is accepted: holes, non-manifold edges and one-sided parts are left as they are, for
+/// [`require_closed_manifold`](super::require_closed_manifold) to refuse. Repairing the result again changes nothing.
+///
+/// Cost: linear in the triangles but for the search for nested parts: at worst parts × triangles, in practice a small fraction.
+///
+/// # Errors
+/// A coordinate that is not finite or beyond `f32`, a mesh wholly below `f32`'s normal range, an index out of range, no
+/// triangles, or none with an area.
+pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
+    check(&raw)?;
+    let (mut positions, rounding) = round(&raw)?;
+    let RawMesh { mut triangles, file, .. } = raw;
+    let mut report = RepairReport {
+        vertices_read: positions.len(),
+        triangles_read: triangles.len(),
+        rounding,
+        ..RepairReport::default()
+    };
+    let mut source: Vec<u32> = (0..triangles.len() as u32).collect();
+
+    let first_at = weld(&positions, &mut report.welded);
+    triangles.iter_mut().flatten().for_each(|v| *v = first_at[*v as usize]);
+    drop_repeated_corners(&positions, &mut triangles, &mut source, &mut report);
+    drop_duplicates(&positions, &mut triangles, &mut source, &mut report);
+    remove_caps(&positions, &mut triangles, &mut source, &mut report);
+    if triangles.is_empty() {
+        return Err(MeshError::NoArea { file, dropped: report.triangles_read });
+    }
+
+    let edges = EdgeTable::new(positions.len(), &triangles);
+    let fans = fans(&triangles, &edges);
+    for original in split(positions.len(), &mut triangles, &fans) {
+        let at = positions[original as usize];
+        report.split_vertices.vertex(original, at);
+        positions.push(at);
+    }
+    // Splitting moves no corner to another edge: the half-edges' twins are those from before.
+    let parts = propagate(&triangles, &edges.twins());
+    wind(&positions, &mut triangles, &source, &parts, &mut report);
+    turn_outwards(&positions, &mut triangles, &source, &parts, &mut report);
+    drop_unreferenced(&mut positions, &mut triangles, &first_at, &mut report);
+
+    report.part_count = parts.kinds.len();
+    report.vertices_kept = positions.len();
+    report.triangles_kept = triangles.len();
+    Ok((Mesh { positions, triangles, source, rounding }, report))
+}
+
+fn drop_repeated_corners(
+    positions: &[[f32; 3]],
+    triangles: &mut Vec<[u32; 3]>,
+    source: &mut Vec<u32>,
+    report: &mut RepairReport,
+) {
+    let keep: Vec<bool> = triangles
+        .iter()
+        .zip(source.iter())
+        .map(|(&[a, b, c], &number)| {
+            let repeated = a == b || b == c || c == a;
+            if repeated {
+                report.repeated_corner.triangle(number, positions[a as usize]);
+            }
+            !repeated
+        })
+        .collect();
+    retain(triangles, &keep);
+    retain(source, &keep);
+}
+
+fn wind(
+    positions: &[[f32; 3]],
+    triangles: &mut [[u32; 3]],
+    source: &[u32],
+    parts: &Parts,
+    report: &mut RepairReport,
+) {
+    for (t, triangle) in triangles.iter_mut().enumerate() {
+        if parts.rewind[t] {
+            report.rewound.triangle(source[t], positions[triangle[0] as usize]);
+            triangle.swap(1, 2);
+        }
+    }
+    for half_edge in parts.kinds.iter().filter_map(|kind| kind.conflict) {
+        let t = half_edge as usize / 3;
+        report.non_orientable.triangle(source[t], positions[triangles[t][half_edge as usize % 3] as usize]);
+    }
+}
+
+fn turn_outwards(
+    positions: &[[f32; 3]],
+    triangles: &mut [[u32; 3]],
+    source: &[u32],
+    parts: &Parts,
+    report: &mut RepairReport,
+) {
+    let mut turn = vec![false; parts.kinds.len()];
+    for part in closed_parts(positions, triangles, parts) {
+        turn[part.number as usize] = part.inside_out;
+        let (number, at) =
+            (source[part.first as usize], positions[triangles[part.first as usize][0] as usize]);
+        if !part.nested && part.inside_out {
+            report.turned_parts.triangle(number, at);
+        }
+        // As it will be after turning.
+        let faces_inwards = part.volume.is_negative() != part.inside_out && !part.volume.is_zero();
+        if part.nested && faces_inwards {
+            report.cavities.triangle(number, at);
+        }
+    }
+    for (triangle, &part) in triangles.iter_mut().zip(&parts.part) {
+        if turn[part as usize] {
+            triangle.swap(1, 2);
+        }
+    }
+}
+
+/// Vertices welded into another are counted as welded, not here.
+fn drop_unreferenced(
+    positions: &mut Vec<[f32; 3]>,
+    triangles: &mut [[u32; 3]],
+    first_at: &[u32],
+    report: &mut RepairReport,
+) {
+    let mut used = vec![false; positions.len()];
+    triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    for (v, &first) in first_at.iter().enumerate() {
+        if !used[v] && first as usize == v {
+            report.unreferenced.vertex(v as u32, positions[v]);
+        }
+    }
+    let mut next = 0;
+    let renumbered: Vec<u32> = used
+        .iter()
+        .map(|&used| {
+            let number = next;
+            next += u32::from(used);
+            number
+        })
+        .collect();
+    retain(positions, &used);
+    triangles.iter_mut().flatten().for_each(|v| *v = renumbered[*v as usize]);
+}

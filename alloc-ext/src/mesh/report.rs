@@ -1,0 +1,178 @@
+//! What [`repair`](super::repair) did, with places.
+
+use std::fmt;
+
+use super::MeshError;
+
+/// How many places a list keeps: enough to find the flaw, few enough to read.
+pub(super) const PLACES_KEPT: usize = 5;
+
+/// A place in the input file. Numbers count from 0; triangles after fan triangulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Number of the triangle in the input, if the place is one.
+    pub triangle: Option<u32>,
+    /// Number of the vertex in the input, if the place is one.
+    pub vertex: Option<u32>,
+    /// The vertex, or the triangle's first corner, in the file's unit and frame, rounded to `f32`.
+    pub at: [f32; 3],
+}
+
+/// A count with the first few places.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Finding {
+    /// How many there were.
+    pub count: usize,
+    /// The first five at most.
+    pub places: Vec<Place>,
+}
+
+impl Finding {
+    pub(super) fn triangle(&mut self, triangle: u32, at: [f32; 3]) {
+        self.push(Place { triangle: Some(triangle), vertex: None, at });
+    }
+
+    pub(super) fn vertex(&mut self, vertex: u32, at: [f32; 3]) {
+        self.push(Place { triangle: None, vertex: Some(vertex), at });
+    }
+
+    fn push(&mut self, place: Place) {
+        self.count += 1;
+        if self.places.len() < PLACES_KEPT {
+            self.places.push(place);
+        }
+    }
+}
+
+/// What [`repair`](super::repair) found and did. `Display` prints one line per kind that occurred.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RepairReport {
+    /// Vertices in the input.
+    pub vertices_read: usize,
+    /// Triangles in the input.
+    pub triangles_read: usize,
+    /// Vertices in the result.
+    pub vertices_kept: usize,
+    /// Triangles in the result.
+    pub triangles_kept: usize,
+    /// As [`Mesh::rounding`](super::Mesh::rounding).
+    pub rounding: f64,
+    /// Parts that are connected by edges, in the result.
+    pub part_count: usize,
+    /// Vertices merged into an earlier one at the same position (after rounding to `f32`; −0.0 equals 0.0).
+    pub welded: Finding,
+    /// Triangles dropped because two of their corners are the same vertex. The mesh stays closed.
+    pub repeated_corner: Finding,
+    /// Zero-area triangles (three distinct collinear corners) removed by an edge flip with the neighbour across their
+    /// longest edge. The surface is the same point set and stays closed; the triangle count too.
+    pub flipped_caps: Finding,
+    /// Zero-area triangles simply dropped, because no neighbour could take them up. This can leave a slit.
+    pub zero_area: Finding,
+    /// Further copies of a triangle, same three vertices, same winding. The first stays.
+    pub duplicate: Finding,
+    /// Further copies of a triangle, opposite winding. The first stays, so that no surface is lost.
+    pub opposite_duplicate: Finding,
+    /// Vertices that no triangle uses, before or after the above.
+    pub unreferenced: Finding,
+    /// Vertex copies added: one for each fan beyond the first at a vertex.
+    pub split_vertices: Finding,
+    /// Triangles wound anew to agree with the majority of their part.
+    pub rewound: Finding,
+    /// Closed outermost parts that were inside out and were turned, together with all parts inside them. One place each.
+    pub turned_parts: Finding,
+    /// Closed parts that lie inside another and face inwards: cavities, left as they are.
+    pub cavities: Finding,
+    /// One-sided parts; left as they are, refused for a hull. The place is a triangle at which the winding fails.
+    pub non_orientable: Finding,
+    /// The corners of the first [`zero_area`](Self::zero_area) triangles, for [`explain`](Self::explain).
+    pub(super) dropped: Vec<(u32, [[f32; 3]; 3])>,
+}
+
+impl RepairReport {
+    /// All findings: a key for machines, a phrase for people, the finding. For printing and JSON.
+    #[must_use]
+    pub fn findings(&self) -> [(&'static str, &'static str, &Finding); 12] {
+        [
+            ("welded", "vertices welded to an equal one", &self.welded),
+            ("repeated_corner", "triangles with a repeated corner dropped", &self.repeated_corner),
+            ("flipped_caps", "flat caps removed by an edge flip", &self.flipped_caps),
+            ("zero_area", "zero-area triangles dropped", &self.zero_area),
+            ("duplicate", "duplicate triangles dropped", &self.duplicate),
+            ("opposite_duplicate", "oppositely wound duplicates dropped", &self.opposite_duplicate),
+            ("unreferenced", "unreferenced vertices dropped", &self.unreferenced),
+            ("split_vertices", "copies made of non-manifold vertices", &self.split_vertices),
+            ("rewound", "triangles rewound to agree with their part", &self.rewound),
+            ("turned_parts", "inside-out parts turned", &self.turned_parts),
+            ("cavities", "cavities found and kept", &self.cavities),
+            ("non_orientable", "one-sided parts found", &self.non_orientable),
+        ]
+    }
+
+    /// True if the result is the input, triangle for triangle: nothing dropped, split, flipped or rewound. Welding,
+    /// unreferenced vertices and rounding do not count.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.findings().iter().all(|(key, _, finding)| {
+            finding.count == 0 || matches!(*key, "welded" | "unreferenced" | "cavities")
+        })
+    }
+
+    /// Adds to a [`MeshError::Open`] the zero-area triangle whose removal is the likely cause: one of the first dropped
+    /// whose corner lies on one of the edges that the error lists. Any other error is returned as it is.
+    #[must_use]
+    pub fn explain(&self, error: MeshError) -> MeshError {
+        match error {
+            MeshError::Open {
+                edge_count,
+                hole_count,
+                largest_hole,
+                slit_count,
+                places,
+                dropped_triangle: None,
+            } => {
+                let on_hole = |corners: &[[f32; 3]; 3]| {
+                    places.iter().any(|e| corners.contains(&e.from) && corners.contains(&e.to))
+                };
+                let dropped_triangle =
+                    self.dropped.iter().find(|(_, corners)| on_hole(corners)).map(|&(t, _)| t);
+                MeshError::Open { edge_count, hole_count, largest_hole, slit_count, places, dropped_triangle }
+            }
+            other => other,
+        }
+    }
+}
+
+impl fmt::Display for RepairReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} vertices, {} triangles read; {} vertices, {} triangles kept; parts: {}",
+            self.vertices_read, self.triangles_read, self.vertices_kept, self.triangles_kept, self.part_count
+        )?;
+        if self.rounding > 0.0 {
+            write!(f, "\n  rounding to f32 moved vertices by up to {:e}", self.rounding)?;
+        }
+        for (key, phrase, finding) in self.findings() {
+            if finding.count > 0 {
+                write!(f, "\n  {} {phrase}", finding.count)?;
+                // Every vertex of an STL file is welded: there the places say nothing.
+                if key == "welded" {
+                    continue;
+                }
+                write!(f, ":")?;
+                for place in &finding.places {
+                    match (place.triangle, place.vertex) {
+                        (Some(triangle), _) => write!(f, " triangle {triangle}")?,
+                        (_, Some(vertex)) => write!(f, " vertex {vertex}")?,
+                        _ => {}
+                    }
+                    write!(f, " {:?}", place.at)?;
+                }
+                if finding.count > finding.places.len() {
+                    write!(f, " …")?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

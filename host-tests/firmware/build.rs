@@ -1,0 +1,69 @@
+//! Memory layouts, linker scripts of each image, and the blob that the suite image carries.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+/// Images without a runtime: linked by `bare.x`, never started.
+const BARE: [&str; 6] = ["proof", "size_empty", "size_open", "size_closest", "size_segment", "size_outer"];
+
+/// RAM is kept at what such parts have, not at what the emulated board has, so that an image that needs more fails.
+fn memory(target: &str) -> Option<&'static str> {
+    Some(match target {
+        // mps2-an386.
+        "thumbv7em-none-eabihf" => {
+            "MEMORY { FLASH : ORIGIN = 0x00000000, LENGTH = 2M  RAM : ORIGIN = 0x20000000, LENGTH = 64K }"
+        }
+        // microbit (nRF51822): the part's own sizes.
+        "thumbv6m-none-eabi" => {
+            "MEMORY { FLASH : ORIGIN = 0x00000000, LENGTH = 256K  RAM : ORIGIN = 0x20000000, LENGTH = 16K }"
+        }
+        // mps2-an505 starts in the secure state, which sees the memories at their secure aliases.
+        "thumbv8m.main-none-eabihf" => {
+            "MEMORY { FLASH : ORIGIN = 0x10000000, LENGTH = 2M  RAM : ORIGIN = 0x38000000, LENGTH = 64K }"
+        }
+        // virt has one big RAM; its first part plays the flash.
+        "riscv32imac-unknown-none-elf" => {
+            "MEMORY { FLASH : ORIGIN = 0x80000000, LENGTH = 2M  RAM : ORIGIN = 0x80200000, LENGTH = 64K }
+             REGION_ALIAS(\"REGION_TEXT\", FLASH);
+             REGION_ALIAS(\"REGION_RODATA\", FLASH);
+             REGION_ALIAS(\"REGION_DATA\", RAM);
+             REGION_ALIAS(\"REGION_BSS\", RAM);
+             REGION_ALIAS(\"REGION_HEAP\", RAM);
+             REGION_ALIAS(\"REGION_STACK\", RAM);"
+        }
+        _ => return None,
+    })
+}
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=bare.x");
+    println!("cargo::rerun-if-env-changed=MESHSWEEP_BLOB");
+
+    let target = env::var("TARGET").unwrap_or_default();
+    let Some(memory) = memory(&target) else {
+        println!(
+            "cargo::error=no memory layout for `{target}`; build the images with `cargo xtask firmware`"
+        );
+        return;
+    };
+    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    if let Err(error) = fs::write(out.join("memory.x"), memory) {
+        println!("cargo::error=cannot write memory.x: {error}");
+    }
+    println!("cargo::rustc-link-search={}", out.display());
+    if target.starts_with("riscv") {
+        println!("cargo::rustc-link-arg-bin=suite=-Tmemory.x");
+    }
+    println!("cargo::rustc-link-arg-bin=suite=-Tlink.x");
+    let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
+    for image in BARE {
+        println!("cargo::rustc-link-arg-bin={image}=-T{}", here.join("bare.x").display());
+    }
+
+    // Only the suite image reads it: the others may be built without one.
+    if let Some(blob) = env::var_os("MESHSWEEP_BLOB").map(PathBuf::from) {
+        println!("cargo::rerun-if-changed={}", blob.display());
+        println!("cargo::rustc-env=MESHSWEEP_BLOB={}", blob.display());
+    }
+}

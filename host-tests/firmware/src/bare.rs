@@ -1,0 +1,40 @@
+//! What the images without a runtime share: the panic handler that cannot be linked, and opaque inputs.
+
+use core::panic::PanicInfo;
+
+/// Calls a function that nobody defines: an image links only if the optimiser removed every way to get here.
+#[cfg(not(feature = "name_panics"))]
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    unsafe extern "C" {
+        fn meshsweep_core_panics_here() -> !;
+    }
+    // SAFETY: never linked, so never called.
+    unsafe { meshsweep_core_panics_here() }
+}
+
+/// Keeps the place of each panic in the image.
+#[cfg(feature = "name_panics")]
+#[panic_handler]
+fn panic(info: &PanicInfo<'_>) -> ! {
+    core::hint::black_box(info.location());
+    loop {}
+}
+
+/// The image's entry in name, and all there is of the empty image.
+#[unsafe(no_mangle)]
+pub extern "C" fn ask_nothing() {}
+
+/// What a caller hands over. Reached through a pointer from outside of the image, so the optimiser knows nothing of it.
+#[repr(C)]
+#[allow(dead_code, reason = "each image asks its own questions")]
+pub struct Input<'a> {
+    /// The blob.
+    pub blob: &'a [u8],
+    /// A query point, or a segment's first end.
+    pub a: [f32; 3],
+    /// A segment's second end.
+    pub b: [f32; 3],
+    /// Any number.
+    pub any: usize,
+}

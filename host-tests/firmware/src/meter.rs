@@ -1,0 +1,69 @@
+//! The suite's recorder on a board: prints hashes, counts ticks, measures the stack.
+
+use meshsweep_suite::{Kind, Recorder};
+use semihosting::println;
+
+use crate::{board, stack};
+
+/// Ticks of one kind, and the stack below the suite's own loop.
+#[derive(Debug)]
+pub struct Meter {
+    begun: u32,
+    overhead: u32,
+    queries: u32,
+    min: u32,
+    sum: u64,
+    max: u32,
+    deepest: usize,
+}
+
+impl Meter {
+    /// A meter that has measured what reading the counter costs.
+    #[must_use]
+    pub fn new() -> Self {
+        let mut meter = Self { begun: 0, overhead: 0, queries: 0, min: u32::MAX, sum: 0, max: 0, deepest: 0 };
+        meter.query_begins();
+        meter.overhead = board::elapsed(meter.begun, board::now());
+        meter
+    }
+}
+
+impl Default for Meter {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Recorder for Meter {
+    fn kind_begins(&mut self, _kind: Kind) {
+        *self = Self::new();
+        stack::paint();
+    }
+
+    #[inline]
+    fn query_begins(&mut self) {
+        self.begun = board::now();
+    }
+
+    #[inline]
+    fn query_ends(&mut self) {
+        let ticks = board::elapsed(self.begun, board::now()).saturating_sub(self.overhead);
+        self.queries += 1;
+        self.min = self.min.min(ticks);
+        self.max = self.max.max(ticks);
+        self.sum += u64::from(ticks);
+    }
+
+    fn block(&mut self, kind: Kind, index: u32, hash: u64) {
+        // Before and after printing, whose own frames must not count.
+        self.deepest = self.deepest.max(stack::depth());
+        println!("block {} {index} {hash:016x}", kind.name());
+        stack::paint();
+    }
+
+    fn kind_ends(&mut self, kind: Kind) {
+        let Self { queries, min, sum, max, deepest, .. } = *self;
+        println!("ticks {} {queries} {min} {sum} {max}", kind.name());
+        println!("stack {} {deepest}", kind.name());
+    }
+}

@@ -1,0 +1,39 @@
+//! The workspace's own checks.
+
+use std::env;
+use std::process::Command;
+
+use crate::process;
+use crate::steps::Steps;
+use crate::workspace;
+
+/// Formatting, lints, tests, documentation.
+pub fn run(steps: &mut Steps) {
+    steps.run("formatting", || process::run(&mut cargo(&["fmt", "--all", "--check"])));
+    steps.run("formatting of the firmware", || {
+        process::run(cargo(&["fmt", "--check"]).current_dir(workspace::firmware()))
+    });
+    steps.run("lints", || {
+        process::run(&mut cargo(&[
+            "clippy",
+            "--quiet",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ]))
+    });
+    steps.run("tests", || process::run(&mut cargo(&["test", "--workspace"])));
+    steps.run("documentation", || {
+        process::run(
+            cargo(&["doc", "--quiet", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"),
+        )
+    });
+}
+
+fn cargo(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments).current_dir(workspace::root());
+    command
+}

@@ -1,0 +1,79 @@
+//! The firmware's part: same bits on every board, no panic, sizes and costs.
+
+use std::fs;
+use std::path::Path;
+
+use crate::boards::{BOARDS, Board};
+use crate::cross::Cross;
+use crate::images::{self, Profile};
+use crate::qemu::Qemu;
+use crate::reading::Reading;
+use crate::steps::Steps;
+use crate::table::{self, Added, Row};
+use crate::{blobs, elf, proof};
+
+/// What the firmware's part needs beside cargo.
+#[derive(Clone, Debug)]
+pub struct Tools {
+    cross: Cross,
+    qemu: Qemu,
+}
+
+/// Makes sure of the tools.
+pub fn setup(steps: &mut Steps) -> Option<Tools> {
+    let cross = steps.run("setup: std for the boards", Cross::find);
+    let qemu = steps.run("setup: QEMU", Qemu::find);
+    Some(Tools { cross: cross?, qemu: qemu? })
+}
+
+/// Runs all of it; prints the table, and writes it to `json`.
+pub fn run(steps: &mut Steps, tools: &Tools, json: Option<&Path>) {
+    let rows: Vec<Row> = BOARDS.iter().map(|board| on_board(steps, tools, board)).collect();
+    println!("{}", table::text(&rows));
+    if let Some(file) = json {
+        steps.run("write the table", || table::write_json(&rows, file));
+    }
+}
+
+fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
+    let Tools { cross, qemu } = tools;
+    let step = |what: &str| format!("{}: {what}", board.cpu);
+    let reading = steps.run(&step("the host's bits"), || {
+        let blob = blobs::make(board.flash)?;
+        let bytes = fs::read(&blob).map_err(|error| format!("cannot read {}: {error}", blob.display()))?;
+        let image = images::suite(cross, board.target, &blob)?;
+        let reading = Reading::parse(&qemu.run(board.machine, &image)?, board)?;
+        reading.compare(&Reading::of_host(&bytes)?)?;
+        Ok(reading)
+    });
+    if cross.has_clippy() {
+        steps.run(&step("lints"), || images::lint(cross, board.target, &blobs::make(board.flash)?));
+    }
+    for profile in Profile::ALL {
+        steps.run(&step(&format!("no panic, {}", profile.name())), || {
+            proof::holds(cross, board.target, profile)
+        });
+    }
+    steps.run(&step("a panic is noticed"), || proof::notices_a_panic(cross, board.target, Profile::Release));
+    let added = steps.run(&step("sizes"), || sizes(cross, board)).unwrap_or_default();
+    Row { board: *board, reading, added }
+}
+
+fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
+    const QUESTIONS: [&str; 4] = ["open", "closest", "segment", "outer"];
+    let mut added = Vec::new();
+    for profile in Profile::ALL {
+        let names = QUESTIONS.map(|question| format!("size_{question}"));
+        let names: Vec<&str> =
+            std::iter::once("size_empty").chain(names.iter().map(String::as_str)).collect();
+        let images = images::sizes(cross, board.target, profile, &names)?;
+        let sizes = images.iter().map(|image| elf::size(image)).collect::<Result<Vec<_>, _>>()?;
+        if let [empty, others @ ..] = sizes.as_slice() {
+            added.extend(QUESTIONS.iter().zip(others).map(|(question, size)| {
+                let size = size.beyond(*empty);
+                Added { question, profile, size }
+            }));
+        }
+    }
+    Ok(added)
+}

@@ -1,0 +1,57 @@
+//! The proof that no query can panic: an image whose panic handler cannot be linked, linked.
+
+use crate::cross::Cross;
+use crate::elf;
+use crate::images::{self, Profile};
+use crate::process;
+
+/// The function that the panic handler calls and nobody defines.
+const UNDEFINED: &str = "meshsweep_core_panics_here";
+
+/// The questions of the proof image. One that the linker dropped would prove nothing.
+const QUESTIONS: [&str; 5] = ["ask_open", "ask_closest", "ask_first_hit", "ask_all_hits", "ask_outer_hits"];
+
+/// Links the proof image.
+pub fn holds(cross: &Cross, target: &str, profile: Profile) -> Result<(), String> {
+    let mut command = images::cargo(cross, "build", target, profile);
+    let output = process::output(command.args(["--bin", "proof"]))?;
+    if !output.status.success() {
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        return Err(if message.contains(UNDEFINED) { places(cross, target, profile) } else { message });
+    }
+    let image = images::image(cross, target, profile, "proof");
+    for question in QUESTIONS {
+        if !elf::defines(&image, question)? {
+            return Err(format!("the proof image does not contain `{question}`"));
+        }
+    }
+    Ok(())
+}
+
+/// Puts a panic into a query: the image must fail to link, for that reason and at that place.
+pub fn notices_a_panic(cross: &Cross, target: &str, profile: Profile) -> Result<(), String> {
+    let mut command = images::cargo(cross, "build", target, profile);
+    let output = process::output(command.args(["--bin", "proof", "--features", "inject_panic"]))?;
+    let message = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() {
+        Err("the image links although a query can panic: the proof proves nothing".to_owned())
+    } else if message.contains(UNDEFINED) {
+        Ok(())
+    } else {
+        Err(format!("the image failed to build for another reason than the panic\n{message}"))
+    }
+}
+
+/// Where the panics come from: read from an image that is allowed to have them.
+fn places(cross: &Cross, target: &str, profile: Profile) -> String {
+    let mut command = images::cargo(cross, "build", target, profile);
+    let built = process::capture(command.args(["--bin", "proof", "--features", "name_panics"]));
+    let found = built.and_then(|_| elf::panic_places(&images::image(cross, target, profile, "proof")));
+    match found {
+        Ok(places) if places.is_empty() => {
+            "a query can panic, at a place that the image does not name".to_owned()
+        }
+        Ok(places) => format!("a query can panic at\n  {}", places.join("\n  ")),
+        Err(reason) => format!("a query can panic; its place could not be read: {reason}"),
+    }
+}

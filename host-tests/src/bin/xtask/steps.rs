@@ -1,0 +1,46 @@
+//! Named steps, their times, and the summary that a CI reads.
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// What was run so far.
+#[derive(Debug, Default)]
+pub struct Steps {
+    passed: usize,
+    failed: Vec<String>,
+}
+
+impl Steps {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Runs a step and says how it went. A failed step yields `None`; the steps that need its result are the caller's to skip.
+    pub fn run<T>(&mut self, name: &str, step: impl FnOnce() -> Result<T, String>) -> Option<T> {
+        println!("── {name}");
+        let begun = Instant::now();
+        let result = step();
+        let seconds = begun.elapsed().as_secs_f64();
+        match result {
+            Ok(value) => {
+                println!("   {name}: ok ({seconds:.1} s)");
+                self.passed += 1;
+                Some(value)
+            }
+            Err(reason) => {
+                println!("   {name}: FAILED ({seconds:.1} s)\n{reason}");
+                self.failed.push(name.to_owned());
+                None
+            }
+        }
+    }
+
+    /// Prints the summary; the exit code tells whether every step passed.
+    pub fn finish(self) -> ExitCode {
+        for name in &self.failed {
+            println!("failed: {name}");
+        }
+        println!("{} passed, {} failed", self.passed, self.failed.len());
+        if self.failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    }
+}

@@ -1,0 +1,68 @@
+//! The mesh files under `fixtures/`.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use super::evil::{Outcome, evil};
+use super::writers::{binary_ply, binary_stl, obj};
+use super::{bracket, groove_block, torus};
+
+/// Every mesh fixture as (path below the folder, content), the README among them. Deterministic.
+#[must_use]
+pub fn files() -> Vec<(String, Vec<u8>)> {
+    let good = [
+        (
+            "bracket.stl",
+            binary_stl(&bracket()),
+            "`bracket()`: CAD-like, flat faces, needles; closed, genus 2",
+        ),
+        (
+            "groove.obj",
+            obj(&groove_block()),
+            "`groove_block()`: a T-slot that a hull bridges; closed, genus 0",
+        ),
+        ("torus.ply", binary_ply(&torus(2.0, 0.75, 48, 24)), "`torus(2.0, 0.75, 48, 24)`: closed, genus 1"),
+    ];
+    let mut readme = String::from(
+        "# Fixtures\n\n\
+         Small meshes from the generators in `host-tests/src/generate`. Regenerate all of them, and this page, with\n\n\
+         ```\ncargo xtask fixtures\n```\n\n\
+         A test compares the committed files with the generators' bytes.\n\n\
+         | file | made by |\n| --- | --- |\n",
+    );
+    for (name, _, what) in &good {
+        readme.push_str(&format!("| `{name}` | {what} |\n"));
+    }
+    readme.push_str(
+        "\n## evil/\n\n\
+         What must be refused, by the named variant of `MeshError`, or mended. \"No solid\" means that `repair` takes the\n\
+         file and `require_closed_manifold` refuses it.\n\n\
+         | file | flaw | outcome |\n| --- | --- | --- |\n",
+    );
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+    for file in evil() {
+        let outcome = match file.outcome {
+            Outcome::Accepted => "accepted".to_owned(),
+            Outcome::Unreadable(variant) => format!("`{variant}`"),
+            Outcome::NoSolid(variant) => format!("no solid: `{variant}`"),
+        };
+        readme.push_str(&format!("| `{}` | {} | {outcome} |\n", file.name, file.flaw));
+        files.push((format!("evil/{}", file.name), file.bytes));
+    }
+    files.extend(good.into_iter().map(|(name, bytes, _)| (name.to_owned(), bytes)));
+    files.push(("README.md".to_owned(), readme.into_bytes()));
+    files
+}
+
+/// Writes [`files`] into `dir`, which is created if need be. Other files there stay.
+///
+/// # Errors
+/// A folder or file cannot be written.
+pub fn write_fixtures(dir: &Path) -> io::Result<()> {
+    fs::create_dir_all(dir.join("evil"))?;
+    for (name, bytes) in files() {
+        fs::write(dir.join(name), bytes)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! Procedural meshes with known properties, the same bits on every machine.
+//!
+//! All are closed, wound counter-clockwise seen from outside, and share their vertices exactly, unless a function says
+//! otherwise. Sines and cosines come from `libm`, since those of the standard library differ between platforms.
+
+mod bracket;
+mod builder;
+pub mod evil;
+mod extrude;
+pub mod fixtures;
+mod rng;
+mod solids;
+mod transform;
+pub mod writers;
+
+pub use bracket::bracket;
+pub use extrude::{groove_block, needle_comb};
+pub use rng::Rng;
+pub use solids::{cube, icosphere, rough_sphere, torus, uv_sphere};
+pub use transform::{inverted, joined, scaled, transformed, two_parts};
+
+/// Positions and triangles.
+pub type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);

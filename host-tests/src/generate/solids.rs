@@ -1,0 +1,145 @@
+//! Smooth and flat solids about the origin.
+
+use super::builder::Builder;
+use super::{Rng, Triangles};
+
+/// The point of the unit circle `step` of `steps` around, computed in f64.
+fn turn(step: usize, steps: usize) -> [f64; 2] {
+    let angle = std::f64::consts::TAU * step as f64 / steps as f64;
+    [libm::cos(angle), libm::sin(angle)]
+}
+
+/// A torus around the z axis, genus 1: `n` steps around the axis, `m` around the tube, 2·n·m triangles. `n`, `m` ≥ 3,
+/// `minor` < `major`.
+#[must_use]
+pub fn torus(major: f32, minor: f32, n: usize, m: usize) -> Triangles {
+    let mut positions = Vec::with_capacity(n * m);
+    for i in 0..n {
+        let [ci, si] = turn(i, n);
+        for j in 0..m {
+            let [cj, sj] = turn(j, m);
+            let r = f64::from(major) + f64::from(minor) * cj;
+            positions.push([(r * ci) as f32, (r * si) as f32, (f64::from(minor) * sj) as f32]);
+        }
+    }
+    let at = |i: usize, j: usize| ((i % n) * m + j % m) as u32;
+    let mut triangles = Vec::with_capacity(2 * n * m);
+    for i in 0..n {
+        for j in 0..m {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    (positions, triangles)
+}
+
+/// A unit sphere of `n` meridians and `m` bands, slivers at the poles: 2·n·(m − 1) triangles. `n` ≥ 3, `m` ≥ 2.
+#[must_use]
+pub fn uv_sphere(n: usize, m: usize) -> Triangles {
+    let mut positions = vec![[0.0, 0.0, 1.0]];
+    for j in 1..m {
+        let [z, r] = turn(j, 2 * m);
+        for i in 0..n {
+            let [c, s] = turn(i, n);
+            positions.push([(r * c) as f32, (r * s) as f32, z as f32]);
+        }
+    }
+    positions.push([0.0, 0.0, -1.0]);
+    let south = positions.len() as u32 - 1;
+    let at = |i: usize, j: usize| (1 + (j - 1) * n + i % n) as u32;
+    let mut triangles = Vec::with_capacity(2 * n * m.saturating_sub(1));
+    for i in 0..n {
+        triangles.push([0, at(i, 1), at(i + 1, 1)]);
+        for j in 1..m - 1 {
+            let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        triangles.push([south, at(i + 1, m - 1), at(i, m - 1)]);
+    }
+    (positions, triangles)
+}
+
+/// A unit sphere: an icosahedron whose triangles are split into four, `level` times; 20·4^`level` triangles.
+#[must_use]
+pub fn icosphere(level: u32) -> Triangles {
+    let (positions, triangles) = icosphere_f64(level);
+    (positions.into_iter().map(|p| p.map(|x| x as f32)).collect(), triangles)
+}
+
+/// An icosphere whose vertices are moved in or out by up to `amplitude` (less than 1) of the radius, at random.
+#[must_use]
+pub fn rough_sphere(level: u32, amplitude: f32, seed: u64) -> Triangles {
+    let (positions, triangles) = icosphere_f64(level);
+    let mut rng = Rng::new(seed);
+    let moved = positions.into_iter().map(|p| {
+        let r = 1.0 + f64::from(amplitude) * (2.0 * rng.unit_f64() - 1.0);
+        p.map(|x| (x * r) as f32)
+    });
+    (moved.collect(), triangles)
+}
+
+fn icosphere_f64(level: u32) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let unit = |p: [f64; 3]| {
+        let length = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]).sqrt();
+        p.map(|x| x / length)
+    };
+    let g = f64::midpoint(1.0, 5.0f64.sqrt());
+    #[rustfmt::skip]
+    let corners = [
+        [-1.0, g, 0.0], [1.0, g, 0.0], [-1.0, -g, 0.0], [1.0, -g, 0.0],
+        [0.0, -1.0, g], [0.0, 1.0, g], [0.0, -1.0, -g], [0.0, 1.0, -g],
+        [g, 0.0, -1.0], [g, 0.0, 1.0], [-g, 0.0, -1.0], [-g, 0.0, 1.0],
+    ];
+    let mut positions: Vec<[f64; 3]> = corners.into_iter().map(unit).collect();
+    #[rustfmt::skip]
+    let mut triangles: Vec<[u32; 3]> = vec![
+        [0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11],
+        [1, 5, 9], [5, 11, 4], [11, 10, 2], [10, 7, 6], [7, 1, 8],
+        [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9],
+        [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1],
+    ];
+    for _ in 0..level {
+        let mut middle_of = std::collections::HashMap::new();
+        let mut middle = |a: u32, b: u32| {
+            *middle_of.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                // The lower vertex first, so that rounding does not depend on the direction.
+                let (p, q) = (positions[a.min(b) as usize], positions[a.max(b) as usize]);
+                positions.push(unit([p[0] + q[0], p[1] + q[1], p[2] + q[2]]));
+                positions.len() as u32 - 1
+            })
+        };
+        triangles = triangles
+            .into_iter()
+            .flat_map(|[a, b, c]| {
+                let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+                [[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]
+            })
+            .collect();
+    }
+    (positions, triangles)
+}
+
+/// The cube from −1 to 1, each face a grid of `n` × `n` squares, exactly flat: 12·n² triangles. `n` ≥ 1.
+#[must_use]
+pub fn cube(n: usize) -> Triangles {
+    let step = |i: usize| (2.0 * i as f64 / n as f64 - 1.0) as f32;
+    let mut builder = Builder::default();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            let mut outward = [0.0; 3];
+            outward[axis] = side;
+            let at = |i: usize, j: usize| {
+                let mut p = outward;
+                p[(axis + 1) % 3] = step(i);
+                p[(axis + 2) % 3] = step(j);
+                p
+            };
+            for i in 0..n {
+                for j in 0..n {
+                    builder.quad([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], outward);
+                }
+            }
+        }
+    }
+    builder.finish()
+}
