@@ -1,13 +1,16 @@
 //! Builds `meshsweep` blobs from mesh files: progressive hulls, split tables, certified radii.
 //!
 //! ```text
-//! mesh file ─ mesh::read ─ mesh::repair ─ precision::store ─ hull::build ─ sweep::cover ─ emit::emit ─ blob
+//! mesh file ─ mesh::read ─ mesh::repair ─ precision::store ─ collapse ─ sweep ─ emit ─ blob
 //! ```
 //!
-//! Each stage takes a value and returns a value and one invariant more. The kernels are `meshsweep-core`'s, so that builder
-//! and reader compute the same bits; the core opens what was written before it is handed out.
+//! Each stage takes a value and returns a value and one invariant more; [`hull::build()`] runs them. The kernels are
+//! `meshsweep-core`'s, so that builder and reader compute the same bits; the core opens what was written before it is handed out.
 
 pub mod collapse;
+pub mod emit;
+pub mod hull;
 pub mod lp;
 pub mod mesh;
 pub mod precision;
+pub mod sweep;

@@ -112,6 +112,10 @@ fn run(families: &[Family], count: usize, seed: u64) -> Tally {
 fn random_programs_agree_with_exact_arithmetic() {
     let tally = run(&Family::RANDOM, 10_000, 0);
     println!("{tally:?}");
+    assert!(tally.optimal > 5000 && tally.infeasible > 200 && tally.unbounded > 1500);
+    assert_eq!((tally.barely_feasible, tally.barely_infeasible, tally.far), (0, 0, 0));
+    // Combinations of one or two normals, rounded, are seldom exact combinations.
+    assert!(tally.slow_descent < 500);
 }
 
 #[test]
@@ -119,5 +123,18 @@ fn degenerate_programs_agree_with_exact_arithmetic() {
     for family in Family::DEGENERATE {
         let tally = run(&[family], 300, 1_000_000);
         println!("{family:?}: {tally:?}");
+        let Tally { optimal, infeasible, unbounded, barely_feasible, barely_infeasible, slow_descent, far } =
+            tally;
+        assert!(slow_descent <= 60);
+        // The parallel edges of a prism, once rounded, may meet far out.
+        let most = if family == Family::Prism { 40 } else { 0 };
+        assert!(barely_feasible + far <= most);
+        match family {
+            Family::Contradiction => assert_eq!(infeasible, 300),
+            Family::Unbounded => assert_eq!(unbounded, 300),
+            // Planes through one point, each offset rounded, may have no point in common.
+            Family::NarrowContradiction | Family::Apex => assert!(barely_infeasible > 50),
+            _ => assert!(optimal > 100 && barely_infeasible == 0),
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! The greedy loop: cheapest legal collapse first.
 //!
 //! Costs are evaluated lazily: after a collapse only the edges of the new vertex are evaluated at once; other edges around it
-//! keep their old cost until they reach the top of the queue. With few faces left, where every choice shows, the first
-//! priority turns to the paper's eager evaluation. `core/DESIGN.md` has the measurements.
+//! keep their old cost until they reach the top of the queue. With few faces left, where every choice shows,
+//! evaluation is eager, as in the paper. `core/DESIGN.md` has the measurements.
 
 use super::history::{Collapse, History};
 use super::placement::{Facet, Placement, Refusal, StarFace, place};
@@ -72,7 +72,6 @@ pub struct Engine {
     priority: Priority,
     grid: Grid,
     programs: u64,
-    added_volume: f64,
 }
 
 impl Engine {
@@ -110,7 +109,6 @@ impl Engine {
             priority,
             grid,
             programs: 0,
-            added_volume: 0.0,
         };
         engine.edges.reserve(triangles.len() * 3 / 2);
         for &[a, b, c] in triangles {
@@ -134,7 +132,7 @@ impl Engine {
 
     /// Volume that all collapses have added, local frame.
     pub fn added_volume(&self) -> f64 {
-        self.added_volume / 6.0
+        self.history.added_volume.iter().sum()
     }
 
     /// Faces now, corners as labels of [`History`].
@@ -285,7 +283,7 @@ impl Engine {
         self.history.fine.extend(fine.map(|&t| self.instances[t as usize]));
         self.history.collapses.push(collapse);
         self.history.positions.push(placement.position);
-        self.added_volume += placement.volume;
+        self.history.added_volume.push(placement.volume / 6.0);
 
         self.now += 1;
         for v in self.mesh.neighbours(b) {
@@ -314,7 +312,7 @@ impl Engine {
         for &v in ring {
             self.evaluate([vertex.min(v), vertex.max(v)]);
         }
-        let eager = self.priority == Priority::Program && self.mesh.alive_count() <= EAGER_BELOW;
+        let eager = self.mesh.alive_count() <= EAGER_BELOW;
         let mut around = std::mem::take(&mut self.around);
         around.clear();
         for &v in ring {

@@ -38,6 +38,8 @@ pub struct History {
     /// Instances of the fine fragment of each collapse, `ring_len + 2` each, in the slot order of
     /// [`Split`](meshsweep_core::blob::Split).
     pub fine: Vec<u32>,
+    /// Volume that each collapse adds, local frame.
+    pub added_volume: Vec<f64>,
     /// Corners (labels) of the base hull.
     pub base: Vec<[u32; 3]>,
     /// Instances of the base hull's triangles.
@@ -72,5 +74,44 @@ impl History {
     pub fn coarse_corners(&self, collapse: &Collapse, i: usize) -> [u32; 3] {
         let ring = self.ring(collapse);
         [collapse.vertex, ring[i], ring[(i + 1) % ring.len()]]
+    }
+}
+
+/// Blob order of the vertices: base hull first, then the two that each split brings, coarse to fine.
+#[derive(Clone, Debug)]
+pub struct VertexOrder {
+    /// Blob index of each label.
+    pub index: Vec<u32>,
+    /// Label of each blob index.
+    pub label: Vec<u32>,
+    /// Vertices of the base hull.
+    pub base: u32,
+}
+
+impl VertexOrder {
+    /// Split `i` undoes collapse `n − 1 − i`. Base vertices stand in the order in which the base triangles name them.
+    pub fn new(history: &History) -> Self {
+        let mut index = vec![u32::MAX; history.positions.len()];
+        let mut label = Vec::with_capacity(history.positions.len());
+        let mut place = |l: u32| {
+            if index[l as usize] == u32::MAX {
+                index[l as usize] = label.len() as u32;
+                label.push(l);
+            }
+        };
+        history.base.iter().flatten().for_each(|&l| place(l));
+        let base = label.len() as u32;
+        for collapse in history.collapses.iter().rev() {
+            for l in [collapse.origin, collapse.destination] {
+                index[l as usize] = label.len() as u32;
+                label.push(l);
+            }
+        }
+        VertexOrder { index, label, base }
+    }
+
+    /// Splits after which a label exists.
+    pub fn ready(&self, label: u32) -> u32 {
+        self.index[label as usize].checked_sub(self.base).map_or(0, |past| past / 2 + 1)
     }
 }

@@ -10,7 +10,8 @@ mod queue;
 mod star;
 
 pub use engine::{Engine, Progress, Stuck};
-pub use history::{Collapse, History};
+pub use history::{Collapse, History, VertexOrder};
+pub use placement::is_outside_or_on;
 pub use star::Connectivity;
 
 /// How candidate edges are ordered (paper 000, 3.1.3).

@@ -6,7 +6,7 @@ use super::HalfSpace;
 use super::insertion::offset;
 use super::interval::Interval;
 use super::plane::Plane;
-use super::tolerance::{CONTRADICTION, PARALLEL, RELAXATION, scale};
+use super::tolerance::{CONTRADICTION, PARALLEL, scale};
 
 /// A line, by its point nearest to the origin.
 #[derive(Clone, Copy)]
@@ -49,8 +49,7 @@ pub(super) fn nearest<const CONE: bool>(
     if let Some(t) = line.clip::<CONE>(constraints).and_then(|interval| interval.nearest(target)) {
         return Some(base + direction * t);
     }
-    let outward = inward * -inverse;
-    line.nearest_in_doubt::<CONE>(target, outward, constraints)
+    line.nearest_in_doubt::<CONE>(target, constraints)
 }
 
 impl Line {
@@ -70,24 +69,14 @@ impl Line {
         Some(interval)
     }
 
-    /// The answer where `constraints` seem to exclude the whole line, but by no more than rounding would.
-    ///
-    /// `outward` crosses the line, and moving by it takes the line out of its second half-space by 1.
+    /// The answer where `constraints` exclude the whole line, but perhaps by no more than rounding would.
     #[cold]
     #[inline(never)]
-    fn nearest_in_doubt<const CONE: bool>(
-        &self,
-        target: f64,
-        outward: DVec3,
-        constraints: &[HalfSpace],
-    ) -> Option<DVec3> {
-        let moved = self.base + outward * (RELAXATION * scale(self.base));
-        [self.base, moved].into_iter().find_map(|base| {
-            let interval = Self { base, ..*self }.clip::<CONE>(constraints)?;
-            let point = base + self.direction * interval.nearest_or_middle(target);
-            let tolerance = CONTRADICTION * scale(base);
-            let holds = |h: &HalfSpace| offset::<CONE>(h) - h.normal.dot(point) <= tolerance;
-            constraints.iter().all(holds).then_some(point)
-        })
+    fn nearest_in_doubt<const CONE: bool>(&self, target: f64, constraints: &[HalfSpace]) -> Option<DVec3> {
+        let interval = self.clip::<CONE>(constraints)?;
+        let point = self.base + self.direction * interval.nearest_or_middle(target);
+        let tolerance = CONTRADICTION * scale(point);
+        let holds = |h: &HalfSpace| offset::<CONE>(h) - h.normal.dot(point) <= tolerance;
+        constraints.iter().all(holds).then_some(point)
     }
 }

@@ -29,7 +29,8 @@
 //! *No shuffle.* Seidel inserts in random order, and a violated constraint meets all before it. Here the next
 //! constraint is always a violated one, chosen by a rule, and meets only those that were inserted: four or five for
 //! a star. The rule uses no chance, so the answer has the same bits in every run. The price is that no bound on the
-//! expected time holds; the worst case is cubic in the number of constraints.
+//! expected time holds; the worst case is cubic in the number of constraints. (30,000 tangent planes of a sphere take
+//! 19 insertions.)
 //!
 //! | ns per solve, 10 planes, `eps` = 1e-6 | noisy | smooth | flat | aligned | crease | ridge | corner |
 //! | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -40,9 +41,6 @@
 //! *No symbolic `eps`.* With an infinitesimal one, a flat star whose planes differ by rounding would send the vertex to
 //! the far end of the star, for the objective does fall in that direction. A finite `eps` weighs the slope against
 //! the distance.
-//!
-//! *One plane's line moved before giving up.* Where nearly parallel planes meet a third in a vertex, their line is known
-//! only to `1e-16 / sin φ`, and seems to miss the third; see `RELAXATION` in `tolerance.rs`.
 //!
 //! Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete & Computational
 //! Geometry 6 (1991), §2.

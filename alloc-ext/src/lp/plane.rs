@@ -22,10 +22,7 @@ impl Plane {
         if normal.length_squared() < 0.5 {
             return None;
         }
-        // The second step removes what the normal's length differs from 1.
-        let foot = normal * offset;
-        let foot = foot + normal * (offset - normal.dot(foot));
-        Some(Self { normal, foot })
+        Some(Self { normal, foot: normal * offset })
     }
 
     /// The component of `v` along the plane. Two products keep the result at right angles to the normal to within

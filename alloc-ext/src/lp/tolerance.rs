@@ -16,9 +16,9 @@ pub(super) const VIOLATION: f64 = 1e-12;
 /// Half-spaces that contradict each other by no more than this are taken to touch: the vertex then violates both by
 /// at most this.
 ///
-/// Planes through one point, whose offsets each carry a rounding of some 1e-16, leave such empty intervals at moderate
-/// angles. Smaller: spurious `Infeasible` on vertices where more than three planes meet. Larger: vertices that cut
-/// planes; beyond 6e-8 the caller's exact check would reject what is accepted here.
+/// Slabs without width, and planes through one point whose offsets are rounded, may exclude each other by some 1e-16
+/// over the sine of an angle. Smaller: such stars are `Infeasible`. Larger: vertices that cut planes; beyond 6e-8 the
+/// caller's exact check would reject what is accepted here.
 pub(super) const CONTRADICTION: f64 = 1e-10;
 
 /// Below this sine two planes, or a plane and a line, are parallel.
@@ -28,14 +28,6 @@ pub(super) const CONTRADICTION: f64 = 1e-10;
 /// of `VIOLATION / PARALLEL` away. Must stay well above 2e-16, the rounding of a unit normal, for the sine of anything
 /// smaller is noise.
 pub(super) const PARALLEL: f64 = 1e-13;
-
-/// By this much (times [`scale`]) the second of two planes is moved outwards when their line seems to miss the others.
-///
-/// The offset of a plane is known to a few 1e-16, so the line of two planes that meet at angle `φ` is known to that
-/// over `sin φ`. When an interval on it is empty the answer is tried again with the line moved by `RELAXATION / sin φ`;
-/// both planes still hold to within this number. Smaller: spurious `Infeasible` where nearly coplanar planes meet
-/// others in one vertex. Larger than [`VIOLATION`]: planes are cut visibly.
-pub(super) const RELAXATION: f64 = 2e-14;
 
 /// Steepest descent towards infinity, as a fraction of the length of the objective, that may go unnoticed.
 ///

@@ -24,7 +24,7 @@ pub fn run(steps: &mut Steps) {
             "warnings",
         ]))
     });
-    steps.run("tests", || process::run(&mut cargo(&["test", "--workspace"])));
+    steps.run("tests", || process::run(&mut cargo(&["test", "--workspace", "--no-fail-fast"])));
     steps.run("documentation", || {
         process::run(
             cargo(&["doc", "--quiet", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"),

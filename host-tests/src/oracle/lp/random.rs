@@ -1,35 +1,28 @@
-//! A small seeded generator, so that a failing program can be named by its seed.
+//! Random choices in double precision, so that a failing program can be named by its seed.
 
 use glam::DVec3;
 
-/// `SplitMix64`.
+use crate::generate::Rng;
+
+/// [`Rng`] with what programs need.
 #[derive(Clone, Debug)]
-pub struct Random(u64);
+pub struct Random(Rng);
 
 impl Random {
     /// The sequence that `seed` names.
     #[must_use]
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(Rng::new(seed))
     }
 
-    /// The next 64 bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A whole number below `count`, which must not be zero.
+    /// A whole number below `count`; 0 if `count` is 0.
     pub fn below(&mut self, count: usize) -> usize {
-        (self.bits() % count as u64) as usize
+        self.0.below(count)
     }
 
     /// A number in `lower..upper`.
     pub fn within(&mut self, lower: f64, upper: f64) -> f64 {
-        let unit = (self.bits() >> 11) as f64 / (1u64 << 53) as f64;
-        lower + (upper - lower) * unit
+        lower + (upper - lower) * self.0.unit_f64()
     }
 
     /// A direction, uniform on the sphere.

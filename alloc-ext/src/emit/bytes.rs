@@ -1,0 +1,138 @@
+//! Writing a blob. Same tables, same bytes.
+
+use super::tables::Tables;
+use glam::Vec3;
+use meshsweep_core::blob::layout::{
+    FLAG_CUT, HEADER_BYTES, HEADER_CRC_AT, LEAF_FLAG, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind,
+    VertexFormat, none,
+};
+use meshsweep_core::blob::{Header, section_crc};
+use meshsweep_core::num::exp2;
+
+impl Tables {
+    /// The blob.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut header = self.header();
+        let kinds: Vec<SectionKind> = SectionKind::ALL.into_iter().collect();
+        let bodies: Vec<(SectionKind, Vec<u8>)> = kinds
+            .into_iter()
+            .map(|kind| (kind, self.section(kind, &header)))
+            .filter(|(_, body)| !body.is_empty())
+            .collect();
+        let table_bytes = HEADER_BYTES + bodies.len() * SECTION_ENTRY_BYTES;
+        let mut table = Vec::new();
+        let mut out = vec![0u8; table_bytes];
+        for (kind, body) in &bodies {
+            out.resize(out.len().next_multiple_of(SECTION_ALIGNMENT), 0);
+            for word in [*kind as u32, out.len() as u32, body.len() as u32, section_crc(body)] {
+                table.extend(word.to_le_bytes());
+            }
+            out.extend(body);
+        }
+        header.header_bytes = table_bytes as u32;
+        header.section_count = bodies.len() as u32;
+        header.total_bytes = out.len() as u32;
+        out[..HEADER_BYTES].copy_from_slice(&header.write());
+        out[HEADER_BYTES..table_bytes].copy_from_slice(&table);
+        let mut covered = out[..HEADER_CRC_AT].to_vec();
+        covered.extend(&out[HEADER_CRC_AT + 4..table_bytes]);
+        out[HEADER_CRC_AT..HEADER_CRC_AT + 4].copy_from_slice(&section_crc(&covered).to_le_bytes());
+        out
+    }
+
+    fn header(&self) -> Header {
+        Header {
+            header_bytes: 0,
+            total_bytes: 0,
+            section_count: 0,
+            flags: if self.is_cut { FLAG_CUT } else { 0 },
+            scale_exponent: self.scale_exponent,
+            vertex_format: self.grid.format,
+            grid_exponent: self.grid.exponent,
+            grid_origin: self.grid.origin,
+            vertices: self.vertices.len() as u32,
+            base_vertices: self.base_vertices,
+            base_triangles: self.base.len() as u32,
+            splits: self.splits.len() as u32,
+            rings: self.rings.len() as u32,
+            nodes: self.nodes.len() as u32,
+            surface_triangles: self.surface.len() as u32,
+            levels: self.levels.len() as u32,
+            input_triangles: self.input_triangles,
+            surface_error: self.surface_error,
+            hull_box: self.hull_box(),
+            surface_box: self.surface_box,
+            queue_capacity: self.queue_capacity,
+            dependency_depth: self.dependency_depth(),
+        }
+    }
+
+    fn section(&self, kind: SectionKind, header: &Header) -> Vec<u8> {
+        let (wv, ws) = (header.vertex_index_bytes(), header.split_index_bytes());
+        let (wr, wc) = (header.ring_index_bytes(), header.child_index_bytes());
+        let mut out = Vec::new();
+        match kind {
+            SectionKind::Vertices => self.vertices.iter().for_each(|&v| self.put_vertex(&mut out, v)),
+            SectionKind::BaseTriangles => self.base.iter().flatten().for_each(|&v| put(&mut out, v, wv)),
+            SectionKind::Splits => {
+                for split in &self.splits {
+                    put(&mut out, split.vertex, wv);
+                    put(&mut out, split.ring_start, wr);
+                    out.push(split.right);
+                }
+            }
+            SectionKind::Rings => self.rings.iter().for_each(|&v| put(&mut out, v, wv)),
+            SectionKind::Radii => out.extend(self.radii.iter().map(|r| r.0)),
+            SectionKind::SplitsWith => {
+                self.splits_with.iter().for_each(|s| put(&mut out, s.unwrap_or(none(ws)), ws));
+            }
+            SectionKind::Cover => {
+                for node in &self.nodes {
+                    node.corners.iter().for_each(|&v| put(&mut out, v, wv));
+                    out.extend(node.radius.0.to_le_bytes());
+                    // What was cut off is "none": it lies beyond every count.
+                    let first = if node.count == 0 { none(wc) } else { node.first };
+                    put(&mut out, first, wc);
+                    out.push(node.count | if node.leaf { LEAF_FLAG } else { 0 });
+                }
+            }
+            SectionKind::Surface => self.surface.iter().flatten().for_each(|&v| put(&mut out, v, wv)),
+            SectionKind::Source => {
+                let width = header.source_index_bytes();
+                self.source.iter().for_each(|&s| put(&mut out, s, width));
+            }
+            SectionKind::Levels => {
+                for level in &self.levels {
+                    for word in [level.faces, level.splits, level.nodes] {
+                        out.extend(word.to_le_bytes());
+                    }
+                    for x in [level.hull_to_surface, level.surface_to_hull, level.void_ratio] {
+                        out.extend(x.to_le_bytes());
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    fn put_vertex(&self, out: &mut Vec<u8>, v: Vec3) {
+        let width = match self.grid.format {
+            VertexFormat::F32 => {
+                v.to_array().iter().for_each(|x| out.extend(x.to_le_bytes()));
+                return;
+            }
+            VertexFormat::Grid16 => 2,
+            VertexFormat::Grid24 => 3,
+        };
+        for (x, origin) in v.to_array().into_iter().zip(self.grid.origin) {
+            let stored = f64::from(x) * exp2(-self.grid.exponent) - f64::from(origin);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the vertex is on the grid")]
+            put(out, stored as u32, width);
+        }
+    }
+}
+
+/// The low `width` bytes of an index.
+fn put(out: &mut Vec<u8>, index: u32, width: usize) {
+    out.extend(&index.to_le_bytes()[..width]);
+}

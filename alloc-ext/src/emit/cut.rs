@@ -1,0 +1,67 @@
+//! A coarser blob out of a finer one: every section runs coarse to fine, so a cut keeps a prefix of each.
+
+use super::tables::Tables;
+use meshsweep_core::Model;
+
+/// Why a blob was not cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CutError {
+    /// There is no such level.
+    NoLevel {
+        /// Asked for.
+        wanted: u32,
+        /// Levels there are.
+        levels: u32,
+    },
+    /// The model is not one that was opened.
+    Model,
+}
+
+impl std::fmt::Display for CutError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            CutError::NoLevel { wanted, levels } => {
+                write!(f, "level {wanted} does not exist: the blob has levels 0 to {}", levels - 1)
+            }
+            CutError::Model => write!(f, "the blob was not opened"),
+        }
+    }
+}
+
+impl std::error::Error for CutError {}
+
+/// Tables of the model after level `index`, a valid and still certified coarser model; the last level returns all of it.
+///
+/// # Errors
+/// [`CutError::NoLevel`].
+pub fn cut(model: &Model<'_>, index: u32) -> Result<Tables, CutError> {
+    let level = model
+        .level(index)
+        .ok_or(CutError::NoLevel { wanted: index, levels: model.header().levels })?;
+    let mut tables = Tables::from_model(model).ok_or(CutError::Model)?;
+    if index + 1 == model.header().levels {
+        return Ok(tables);
+    }
+    let splits = level.splits as usize;
+    let rings = tables.splits.get(splits).map_or(tables.rings.len(), |s| s.ring_start as usize);
+    tables.vertices.truncate(tables.base_vertices as usize + 2 * splits);
+    tables.splits_with.truncate(tables.vertices.len());
+    for split in &mut tables.splits_with {
+        *split = split.filter(|&s| (s as usize) < splits);
+    }
+    tables.splits.truncate(splits);
+    tables.rings.truncate(rings);
+    tables.radii.truncate(tables.base.len() + rings + 2 * splits);
+    tables.nodes.truncate(level.nodes as usize);
+    for node in &mut tables.nodes {
+        if node.leaf || node.first + u32::from(node.count) > level.nodes {
+            (node.first, node.count, node.leaf) = (0, 0, true);
+        }
+    }
+    tables.surface.clear();
+    tables.source.clear();
+    tables.levels.truncate(index as usize + 1);
+    tables.queue_capacity = tables.queue_capacity.min(level.nodes);
+    tables.is_cut = true;
+    Ok(tables)
+}

@@ -1,0 +1,8 @@
+//! Tables to bytes, through the constants of `meshsweep_core::blob::layout`, and back.
+
+mod bytes;
+mod cut;
+mod tables;
+
+pub use cut::{CutError, cut};
+pub use tables::{NodeRecord, SplitRecord, Tables};

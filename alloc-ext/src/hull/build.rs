@@ -1,0 +1,321 @@
+//! The stages in order, and what they report.
+
+use super::one_sided::hull_to_surface;
+use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
+use crate::emit::{NodeRecord, SplitRecord, Tables};
+use crate::mesh::Mesh;
+use crate::precision::{Stored, VertexBits, store};
+use crate::sweep::{Cover, Forest, Offspring, grow, plant};
+use glam::{DVec3, Vec3};
+use meshsweep_core::Model;
+use meshsweep_core::blob::layout::MAX_RING;
+use meshsweep_core::blob::{Children, Level, NodeIdx, OpenError};
+use meshsweep_core::geom::Aabb;
+use meshsweep_core::num::{Radius8, Radius16, up_to_f32};
+use std::time::{Duration, Instant};
+
+/// What to build.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BuildOptions {
+    /// Faces of the base hull; the build stops earlier if no legal collapse is left.
+    pub base_faces: usize,
+    /// Order of collapses.
+    pub priority: Priority,
+    /// Conditions on collapses.
+    pub conditions: Conditions,
+    /// Coordinate format.
+    pub vertex_bits: VertexBits,
+}
+
+impl Default for BuildOptions {
+    fn default() -> Self {
+        BuildOptions {
+            base_faces: 200,
+            priority: Priority::Program,
+            conditions: Conditions::default(),
+            vertex_bits: VertexBits::Auto,
+        }
+    }
+}
+
+/// What building took and gave.
+#[derive(Clone, Debug)]
+pub struct BuildReport {
+    /// Faces of the base hull.
+    pub base_faces: usize,
+    /// Why it has more faces than asked for.
+    pub stuck: Option<Stuck>,
+    /// Linear programs solved.
+    pub programs: u64,
+    /// Collapsing.
+    pub collapse_time: Duration,
+    /// Radii and cover tree.
+    pub sweep_time: Duration,
+    /// Certifying the levels' distances.
+    pub certify_time: Duration,
+    /// Volume of the mesh, input units.
+    pub volume: f64,
+}
+
+/// A blob and how it came about.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The blob's contents.
+    pub tables: Tables,
+    /// The blob.
+    pub bytes: Vec<u8>,
+    /// What it took.
+    pub report: BuildReport,
+}
+
+/// Why there is no blob.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BuildError {
+    /// More records than a blob can address.
+    TooLarge {
+        /// Triangles of the mesh.
+        triangles: usize,
+    },
+    /// The reader refused what was written: a defect of this program.
+    Reopen(OpenError),
+}
+
+impl std::fmt::Display for BuildError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            BuildError::TooLarge { triangles } => {
+                write!(f, "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh")
+            }
+            BuildError::Reopen(error) => write!(f, "internal error: the blob does not open: {error}; please report it"),
+        }
+    }
+}
+
+impl std::error::Error for BuildError {}
+
+/// Most triangles of a mesh: instances and ring entries must fit the format's counts.
+const MAX_TRIANGLES: usize = 20_000_000;
+
+/// Builds the hull hierarchy of a closed manifold mesh (see [`require_closed_manifold`](crate::mesh::require_closed_manifold)).
+///
+/// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were.
+///
+/// # Errors
+/// [`BuildError`].
+pub fn build(
+    mesh: &Mesh,
+    moved: f64,
+    input_triangles: usize,
+    options: &BuildOptions,
+    mut on_progress: impl FnMut(Progress),
+) -> Result<Built, BuildError> {
+    if mesh.triangles.len() > MAX_TRIANGLES {
+        return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
+    }
+    let stored = store(mesh, options.vertex_bits);
+    let started = Instant::now();
+    let (history, stuck, programs) = collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
+    let collapse_time = started.elapsed();
+    let started = Instant::now();
+    let order = VertexOrder::new(&history);
+    let forest = grow(&history);
+    let level_splits = level_splits(&history);
+    let cover = plant(&history, &order, &forest, &level_splits);
+    let sweep_time = started.elapsed();
+    let started = Instant::now();
+    let volume = signed_volume(&stored.positions, &mesh.triangles);
+    let mut tables = assemble(&stored, mesh, moved, input_triangles, &history, &order, &forest, &cover);
+    tables.levels = levels(&history, &cover, &level_splits, volume);
+    certify(&mut tables).map_err(BuildError::Reopen)?;
+    let bytes = tables.to_bytes();
+    Model::open(&bytes).map_err(BuildError::Reopen)?;
+    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let report = BuildReport {
+        base_faces: tables.base.len(),
+        stuck,
+        programs,
+        collapse_time,
+        sweep_time,
+        certify_time: started.elapsed(),
+        volume: volume * scale * scale * scale,
+    };
+    Ok(Built { tables, bytes, report })
+}
+
+/// A hull alone: its triangles in input units, the void it adds as a part of the mesh's volume, and why it stopped early.
+pub fn hull_of(
+    mesh: &Mesh,
+    faces: usize,
+    options: &BuildOptions,
+    mut on_progress: impl FnMut(Progress),
+) -> (Mesh, f64, Option<Stuck>) {
+    let stored = store(mesh, options.vertex_bits);
+    let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
+    let order = VertexOrder::new(&history);
+    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let positions = order.label[..order.base as usize]
+        .iter()
+        .map(|&l| (history.positions[l as usize] * scale).as_vec3().to_array())
+        .collect();
+    let triangles = history.base.iter().map(|t| t.map(|l| order.index[l as usize])).collect();
+    let volume = signed_volume(&stored.positions, &mesh.triangles);
+    let void = history.added_volume.iter().sum::<f64>() / volume;
+    (Mesh::new(positions, triangles), void, stuck)
+}
+
+fn collapse(
+    stored: &Stored,
+    mesh: &Mesh,
+    options: &BuildOptions,
+    faces: usize,
+    on_progress: &mut impl FnMut(Progress),
+) -> (History, Option<Stuck>, u64) {
+    let mut engine =
+        Engine::new(&stored.positions, &mesh.triangles, options.conditions, options.priority, stored.grid);
+    let stuck = engine.run(faces, on_progress);
+    let programs = engine.progress().programs;
+    (engine.finish(), stuck, programs)
+}
+
+fn signed_volume(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+    // Around a vertex of the mesh, so that a part far from the origin loses nothing to cancellation.
+    let Some(&origin) = positions.first() else { return 0.0 };
+    let at = |v: u32| positions[v as usize] - origin;
+    triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
+}
+
+/// Split counts of the levels: the base hull, then every doubling of the faces, then all.
+fn level_splits(history: &History) -> Vec<u32> {
+    let total = history.collapses.len() as u32;
+    let base = history.base.len() as u32;
+    let mut splits = Vec::new();
+    let mut faces = base;
+    while faces.saturating_sub(base) / 2 < total {
+        splits.push((faces - base) / 2);
+        faces = faces.saturating_mul(2);
+    }
+    splits.push(total);
+    splits
+}
+
+fn levels(history: &History, cover: &Cover, level_splits: &[u32], volume: f64) -> Vec<Level> {
+    let total = history.collapses.len();
+    let mut added = vec![0.0; total + 1];
+    for (i, volume) in history.added_volume.iter().enumerate() {
+        added[i + 1] = added[i] + volume;
+    }
+    let void = |splits: u32| added[total - splits as usize] / volume;
+    level_splits
+        .iter()
+        .zip(&cover.node_limits)
+        .map(|(&splits, &nodes)| Level {
+            faces: (history.base.len() + 2 * splits as usize) as u32,
+            splits,
+            nodes,
+            hull_to_surface: 0.0,
+            surface_to_hull: 0.0,
+            void_ratio: up_to_f32(void(splits)),
+        })
+        .collect()
+}
+
+#[expect(clippy::too_many_arguments, reason = "the one place where all stages meet")]
+fn assemble(
+    stored: &Stored,
+    mesh: &Mesh,
+    moved: f64,
+    input_triangles: usize,
+    history: &History,
+    order: &VertexOrder,
+    forest: &Forest,
+    cover: &Cover,
+) -> Tables {
+    let index = |label: u32| order.index[label as usize];
+    let mut splits = Vec::with_capacity(history.collapses.len());
+    let mut rings = Vec::with_capacity(history.rings.len());
+    let radius = |instance: u32| Radius8::round_up(forest.radius[instance as usize]);
+    let mut radii: Vec<Radius8> = history.base_instances.iter().map(|&i| radius(i)).collect();
+    let mut splits_with = vec![None; order.label.len()];
+    for (at, collapse) in history.collapses.iter().enumerate().rev() {
+        debug_assert!(collapse.ring_len as usize <= MAX_RING, "a star holds fewer triangles");
+        let vertex = index(collapse.vertex);
+        splits_with[vertex as usize] = Some(splits.len() as u32);
+        splits.push(SplitRecord { vertex, ring_start: rings.len() as u32, right: collapse.right as u8 });
+        rings.extend(history.ring(collapse).iter().map(|&l| index(l)));
+        radii.extend(history.fine(at).iter().map(|&i| radius(i)));
+    }
+    let nodes = cover
+        .nodes
+        .iter()
+        .map(|node| {
+            let (first, count, leaf) = match node.offspring {
+                Offspring::Nodes { first, count } => (first, count, false),
+                Offspring::Triangles { first, count } => (first, count, true),
+            };
+            NodeRecord {
+                corners: node.corners.map(index),
+                radius: Radius16::round_up(node.radius),
+                first: first as u32,
+                count: count as u8,
+                leaf,
+            }
+        })
+        .collect();
+    let single = |p: DVec3| p.as_vec3();
+    let low = stored.positions.iter().fold(Vec3::INFINITY, |m, &p| m.min(single(p)));
+    let high = stored.positions.iter().fold(Vec3::NEG_INFINITY, |m, &p| m.max(single(p)));
+    let scale = meshsweep_core::num::exp2(-stored.scale_exponent);
+    Tables {
+        scale_exponent: stored.scale_exponent,
+        grid: stored.grid,
+        surface_error: up_to_f32((stored.surface_error + moved * scale) * (1.0 + 1e-15)),
+        vertices: order.label.iter().map(|&l| single(history.positions[l as usize])).collect(),
+        base_vertices: order.base,
+        base: history.base.iter().map(|t| t.map(index)).collect(),
+        splits,
+        rings,
+        radii,
+        splits_with,
+        nodes,
+        surface: cover
+            .triangles
+            .iter()
+            .map(|&t| history.original_triangles[t as usize].map(index))
+            .collect(),
+        source: cover.triangles.iter().map(|&t| mesh.source[t as usize]).collect(),
+        input_triangles: input_triangles.max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0)) as u32,
+        surface_box: Aabb { min: low, max: high },
+        levels: Vec::new(),
+        queue_capacity: cover.queue_capacity,
+        is_cut: false,
+    }
+}
+
+/// Fills in how far each level's cover can be from the surface, both ways, by asking the finished model.
+fn certify(tables: &mut Tables) -> Result<(), OpenError> {
+    let bytes = tables.to_bytes();
+    let model = Model::open(&bytes)?;
+    let corners_of: rustc_hash::FxHashMap<u32, [u32; 3]> =
+        tables.source.iter().copied().zip(tables.surface.iter().copied()).collect();
+    let at = |v: u32| tables.vertices[v as usize].as_dvec3();
+    let last = tables.levels.len() - 1;
+    let mut measured = Vec::new();
+    for level in &tables.levels[..last] {
+        let ends: Vec<_> = (0..level.nodes)
+            .filter_map(|index| model.node(NodeIdx(index)))
+            .filter(|node| match node.children {
+                Children::Nodes { first, count } => first + count > level.nodes,
+                Children::Triangles { .. } | Children::Cut => true,
+            })
+            .collect();
+        let surface_to_hull = ends.iter().map(|node| node.radius).fold(0f32, f32::max);
+        let triangles = ends.iter().map(|node| node.corners.map(|v| at(v.0)));
+        let farthest = hull_to_surface(&model, triangles, |source| Some(corners_of.get(&source)?.map(at)));
+        measured.push((up_to_f32(farthest), surface_to_hull));
+    }
+    for (level, (hull_to_surface, surface_to_hull)) in tables.levels.iter_mut().zip(measured) {
+        level.hull_to_surface = hull_to_surface;
+        level.surface_to_hull = surface_to_hull;
+    }
+    Ok(())
+}

@@ -1,0 +1,7 @@
+//! From a closed mesh to the tables of a hull hierarchy.
+
+mod build;
+mod one_sided;
+
+pub use build::{BuildError, BuildOptions, BuildReport, Built, build, hull_of};
+pub use one_sided::hull_to_surface;

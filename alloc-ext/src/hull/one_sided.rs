@@ -1,0 +1,100 @@
+//! How far the hull can be from the surface: a certified bound of the one-sided Hausdorff distance from triangles to a model.
+//!
+//! Branch and bound. The distance to the surface is 1-Lipschitz, so a triangle is bounded from its centre; the distance to
+//! one surface triangle is convex, so it is also bounded from its corners. The larger half is split until the bound is
+//! within a few percent of a distance that was found.
+
+use glam::DVec3;
+use meshsweep_core::geom::point_triangle;
+use meshsweep_core::query::{Stop, closest_point};
+use meshsweep_core::{Model, QueueEntry};
+use std::collections::BinaryHeap;
+
+/// The bound may exceed the true distance by this factor.
+const SLACK: f64 = 1.05;
+
+struct Piece {
+    bound: f64,
+    corners: [DVec3; 3],
+}
+
+impl Ord for Piece {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+impl PartialOrd for Piece {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Piece {
+    fn eq(&self, other: &Self) -> bool {
+        self.bound.total_cmp(&other.bound).is_eq()
+    }
+}
+impl Eq for Piece {}
+
+/// Least found upper bound of the largest distance from a point of `triangles` (local frame) to the model's surface; local frame.
+///
+/// `surface[source]` are corners of the surface's triangle with that number, local frame.
+/// Cost: one closest-point query for each triangle, and some dozens more for the farthest.
+pub fn hull_to_surface(
+    model: &Model<'_>,
+    triangles: impl Iterator<Item = [DVec3; 3]>,
+    surface: impl Fn(u32) -> Option<[DVec3; 3]>,
+) -> f64 {
+    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue + 1024];
+    let scale = model.scale();
+    let mut found = 0f64;
+    let mut bound_of = |corners: [DVec3; 3], found: &mut f64| {
+        let [a, b, c] = corners;
+        let centre = (a + b + c) / 3.0;
+        // The query is rounded to f32: the distance to what was asked is part of the bound.
+        let asked = (centre * scale).as_vec3();
+        let offset = (asked.as_dvec3() / scale - centre).length();
+        let Ok(answer) = closest_point(model, asked.to_array(), &Stop::EXACT, &mut queue) else {
+            return f64::INFINITY;
+        };
+        let at_centre = f64::from(answer.upper) / scale + offset;
+        *found = found.max(f64::from(answer.lower) / scale - offset);
+        let reach = corners.iter().map(|p| (*p - centre).length()).fold(0.0, f64::max);
+        let lipschitz = at_centre + reach;
+        let convex = answer.triangle.and_then(&surface).map_or(f64::INFINITY, |[p, q, r]| {
+            corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
+        });
+        lipschitz.min(convex) * (1.0 + 1e-12)
+    };
+    let mut heap = BinaryHeap::new();
+    for corners in triangles {
+        let bound = bound_of(corners, &mut found);
+        heap.push(Piece { bound, corners });
+    }
+    // Enough to settle any mesh at hand; what is left over keeps its bound.
+    let mut budget = 20_000;
+    while let Some(piece) = heap.pop() {
+        if piece.bound <= found * SLACK || budget == 0 || piece.bound == 0.0 {
+            return piece.bound.max(found);
+        }
+        budget -= 1;
+        for half in bisect(piece.corners) {
+            let bound = bound_of(half, &mut found).min(piece.bound);
+            heap.push(Piece { bound, corners: half });
+        }
+    }
+    found
+}
+
+/// Two halves, cut across the longest edge.
+fn bisect([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 2] {
+    let (ab, bc, ca) = ((b - a).length_squared(), (c - b).length_squared(), (a - c).length_squared());
+    let [p, q, r] = if ab >= bc && ab >= ca {
+        [a, b, c]
+    } else if bc >= ca {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    };
+    let middle = (p + q) * 0.5;
+    [[p, middle, r], [middle, q, r]]
+}

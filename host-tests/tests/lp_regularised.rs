@@ -1,0 +1,136 @@
+//! The regularised optimum against exact quadratic programming, and its limit on faces that are optimal throughout.
+
+use glam::DVec3;
+use meshsweep_alloc::lp::{HalfSpace, Outcome, minimise};
+use meshsweep_host_tests::oracle::lp::programs::Family;
+use meshsweep_host_tests::oracle::lp::random::Random;
+use meshsweep_host_tests::oracle::lp::stars::Star;
+use meshsweep_host_tests::oracle::lp::{Program, quadratic};
+
+/// `eps` as the oracle takes it: two to the minus this.
+const EXPONENTS: [u32; 3] = [10, 20, 30];
+/// Stands for no regularisation but that which chooses among equals.
+const VANISHING: u32 = 400;
+
+fn solve(program: &Program, exponent: u32) -> Outcome {
+    minimise(program.objective, &mut program.constraints.clone(), 0.5f64.powi(exponent as i32))
+}
+
+fn value(program: &Program, exponent: u32, point: DVec3) -> f64 {
+    program.objective.dot(point) + 0.5f64.powi(exponent as i32 + 1) * point.length_squared()
+}
+
+/// Distances from the solver's answers to the exact optimum, relative to its distance from the star, ascending.
+fn distances(programs: impl Iterator<Item = Program>, exponent: u32) -> Vec<f64> {
+    let mut distances = Vec::new();
+    for (idx, program) in programs.enumerate() {
+        let exact = quadratic::optimum(&program, exponent);
+        match (solve(&program, exponent), exact) {
+            (Outcome::Optimal(point), Some(exact)) => {
+                let scale = 1.0 + exact.length();
+                let excess = value(&program, exponent, point) - value(&program, exponent, exact);
+                assert!(
+                    excess.abs() <= 1e-9 * scale,
+                    "program {idx}: {excess:e} from the optimum, {program:?}"
+                );
+                distances.push(point.distance(exact) / scale);
+            }
+            (Outcome::Unbounded, Some(exact)) => assert!(exact.length() > 5.0),
+            (outcome, exact) => assert!(
+                outcome == Outcome::Infeasible && exact.is_none(),
+                "program {idx}: {outcome:?} for {exact:?}"
+            ),
+        }
+    }
+    distances.sort_by(f64::total_cmp);
+    distances
+}
+
+#[test]
+fn regularised_optimum_is_the_exact_one() {
+    for family in [Family::Around, Family::Bounded, Family::Anything, Family::Box] {
+        for exponent in EXPONENTS {
+            let mut random = Random::new(7);
+            let distances = distances((0..300).map(|_| family.program(&mut random)), exponent);
+            let (median, most) = (distances[distances.len() / 2], distances[distances.len() - 1]);
+            println!("{family:?}, eps 2^-{exponent}: median {median:.1e}, most {most:.1e}");
+            // The objective's rounding, 1e-16, is divided by eps.
+            let bound = 1e-13 + 4e-16 * 2f64.powi(exponent as i32);
+            assert!(distances.len() > 100 && median < 1e-15 && most < bound);
+        }
+    }
+}
+
+#[test]
+fn regularised_optimum_of_stars_is_the_exact_one() {
+    for star in Star::ALL {
+        for exponent in EXPONENTS {
+            let mut random = Random::new(8);
+            let distances = distances((0..60).map(|_| star.program(&mut random).representable()), exponent);
+            let (median, most) = (distances[distances.len() / 2], distances[distances.len() - 1]);
+            println!("{star:?}, eps 2^-{exponent}: median {median:.1e}, most {most:.1e}");
+            // Nearly coplanar planes fix a vertex only to the rounding of their offsets, divided by their angle.
+            assert!(distances.len() > 50 && median < 1e-6 && most < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn optimal_face_is_answered_by_its_point_nearest_to_the_origin() {
+    for family in [Family::Face, Family::Box] {
+        let mut random = Random::new(9);
+        let mut compared = 0;
+        for idx in 0..500 {
+            let program = family.program(&mut random);
+            // If the exact optimum no longer moves at the solver's eps then it has reached the face's nearest point.
+            let (limit, here) = (quadratic::optimum(&program, VANISHING), quadratic::optimum(&program, 30));
+            let (Some(limit), Some(here), Outcome::Optimal(point)) = (limit, here, solve(&program, 30))
+            else {
+                continue;
+            };
+            if limit.distance(here) < 1e-12 {
+                compared += 1;
+                assert!(point.distance(limit) < 1e-6, "{family:?} {idx}: {point} instead of {limit}");
+            }
+        }
+        println!("{family:?}: {compared}");
+        assert!(compared > 250);
+    }
+}
+
+#[test]
+fn flat_star_keeps_its_vertex_at_the_middle() {
+    let mut random = Random::new(10);
+    for _ in 0..1000 {
+        let program = Star::Aligned.program(&mut random);
+        for exponent in EXPONENTS {
+            assert_eq!(solve(&program, exponent), Outcome::Optimal(DVec3::ZERO));
+        }
+    }
+}
+
+/// A vertex of well separated planes lies on them to rounding, however far out the pull is.
+#[test]
+fn vertex_lies_on_its_planes_for_every_eps() {
+    let mut random = Random::new(11);
+    for _ in 0..10_000 {
+        let normals = [random.direction(), random.direction(), random.direction()];
+        if normals[0].cross(normals[1]).dot(normals[2]).abs() < 0.1 {
+            continue;
+        }
+        let mut planes = normals.map(|normal| HalfSpace { normal, offset: random.within(-1.0, 1.0) });
+        let objective = normals.into_iter().sum();
+        for eps in [1e-3, 1e-6, 1e-9, 1e-12] {
+            let Outcome::Optimal(vertex) = minimise(objective, &mut planes, eps) else {
+                panic!("has a vertex")
+            };
+            for h in &planes {
+                let distance = h.normal.dot(vertex) - h.offset;
+                assert!(
+                    distance.abs() <= 2e-15 * (1.0 + vertex.length()),
+                    "{distance:e} at {vertex}, eps {eps:e}"
+                );
+            }
+        }
+    }
+}
