@@ -78,7 +78,13 @@ impl Tables {
                 for split in &self.splits {
                     put(&mut out, split.vertex, wv);
                     put(&mut out, split.ring_start, wr);
-                    out.push(split.right);
+                    out.extend([split.right, split.reach.0]);
+                }
+            }
+            SectionKind::BaseGroups => {
+                for (corners, radius) in &self.groups {
+                    corners.iter().for_each(|&v| put(&mut out, v, wv));
+                    out.extend(radius.0.to_le_bytes());
                 }
             }
             SectionKind::Rings => self.rings.iter().for_each(|&v| put(&mut out, v, wv)),

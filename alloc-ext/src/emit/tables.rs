@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use meshsweep_core::Model;
+use meshsweep_core::blob::layout::BASE_GROUP;
 use meshsweep_core::blob::{Children, Level, NodeIdx, SplitIdx, TriIdx, VertIdx};
 use meshsweep_core::geom::Aabb;
 use meshsweep_core::num::{Radius8, Radius16};
@@ -17,6 +18,8 @@ pub struct SplitRecord {
     pub ring_start: u32,
     /// Position of the right wing in the ring.
     pub right: u8,
+    /// No point of the fine triangles is farther than this from `vertex`.
+    pub reach: Radius8,
 }
 
 /// A node of the cover tree.
@@ -49,6 +52,8 @@ pub struct Tables {
     pub base_vertices: u32,
     /// Triangles of the base hull.
     pub base: Vec<[u32; 3]>,
+    /// Swept triangles, each around sixteen base triangles.
+    pub groups: Vec<([u32; 3], Radius16)>,
     /// Splits, coarse to fine.
     pub splits: Vec<SplitRecord>,
     /// Rings of the splits.
@@ -115,7 +120,8 @@ impl Tables {
         for index in 0..h.splits {
             let split = model.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
-            splits.push(SplitRecord { vertex: split.vertex.0, ring_start: rings.len() as u32, right });
+            let reach = Radius8::round_up(f64::from(split.reach));
+            splits.push(SplitRecord { vertex: split.vertex.0, ring_start: rings.len() as u32, right, reach });
             for i in 0..split.ring_len() {
                 rings.push(split.ring(i)?.0);
             }
@@ -145,6 +151,12 @@ impl Tables {
             base_vertices: h.base_vertices,
             base: (0..h.base_triangles)
                 .map(|t| model.base_triangle(t).map(|c| c.map(|v| v.0)))
+                .collect::<Option<_>>()?,
+            groups: (0..h.base_triangles.div_ceil(BASE_GROUP))
+                .map(|g| {
+                    let (corners, radius) = model.base_group(g)?;
+                    Some((corners.map(|v| v.0), Radius16::round_up(f64::from(radius))))
+                })
                 .collect::<Option<_>>()?,
             splits,
             rings,

@@ -5,7 +5,7 @@ use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, Ve
 use crate::emit::{NodeRecord, SplitRecord, Tables};
 use crate::mesh::Mesh;
 use crate::precision::{Stored, VertexBits, store};
-use crate::sweep::{Cover, Forest, Offspring, grow, plant};
+use crate::sweep::{Cover, Forest, Offspring, base_groups, grow, plant, sort_base};
 use glam::{DVec3, Vec3};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::MAX_RING;
@@ -174,7 +174,9 @@ fn collapse(
         Engine::new(&stored.positions, &mesh.triangles, options.conditions, options.priority, stored.grid);
     let stuck = engine.run(faces, on_progress);
     let programs = engine.progress().programs;
-    (engine.finish(), stuck, programs)
+    let mut history = engine.finish();
+    sort_base(&mut history);
+    (history, stuck, programs)
 }
 
 fn signed_volume(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
@@ -240,7 +242,15 @@ fn assemble(
         debug_assert!(collapse.ring_len as usize <= MAX_RING, "a star holds fewer triangles");
         let vertex = index(collapse.vertex);
         splits_with[vertex as usize] = Some(splits.len() as u32);
-        splits.push(SplitRecord { vertex, ring_start: rings.len() as u32, right: collapse.right as u8 });
+        let at_label = |l: u32| history.positions[l as usize];
+        let corners = history.ring(collapse).iter().chain([&collapse.origin, &collapse.destination]);
+        let reach = corners.map(|&l| at_label(l).distance(at_label(collapse.vertex))).fold(0.0, f64::max);
+        splits.push(SplitRecord {
+            vertex,
+            ring_start: rings.len() as u32,
+            right: collapse.right as u8,
+            reach: Radius8::round_up(reach * (1.0 + 1e-14)),
+        });
         rings.extend(history.ring(collapse).iter().map(|&l| index(l)));
         radii.extend(history.fine(at).iter().map(|&i| radius(i)));
     }
@@ -272,6 +282,10 @@ fn assemble(
         vertices: order.label.iter().map(|&l| single(history.positions[l as usize])).collect(),
         base_vertices: order.base,
         base: history.base.iter().map(|t| t.map(index)).collect(),
+        groups: base_groups(history)
+            .into_iter()
+            .map(|(corners, radius)| (corners.map(index), Radius16::round_up(radius)))
+            .collect(),
         splits,
         rings,
         radii,

@@ -176,6 +176,8 @@ fn outcome(
     Outcome::Optimal(optimum)
 }
 
+/// One sum and one test: a sum with a NaN or an infinity in it is never finite.
 fn are_finite(constraints: &[HalfSpace]) -> bool {
-    constraints.iter().all(|h| (h.normal.x + h.normal.y + h.normal.z + h.offset).is_finite())
+    let sum = |h: &HalfSpace| (h.normal.x + h.normal.y) + (h.normal.z + h.offset);
+    constraints.iter().map(sum).sum::<f64>().is_finite()
 }

@@ -5,8 +5,11 @@
 //! Distance to a triangle is a convex function, so the largest distance from a *vertex* of those leaves is the exact radius
 //! that makes the swept triangle (Guéziec 2000, 3.1) contain them. Rounded up, it is certified for any assignment.
 
+mod crown;
 mod forest;
+mod groups;
 mod tree;
 
 pub use forest::{Forest, NO_PARENT, grow};
+pub use groups::{base_groups, sort_base};
 pub use tree::{Cover, CoverNode, Offspring, plant};

@@ -4,6 +4,7 @@
 //! their finest triangle, small subtrees become lists of triangles, runs of nodes that hardly bound better than their parent
 //! are skipped, and above the base hull nodes are made from its vertices.
 
+use super::crown::best_cover;
 use super::forest::{Forest, NO_PARENT, cover_radius};
 use crate::collapse::{History, VertexOrder};
 use glam::DVec3;
@@ -324,48 +325,9 @@ impl Drafts<'_> {
             members.iter().flat_map(|&(_, p)| self.forest.base_vertices[p].iter().copied()).collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let (corners, radius) = self.best_crown(members, &vertices);
+        let faces: Vec<[u32; 3]> = members.iter().map(|&(_, p)| self.history.base[p]).collect();
+        let (corners, radius) = best_cover(&self.history.positions, &faces, &vertices);
         self.add(corners, radius, children, Vec::new())
-    }
-
-    /// Of the faces, the point nearest the middle and the longest segment through it, what covers `vertices` with the least radius.
-    fn best_crown(&self, members: &[(usize, usize)], vertices: &[u32]) -> ([u32; 3], f64) {
-        let base: Vec<u32> = members.iter().flat_map(|&(_, p)| self.history.base[p]).collect();
-        let at = |l: u32| self.history.positions[l as usize];
-        let (low, high) = vertices
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &v| (l.min(at(v)), h.max(at(v))));
-        let middle = (low + high) * 0.5;
-        let farthest = |from: DVec3| {
-            base.iter().copied().max_by(|&a, &b| {
-                let key = |l: u32| (at(l) - from).length_squared();
-                key(a).total_cmp(&key(b)).then(b.cmp(&a))
-            })
-        };
-        let nearest = base.iter().copied().min_by(|&a, &b| {
-            let key = |l: u32| (at(l) - middle).length_squared();
-            key(a).total_cmp(&key(b)).then(a.cmp(&b))
-        });
-        let mut candidates: Vec<[u32; 3]> = Vec::new();
-        if let Some(v) = nearest {
-            candidates.push([v; 3]);
-        }
-        if let Some(p) = farthest(middle)
-            && let Some(q) = farthest(at(p))
-        {
-            candidates.push([p, q, q]);
-            // The third corner that makes the largest triangle with them.
-            let area = |l: u32| (at(q) - at(p)).cross(at(l) - at(p)).length_squared();
-            if let Some(r) = base.iter().copied().max_by(|&a, &b| area(a).total_cmp(&area(b)).then(b.cmp(&a))) {
-                candidates.push([p, q, r]);
-            }
-        }
-        candidates.extend(members.iter().take(FAN_OUT).map(|&(_, p)| self.history.base[p]));
-        candidates
-            .into_iter()
-            .map(|corners| (corners, cover_radius(&self.history.positions, vertices, self.positions(corners))))
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .unwrap_or(([0; 3], f64::INFINITY))
     }
 }
 

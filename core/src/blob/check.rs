@@ -2,7 +2,7 @@
 
 use super::error::OpenError;
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-use super::layout::{LEVEL_BYTES, MAX_RING, SectionKind, VertexFormat};
+use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING, SectionKind, VertexFormat};
 use super::model::{Children, Model};
 
 impl Model<'_> {
@@ -12,6 +12,7 @@ impl Model<'_> {
         let (records, each) = match kind {
             SectionKind::Vertices => (h.vertices as usize, h.vertex_format.vertex_bytes()),
             SectionKind::BaseTriangles => (h.base_triangles as usize, 3 * self.widths.vertex),
+            SectionKind::BaseGroups => (h.base_triangles.div_ceil(BASE_GROUP) as usize, h.group_bytes()),
             SectionKind::Splits => (h.splits as usize, h.split_bytes()),
             SectionKind::Rings => (h.rings as usize, self.widths.vertex),
             SectionKind::Radii => {
@@ -92,6 +93,14 @@ impl Model<'_> {
         for index in 0..self.header.base_triangles {
             if !self.base_triangle(index).is_some_and(|t| limit(t, self.header.base_vertices)) {
                 return Err(OpenError::Record { section: SectionKind::BaseTriangles, index });
+            }
+        }
+        for index in 0..self.header.base_triangles.div_ceil(BASE_GROUP) {
+            let sound = self
+                .base_group(index)
+                .is_some_and(|(corners, radius)| limit(corners, self.header.base_vertices) && radius >= 0.0);
+            if !sound {
+                return Err(OpenError::Record { section: SectionKind::BaseGroups, index });
             }
         }
         let bounds = &self.header.surface_box;

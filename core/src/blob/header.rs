@@ -183,7 +183,12 @@ impl Header {
 
     /// Bytes of one split record.
     pub fn split_bytes(&self) -> usize {
-        self.vertex_index_bytes() + self.ring_index_bytes() + 1
+        self.vertex_index_bytes() + self.ring_index_bytes() + 2
+    }
+
+    /// Bytes of one base group.
+    pub fn group_bytes(&self) -> usize {
+        3 * self.vertex_index_bytes() + 2
     }
 
     /// Bytes of one cover node.

@@ -25,6 +25,8 @@ pub const MAX_CHILDREN: usize = 127;
 pub const LEAF_FLAG: u8 = 0x80;
 /// Header flag: finer levels were cut off, so that the triangles of the surface are not in the blob.
 pub const FLAG_CUT: u32 = 1;
+/// Triangles of the base hull that share a bound.
+pub const BASE_GROUP: u32 = 16;
 /// Most ring vertices of a split.
 pub const MAX_RING: usize = 255;
 
@@ -36,7 +38,7 @@ pub enum SectionKind {
     Vertices = 1,
     /// Corners of the base hull's triangles.
     BaseTriangles = 2,
-    /// One record for each split, coarse to fine: vertex, start of its ring, position of the right wing in it.
+    /// One record for each split, coarse to fine: vertex, start of its ring, position of the right wing in it, reach.
     Splits = 3,
     /// Rings of all splits: the vertices that must exist before the split.
     Rings = 4,
@@ -52,14 +54,17 @@ pub enum SectionKind {
     Source = 9,
     /// Level table, coarse to fine.
     Levels = 10,
+    /// One swept triangle for each [`BASE_GROUP`] triangles of the base hull, which it contains.
+    BaseGroups = 11,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 10] = [
+    pub const ALL: [SectionKind; 11] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
+        SectionKind::BaseGroups,
         SectionKind::Splits,
         SectionKind::Rings,
         SectionKind::SplitsWith,
@@ -82,6 +87,7 @@ impl SectionKind {
             SectionKind::Surface => "surface triangles",
             SectionKind::Source => "source numbers",
             SectionKind::Levels => "levels",
+            SectionKind::BaseGroups => "base groups",
         }
     }
 }

@@ -19,6 +19,7 @@ pub struct Model<'a> {
     pub(super) bytes: Bytes<'a>,
     pub(super) vertices: Bytes<'a>,
     pub(super) base: Bytes<'a>,
+    pub(super) groups: Bytes<'a>,
     pub(super) splits: Bytes<'a>,
     pub(super) rings: Bytes<'a>,
     pub(super) radii: Bytes<'a>,
@@ -76,6 +77,8 @@ pub struct Split<'a> {
     pub origin: VertIdx,
     /// Position of the right wing in the ring; the left wing is at 0.
     pub right: usize,
+    /// No point of the fine triangles is farther than this from `vertex`, local frame.
+    pub reach: f32,
     /// Number of the split's first triangle, for [`Model::radius`].
     pub first_triangle: u32,
     ring: Bytes<'a>,
@@ -252,6 +255,15 @@ impl<'a> Model<'a> {
         self.base.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
     }
 
+    /// Swept triangle that contains base triangles `16·index .. 16·(index + 1)`: corners and radius.
+    #[inline]
+    pub fn base_group(&self, index: u32) -> Option<([VertIdx; 3], f32)> {
+        let width = self.widths.vertex;
+        let at = (index as usize).checked_mul(3 * width + 2)?;
+        let corners = self.groups.index3(at, width)?.map(VertIdx);
+        Some((corners, Radius16(self.groups.u16(at + 3 * width)?).get()))
+    }
+
     /// Corners of a triangle of the surface.
     #[inline(always)]
     pub fn surface_triangle(&self, triangle: TriIdx) -> Option<[VertIdx; 3]> {
@@ -270,12 +282,14 @@ impl<'a> Model<'a> {
     pub fn split(&self, split: SplitIdx) -> Option<Split<'a>> {
         let i = split.usize();
         let Widths { vertex: wv, ring: wr, .. } = self.widths;
-        let at = i.checked_mul(wv + wr + 1)?;
+        let bytes = wv + wr + 2;
+        let at = i.checked_mul(bytes)?;
         let vertex = VertIdx(self.splits.index(at, wv)?);
         let start = self.splits.index(at + wv, wr)?;
         let right = usize::from(self.splits.u8(at + wv + wr)?);
+        let reach = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
         let end = if split.0.checked_add(1)? < self.header.splits {
-            self.splits.index(at + (wv + wr + 1) + wv, wr)?
+            self.splits.index(at + bytes + wv, wr)?
         } else {
             self.header.rings
         };
@@ -285,6 +299,7 @@ impl<'a> Model<'a> {
             vertex,
             origin: VertIdx(self.header.base_vertices.checked_add(split.0.checked_mul(2)?)?),
             right,
+            reach,
             first_triangle: self
                 .header
                 .base_triangles

@@ -58,6 +58,7 @@ impl<'a> Model<'a> {
             bytes: all,
             vertices: Bytes(&[]),
             base: Bytes(&[]),
+            groups: Bytes(&[]),
             splits: Bytes(&[]),
             rings: Bytes(&[]),
             radii: Bytes(&[]),
@@ -136,6 +137,7 @@ impl<'a> Model<'a> {
         match kind {
             SectionKind::Vertices => &mut self.vertices,
             SectionKind::BaseTriangles => &mut self.base,
+            SectionKind::BaseGroups => &mut self.groups,
             SectionKind::Splits => &mut self.splits,
             SectionKind::Rings => &mut self.rings,
             SectionKind::Radii => &mut self.radii,

@@ -3,12 +3,14 @@
 //!
 //! Every hull encloses the surface. So between a start outside and the first point of the surface the segment crosses the
 //! refined hull, and when no face that it crosses can be refined any more, that face is the surface's: the first hit is
-//! found. Hits farther on may lie below an unbroken hull face; [`all_hits`](super::all_hits) finds those.
+//! found. Faces are tested a fragment at a time: those of a split lie within its `reach` of the vertex that it replaced,
+//! and sixteen base faces share a swept triangle. Hits farther on may lie below an unbroken hull face; [`all_hits`](super::all_hits) finds those.
 
 use super::answer::{Ended, Hit, QueryError, Work};
 use super::frame::Frame;
 use super::segment::insert;
 use crate::blob::{Model, SplitIdx, TriIdx, VertIdx};
+use crate::blob::layout::BASE_GROUP;
 use crate::blob::{Children, NodeIdx};
 use crate::geom::{PointProbe, SegmentProbe, segment_triangle};
 use crate::num::{down_to_f32, up_to_f32};
@@ -158,13 +160,28 @@ impl Sweep<'_, '_> {
     }
 
     fn test_base(&mut self, first_time: bool) -> Option<()> {
-        for slot in 0..self.model.header().base_triangles {
-            let corners = self.model.base_triangle(slot)?;
-            if first_time || self.front.is_alive(self.model, corners) {
-                self.test(Face::base(slot), corners, first_time)?;
+        let count = self.model.header().base_triangles;
+        for group in 0..count.div_ceil(BASE_GROUP) {
+            let (corners, radius) = self.model.base_group(group)?;
+            if !self.may_meet(corners, radius)? {
+                continue;
+            }
+            for slot in group * BASE_GROUP..count.min((group + 1) * BASE_GROUP) {
+                let corners = self.model.base_triangle(slot)?;
+                if first_time || self.front.is_alive(self.model, corners) {
+                    self.test(Face::base(slot), corners, first_time)?;
+                }
             }
         }
         Some(())
+    }
+
+    /// Whether the segment may meet anything inside a swept triangle, before what matters ends.
+    #[inline]
+    fn may_meet(&mut self, corners: [VertIdx; 3], radius: f32) -> Option<bool> {
+        self.out.work.nodes += 1;
+        let entered = self.probe.enter(self.model.positions(corners)?, radius);
+        Some(entered.is_some_and(|t| !self.beyond(t)))
     }
 
     /// Faces of the splits in a range that were performed; only those not looked at before if `fresh`.
@@ -187,6 +204,9 @@ impl Sweep<'_, '_> {
 
     fn test_split(&mut self, index: SplitIdx, fresh: bool) -> Option<()> {
         let split = self.model.split(index)?;
+        if !self.may_meet([split.vertex; 3], split.reach)? {
+            return Some(());
+        }
         for slot in 0..split.fine_len() {
             let corners = split.fine(slot)?;
             if self.front.is_alive(self.model, corners) {

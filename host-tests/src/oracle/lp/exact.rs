@@ -31,7 +31,8 @@ pub fn integer(value: f64) -> Integer {
 /// `numerator / denominator` to within two units of the last place, also where neither fits an `f64`.
 #[must_use]
 pub fn ratio(numerator: &Integer, denominator: &Integer) -> f64 {
-    let shift = 128 + denominator.bits() as i64 - numerator.bits() as i64;
+    let bits = |n: &Integer| i64::try_from(n.bits()).expect("fits the memory");
+    let shift = 128 + bits(denominator) - bits(numerator);
     let quotient = if shift >= 0 {
         (numerator << shift.unsigned_abs()) / denominator
     } else {
