@@ -5,7 +5,7 @@ fn main(){
     mesh::require_closed_manifold(&m).unwrap();
     let b=hull::build(&m,0.0,m.triangles.len(),&hull::BuildOptions{base_faces:base,..Default::default()},|_|{}).unwrap();
     println!("{:?}",b.report);
-    let model=Model::open(&b.bytes).unwrap();
+    std::fs::write(format!("/tmp/{name}.msw"),&b.bytes).unwrap(); let model=Model::open(&b.bytes).unwrap();
     let n=m.triangles.len() as f64;
     println!("total {:.1} B/tri nodes {} cap {:?}",b.bytes.len() as f64/n, model.header().nodes, model.capacities());
     for s in model.sections(){ println!("  {} {:.2}",s.kind.name(),s.bytes as f64/n);}

@@ -51,8 +51,8 @@ fn most_violated<const CONE: bool>(point: DVec3, constraints: &[HalfSpace], firs
     found
 }
 
-/// Largest [`scale`] of a point that [`most_violated`] takes as it is: the star's radius. Half of that, or half as much
-/// again, costs a fifth more time; without limit it is half as much again. Any value gives correct answers.
+/// Largest [`scale`] of a point that [`most_violated`] takes as it is. Points beyond are pulled back to within the star's
+/// radius; to within twice that, stars take a seventh longer. Any value gives correct answers.
 const IN_THE_STAR: f64 = 2.0;
 
 /// The offset of `h`, or zero for the program over the cone of directions to infinity.

@@ -32,11 +32,11 @@
 //! expected time holds; the worst case is cubic in the number of constraints. (30,000 tangent planes of a sphere take
 //! 19 insertions.)
 //!
-//! | ns per solve, 10 planes, `eps` = 1e-6 | noisy | smooth | flat | aligned | crease | ridge | corner |
-//! | --- | --- | --- | --- | --- | --- | --- | --- |
-//! | random order | 653 | 623 | 424 | 92 | 671 | 534 | 457 |
-//! | most violated first | 607 | 809 | 191 | 94 | 364 | 439 | 549 |
-//! | most violated first, far points pulled back to the star | 434 | 290 | 240 | 72 | 304 | 318 | 366 |
+//! | ns per solve, 10 planes, `eps` = 1e-6 | noisy | smooth | flat | aligned | crease | ridge | corner | mean |
+//! | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+//! | random order | 534 | 558 | 319 | 71 | 467 | 374 | 336 | 380 |
+//! | most violated first | 686 | 761 | 215 | 79 | 380 | 451 | 555 | 447 |
+//! | most violated first, far points pulled back to the star | 430 | 378 | 235 | 88 | 346 | 329 | 426 | 319 |
 //!
 //! *No symbolic `eps`.* With an infinitesimal one, a flat star whose planes differ by rounding would send the vertex to
 //! the far end of the star, for the objective does fall in that direction. A finite `eps` weighs the slope against

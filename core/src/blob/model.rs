@@ -97,7 +97,7 @@ impl Split<'_> {
     #[inline(always)]
     pub fn ring(&self, i: usize) -> Option<VertIdx> {
         let i = if i == self.len { 0 } else { i };
-        self.ring.index(i.checked_mul(self.width)?, self.width).map(VertIdx)
+        self.ring.index(i.wrapping_mul(self.width), self.width).map(VertIdx)
     }
 
     /// Second of the two new vertices.
@@ -218,18 +218,12 @@ impl<'a> Model<'a> {
     /// Coordinates of a vertex, local frame.
     #[inline(always)]
     pub fn position(&self, vertex: VertIdx) -> Option<Vec3> {
+        // No product of an index that the blob stores and a record's size overflows: `open` bounds the counts.
         let i = vertex.usize();
         match self.header.vertex_format {
-            VertexFormat::F32 => {
-                let [a, b, c, d, e, f, g, h, j, k, l, m] = self.vertices.array::<12>(i.checked_mul(12)?)?;
-                Some(Vec3::new(
-                    f32::from_le_bytes([a, b, c, d]),
-                    f32::from_le_bytes([e, f, g, h]),
-                    f32::from_le_bytes([j, k, l, m]),
-                ))
-            }
-            VertexFormat::Grid16 => self.on_grid(self.vertices.index3(i.checked_mul(6)?, 2)?),
-            VertexFormat::Grid24 => self.on_grid(self.vertices.index3(i.checked_mul(9)?, 3)?),
+            VertexFormat::F32 => self.vertices.f32x3(i.wrapping_mul(12)).map(Vec3::from_array),
+            VertexFormat::Grid16 => self.on_grid(self.vertices.index3(i.wrapping_mul(6), 2)?),
+            VertexFormat::Grid24 => self.on_grid(self.vertices.index3(i.wrapping_mul(9), 3)?),
         }
     }
 
@@ -251,7 +245,7 @@ impl<'a> Model<'a> {
     /// Corners of a triangle of the base hull.
     #[inline(always)]
     pub fn base_triangle(&self, index: u32) -> Option<[VertIdx; 3]> {
-        let at = (index as usize).checked_mul(3 * self.widths.vertex)?;
+        let at = (index as usize).wrapping_mul(3 * self.widths.vertex);
         self.base.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
     }
 
@@ -267,7 +261,7 @@ impl<'a> Model<'a> {
     /// Corners of a triangle of the surface.
     #[inline(always)]
     pub fn surface_triangle(&self, triangle: TriIdx) -> Option<[VertIdx; 3]> {
-        let at = triangle.usize().checked_mul(3 * self.widths.vertex)?;
+        let at = triangle.usize().wrapping_mul(3 * self.widths.vertex);
         self.surface.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
     }
 
@@ -283,7 +277,7 @@ impl<'a> Model<'a> {
         let i = split.usize();
         let Widths { vertex: wv, ring: wr, .. } = self.widths;
         let bytes = wv + wr + 2;
-        let at = i.checked_mul(bytes)?;
+        let at = i.wrapping_mul(bytes);
         let vertex = VertIdx(self.splits.index(at, wv)?);
         let start = self.splits.index(at + wv, wr)?;
         let right = usize::from(self.splits.u8(at + wv + wr)?);
@@ -294,7 +288,7 @@ impl<'a> Model<'a> {
             self.header.rings
         };
         let len = end.checked_sub(start)? as usize;
-        let ring = self.rings.slice((start as usize).checked_mul(wv)?, len.checked_mul(wv)?)?;
+        let ring = self.rings.slice((start as usize).wrapping_mul(wv), len.wrapping_mul(wv))?;
         Some(Split {
             vertex,
             origin: VertIdx(self.header.base_vertices.checked_add(split.0.checked_mul(2)?)?),
@@ -315,7 +309,7 @@ impl<'a> Model<'a> {
     #[inline(always)]
     pub fn split_of(&self, vertex: VertIdx) -> Option<SplitIdx> {
         let width = self.widths.split;
-        let stored = self.splits_with.index(vertex.usize().checked_mul(width)?, width)?;
+        let stored = self.splits_with.index(vertex.usize().wrapping_mul(width), width)?;
         if stored == none(width) { None } else { Some(SplitIdx(stored)) }
     }
 
@@ -332,13 +326,21 @@ impl<'a> Model<'a> {
         self.radii.u8(triangle as usize).map(|code| Radius8(code).get())
     }
 
+    /// Swept triangle of a cover node: corners and radius.
+    #[inline(always)]
+    pub fn bound(&self, node: NodeIdx) -> Option<([VertIdx; 3], f32)> {
+        let Widths { vertex: wv, child: wc, .. } = self.widths;
+        let at = node.usize().wrapping_mul(3 * wv + 2 + wc + 1);
+        let corners = self.cover.index3(at, wv)?.map(VertIdx);
+        Some((corners, Radius16(self.cover.u16(at + 3 * wv)?).get()))
+    }
+
     /// A node of the cover tree.
     #[inline(always)]
     pub fn node(&self, node: NodeIdx) -> Option<Node> {
         let Widths { vertex: wv, child: wc, .. } = self.widths;
-        let at = node.usize().checked_mul(3 * wv + 2 + wc + 1)?;
-        let corners = self.cover.index3(at, wv)?.map(VertIdx);
-        let radius = Radius16(self.cover.u16(at + 3 * wv)?).get();
+        let at = node.usize().wrapping_mul(3 * wv + 2 + wc + 1);
+        let (corners, radius) = self.bound(node)?;
         let first = self.cover.index(at + 3 * wv + 2, wc)?;
         let tag = self.cover.u8(at + 3 * wv + 2 + wc)?;
         let count = u32::from(tag & !LEAF_FLAG);

@@ -50,13 +50,27 @@ impl<'a> Bytes<'a> {
         }
     }
 
+    /// Three f32, side by side.
+    #[inline(always)]
+    pub(super) fn f32x3(self, at: usize) -> Option<[f32; 3]> {
+        let bytes = self.0.get(at..)?.first_chunk::<12>()?;
+        let (x, rest) = bytes.split_first_chunk::<4>()?;
+        let (y, rest) = rest.split_first_chunk::<4>()?;
+        let z = rest.first_chunk::<4>()?;
+        Some([f32::from_le_bytes(*x), f32::from_le_bytes(*y), f32::from_le_bytes(*z)])
+    }
+
     /// Three indices of `width` bytes, side by side.
     #[inline(always)]
     pub(super) fn index3(self, at: usize, width: usize) -> Option<[u32; 3]> {
         match width {
-            2 => self.array::<6>(at).map(|[a, b, c, d, e, f]| {
-                [[a, b], [c, d], [e, f]].map(|pair| u32::from(u16::from_le_bytes(pair)))
-            }),
+            2 => {
+                let bytes = self.0.get(at..)?.first_chunk::<6>()?;
+                let (x, rest) = bytes.split_first_chunk::<2>()?;
+                let (y, rest) = rest.split_first_chunk::<2>()?;
+                let z = rest.first_chunk::<2>()?;
+                Some([x, y, z].map(|pair| u32::from(u16::from_le_bytes(*pair))))
+            }
             3 => self.array::<9>(at).map(|[a, b, c, d, e, f, g, h, i]| {
                 [[a, b, c, 0], [d, e, f, 0], [g, h, i, 0]].map(u32::from_le_bytes)
             }),

@@ -4,23 +4,27 @@
 //! direction, so a region misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §2, §3.
 
 use super::{Aabb, Clipped};
-use crate::num::tolerance::{POINT_BOUND, SEGMENT_BOUND, TRUSTED_DIRECTION_SQ, U32, U64, UNDERFLOW};
+use crate::num::tolerance::{
+    POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64, UNDERFLOW,
+};
 use glam::Vec3;
 
 /// A lower bound of the distance from the origin to the triangle `a b c`, exact up to rounding: (8.3 units of f32's
 /// roundoff) × (farthest corner + longest edge). Zero where the direction is too short to trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
+    let (along, rr) = support(a, b, c);
+    if rr < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(rr) }
+}
+
+/// The plane that supports the triangle and faces the origin: its distance times the length of its normal, and that length squared.
+#[inline(always)]
+fn support(a: Vec3, b: Vec3, c: Vec3) -> (f32, f32) {
     let ap = -a;
     let ab = b - a;
     let ac = c - a;
     let r = residual(ap, ab, ac);
-    let rr = r.dot(r);
-    if rr < TRUSTED_DIRECTION_SQ {
-        return 0.0;
-    }
-    let along = r.dot(ap) - 0f32.max(r.dot(ab)).max(r.dot(ac));
-    along / libm::sqrtf(rr)
+    (r.dot(ap) - 0f32.max(r.dot(ab)).max(r.dot(ac)), r.dot(r))
 }
 
 /// Vector from the (approximately) closest point to the query. Any finite result is safe, so no branch needs a proof.
@@ -83,11 +87,20 @@ impl PointProbe {
         PointProbe { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
     }
 
-    /// Not above the distance from the point to the triangle swept by `radius`; never negative.
+    /// Not above the distance from the point to the triangle swept by `radius`, and never negative; `None` if that distance
+    /// certainly exceeds `limit`, which is found out without a square root.
     #[inline(always)]
-    pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32) -> f32 {
-        let bound = direction_bound(a - self.point, b - self.point, c - self.point) - (radius + self.margin);
-        bound.max(0.0)
+    pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<f32> {
+        let (along, rr) = support(a - self.point, b - self.point, c - self.point);
+        if rr < TRUSTED_DIRECTION_SQ {
+            return Some(0.0);
+        }
+        let inside = radius + self.margin;
+        let reach = limit + inside;
+        if along > 0.0 && along * along * SQUARED_SLACK > reach * reach * rr {
+            return None;
+        }
+        Some((along / libm::sqrtf(rr) - inside).max(0.0))
     }
 }
 
@@ -168,7 +181,10 @@ mod tests {
         for (point, distance) in
             [(Vec3::new(0.2, 0.2, 3.0), 3.0), (Vec3::new(-3.0, -4.0, 0.0), 5.0), (Vec3::new(0.5, -2.0, 0.0), 2.0)]
         {
-            let lower = PointProbe::new(point, &bounds).lower(corners, 0.25);
+            let probe = PointProbe::new(point, &bounds);
+            let lower = probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
+            assert!(probe.lower(corners, 0.25, distance - 0.2).is_some());
+            assert!(probe.lower(corners, 0.25, distance - 0.3).is_none());
             assert!(lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4, "{lower} {distance}");
         }
     }

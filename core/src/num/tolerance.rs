@@ -27,6 +27,10 @@ pub const TRIPLE_PRODUCT: f64 = 16.0;
 /// Distance, in units of [`U64`] times the 1-norms in play, below which a segment in the plane of a triangle touches it (§5).
 pub const COPLANAR_TOUCH: f64 = 64.0;
 
+/// Two bounds are compared as squares, which is off by less than eight roundings: a factor that keeps the comparison on the
+/// safe side (§2). It is part of what [`POINT_BOUND`] leaves over.
+pub const SQUARED_SLACK: f32 = 1.0 - 8.0 * U32;
+
 /// Squared length, in the local frame, below which a direction in f32 is not trusted: 2^-100. Products of two such
 /// components stay above the subnormal range. Below it a lower bound falls back to zero, which is always true (§2).
 pub const TRUSTED_DIRECTION_SQ: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);

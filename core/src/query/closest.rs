@@ -97,9 +97,8 @@ impl<'a> Sweep<'a> {
         let relative = 1.0 + f64::from(stop.relative);
         let tolerant = stop.relative > 0.0 || stop.absolute > 0.0;
         let mut met_tolerance = false;
-        frontier.begin_children(1);
-        frontier.push(self.visit(0).ok_or(QueryError::Model)?);
-        while let Some(entry) = frontier.pop() {
+        let mut next = Some(QueueEntry { key: 0.0, node: 0 });
+        while let Some(entry) = frontier.take(next, self.best.is_none()) {
             let key = f64::from(entry.key);
             let beaten = entry.key > self.upper_f32;
             let tolerated = tolerant && (key * relative >= self.upper || self.upper - key <= absolute);
@@ -110,6 +109,7 @@ impl<'a> Sweep<'a> {
                 }
                 // What waits on the heap waits by a key that is no smaller.
                 if frontier.is_descending() {
+                    next = None;
                     continue;
                 }
                 break;
@@ -118,7 +118,7 @@ impl<'a> Sweep<'a> {
                 self.lower = self.lower.min(key).min(f64::from(frontier.lower()));
                 return Ok(Ended::Steps);
             }
-            self.open(NodeIdx(entry.node), key, &mut frontier).ok_or(QueryError::Model)?;
+            next = self.open(NodeIdx(entry.node), key, &mut frontier).ok_or(QueryError::Model)?;
         }
         let dropped = f64::from(frontier.dropped());
         if dropped < self.upper {
@@ -134,20 +134,25 @@ impl<'a> Sweep<'a> {
         })
     }
 
-    /// Replaces a node by what is below it. `None`: not an opened model.
+    /// Replaces a node by what is below it, and returns the nearest child node instead of queueing it. `None`: not an opened
+    /// model.
     #[inline]
-    fn open(&mut self, node: NodeIdx, key: f64, frontier: &mut Frontier<'_>) -> Option<()> {
+    fn open(&mut self, node: NodeIdx, key: f64, frontier: &mut Frontier<'_>) -> Option<Option<QueueEntry>> {
         self.work.splits += 1;
         let node = self.model.node(node)?;
         match node.children {
             Children::Nodes { first, count } => {
                 frontier.begin_children(count);
+                let mut nearest: Option<QueueEntry> = None;
                 for child in first..first.checked_add(count)? {
-                    let entry = self.visit(child)?;
-                    if entry.key <= self.upper_f32 {
-                        frontier.push(entry);
+                    let Some(entry) = self.visit(child)? else { continue };
+                    match &mut nearest {
+                        Some(near) if !entry.before(near) => frontier.push(entry),
+                        Some(near) => frontier.push(core::mem::replace(near, entry)),
+                        None => nearest = Some(entry),
                     }
                 }
+                return Some(nearest);
             }
             Children::Triangles { first, count } => {
                 for triangle in first..first.checked_add(count)? {
@@ -156,15 +161,17 @@ impl<'a> Sweep<'a> {
             }
             Children::Cut => self.cut_node(node.corners, key)?,
         }
-        Some(())
+        Some(None)
     }
 
+    /// The entry of a node that is still in the race.
     #[inline]
-    fn visit(&mut self, node: u32) -> Option<QueueEntry> {
+    fn visit(&mut self, node: u32) -> Option<Option<QueueEntry>> {
         self.work.nodes += 1;
-        let record = self.model.node(NodeIdx(node))?;
-        let corners = self.model.positions(record.corners)?;
-        Some(QueueEntry { key: self.probe.lower(corners, record.radius), node })
+        let record = self.model.bound(NodeIdx(node))?;
+        let corners = self.model.positions(record.0)?;
+        let key = self.probe.lower(corners, record.1, self.upper_f32);
+        Some(key.map(|key| QueueEntry { key, node }))
     }
 
     /// A triangle of the surface: a bound in f32, and the interval in f64 if the bound leaves it in the race.
@@ -172,8 +179,9 @@ impl<'a> Sweep<'a> {
     fn triangle(&mut self, triangle: TriIdx) -> Option<()> {
         self.work.triangles += 1;
         let corners = self.model.positions(self.model.surface_triangle(triangle)?)?;
-        let bound = self.probe.lower(corners, 0.0);
-        if bound <= self.upper_f32 { self.evaluate(triangle, corners) }
+        if self.probe.lower(corners, 0.0, self.upper_f32).is_some() {
+            self.evaluate(triangle, corners);
+        }
         Some(())
     }
 

@@ -17,7 +17,7 @@ impl QueueEntry {
     pub const EMPTY: QueueEntry = QueueEntry { key: 0.0, node: 0 };
 
     /// Total order by key, then node, so that the order of visits does not depend on the heap's history.
-    fn before(&self, other: &QueueEntry) -> bool {
+    pub(super) fn before(&self, other: &QueueEntry) -> bool {
         self.key < other.key || (self.key == other.key && self.node < other.node)
     }
 }
@@ -55,6 +55,23 @@ impl<'a> Frontier<'a> {
         } else {
             self.push_heap(entry);
         }
+    }
+
+    /// The entry to open next: `nearest`, the nearest child of the node opened last, if it comes first anyway (or if `dive`
+    /// says to go down whatever waits); else the best that waits, `nearest` joining the queue.
+    #[inline]
+    pub(super) fn take(&mut self, nearest: Option<QueueEntry>, dive: bool) -> Option<QueueEntry> {
+        let Some(nearest) = nearest else { return self.pop() };
+        // On the stack the nearest child of a descent lies on top.
+        let first = dive
+            || self.stack > 0
+            || self.heap == 0
+            || self.slots.first().is_none_or(|top| nearest.before(top));
+        if first {
+            return Some(nearest);
+        }
+        self.push(nearest);
+        self.pop()
     }
 
     /// Best known entry: top of the stack during a descent, else of the heap.

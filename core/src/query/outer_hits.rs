@@ -268,7 +268,7 @@ impl Sweep<'_, '_> {
             }
             self.out.work.nodes += 1;
             let node = self.model.node(NodeIdx(first))?;
-            if probe.lower(self.model.positions(node.corners)?, node.radius) > 0.0 {
+            if probe.lower(self.model.positions(node.corners)?, node.radius, 0.0).is_none() {
                 continue;
             }
             match node.children {

@@ -252,9 +252,9 @@ impl Walk<'_> {
         work: &mut Work,
     ) -> Option<()> {
         work.nodes += 1;
-        let record = self.model.node(NodeIdx(node))?;
-        let corners = self.model.positions(record.corners)?;
-        if let Some(key) = self.probe.enter(corners, record.radius + self.surface_error)
+        let (corners, radius) = self.model.bound(NodeIdx(node))?;
+        let corners = self.model.positions(corners)?;
+        if let Some(key) = self.probe.enter(corners, radius + self.surface_error)
             && key <= collect.limit()
         {
             frontier.push(QueueEntry { key, node });
