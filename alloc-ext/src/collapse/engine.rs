@@ -194,10 +194,12 @@ impl Engine {
         self.faces.clear();
         for &t in &self.star {
             let corners = self.mesh.corners[t as usize];
-            let at = |v: u32| corners.iter().position(|&c| c == v);
-            let moving = match (at(a), at(b)) {
-                (Some(_), Some(_)) => None,
-                (one, other) => one.or(other),
+            let [p, q, r] = corners.map(|v| v == a || v == b);
+            let moving = match (p, q, r) {
+                (true, false, false) => Some(0),
+                (false, true, false) => Some(1),
+                (false, false, true) => Some(2),
+                _ => None,
             };
             self.faces.push(StarFace {
                 corners: corners.map(|v| self.positions[v as usize]),

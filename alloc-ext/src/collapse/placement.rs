@@ -2,7 +2,7 @@
 //! (Platis & Theoharis 2003, 3.1.2), rounded to the stored precision and proved there by exact predicate.
 
 use super::Conditions;
-use crate::lp::{HalfSpace, Outcome, minimise};
+use crate::lp::{HalfSpace, minimise_bounded};
 use crate::precision::Grid;
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
@@ -14,14 +14,21 @@ pub struct Facet {
     pub normal: DVec3,
     /// Twice the area.
     pub double_area: f64,
+    /// 1 for the equilateral triangle, towards 0 for needles.
+    pub compactness: f64,
 }
 
 impl Facet {
     /// Of a triangle.
-    pub fn of([a, b, c]: [DVec3; 3]) -> Self {
+    pub fn of(corners: [DVec3; 3]) -> Self {
+        let [a, b, c] = corners;
         let cross = (b - a).cross(c - a);
         let double_area = cross.length();
-        Facet { normal: if double_area > 0.0 { cross / double_area } else { DVec3::ZERO }, double_area }
+        Facet {
+            normal: if double_area > 0.0 { cross / double_area } else { DVec3::ZERO },
+            double_area,
+            compactness: compactness(corners, double_area),
+        }
     }
 }
 
@@ -105,7 +112,7 @@ impl<'a> Program<'a> {
         let inverse_radius = 1.0 / radius;
         planes.clear();
         for face in faces {
-            let Facet { normal, double_area } = face.facet;
+            let Facet { normal, double_area, .. } = face.facet;
             objective += normal * double_area;
             area += double_area;
             if double_area > 0.0 {
@@ -128,10 +135,8 @@ impl<'a> Program<'a> {
         let further = (shift - self.shift) / self.radius;
         self.shift = shift;
         self.planes.iter_mut().for_each(|plane| plane.offset += further);
-        match minimise(self.objective, self.planes, self.second_term) {
-            Outcome::Optimal(x) => Some(self.middle + x * self.radius),
-            Outcome::Infeasible | Outcome::Unbounded => None,
-        }
+        let x = minimise_bounded(self.objective, self.planes, self.second_term)?;
+        Some(self.middle + x * self.radius)
     }
 
     /// The optimum on the grid, outside or on every plane of the star by exact predicate. Rounding breaks a plane in a third of all
@@ -157,11 +162,14 @@ pub fn is_outside_or_on([a, b, c]: [DVec3; 3], p: DVec3) -> bool {
     orient3d(coord(a), coord(b), coord(c), coord(p)) <= 0.0
 }
 
+/// 2·√3, which makes the equilateral triangle's compactness 1.
+const TWICE_SQRT_3: f64 = 3.464_101_615_137_754_6;
+
 /// Compactness: 1 for the equilateral triangle, towards 0 for needles.
 #[inline]
 fn compactness([a, b, c]: [DVec3; 3], double_area: f64) -> f64 {
     let edges = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
-    if edges > 0.0 { 2.0 * 3f64.sqrt() * double_area / edges } else { 0.0 }
+    if edges > 0.0 { TWICE_SQRT_3 * double_area / edges } else { 0.0 }
 }
 
 /// The paper's two conditions on the resulting vertex: compactness does not decline too much, no normal turns too far.
@@ -170,7 +178,7 @@ fn check_shape(faces: &[StarFace], position: DVec3, conditions: &Conditions) -> 
     let mut worst_before = f64::INFINITY;
     let mut worst_after = f64::INFINITY;
     for face in faces {
-        worst_before = worst_before.min(compactness(face.corners, face.facet.double_area));
+        worst_before = worst_before.min(face.facet.compactness);
         let Some(moving) = face.moving else { continue };
         let mut moved = face.corners;
         moved[moving] = position;

@@ -108,6 +108,17 @@ pub fn minimise(objective: DVec3, constraints: &mut [HalfSpace], eps: f64) -> Ou
     outcome(objective, eps, optimum, |pull| optimum_of_cone(pull, constraints))
 }
 
+/// [`minimise`] for a program that the caller knows to be bounded, without the test for a ray: half the time where `eps` is large.
+///
+/// A star's program is: its objective is the sum of its own constraints' normals, so it cannot fall below the sum of their
+/// offsets. `None` where [`minimise`] says [`Outcome::Infeasible`].
+#[must_use]
+#[inline]
+pub fn minimise_bounded(objective: DVec3, constraints: &mut [HalfSpace], eps: f64) -> Option<DVec3> {
+    let finite = eps > 0.0 && are_finite(constraints) && objective.is_finite();
+    if finite { optimum::<false>(-objective / eps, constraints) } else { None }
+}
+
 fn optimum_of_cone(pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
     optimum::<true>(pull, constraints)
 }

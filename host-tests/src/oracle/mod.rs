@@ -1,3 +1,10 @@
 //! Slow, exact answers that share no code with what they check.
 
+mod distance;
+mod double;
 pub mod lp;
+mod segment;
+
+pub use distance::{Bounded, distance_to_mesh, distance_to_triangle, rough_distance_sq};
+pub use double::{Double, Vector};
+pub use segment::{Contact, contacts, gap_to_triangle, meets};

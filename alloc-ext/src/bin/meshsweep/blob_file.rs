@@ -1,0 +1,13 @@
+//! Reading a blob file and opening what it holds.
+
+use super::failure::Failure;
+use meshsweep_core::Model;
+use std::path::Path;
+
+pub fn read(file: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })
+}
+
+pub fn open<'a>(file: &Path, bytes: &'a [u8]) -> Result<Model<'a>, Failure> {
+    Model::open(bytes).map_err(|error| Failure::open(file, error))
+}

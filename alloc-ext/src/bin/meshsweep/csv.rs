@@ -1,0 +1,101 @@
+//! Queries as text: one on a line, with whatever separator the line uses.
+
+use super::failure::Failure;
+use std::path::Path;
+
+/// Rows of `N` numbers, and the line that each was on, counting from 1.
+pub type Rows<const N: usize> = (Vec<[f32; N]>, Vec<usize>);
+
+/// Reads `N` numbers a line. Skipped: blank lines, what follows a `#`, and a first line without any number in it.
+///
+/// A number is rounded to the nearest f32, which is the query's coordinate.
+pub fn parse<const N: usize>(file: &Path, bytes: &[u8], wanted: &'static str) -> Result<Rows<N>, Failure> {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let mut rows = Vec::new();
+    let mut lines = Vec::new();
+    let mut may_be_header = true;
+    for (number, line) in bytes.split(|&b| b == b'\n').enumerate() {
+        let text = String::from_utf8_lossy(line);
+        let text = text.split('#').next().unwrap_or_default().trim();
+        if text.is_empty() {
+            continue;
+        }
+        let line = number + 1;
+        let first = std::mem::replace(&mut may_be_header, false);
+        if first && fields(text).all(|field| field.parse::<f64>().is_err()) {
+            continue;
+        }
+        rows.push(row(file, line, text, wanted)?);
+        lines.push(line);
+    }
+    Ok((rows, lines))
+}
+
+/// The fields of a line: between semicolons if it has any, else between commas, else between blanks.
+fn fields(text: &str) -> Box<dyn Iterator<Item = &str> + '_> {
+    match [';', ','].into_iter().find(|&separator| text.contains(separator)) {
+        Some(separator) => Box::new(text.split(separator).map(str::trim)),
+        None => Box::new(text.split_whitespace()),
+    }
+}
+
+fn row<const N: usize>(file: &Path, line: usize, text: &str, wanted: &'static str) -> Result<[f32; N], Failure> {
+    let mut row = [0f32; N];
+    let mut found = 0;
+    for field in fields(text) {
+        if let Some(slot) = row.get_mut(found) {
+            let refuse = |reason| Failure::Field {
+                file: file.to_owned(),
+                line,
+                field: found + 1,
+                text: field.to_owned(),
+                reason,
+            };
+            *slot = number(field).map_err(refuse)?;
+        }
+        found += 1;
+    }
+    if found != N {
+        return Err(Failure::FieldCount { file: file.to_owned(), line, wanted, found });
+    }
+    Ok(row)
+}
+
+fn number(field: &str) -> Result<f32, &'static str> {
+    let exact: f64 = field.parse().map_err(|_| "is not a number; write it like -1.25 or 3e-4")?;
+    if !exact.is_finite() {
+        return Err("is not finite; remove the query");
+    }
+    // From the text, not from the f64: rounding twice could miss the nearest.
+    field.parse::<f32>().ok().filter(|x| x.is_finite()).ok_or("is beyond f32 (3.4e38); choose a larger unit")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Rows<3>, String> {
+        parse(Path::new("a.csv"), text.as_bytes(), "3: x, y, z").map_err(|failure| failure.to_string())
+    }
+
+    #[test]
+    fn separators_headers_comments_and_blank_lines_are_understood() {
+        let text = "\u{feff}x,y,z\r\n\n1,2,3 # here\n 1 ; 2; 3\r\n# 9,9,9\n1\t2  3\n";
+        let (rows, lines) = read(text).unwrap();
+        assert_eq!(rows, [[1.0, 2.0, 3.0]; 3]);
+        assert_eq!(lines, [3, 4, 6]);
+    }
+
+    #[test]
+    fn malformed_lines_are_refused_with_line_and_field() {
+        let at = |text: &str| read(text).unwrap_err();
+        assert!(at("x y z\n1 2 3\n1 2 three\n").starts_with("a.csv, line 3, field 3: \"three\" is not a number"));
+        assert!(at("1,2,3\nx,y,z").starts_with("a.csv, line 2, field 1"));
+        assert!(at("1,,3").starts_with("a.csv, line 1, field 2: \"\" is not a number"));
+        assert!(at("1,2,3,").starts_with("a.csv, line 1: 4 fields"));
+        assert!(at("\n1,2").starts_with("a.csv, line 2: 2 fields"));
+        assert!(at("1,nan,2").starts_with("a.csv, line 1, field 2: \"nan\" is not finite"));
+        assert!(at("1,2,-1e39").starts_with("a.csv, line 1, field 3: \"-1e39\" is beyond f32"));
+        assert!(at("x,2,3").starts_with("a.csv, line 1, field 1"));
+    }
+}

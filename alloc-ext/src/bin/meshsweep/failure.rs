@@ -1,0 +1,168 @@
+//! What ends the program early: each variant one line that names the file, the place and the remedy.
+
+use meshsweep_alloc::emit::CutError;
+use meshsweep_alloc::hull::BuildError;
+use meshsweep_alloc::mesh::MeshError;
+use meshsweep_core::{OpenError, QueryError};
+use std::fmt;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Why a command did not do what it was asked. Nothing was written then.
+#[derive(Debug)]
+pub enum Failure {
+    /// A file cannot be read.
+    Read { file: PathBuf, error: io::Error },
+    /// A file cannot be written.
+    Write { file: PathBuf, error: io::Error },
+    /// The output would replace an input.
+    SameFile { file: PathBuf },
+    /// The mesh is refused.
+    Mesh { file: PathBuf, error: MeshError },
+    /// A blob was given where a mesh is wanted.
+    BlobForMesh { file: PathBuf },
+    /// The blob was not built.
+    Build { file: PathBuf, error: BuildError },
+    /// The blob is refused.
+    Open { file: PathBuf, error: OpenError },
+    /// The blob has no such level.
+    Cut { file: PathBuf, error: CutError },
+    /// The hull engine cannot say anything about this blob.
+    HullEngine { file: PathBuf, reason: &'static str },
+    /// A query line has too few or too many fields.
+    FieldCount { file: PathBuf, line: usize, wanted: &'static str, found: usize },
+    /// A field of a query is no number.
+    Field { file: PathBuf, line: usize, field: usize, text: String, reason: &'static str },
+    /// A raw file does not hold whole queries.
+    RawLength { file: PathBuf, bytes: usize, record: usize },
+    /// A query is refused.
+    Query { file: PathBuf, place: Place, error: QueryError },
+    /// The arguments do not go together.
+    Usage { what: String },
+    /// Whoever read the standard output has gone: no error.
+    ClosedPipe,
+}
+
+/// Which query of a file.
+#[derive(Clone, Copy, Debug)]
+pub enum Place {
+    /// Line of a text, from 1.
+    Line(usize),
+    /// Number of a raw record, from 0, and its first byte.
+    Record { number: usize, byte: usize },
+}
+
+impl Failure {
+    pub fn mesh(file: &Path, error: MeshError) -> Self {
+        Failure::Mesh { file: file.to_owned(), error }
+    }
+
+    pub fn open(file: &Path, error: OpenError) -> Self {
+        Failure::Open { file: file.to_owned(), error }
+    }
+
+    pub fn write(file: &Path, error: io::Error) -> Self {
+        Failure::Write { file: file.to_owned(), error }
+    }
+
+    /// Says it on the standard error.
+    pub fn report(&self) -> ExitCode {
+        if matches!(self, Failure::ClosedPipe) {
+            return ExitCode::SUCCESS;
+        }
+        // A mesh error lists places on lines of their own.
+        let text = self.to_string();
+        let line = text.lines().map(str::trim).collect::<Vec<_>>().join("; ");
+        // If the standard error is closed too, there is nobody left to tell.
+        let _ = writeln!(io::stderr(), "error: {line}");
+        ExitCode::from(if matches!(self, Failure::Usage { .. }) { 2 } else { 1 })
+    }
+}
+
+/// What the operating system says, and what to do about it.
+struct Cause<'a>(&'a io::Error);
+
+impl fmt::Display for Cause<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let remedy = match self.0.kind() {
+            io::ErrorKind::NotFound => "check the path",
+            io::ErrorKind::IsADirectory => "name a file in it",
+            io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "change permissions or the path",
+            io::ErrorKind::StorageFull => "make room",
+            _ => "check path and medium",
+        };
+        write!(f, "{}; {remedy}", self.0)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Read { file, error } => write!(f, "{}: cannot be read: {}", file.display(), Cause(error)),
+            Failure::Write { file, error } => write!(f, "{}: cannot be written: {}", file.display(), Cause(error)),
+            Failure::SameFile { file } => {
+                write!(f, "{}: is both input and output; name another output", file.display())
+            }
+            Failure::Mesh { file, error } => {
+                let text = error.to_string();
+                // Errors of reading name the file themselves.
+                if text.starts_with(&*file.to_string_lossy()) {
+                    f.write_str(&text)
+                } else {
+                    write!(f, "{}: {text}", file.display())
+                }
+            }
+            Failure::BlobForMesh { file } => {
+                write!(f, "{}: is a blob already; name the mesh that it was built from", file.display())
+            }
+            Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::Open { file, error } => write!(f, "{}: {error}; {}", file.display(), remedy(error)),
+            Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::HullEngine { file, reason } => {
+                write!(f, "{}: the hull engine needs {reason}; use --engine cover", file.display())
+            }
+            Failure::FieldCount { file, line, wanted, found } => write!(
+                f,
+                "{}, line {line}: {found} fields, and the query needs {wanted}; mend the line or begin it with #",
+                file.display()
+            ),
+            Failure::Field { file, line, field, text, reason } => {
+                let text: String = text.chars().take(40).collect();
+                write!(f, "{}, line {line}, field {field}: {text:?} {reason}", file.display())
+            }
+            Failure::RawLength { file, bytes, record } => write!(
+                f,
+                "{}: {bytes} bytes are not whole queries of {record} bytes, the last begins at byte {}; write little-endian f32",
+                file.display(),
+                bytes - bytes % record
+            ),
+            Failure::Query { file, place, error } => {
+                let remedy = match error {
+                    QueryError::NotFinite => "; remove the query",
+                    _ => "",
+                };
+                write!(f, "{}, {place}: {error}{remedy}", file.display())
+            }
+            Failure::Usage { what } => f.write_str(what),
+            Failure::ClosedPipe => f.write_str("the standard output was closed"),
+        }
+    }
+}
+
+fn remedy(error: &OpenError) -> &'static str {
+    match error {
+        OpenError::NotABlob => "make one with: meshsweep build MESH -o BLOB",
+        OpenError::Version { .. } => "or use the program that it was built with",
+        _ => "copy or build it again",
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Line(line) => write!(f, "line {line}"),
+            Place::Record { number, byte } => write!(f, "query {number} at byte {byte}"),
+        }
+    }
+}

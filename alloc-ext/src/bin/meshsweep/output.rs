@@ -1,0 +1,136 @@
+//! Output that is whole or not there: a file is written beside its place and renamed when it is complete.
+
+use super::failure::Failure;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Stdout, Write};
+use std::path::{Path, PathBuf};
+
+/// Where a command writes. Dropped before [`finish`](Self::finish), a file leaves no trace.
+pub struct Output {
+    path: PathBuf,
+    target: Target,
+}
+
+enum Target {
+    Stdout(BufWriter<Stdout>),
+    /// A pipe or a device: renaming would replace it.
+    Device(BufWriter<File>),
+    /// `temporary` is empty once it has been renamed.
+    File { out: BufWriter<File>, temporary: PathBuf, place: PathBuf },
+}
+
+impl Output {
+    /// The file at `path`; the standard output for `None` and `-`.
+    pub fn create(path: Option<&Path>) -> Result<Self, Failure> {
+        match path.filter(|path| path.as_os_str() != "-") {
+            None => Ok(Self::stdout()),
+            Some(path) => {
+                let target = open(path).map_err(|error| Failure::write(path, error))?;
+                Ok(Output { path: path.to_owned(), target })
+            }
+        }
+    }
+
+    /// The standard output.
+    pub fn stdout() -> Self {
+        let target = Target::Stdout(BufWriter::new(io::stdout()));
+        Output { path: PathBuf::from("standard output"), target }
+    }
+
+    /// Whether `path` can be written, asked before hours of work.
+    pub fn probe(path: &Path) -> Result<(), Failure> {
+        Self::create(Some(path)).map(drop)
+    }
+
+    /// Runs `write` on the output, then puts the file in its place.
+    pub fn finish(mut self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+        let done = write(&mut self).and_then(|()| self.commit());
+        done.map_err(|error| {
+            let is_stdout = matches!(self.target, Target::Stdout(_));
+            if is_stdout && error.kind() == io::ErrorKind::BrokenPipe {
+                Failure::ClosedPipe
+            } else {
+                Failure::write(&self.path, error)
+            }
+        })
+    }
+
+    fn commit(&mut self) -> io::Result<()> {
+        self.flush()?;
+        if let Target::File { out, temporary, place } = &mut self.target {
+            out.get_ref().sync_all()?;
+            fs::rename(&*temporary, &*place)?;
+            temporary.clear();
+        }
+        Ok(())
+    }
+}
+
+/// Refuses an output that is one of the inputs.
+pub fn refuse_same_file(output: &Path, inputs: &[&Path]) -> Result<(), Failure> {
+    let Ok(output_file) = fs::canonicalize(output) else { return Ok(()) };
+    let is_output = |input: &&Path| fs::canonicalize(input).is_ok_and(|input| input == output_file);
+    match inputs.iter().copied().find(is_output) {
+        Some(input) => Err(Failure::SameFile { file: input.to_owned() }),
+        None => Ok(()),
+    }
+}
+
+fn open(path: &Path) -> io::Result<Target> {
+    // Through a link, so that the link stays.
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let existing = match fs::metadata(&place) {
+        Ok(existing) => Some(existing),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(error),
+    };
+    if let Some(existing) = &existing {
+        if existing.is_dir() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        // Asks for the permission that renaming would pass over.
+        let device = File::options().write(true).open(&place)?;
+        if !existing.is_file() {
+            return Ok(Target::Device(BufWriter::new(device)));
+        }
+    }
+    let name = place.file_name().ok_or(io::ErrorKind::IsADirectory)?;
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.part", std::process::id()));
+    let temporary = place.with_file_name(hidden);
+    let file = File::create_new(&temporary)?;
+    let target = Target::File { out: BufWriter::new(file), temporary, place };
+    if let (Target::File { out, .. }, Some(existing)) = (&target, existing) {
+        // Best effort: a file system without permissions is no reason to fail.
+        let _ = out.get_ref().set_permissions(existing.permissions());
+    }
+    Ok(target)
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.target {
+            Target::Stdout(out) => out.write(bytes),
+            Target::Device(out) | Target::File { out, .. } => out.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.target {
+            Target::Stdout(out) => out.flush(),
+            Target::Device(out) | Target::File { out, .. } => out.flush(),
+        }
+    }
+}
+
+impl Drop for Target {
+    fn drop(&mut self) {
+        if let Target::File { temporary, .. } = self
+            && !temporary.as_os_str().is_empty()
+        {
+            // The error that brought us here is the one to report.
+            let _ = fs::remove_file(temporary);
+        }
+    }
+}

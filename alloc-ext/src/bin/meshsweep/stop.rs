@@ -1,0 +1,94 @@
+//! Stop rules and working memory of a search, and the note on how queries ended.
+
+use super::args::SearchArgs;
+use meshsweep_core::query::{Ended, Stop, Work};
+use meshsweep_core::{Model, QueueEntry};
+use std::fmt;
+use std::io::Write;
+use std::time::Duration;
+
+/// Queue entries unless told otherwise: enough to search best first, and small beside a cache.
+const COMFORTABLE_QUEUE: usize = 4096;
+
+impl SearchArgs {
+    /// The stop rule with the given tolerances.
+    pub fn stop(&self, relative: f32, absolute: f32) -> Stop {
+        Stop { relative, absolute, steps: self.steps.unwrap_or(u32::MAX) }
+    }
+
+    /// The queue to search with.
+    pub fn queue(&self, model: &Model<'_>) -> Vec<QueueEntry> {
+        let needed = model.capacities().queue;
+        let entries = self.queue.map_or(needed.max(COMFORTABLE_QUEUE), |entries| entries as usize);
+        vec![QueueEntry::EMPTY; entries]
+    }
+
+    /// Says on the standard error how queries ended if any ended early, and what they took if asked.
+    pub fn note(&self, tally: &Tally, time: Duration) {
+        // A standard error that is closed is no reason to withhold the answers.
+        let mut stderr = std::io::stderr();
+        if self.time {
+            let queries = tally.queries().max(1) as f64;
+            let _ = writeln!(
+                stderr,
+                "{:.1} ns and {:.1} steps of work per query; {} queries in {:.3} s",
+                time.as_nanos() as f64 / queries,
+                tally.work as f64 / queries,
+                tally.queries(),
+                time.as_secs_f64()
+            );
+        }
+        if self.time || tally.ended_early() {
+            let _ = writeln!(stderr, "ended: {tally}");
+        }
+    }
+}
+
+/// How many queries ended for which reason.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    exact: usize,
+    tolerance: usize,
+    steps: usize,
+    capacity: usize,
+    level: usize,
+    work: u64,
+}
+
+impl Tally {
+    pub fn count(&mut self, ended: Ended, work: Work) {
+        self.work += u64::from(work.total());
+        *match ended {
+            Ended::Exact => &mut self.exact,
+            Ended::Tolerance => &mut self.tolerance,
+            Ended::Steps => &mut self.steps,
+            Ended::Capacity => &mut self.capacity,
+            Ended::Level => &mut self.level,
+        } += 1;
+    }
+
+    fn queries(&self) -> usize {
+        self.exact + self.tolerance + self.steps + self.capacity + self.level
+    }
+
+    fn ended_early(&self) -> bool {
+        self.exact < self.queries()
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} exact", self.exact)?;
+        for (count, reason) in [
+            (self.tolerance, "within tolerance"),
+            (self.steps, "out of steps"),
+            (self.capacity, "out of queue"),
+            (self.level, "at the level of the cut"),
+        ] {
+            if count > 0 {
+                write!(f, ", {count} {reason}")?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,1 @@
+//! Proofs from a blob's bytes alone.

@@ -1,0 +1,51 @@
+//! What the library costs and yields, measured on a mesh: the numbers of the README and of `DESIGN.md`.
+//!
+//! ```text
+//! subject (mesh, builds) ─┬─ hulls    (paper 000, Tables 1 and 2)
+//! workload (queries) ─────┼─ segments (paper 000, Table 3) ─┐
+//! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
+//! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
+//!                         └─ storage  (bytes, levels) ──────┘
+//! ```
+//! Times are of one thread of a machine that may be busy: only ratios within one run mean something. Counts are exact.
+
+mod brute;
+mod closest;
+mod hulls;
+mod paper;
+pub mod rival;
+mod segments;
+mod storage;
+mod subject;
+pub mod table;
+mod trade;
+pub mod workload;
+
+use std::path::Path;
+
+use meshsweep_alloc::collapse::Priority;
+use table::Table;
+
+pub use subject::Subject;
+
+/// Faces of the base hull that most tables are about: the builder's default.
+const BASE_FACES: usize = 200;
+
+/// Measures one mesh file; the tables in the order in which they should be read.
+///
+/// # Errors
+/// The file is no closed manifold mesh, or an answer is missing that must be there.
+pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load(file)?;
+    let built = subject.build(BASE_FACES, Priority::Program)?;
+    let model = subject::open(&built.bytes)?;
+    let mut tables = vec![subject.table(), hulls::table(&subject), storage::build_times(&built)];
+    tables.extend([storage::sections(&model), storage::limits(&model), storage::levels(&model)]);
+    tables.push(segments::work(&subject)?);
+    tables.push(segments::engines(&subject, &model)?);
+    tables.extend(closest::tables(&subject, &model)?);
+    tables.extend([trade::tolerances(&subject, &model)?, trade::steps(&subject, &model)?]);
+    tables.push(trade::cuts(&subject, &model)?);
+    // The structural check of the blob (`check::check_blob`) belongs here.
+    Ok(tables)
+}
