@@ -1,4 +1,4 @@
-//! Mesh files in, a clean triangle mesh out.
+//! Mesh files in, a clean triangle mesh out; and [`write_ply`], the way back.
 //!
 //! ```text
 //! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for a hull
@@ -32,6 +32,7 @@ mod text;
 mod vertex_fans;
 mod weld;
 mod winding;
+mod write_ply;
 
 use std::path::{Path, PathBuf};
 
@@ -40,6 +41,7 @@ pub use manifold::require_closed_manifold;
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};
+pub use write_ply::write_ply;
 
 /// A triangle mesh as the rest of the builder takes it.
 ///

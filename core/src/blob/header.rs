@@ -1,7 +1,7 @@
 //! The fixed part of a blob: counts, scale, limits and error bound.
 
 use super::OpenError;
-use super::layout::{HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, index_bytes};
+use super::layout::{FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, index_bytes};
 use super::read::Bytes;
 use crate::geom::Aabb;
 use glam::Vec3;
@@ -100,7 +100,8 @@ impl Header {
             queue_capacity: word(140)?,
             dependency_depth: word(144)?,
         };
-        if bytes.slice(148, 8).is_none_or(|reserved| reserved.iter().any(|&b| b != 0)) {
+        let zero = |at: usize, len: usize| bytes.slice(at, len).is_some_and(|b| b.iter().all(|&b| b == 0));
+        if !zero(33, 3) || !zero(148, 8) || header.flags & !FLAG_CUT != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(header)

@@ -39,7 +39,8 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
     if !positive && !negative {
         return None;
     }
-    let (e1, e2) = (q - p, r - p);
+    // From the corners themselves: `q − p` would carry the rounding of a start that is far away.
+    let (e1, e2) = (v1 - v0, v2 - v0);
     let normal = e1.cross(e2);
     let across = d.dot(normal);
     let across_error = unit * nd * norm_1(e1) * norm_1(e2);

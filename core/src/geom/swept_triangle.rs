@@ -9,8 +9,8 @@ use crate::num::tolerance::{
 };
 use glam::Vec3;
 
-/// A lower bound of the distance from the origin to the triangle `a b c`, exact up to rounding: (8.3 units of f32's
-/// roundoff) × (farthest corner + longest edge). Zero where the direction is too short to trust.
+/// A lower bound of the distance from the origin to the triangle `a b c`, exact up to a
+/// dozen roundings of (farthest corner + longest edge). Zero where the direction is too short to trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
     let (along, rr) = support(a, b, c);

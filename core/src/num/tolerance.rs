@@ -10,14 +10,15 @@ pub const U32: f32 = f32::EPSILON / 2.0;
 pub const U64: f64 = f64::EPSILON / 2.0;
 
 /// Rounding of the f32 lower bound of a point–triangle distance, in units of [`U32`] times (distance to the farthest
-/// corner + longest edge). Proved: 9.3 (§2). Smaller loses the guarantee; larger opens a few more nodes.
+/// corner + longest edge). Proved: 12.7 (§2). Smaller loses the guarantee; larger opens a few more nodes.
 pub const POINT_BOUND: f32 = 16.0;
 
-/// Rounding of the f32 lower bound of a segment–triangle distance, in the same units. Proved: 27 (§3).
+/// Rounding of the f32 lower bound of a segment–triangle distance, in the same units, of
+/// which the probe's sum of norms holds two. Proved: 31 (§3).
 pub const SEGMENT_BOUND: f32 = 48.0;
 
 /// Rounding of the f64 point–triangle interval, in units of [`U64`] times the 1-norms of `ap`, `ab`, `ac`.
-/// Proved: 11.4 (§4). Larger widens the reported interval, which at 16 is still below one unit of f32.
+/// Proved: 8.6 (§4). Larger widens the reported interval, which at 16 is still below one unit of f32.
 pub const POINT_INTERVAL: f64 = 16.0;
 
 /// Rounding of a triple product `d · (b × c)` in f64, in units of [`U64`] times the product of the 1-norms.

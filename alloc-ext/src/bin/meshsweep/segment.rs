@@ -167,8 +167,9 @@ impl<'a> Caster<'a> {
         let work = found.work;
         let is_exact = found.ended == Ended::Exact;
         for &hit in self.hits.iter().take(found.stored) {
-            // Beyond a cut, a hit is a place from which on the surface may be.
-            let verdict = if found.ended == Ended::Level { Verdict::Unknown(hit.t) } else { Verdict::Hit(hit) };
+            // Beyond a cut, a hit is a place from which on the surface may be; its t was rounded to nearest.
+            let from = hit.t.next_down().max(0.0);
+            let verdict = if found.ended == Ended::Level { Verdict::Unknown(from) } else { Verdict::Hit(hit) };
             rows.push(Row { query, verdict, work });
         }
         if found.ended == Ended::Capacity {
