@@ -92,21 +92,33 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
 #[test]
 fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
     // Points on the medial axis of a cube, and centres of spheres, are equally far from many triangles.
-    let scenes = [
-        Scene::new("cube", cube(4), &options(12)),
-        Scene::new("icosphere", icosphere(2), &options(20)),
-    ];
+    let scenes =
+        [Scene::new("cube", cube(4), &options(12)), Scene::new("icosphere", icosphere(2), &options(20))];
     for scene in &scenes {
         let model = scene.model();
         let order: Vec<u32> = (0..model.header().surface_triangles)
             .filter_map(|t| model.source(meshsweep_core::blob::TriIdx(t)))
             .collect();
-        for p in [[0.0; 3], [0.25, 0.25, 0.25], [0.5, 0.0, 0.0], [0.0, 0.0, 2.0], [2.0; 3], [0.5, 0.5, 0.0], [-1.0; 3]] {
+        for p in [
+            [0.0; 3],
+            [0.25, 0.25, 0.25],
+            [0.5, 0.0, 0.0],
+            [0.0, 0.0, 2.0],
+            [2.0; 3],
+            [0.5, 0.5, 0.0],
+            [-1.0; 3],
+        ] {
             let nearest = truth(scene, p);
             let capacity = model.capacities().queue;
-            let answers = [capacity, capacity + 1, 64, 10_000].map(|n| ask(&model, p, &Stop::EXACT, n.max(capacity)));
+            let answers =
+                [capacity, capacity + 1, 64, 10_000].map(|n| ask(&model, p, &Stop::EXACT, n.max(capacity)));
             for answer in &answers {
-                assert_eq!((answer.triangle, answer.point), (answers[0].triangle, answers[0].point), "{p:?}");
+                assert_eq!(answer.ended, Ended::Exact, "{p:?}: {answers:?}");
+                assert_eq!(
+                    (answer.triangle, answer.point),
+                    (answers[0].triangle, answers[0].point),
+                    "{p:?}: {answers:?}"
+                );
                 assert_eq!((answer.lower, answer.upper), (answers[0].lower, answers[0].upper), "{p:?}");
             }
             if scene.name == "cube" {
@@ -128,8 +140,11 @@ fn queue_of_the_named_capacity_never_overflows_and_any_longer_one_answers_alike(
         let capacity = model.capacities().queue;
         let mut rng = Rng::new(14);
         for p in scene.points(POINTS / 2, &mut rng) {
-            let answers = [capacity, capacity + 7, 10_000].map(|n| ask(&model, p, &Stop::EXACT, n));
+            let nearest = truth(&scene, p);
+            let answers =
+                [10_000, 0, 1, 3, 7, 12, 20, 40, 90].map(|n| ask(&model, p, &Stop::EXACT, capacity + n));
             for answer in answers {
+                contains(&scene, p, &answer, nearest);
                 assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
                 let same = |a: &ClosestPoint| (a.triangle, a.point, a.lower, a.upper);
                 assert_eq!(same(&answer), same(&answers[0]), "{}: {p:?}", scene.name);
@@ -177,7 +192,11 @@ fn early_stop_still_contains_the_truth() {
                 contains(&scene, p, &answer, nearest);
                 let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {
-                    assert!(upper <= lower * (1.0 + f64::from(relative)) * (1.0 + 1e-6), "{}: {answer:?}", scene.name);
+                    assert!(
+                        upper <= lower * (1.0 + f64::from(relative)) * (1.0 + 1e-6),
+                        "{}: {answer:?}",
+                        scene.name
+                    );
                 }
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
@@ -185,7 +204,11 @@ fn early_stop_still_contains_the_truth() {
                 contains(&scene, p, &answer, nearest);
                 let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {
-                    assert!(upper - lower <= f64::from(absolute) + 2e-7 * upper, "{}: {answer:?}", scene.name);
+                    assert!(
+                        upper - lower <= f64::from(absolute) + 2e-7 * upper,
+                        "{}: {answer:?}",
+                        scene.name
+                    );
                 }
             }
         }
@@ -221,7 +244,7 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
     let mesh = rough_sphere(2, 0.3, 5);
     let plain = Scene::new("plain", mesh.clone(), &options(40));
     let model = plain.model();
-    for exponent in [-90, -17, 1, 60, 100] {
+    for exponent in [-60, -17, 1, 60, 100] {
         let factor = 2f32.powi(exponent);
         let scene = Scene::new("scaled", scaled(&mesh, factor), &options(40));
         let scaled_model = scene.model();
@@ -229,7 +252,11 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
         for p in plain.points(200, &mut rng) {
             let one = ask(&model, p, &Stop::EXACT, 256);
             let other = ask(&scaled_model, p.map(|x| x * factor), &Stop::EXACT, 256);
-            assert_eq!((one.lower * factor, one.upper * factor), (other.lower, other.upper), "2^{exponent} {p:?}");
+            assert_eq!(
+                (one.lower * factor, one.upper * factor),
+                (other.lower, other.upper),
+                "2^{exponent} {p:?}"
+            );
             assert_eq!(one.point.map(|x| x * factor), other.point, "2^{exponent} {p:?}");
             assert_eq!((one.triangle, one.work, one.ended), (other.triangle, other.work, other.ended));
         }

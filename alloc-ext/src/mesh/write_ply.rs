@@ -23,7 +23,8 @@ pub fn write_ply(mesh: &Mesh, out: &mut (impl Write + ?Sized)) -> io::Result<()>
     }
     // The crate's writer wants a sized one.
     let mut out = out;
-    let vertex = element("vertex", mesh.positions.len(), &["x", "y", "z"], &PropertyType::Scalar(ScalarType::Float));
+    let vertex =
+        element("vertex", mesh.positions.len(), &["x", "y", "z"], &PropertyType::Scalar(ScalarType::Float));
     let list = PropertyType::List(ScalarType::UChar, ScalarType::Int);
     let face = element("face", faces.len(), &["vertex_indices"], &list);
     let mut header = Header::new();

@@ -6,11 +6,15 @@ use glam::DVec3;
 /// Faces that are tried as they are.
 const FACES_TRIED: usize = 8;
 
-/// Of the first faces, the corner nearest the middle, the longest segment and the largest triangle through it: what covers `vertices`
-/// with the least radius. Corners and vertices are indices into `positions`.
-pub fn best_cover(positions: &[DVec3], faces: &[[u32; 3]], vertices: &[u32]) -> ([u32; 3], f64) {
+/// Of the first faces, and the corner nearest the middle, the longest segment and the largest triangle through it: what covers
+/// `vertices` with the least radius. All are indices into `positions`.
+pub fn best_cover(
+    positions: &[DVec3],
+    faces: &[[u32; 3]],
+    corners: &[u32],
+    vertices: &[u32],
+) -> ([u32; 3], f64) {
     let at = |l: u32| positions[l as usize];
-    let corners: Vec<u32> = faces.iter().flatten().copied().collect();
     let (low, high) = vertices
         .iter()
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &v| (l.min(at(v)), h.max(at(v))));

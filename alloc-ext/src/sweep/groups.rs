@@ -45,7 +45,7 @@ pub fn base_groups(history: &History) -> Vec<([u32; 3], f64)> {
             let mut vertices: Vec<u32> = faces.iter().flatten().copied().collect();
             vertices.sort_unstable();
             vertices.dedup();
-            best_cover(&history.positions, faces, &vertices)
+            best_cover(&history.positions, faces, &vertices, &vertices)
         })
         .collect()
 }

@@ -57,7 +57,7 @@ pub struct Cover {
 /// Most triangles of a leaf.
 const LEAF_TRIANGLES: usize = 8;
 /// Most children of a node.
-const FAN_OUT: usize = 8;
+const FAN_OUT: usize = 4;
 
 /// Builds the tree. `levels` are split counts, coarse to fine, the last one all splits: child groups are stored level by
 /// level, so that a blob can be cut after any of them.
@@ -326,7 +326,8 @@ impl Drafts<'_> {
         vertices.sort_unstable();
         vertices.dedup();
         let faces: Vec<[u32; 3]> = members.iter().map(|&(_, p)| self.history.base[p]).collect();
-        let (corners, radius) = best_cover(&self.history.positions, &faces, &vertices);
+        let base: Vec<u32> = faces.iter().flatten().copied().collect();
+        let (corners, radius) = best_cover(&self.history.positions, &faces, &base, &vertices);
         self.add(corners, radius, children, Vec::new())
     }
 }

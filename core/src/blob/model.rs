@@ -17,7 +17,7 @@ pub struct Model<'a> {
     pub(super) header: Header,
     pub(super) widths: Widths,
     pub(super) bytes: Bytes<'a>,
-    pub(super) vertices: Bytes<'a>,
+    pub(super) vertices: Vertices<'a>,
     pub(super) base: Bytes<'a>,
     pub(super) groups: Bytes<'a>,
     pub(super) splits: Bytes<'a>,
@@ -28,6 +28,25 @@ pub struct Model<'a> {
     pub(super) surface: Bytes<'a>,
     pub(super) source: Bytes<'a>,
     pub(super) levels: Bytes<'a>,
+}
+
+/// Records of the vertex section.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Vertices<'a> {
+    F32(&'a [[u8; 12]]),
+    Grid16(&'a [[u8; 6]]),
+    Grid24(&'a [[u8; 9]]),
+}
+
+impl<'a> Vertices<'a> {
+    /// The section's bytes as records; what is left over past the last one is not reached.
+    pub(super) fn new(format: VertexFormat, bytes: &'a [u8]) -> Self {
+        match format {
+            VertexFormat::F32 => Vertices::F32(bytes.as_chunks().0),
+            VertexFormat::Grid16 => Vertices::Grid16(bytes.as_chunks().0),
+            VertexFormat::Grid24 => Vertices::Grid24(bytes.as_chunks().0),
+        }
+    }
 }
 
 /// Widths and scales that the header implies, worked out once.
@@ -190,6 +209,16 @@ pub struct Section {
     pub crc: u32,
 }
 
+/// Three f32.
+#[inline(always)]
+fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
+    Vec3::new(
+        f32::from_le_bytes([a, b, c, d]),
+        f32::from_le_bytes([e, f, g, h]),
+        f32::from_le_bytes([i, j, k, l]),
+    )
+}
+
 impl<'a> Model<'a> {
     /// The header.
     pub fn header(&self) -> &Header {
@@ -218,12 +247,10 @@ impl<'a> Model<'a> {
     /// Coordinates of a vertex, local frame.
     #[inline(always)]
     pub fn position(&self, vertex: VertIdx) -> Option<Vec3> {
-        // No product of an index that the blob stores and a record's size overflows: `open` bounds the counts.
-        let i = vertex.usize();
-        match self.header.vertex_format {
-            VertexFormat::F32 => self.vertices.f32x3(i.wrapping_mul(12)).map(Vec3::from_array),
-            VertexFormat::Grid16 => self.on_grid(self.vertices.index3(i.wrapping_mul(6), 2)?),
-            VertexFormat::Grid24 => self.on_grid(self.vertices.index3(i.wrapping_mul(9), 3)?),
+        match self.vertices {
+            Vertices::F32(records) => records.get(vertex.usize()).map(single),
+            Vertices::Grid16(records) => self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 2)?),
+            Vertices::Grid24(records) => self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 3)?),
         }
     }
 
@@ -239,6 +266,14 @@ impl<'a> Model<'a> {
     /// Coordinates of three vertices.
     #[inline(always)]
     pub fn positions(&self, [a, b, c]: [VertIdx; 3]) -> Option<[Vec3; 3]> {
+        if let Vertices::F32(records) = self.vertices {
+            // One look at the format for three corners: this is the innermost loop of every query.
+            return Some([
+                single(records.get(a.usize())?),
+                single(records.get(b.usize())?),
+                single(records.get(c.usize())?),
+            ]);
+        }
         Some([self.position(a)?, self.position(b)?, self.position(c)?])
     }
 
@@ -330,9 +365,10 @@ impl<'a> Model<'a> {
     #[inline(always)]
     pub fn bound(&self, node: NodeIdx) -> Option<([VertIdx; 3], f32)> {
         let Widths { vertex: wv, child: wc, .. } = self.widths;
-        let at = node.usize().wrapping_mul(3 * wv + 2 + wc + 1);
-        let corners = self.cover.index3(at, wv)?.map(VertIdx);
-        Some((corners, Radius16(self.cover.u16(at + 3 * wv)?).get()))
+        // No product of an index that the blob stores and a record's size overflows: `open` bounds the counts.
+        let record = Bytes(self.cover.slice(node.usize().wrapping_mul(3 * wv + 2 + wc + 1), 3 * wv + 2)?);
+        let corners = record.index3(0, wv)?.map(VertIdx);
+        Some((corners, Radius16(record.u16(3 * wv)?).get()))
     }
 
     /// A node of the cover tree.

@@ -3,7 +3,7 @@
 use super::error::OpenError;
 use super::header::Header;
 use super::layout::{HEADER_BYTES, HEADER_CRC_AT, MAX_SECTIONS, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind};
-use super::model::{Model, Section, Widths};
+use super::model::{Model, Section, Vertices, Widths};
 use super::read::Bytes;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 
@@ -56,7 +56,7 @@ impl<'a> Model<'a> {
             header,
             widths: Widths::of(&header),
             bytes: all,
-            vertices: Bytes(&[]),
+            vertices: Vertices::new(header.vertex_format, &[]),
             base: Bytes(&[]),
             groups: Bytes(&[]),
             splits: Bytes(&[]),
@@ -121,7 +121,11 @@ impl<'a> Model<'a> {
             if Some(data.len()) != self.section_len(section.kind) {
                 return Err(malformed);
             }
-            *self.slot(section.kind) = Bytes(data);
+            if section.kind == SectionKind::Vertices {
+                self.vertices = Vertices::new(self.header.vertex_format, data);
+            } else {
+                *self.slot(section.kind) = Bytes(data);
+            }
         }
         if end != self.header.total_bytes {
             return Err(OpenError::Counts { what: "bytes after the last section" });
@@ -135,8 +139,7 @@ impl<'a> Model<'a> {
 
     fn slot(&mut self, kind: SectionKind) -> &mut Bytes<'a> {
         match kind {
-            SectionKind::Vertices => &mut self.vertices,
-            SectionKind::BaseTriangles => &mut self.base,
+            SectionKind::Vertices | SectionKind::BaseTriangles => &mut self.base,
             SectionKind::BaseGroups => &mut self.groups,
             SectionKind::Splits => &mut self.splits,
             SectionKind::Rings => &mut self.rings,

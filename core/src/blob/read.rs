@@ -50,16 +50,6 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// Three f32, side by side.
-    #[inline(always)]
-    pub(super) fn f32x3(self, at: usize) -> Option<[f32; 3]> {
-        let bytes = self.0.get(at..)?.first_chunk::<12>()?;
-        let (x, rest) = bytes.split_first_chunk::<4>()?;
-        let (y, rest) = rest.split_first_chunk::<4>()?;
-        let z = rest.first_chunk::<4>()?;
-        Some([f32::from_le_bytes(*x), f32::from_le_bytes(*y), f32::from_le_bytes(*z)])
-    }
-
     /// Three indices of `width` bytes, side by side.
     #[inline(always)]
     pub(super) fn index3(self, at: usize, width: usize) -> Option<[u32; 3]> {

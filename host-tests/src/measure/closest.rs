@@ -1,13 +1,12 @@
 //! Closest points: cost, the same by parry3d, and agreement with f64 brute force.
 
-use std::time::Instant;
-
 use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work, closest_point};
 use meshsweep_core::{Model, QueueEntry};
 
 use super::Subject;
 use super::brute::Brute;
 use super::rival::Rival;
+use super::stopwatch::{Stopwatch, fastest};
 use super::table::{Table, fixed, row, scientific};
 use super::workload::{Points, points};
 
@@ -29,11 +28,11 @@ impl Answers {
     pub fn of(model: &Model<'_>, points: &[[f32; 3]], stop: &Stop, queue: usize) -> Result<Self, String> {
         let mut queue = vec![QueueEntry::EMPTY; queue];
         let mut answers = Vec::with_capacity(points.len());
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         for &point in points {
             answers.push(closest_point(model, point, stop, &mut queue).map_err(|error| error.to_string())?);
         }
-        let nanoseconds = begun.elapsed().as_nanos() as f64 / points.len() as f64;
+        let nanoseconds = begun.nanoseconds_each(points.len());
         Ok(Self { answers, nanoseconds })
     }
 
@@ -69,12 +68,15 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
     let brute = Brute::new(subject);
     for kind in Points::ALL {
         let asked = points(subject, kind, COUNT);
-        let begun = Instant::now();
-        let theirs: Vec<[f32; 3]> = asked.iter().map(|&point| rival.closest(point)).collect();
-        let their_ns = begun.elapsed().as_nanos() as f64 / asked.len() as f64;
+        let by_rival = || {
+            let begun = Stopwatch::start();
+            let answers: Vec<[f32; 3]> = asked.iter().map(|&point| rival.closest(point)).collect();
+            Ok((answers, begun.nanoseconds_each(asked.len())))
+        };
+        let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
         let mut last = None;
         for queue in [model.capacities().queue, LONG_QUEUE] {
-            let run = Answers::of(model, &asked, &Stop::EXACT, queue)?;
+            let run = fastest(|| Answers::of(model, &asked, &Stop::EXACT, queue), |run| run.nanoseconds)?;
             let widest = run.answers.iter().map(width).fold(0.0, f64::max);
             cost.push(row![
                 kind.name(),

@@ -1,13 +1,12 @@
 //! Time, void and programs of progressive hulls (paper 000, Tables 1 and 2).
 
-use std::time::Instant;
-
 use glam::DVec3;
 use meshsweep_alloc::collapse::{Conditions, Engine};
 use meshsweep_alloc::precision::{VertexBits, store};
 
 use super::Subject;
 use super::paper::{HULL_FACES, Model, STRATEGIES};
+use super::stopwatch::Stopwatch;
 use super::table::{Cell, Table, fixed, row};
 
 /// Collapses to 2,000 and then 200 faces, once with each priority.
@@ -31,7 +30,7 @@ pub fn table(subject: &Subject) -> Table {
     let volume = volume(&stored.positions, &subject.mesh.triangles);
     let paper = Model::of(&subject.name);
     for (strategy, (priority, name)) in STRATEGIES.into_iter().enumerate() {
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         let conditions = Conditions::default();
         let mut engine =
             Engine::new(&stored.positions, &subject.mesh.triangles, conditions, priority, stored.grid);
@@ -41,7 +40,7 @@ pub fn table(subject: &Subject) -> Table {
             }
             // Whether it got there shows in the faces.
             let _ = engine.run(faces, |_| {});
-            let seconds = begun.elapsed().as_secs_f64();
+            let seconds = begun.seconds();
             let progress = engine.progress();
             let paper_seconds = paper.filter(|_| size == 0).map(|model| model.seconds[strategy]);
             table.push(row![
@@ -57,7 +56,7 @@ pub fn table(subject: &Subject) -> Table {
             ]);
         }
     }
-    table.note("seconds count from the mesh in memory; ns/program is that time over the programs: gathering stars and the queue are in it");
+    table.note("seconds of processor time from the mesh in memory; ns/program is that time over the programs: gathering stars and the queue are in it");
     if let Some(remark) = paper.and_then(|model| model.remark(subject.mesh.triangles.len())) {
         table.note(remark);
     }

@@ -7,7 +7,8 @@
 //! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
 //!                         └─ storage  (bytes, levels) ──────┘
 //! ```
-//! Times are of one thread of a machine that may be busy: only ratios within one run mean something. Counts are exact.
+//! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
+//! something. Counts are exact.
 
 mod brute;
 mod closest;
@@ -15,6 +16,7 @@ mod hulls;
 mod paper;
 pub mod rival;
 mod segments;
+mod stopwatch;
 mod storage;
 mod subject;
 pub mod table;

@@ -1,7 +1,5 @@
 //! Segments: the paper's counts (Table 3), and the engines against each other.
 
-use std::time::Instant;
-
 use meshsweep_core::query::{Ended, Hit, Search, Stop, Work, first_hit, outer_hits};
 use meshsweep_core::refine::{Face, Front};
 use meshsweep_core::{Model, QueueEntry};
@@ -9,6 +7,7 @@ use meshsweep_core::{Model, QueueEntry};
 use super::brute::Brute;
 use super::paper::{HORSE, Model as Paper, STRATEGIES};
 use super::rival::Rival;
+use super::stopwatch::{Stopwatch, fastest};
 use super::subject::open;
 use super::table::{Cell, Table, fixed, row};
 use super::workload::segments;
@@ -32,7 +31,7 @@ impl Run {
     fn of(segments: &[[[f32; 3]; 2]], mut ask: impl FnMut([[f32; 3]; 2]) -> Asked) -> Result<Self, String> {
         let mut run =
             Self { hits: Vec::with_capacity(segments.len()), nanoseconds: 0.0, work: [0; 4], unsettled: 0 };
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         for &segment in segments {
             let (hit, work, settled) = ask(segment)?;
             run.hits.push(hit);
@@ -42,7 +41,7 @@ impl Run {
                 *sum += u64::from(one);
             }
         }
-        run.nanoseconds = begun.elapsed().as_nanos() as f64 / segments.len() as f64;
+        run.nanoseconds = begun.nanoseconds_each(segments.len());
         Ok(run)
     }
 
@@ -89,14 +88,14 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
     let columns = [
         "strategy",
         "base faces",
-        "outer: faces",
-        "bounds",
-        "splits",
+        "outer faces",
+        "outer bounds",
+        "outer splits",
         "paper faces",
         "paper splits",
-        "first: faces",
-        "bounds ",
-        "splits ",
+        "first faces",
+        "first bounds",
+        "first splits",
         "disagree",
     ];
     let mut table =
@@ -153,16 +152,31 @@ pub fn engines(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
     let mut table = Table::new("first_hit", "First hit of the same segments", &columns);
     let segments = segments(subject, COUNT);
     let rival = Rival::new(subject)?;
-    let begun = Instant::now();
-    let theirs: Vec<Option<f32>> = segments.iter().map(|&segment| rival.first_hit(segment)).collect();
-    let their_ns = begun.elapsed().as_nanos() as f64 / segments.len() as f64;
+    let by_rival = || {
+        let begun = Stopwatch::start();
+        let hits: Vec<Option<f32>> = segments.iter().map(|&segment| rival.first_hit(segment)).collect();
+        Ok((hits, begun.nanoseconds_each(segments.len())))
+    };
+    let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
     let capacity = model.capacities().queue;
     let reference = cover(model, &segments, capacity)?;
     let runs = [
-        (format!("first_hit, queue {capacity}"), cover(model, &segments, capacity)?),
-        ("first_hit, queue 4096".to_owned(), cover(model, &segments, 4096)?),
-        (format!("outer_hits First, base {BASE_FACES}"), hull(model, &segments, Search::First)?),
-        (format!("outer_hits Outer, base {BASE_FACES}"), hull(model, &segments, Search::Outer)?),
+        (
+            format!("first_hit, queue {capacity}"),
+            fastest(|| cover(model, &segments, capacity), |run| run.nanoseconds)?,
+        ),
+        (
+            "first_hit, queue 4096".to_owned(),
+            fastest(|| cover(model, &segments, 4096), |run| run.nanoseconds)?,
+        ),
+        (
+            format!("outer_hits First, base {BASE_FACES}"),
+            fastest(|| hull(model, &segments, Search::First), |run| run.nanoseconds)?,
+        ),
+        (
+            format!("outer_hits Outer, base {BASE_FACES}"),
+            fastest(|| hull(model, &segments, Search::Outer), |run| run.nanoseconds)?,
+        ),
     ];
     for (name, run) in runs {
         table.push(row![

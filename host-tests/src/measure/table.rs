@@ -184,7 +184,7 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Table, fixed, row, scientific};
+    use super::{Cell, Table, fixed, scientific};
 
     #[test]
     fn text_is_aligned_and_json_is_keyed_by_column() {

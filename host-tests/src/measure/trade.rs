@@ -13,7 +13,7 @@ use super::workload::{Points, points};
 /// Points of each kind.
 const COUNT: usize = 2_000;
 const TOLERANCES: [f32; 5] = [0.0, 0.001, 0.01, 0.1, 1.0];
-const STEPS: [u32; 8] = [4, 8, 16, 32, 64, 128, 256, 512];
+const STEPS: [u32; 7] = [4, 8, 16, 32, 64, 128, 256];
 const KINDS: [Points; 2] = [Points::Far, Points::Near];
 const MEASURED: [&str; 6] = ["ns", "nodes", "triangles", "guaranteed width", "mean error", "largest error"];
 
@@ -78,11 +78,11 @@ pub fn cuts(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
         "faces",
         "bytes",
         "% of all",
-        "far: ns",
-        "width",
-        "of diagonal",
-        "near: ns",
-        "of diagonal ",
+        "far ns",
+        "far width",
+        "far of diagonal",
+        "near ns",
+        "near of diagonal",
         "outside",
     ];
     let mut table = Table::new("cuts", "Blobs cut after a level, closest point", &columns);

@@ -29,7 +29,8 @@ pub fn distance_to_triangle(p: [f32; 3], corners: [[f32; 3]; 3]) -> Bounded {
     let size = p.minus(&a).norm_1() + b.minus(&a).norm_1() + c.minus(&a).norm_1();
     let normal = b.minus(&a).cross(&c.minus(&a));
     let squared = normal.dot(&normal);
-    let within = |from: &Vector, to: &Vector| !to.minus(from).cross(&normal).dot(&p.minus(from)).is_positive();
+    let within =
+        |from: &Vector, to: &Vector| !to.minus(from).cross(&normal).dot(&p.minus(from)).is_positive();
     let distance = if squared.is_positive() && within(&a, &b) && within(&b, &c) && within(&c, &a) {
         let height = normal.dot(&p.minus(&a)) / squared.sqrt();
         if height.is_positive() { height } else { -height }
@@ -90,8 +91,9 @@ fn span(p: [f32; 3], q: [f32; 3]) -> f64 {
 pub fn rough_distance_sq(p: [f32; 3], corners: [[f32; 3]; 3]) -> f64 {
     let sub = |x: [f64; 3], y: [f64; 3]| [x[0] - y[0], x[1] - y[1], x[2] - y[2]];
     let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-    let cross =
-        |x: [f64; 3], y: [f64; 3]| [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+    let cross = |x: [f64; 3], y: [f64; 3]| {
+        [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
+    };
     let p = p.map(f64::from);
     let [a, b, c] = corners.map(|v| v.map(f64::from));
     let edges = [(a, b), (b, c), (c, a)];
@@ -120,7 +122,10 @@ mod tests {
 
     fn check(p: [f32; 3], expected: f64) {
         let d = distance_to_triangle(p, T);
-        assert!(d.lower <= expected && expected <= d.upper && d.upper - d.lower < 1e-15 * (1.0 + expected), "{d:?}");
+        assert!(
+            d.lower <= expected && expected <= d.upper && d.upper - d.lower < 1e-15 * (1.0 + expected),
+            "{d:?}"
+        );
         assert!((rough_distance_sq(p, T).sqrt() - expected).abs() < 1e-12);
     }
 
@@ -141,7 +146,10 @@ mod tests {
             let s = 10f32.powi(k / 2) * 10f32.powi(k - k / 2).sqrt();
             let d = distance_to_triangle([0.25 * s, 0.25 * s, 3.0 * s], T.map(|v| v.map(|x| x * s)));
             let expected = 3.0 * f64::from(s);
-            assert!(d.lower <= expected * (1.0 + 1e-7) && d.upper >= expected * (1.0 - 1e-7) && d.lower > 0.0, "{d:?}");
+            assert!(
+                d.lower <= expected * (1.0 + 1e-7) && d.upper >= expected * (1.0 - 1e-7) && d.lower > 0.0,
+                "{d:?}"
+            );
         }
     }
 }

@@ -47,7 +47,8 @@ pub fn meets(a: [f32; 3], b: [f32; 3], [u, v, w]: [[f32; 3]; 3]) -> Option<bool>
 
 /// The coplanar case, on a coordinate plane on which the triangle keeps its area. Leaving out a coordinate is exact.
 fn meets_in_plane(a: [f32; 3], b: [f32; 3], t: [[f32; 3]; 3]) -> bool {
-    let flat = |p: [f32; 3], drop: usize| Coord { x: f64::from(p[(drop + 1) % 3]), y: f64::from(p[(drop + 2) % 3]) };
+    let flat =
+        |p: [f32; 3], drop: usize| Coord { x: f64::from(p[(drop + 1) % 3]), y: f64::from(p[(drop + 2) % 3]) };
     let Some(drop) = (0..3).find(|&k| {
         let [u, v, w] = t.map(|p| flat(p, k));
         orient2d(u, v, w) != 0.0
@@ -60,7 +61,9 @@ fn meets_in_plane(a: [f32; 3], b: [f32; 3], t: [[f32; 3]; 3]) -> bool {
         let s = [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])].map(|(u, v)| sign(orient2d(u, v, x)));
         s.iter().all(|&s| s >= 0) || s.iter().all(|&s| s <= 0)
     };
-    inside(p) || inside(q) || [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])].into_iter().any(|(u, v)| cross_2d(p, q, u, v))
+    inside(p)
+        || inside(q)
+        || [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])].into_iter().any(|(u, v)| cross_2d(p, q, u, v))
 }
 
 /// Whether two closed segments in the plane meet.
@@ -81,7 +84,8 @@ pub fn contacts(a: [f32; 3], b: [f32; 3], positions: &[[f32; 3]], triangles: &[[
     for (index, triangle) in triangles.iter().enumerate() {
         let corners = triangle.map(|v| positions[v as usize]);
         let Some(coplanar) = meets(a, b, corners) else { continue };
-        let (t_lower, t_upper) = if coplanar { first_in_plane(a, b, corners) } else { crossing(a, b, corners) };
+        let (t_lower, t_upper) =
+            if coplanar { first_in_plane(a, b, corners) } else { crossing(a, b, corners) };
         found.push(Contact { triangle: index as u32, t_lower, t_upper, coplanar });
     }
     found.sort_by(|x, y| x.t_lower.total_cmp(&y.t_lower).then(x.triangle.cmp(&y.triangle)));
@@ -181,7 +185,9 @@ mod tests {
         let (positions, triangles) = (T.to_vec(), [[0, 1, 2]]);
         let at = |a, b| contacts(a, b, &positions, &triangles)[0];
         let through = at([0.2, 0.2, 1.0], [0.2, 0.2, -3.0]);
-        assert!(through.t_lower <= 0.25 && 0.25 <= through.t_upper && through.t_upper - through.t_lower < 1e-14);
+        assert!(
+            through.t_lower <= 0.25 && 0.25 <= through.t_upper && through.t_upper - through.t_lower < 1e-14
+        );
         let in_plane = at([-1.0, 0.25, 0.0], [1.0, 0.25, 0.0]);
         assert!(in_plane.t_lower <= 0.5 && 0.5 <= in_plane.t_upper && in_plane.coplanar);
         assert!(gap_to_triangle([0.2, 0.2, 1.0], [0.2, 0.2, 0.5], T) - 0.5 < 1e-12);

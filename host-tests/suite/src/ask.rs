@@ -13,13 +13,19 @@ use meshsweep_core::{Model, OpenError, QueueEntry};
 
 use crate::{fold::Fold, place::Bounds};
 
+/// Entries of the queue.
+const QUEUE: usize = 256;
+
+/// Words of each bit set of the front: 2,048 splits.
+const FRONT_WORDS: usize = 64;
+
 /// What the queries need beside the model, 4 KiB in all: it must fit in the smallest part's RAM beside the stack.
 #[derive(Debug)]
 pub struct Scratch {
-    queue: [QueueEntry; 256],
+    queue: [QueueEntry; QUEUE],
     hits: [Hit; 16],
-    performed: [u32; 64],
-    swept: [u32; 64],
+    performed: [u32; FRONT_WORDS],
+    swept: [u32; FRONT_WORDS],
     candidates: [Face; 64],
 }
 
@@ -28,10 +34,10 @@ impl Scratch {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            queue: [QueueEntry::EMPTY; 256],
+            queue: [QueueEntry::EMPTY; QUEUE],
             hits: [Hit::EMPTY; 16],
-            performed: [0; 64],
-            swept: [0; 64],
+            performed: [0; FRONT_WORDS],
+            swept: [0; FRONT_WORDS],
             candidates: [Face::EMPTY; 64],
         }
     }
@@ -46,9 +52,14 @@ impl Default for Scratch {
 /// A blob that was opened.
 pub type Subject<'a> = Model<'a>;
 
-/// Why a blob was not opened, as the number of the core's error.
+/// Why a blob was not opened, as the number of the core's error, or why it was not asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Refused(pub u32);
+
+impl Refused {
+    /// The suite's memory is too short for the model's capacities.
+    pub const MEMORY: Self = Self(100);
+}
 
 /// Opens a blob.
 ///
@@ -80,6 +91,13 @@ pub fn bounds(subject: &Subject<'_>) -> Bounds {
     // A power of two: exact unless the box leaves f32's normal range, and then rounded alike everywhere.
     let scale = subject.scale();
     [surface_box.min, surface_box.max].map(|corner| corner.as_dvec3().to_array().map(|x| (x * scale) as f32))
+}
+
+/// Whether no query on this model can end early for want of [`Scratch`]: else blocks of such answers would prove little.
+#[must_use]
+pub fn memory_suffices(subject: &Subject<'_>) -> bool {
+    let needed = subject.capacities();
+    needed.queue <= QUEUE && needed.front_words <= FRONT_WORDS
 }
 
 /// What the blob says of itself: sections, levels and the faces of every hull.

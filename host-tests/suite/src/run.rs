@@ -92,7 +92,7 @@ pub trait Recorder {
 /// Opens the blob and runs all kinds.
 ///
 /// # Errors
-/// The core's refusal of the blob. Refused queries are answers: they are folded like any other.
+/// The core's refusal of the blob, or [`Refused::MEMORY`] if queries could end for want of scratch. Refused queries are answers: they are folded like any other.
 pub fn run(
     blob: &[u8],
     plan: Plan,
@@ -100,6 +100,9 @@ pub fn run(
     recorder: &mut impl Recorder,
 ) -> Result<(), Refused> {
     let subject = ask::open(blob)?;
+    if !ask::memory_suffices(&subject) {
+        return Err(Refused::MEMORY);
+    }
     let bounds = ask::bounds(&subject);
     for kind in Kind::ALL {
         recorder.kind_begins(kind);

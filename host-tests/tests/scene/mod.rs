@@ -6,7 +6,8 @@ use meshsweep_alloc::mesh::{RawMesh, repair, require_closed_manifold};
 use meshsweep_alloc::precision::VertexBits;
 use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, groove_block, needle_comb, rough_sphere, scaled, torus, transformed, two_parts,
+    Rng, Triangles, bracket, cube, groove_block, needle_comb, rough_sphere, scaled, torus, transformed,
+    two_parts,
 };
 
 /// A mesh as it was given, and its blob.

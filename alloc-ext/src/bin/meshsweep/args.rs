@@ -21,6 +21,10 @@ const QUERY_FILES: &str = "Query files: decimal numbers separated by commas, sem
     a header line, blank lines and comments from # on are skipped. '-' reads this from the standard input. A file named \
     *.f32 holds raw little-endian f32 numbers.";
 
+const HIT_COLUMN: &str = "The column 'hit' says yes, with the first hit; no, which is proved; or unknown, if the query ended \
+    early: then the segment is proved clear before t, which px, py, pz belong to. Where the blob's surface error is not zero, \
+    a hit is one of a surface within that error of the mesh.";
+
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Build a blob from a closed mesh (.stl, .ply, .obj)
@@ -31,7 +35,7 @@ pub enum Command {
     #[command(after_help = QUERY_FILES)]
     Closest(ClosestArgs),
     /// First hit, or all hits, of each query segment, as CSV
-    #[command(after_help = QUERY_FILES)]
+    #[command(after_help = format!("{HIT_COLUMN}\n\n{QUERY_FILES}"))]
     Segment(SegmentArgs),
     /// Write an outer hull of a mesh, or a level of a blob, as binary PLY
     Hull(HullArgs),
@@ -177,9 +181,6 @@ pub struct ClosestArgs {
     pub search: SearchArgs,
 }
 
-/// The column `hit`: yes, with the first hit; no, which is proved; unknown, if the query ended early: then the
-/// segment is proved clear before `t`, which `px`, `py`, `pz` belong to. Where the blob's surface error is not zero,
-/// a hit is one of a surface within that error of the mesh.
 #[derive(Debug, Args)]
 pub struct SegmentArgs {
     /// Blob file
@@ -189,8 +190,9 @@ pub struct SegmentArgs {
     /// All hits, one on a line, with the number of the query (from 0) in front
     #[arg(long, conflicts_with = "steps")]
     pub all: bool,
-    /// cover, the cover tree; or hull, the selectively refined hull, for segments that start outside (others use the tree)
-    #[arg(long, value_enum, default_value_t = Engine::Cover, conflicts_with_all = ["all", "steps", "queue"])]
+    /// cover, the cover tree; or hull, the selectively refined hull, for first hits of segments that start outside (others
+    /// use the tree), without --all, --steps and --queue
+    #[arg(long, value_enum, default_value_t = Engine::Cover)]
     pub engine: Engine,
     #[command(flatten)]
     pub search: SearchArgs,

@@ -27,7 +27,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         hull::build(&solid.mesh, solid.moved, solid.input_triangles, &options, |progress| bar.show(progress))
             .map_err(|error| Failure::Build { file: args.mesh.clone(), error })?;
     drop(bar);
-    Output::create(Some(&args.output))?.finish(|out| out.write_all(&built.bytes))?;
+    Output::file(&args.output)?.finish(|out| out.write_all(&built.bytes))?;
     let model = blob_file::open(&args.output, &built.bytes)?;
     Output::stdout().finish(|out| write_report(out, args, &solid, &built.report, &model))
 }
@@ -41,9 +41,9 @@ fn write_report(
 ) -> io::Result<()> {
     writeln!(out, "{}", args.mesh.display())?;
     writeln!(out, "  {}", solid.report)?;
-    writeln!(out, "  volume {:e}", report.volume)?;
+    writeln!(out, "  volume {}", describe::Length(report.volume))?;
     if solid.moved > 0.0 {
-        writeln!(out, "  vertices moved to the grid by up to {:e}", solid.moved)?;
+        writeln!(out, "  vertices moved to the grid by up to {}", describe::Length(solid.moved))?;
     }
     writeln!(out, "{}", args.output.display())?;
     writeln!(out, "  base hull: {} faces", report.base_faces)?;
@@ -81,6 +81,7 @@ fn other_format(wanted: StoredBits, got: VertexFormat) -> Option<&'static str> {
         StoredBits::TwentyFour => VertexFormat::Grid24,
         StoredBits::Auto | StoredBits::ThirtyTwo => return None,
     };
-    (got != wanted_format)
-        .then_some("the mesh is too small or too far from its origin for the grid: coordinates are stored as f32")
+    (got != wanted_format).then_some(
+        "the mesh is too small or too far from its origin for the grid: coordinates are stored as f32",
+    )
 }

@@ -20,7 +20,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
     let points = Queries::points(&args.points)?;
-    let output = Output::create(output)?;
+    let output = Output::file_or_stdout(output)?;
     let stop = args.search.stop(args.rel, args.abs);
     let mut queue = args.search.queue(&model);
     let mut answers = Vec::with_capacity(points.rows.len());

@@ -39,7 +39,12 @@ fn fields(text: &str) -> Box<dyn Iterator<Item = &str> + '_> {
     }
 }
 
-fn row<const N: usize>(file: &Path, line: usize, text: &str, wanted: &'static str) -> Result<[f32; N], Failure> {
+fn row<const N: usize>(
+    file: &Path,
+    line: usize,
+    text: &str,
+    wanted: &'static str,
+) -> Result<[f32; N], Failure> {
     let mut row = [0f32; N];
     let mut found = 0;
     for field in fields(text) {
@@ -89,7 +94,9 @@ mod tests {
     #[test]
     fn malformed_lines_are_refused_with_line_and_field() {
         let at = |text: &str| read(text).unwrap_err();
-        assert!(at("x y z\n1 2 3\n1 2 three\n").starts_with("a.csv, line 3, field 3: \"three\" is not a number"));
+        assert!(
+            at("x y z\n1 2 3\n1 2 three\n").starts_with("a.csv, line 3, field 3: \"three\" is not a number")
+        );
         assert!(at("1,2,3\nx,y,z").starts_with("a.csv, line 2, field 1"));
         assert!(at("1,,3").starts_with("a.csv, line 1, field 2: \"\" is not a number"));
         assert!(at("1,2,3,").starts_with("a.csv, line 1: 4 fields"));

@@ -11,14 +11,20 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
     refuse_same_file(&args.output, &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
-    let cut = emit::cut(&model, args.level).map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
+    let cut =
+        emit::cut(&model, args.level).map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
     let cut = cut.to_bytes();
     // What does not open must not be handed out.
     Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
-    Output::create(Some(&args.output))?.finish(|out| out.write_all(&cut))?;
+    Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
     Output::stdout().finish(|out| {
         let (kept, all) = (cut.len(), bytes.len());
         let share = kept as f64 / all as f64 * 100.0;
-        writeln!(out, "{}: {kept} of {all} bytes ({share:.1} %), levels 0 to {}", args.output.display(), args.level)
+        writeln!(
+            out,
+            "{}: {kept} of {all} bytes ({share:.1} %), levels 0 to {}",
+            args.output.display(),
+            args.level
+        )
     })
 }

@@ -1,6 +1,6 @@
 //! `meshsweep` without a command: what it does, shown on a torus that is built in.
 
-use super::failure::Failure;
+use super::failure::{Failure, Place};
 use super::output::Output;
 use super::{blob_file, describe};
 use meshsweep_alloc::hull::{self, BuildOptions};
@@ -23,7 +23,7 @@ pub fn run() -> Result<(), Failure> {
         .map_err(|error| Failure::Build { file: file.to_owned(), error })?;
     let model = blob_file::open(file, &built.bytes)?;
     let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
-    let place = |error| Failure::Query { file: file.to_owned(), place: super::failure::Place::Line(0), error };
+    let place = |error| Failure::Query { file: file.to_owned(), place: Place::BuiltIn, error };
     let point = [3.0, 1.0, 0.5];
     let closest = closest_point(&model, point, &Stop::EXACT, &mut queue).map_err(place)?;
     let (from, to) = ([4.0, 0.25, 0.1], [-4.0, 0.25, 0.1]);

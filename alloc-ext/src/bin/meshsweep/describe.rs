@@ -4,6 +4,7 @@ use meshsweep_core::blob::layout::VertexFormat;
 use meshsweep_core::blob::{Header, Level};
 use meshsweep_core::num::{exp2, up_to_f32};
 use meshsweep_core::{Model, QueueEntry};
+use std::fmt;
 use std::io::{self, Write};
 
 /// Bytes of one word of a front's bit set.
@@ -60,6 +61,21 @@ pub fn format_name(format: VertexFormat) -> &'static str {
     }
 }
 
+/// A length for people: as it is in everyday sizes, else with an exponent.
+pub struct Length<T>(pub T);
+
+impl<T: Copy + Into<f64> + fmt::Display + fmt::LowerExp> fmt::Display for Length<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.into().abs();
+        let text = if size == 0.0 || (1e-3..1e7).contains(&size) {
+            format!("{}", self.0)
+        } else {
+            format!("{:e}", self.0)
+        };
+        f.pad(&text)
+    }
+}
+
 /// Sections with their bytes.
 pub fn write_sections(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     let triangles = f64::from(triangles(model));
@@ -97,19 +113,18 @@ pub fn write_memory(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
 
 /// The level table.
 pub fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    writeln!(
-        out,
-        "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover"
-    )?;
+    writeln!(out, "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover")?;
     for (index, level) in model.levels().enumerate() {
         let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(model.header(), &level);
         writeln!(
             out,
-            "  {index:>5} {:>10} {:>10} {:>10} {:>10.3} {cover_to_mesh:>15e} {mesh_to_cover:>15e}",
+            "  {index:>5} {:>10} {:>10} {:>10} {:>10.3} {:>15} {:>15}",
             level.faces,
             level.splits,
             level.nodes,
-            f64::from(level.void_ratio) * 100.0
+            f64::from(level.void_ratio) * 100.0,
+            Length(cover_to_mesh),
+            Length(mesh_to_cover)
         )?;
     }
     Ok(())
@@ -124,5 +139,10 @@ pub fn write_blob(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     write_memory(out, model)?;
     writeln!(out, "levels, with certified distances of their covering triangles in the mesh's unit")?;
     write_levels(out, model)?;
-    writeln!(out, "surface error {:e} (coordinates: {})", surface_error(h), format_name(h.vertex_format))
+    writeln!(
+        out,
+        "surface error {} (coordinates: {})",
+        Length(surface_error(h)),
+        format_name(h.vertex_format)
+    )
 }

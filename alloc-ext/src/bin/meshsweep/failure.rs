@@ -51,6 +51,8 @@ pub enum Place {
     Line(usize),
     /// Number of a raw record, from 0, and its first byte.
     Record { number: usize, byte: usize },
+    /// One of the demonstration's.
+    BuiltIn,
 }
 
 impl Failure {
@@ -88,7 +90,9 @@ impl fmt::Display for Cause<'_> {
         let remedy = match self.0.kind() {
             io::ErrorKind::NotFound => "check the path",
             io::ErrorKind::IsADirectory => "name a file in it",
-            io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "change permissions or the path",
+            io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+                "change permissions or the path"
+            }
             io::ErrorKind::StorageFull => "make room",
             _ => "check path and medium",
         };
@@ -99,8 +103,12 @@ impl fmt::Display for Cause<'_> {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Read { file, error } => write!(f, "{}: cannot be read: {}", file.display(), Cause(error)),
-            Failure::Write { file, error } => write!(f, "{}: cannot be written: {}", file.display(), Cause(error)),
+            Failure::Read { file, error } => {
+                write!(f, "{}: cannot be read: {}", file.display(), Cause(error))
+            }
+            Failure::Write { file, error } => {
+                write!(f, "{}: cannot be written: {}", file.display(), Cause(error))
+            }
             Failure::SameFile { file } => {
                 write!(f, "{}: is both input and output; name another output", file.display())
             }
@@ -162,6 +170,7 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Place::Line(line) => write!(f, "line {line}"),
+            Place::BuiltIn => f.write_str("the built-in query"),
             Place::Record { number, byte } => write!(f, "query {number} at byte {byte}"),
         }
     }

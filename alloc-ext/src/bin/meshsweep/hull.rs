@@ -24,7 +24,10 @@ const FACES: u32 = 200;
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
     if !args.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) {
-        return usage(format!("{}: the hull is written as PLY; name an output that ends in .ply", args.output.display()));
+        return usage(format!(
+            "{}: the hull is written as PLY; name an output that ends in .ply",
+            args.output.display()
+        ));
     }
     refuse_same_file(&args.output, &[&args.input])?;
     let is_blob = begins_with_magic(&args.input);
@@ -60,7 +63,8 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     let solid = solid::load(&args.input, options.vertex_bits)?;
     let bar = Bar::new(solid.mesh.triangles.len(), options.base_faces);
     let started = Instant::now();
-    let (hull, void, stuck) = hull_of(&solid.mesh, options.base_faces, &options, |progress| bar.show(progress));
+    let (hull, void, stuck) =
+        hull_of(&solid.mesh, options.base_faces, &options, |progress| bar.show(progress));
     let time = started.elapsed();
     drop(bar);
     write_hull(&args.output, &hull)?;
@@ -81,7 +85,8 @@ fn of_blob(args: &HullArgs, index: u32) -> Result<(), Failure> {
     let bytes = blob_file::read(&args.input)?;
     let model = blob_file::open(&args.input, &bytes)?;
     let levels = model.header().levels;
-    let no_level = || Failure::Cut { file: args.input.clone(), error: CutError::NoLevel { wanted: index, levels } };
+    let no_level =
+        || Failure::Cut { file: args.input.clone(), error: CutError::NoLevel { wanted: index, levels } };
     let level = model.level(index).ok_or_else(no_level)?;
     let hull = level_mesh(&model, &level);
     write_hull(&args.output, &hull)?;
@@ -115,5 +120,5 @@ fn level_mesh(model: &Model<'_>, level: &Level) -> Mesh {
 }
 
 fn write_hull(path: &Path, hull: &Mesh) -> Result<(), Failure> {
-    Output::create(Some(path))?.finish(|out| write_ply(hull, out))
+    Output::file(path)?.finish(|out| write_ply(hull, out))
 }

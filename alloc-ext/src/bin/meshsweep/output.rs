@@ -16,19 +16,27 @@ enum Target {
     /// A pipe or a device: renaming would replace it.
     Device(BufWriter<File>),
     /// `temporary` is empty once it has been renamed.
-    File { out: BufWriter<File>, temporary: PathBuf, place: PathBuf },
+    File {
+        out: BufWriter<File>,
+        temporary: PathBuf,
+        place: PathBuf,
+    },
 }
 
 impl Output {
-    /// The file at `path`; the standard output for `None` and `-`.
-    pub fn create(path: Option<&Path>) -> Result<Self, Failure> {
-        match path.filter(|path| path.as_os_str() != "-") {
-            None => Ok(Self::stdout()),
-            Some(path) => {
-                let target = open(path).map_err(|error| Failure::write(path, error))?;
-                Ok(Output { path: path.to_owned(), target })
-            }
+    /// The file at `path`.
+    pub fn file(path: &Path) -> Result<Self, Failure> {
+        if path.as_os_str() == "-" {
+            let what = "-: the standard output is for the report; name a file".to_owned();
+            return Err(Failure::Usage { what });
         }
+        let target = open(path).map_err(|error| Failure::write(path, error))?;
+        Ok(Output { path: path.to_owned(), target })
+    }
+
+    /// The file at `path`; the standard output for `None` and `-`.
+    pub fn file_or_stdout(path: Option<&Path>) -> Result<Self, Failure> {
+        path.filter(|path| path.as_os_str() != "-").map_or_else(|| Ok(Self::stdout()), Self::file)
     }
 
     /// The standard output.
@@ -39,7 +47,9 @@ impl Output {
 
     /// Whether `path` can be written, asked before hours of work.
     pub fn probe(path: &Path) -> Result<(), Failure> {
-        Self::create(Some(path)).map(drop)
+        // Opening a pipe and closing it would tell its reader that this was all.
+        let is_device = fs::metadata(path).is_ok_and(|existing| !existing.is_file() && !existing.is_dir());
+        if is_device { Ok(()) } else { Self::file(path).map(drop) }
     }
 
     /// Runs `write` on the output, then puts the file in its place.

@@ -8,9 +8,7 @@ use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::stop::Tally;
-use meshsweep_core::query::{
-    Ended, Hit, Search, SegmentHit, Stop, Work, all_hits, first_hit, outer_hits,
-};
+use meshsweep_core::query::{Ended, Hit, Search, SegmentHit, Stop, Work, all_hits, first_hit, outer_hits};
 use meshsweep_core::refine::{Face, Front};
 use meshsweep_core::{Model, QueryError, QueueEntry};
 use std::io::{self, Write};
@@ -46,19 +44,29 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     if let Some(output) = output {
         refuse_same_file(output, &[&args.blob, &args.segments])?;
     }
+    let is_limited = args.all || args.search.steps.is_some() || args.search.queue.is_some();
+    if args.engine == Engine::Hull && is_limited {
+        let what =
+            "--engine hull finds first hits to their end; leave out --all, --steps and --queue".to_owned();
+        return Err(Failure::Usage { what });
+    }
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
     if args.engine == Engine::Hull {
         require_exact_surface(&args.blob, &model)?;
     }
     let segments = Queries::segments(&args.segments)?;
-    let output = Output::create(output)?;
+    let output = Output::file_or_stdout(output)?;
     let mut caster = Caster::new(&model, args);
     let mut rows = Vec::with_capacity(segments.rows.len());
     let mut tally = Tally::default();
     let started = Instant::now();
     for (index, &segment) in segments.rows.iter().enumerate() {
-        let cast = if args.all { caster.all(index, segment, &mut rows) } else { caster.first(index, segment, &mut rows) };
+        let cast = if args.all {
+            caster.all(index, segment, &mut rows)
+        } else {
+            caster.first(index, segment, &mut rows)
+        };
         let (ended, work) = cast.map_err(|error| segments.refused(index, error))?;
         tally.count(ended, work);
     }
@@ -169,7 +177,8 @@ impl<'a> Caster<'a> {
         for &hit in self.hits.iter().take(found.stored) {
             // Beyond a cut, a hit is a place from which on the surface may be; its t was rounded to nearest.
             let from = hit.t.next_down().max(0.0);
-            let verdict = if found.ended == Ended::Level { Verdict::Unknown(from) } else { Verdict::Hit(hit) };
+            let verdict =
+                if found.ended == Ended::Level { Verdict::Unknown(from) } else { Verdict::Hit(hit) };
             rows.push(Row { query, verdict, work });
         }
         if found.ended == Ended::Capacity {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use crate::blobs::Blob;
 use crate::boards::{BOARDS, Board};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
@@ -10,7 +11,7 @@ use crate::qemu::Qemu;
 use crate::reading::Reading;
 use crate::steps::Steps;
 use crate::table::{self, Added, Row};
-use crate::{blobs, elf, proof};
+use crate::{elf, proof};
 
 /// What the firmware's part needs beside cargo.
 #[derive(Clone, Debug)]
@@ -38,16 +39,14 @@ pub fn run(steps: &mut Steps, tools: &Tools, json: Option<&Path>) {
 fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
     let Tools { cross, qemu } = tools;
     let step = |what: &str| format!("{}: {what}", board.cpu);
-    let reading = steps.run(&step("the host's bits"), || {
-        let blob = blobs::make(board.flash)?;
-        let bytes = fs::read(&blob).map_err(|error| format!("cannot read {}: {error}", blob.display()))?;
-        let image = images::suite(cross, board.target, &blob)?;
-        let reading = Reading::parse(&qemu.run(board.machine, &image)?, board)?;
-        reading.compare(&Reading::of_host(&bytes)?)?;
-        Ok(reading)
-    });
+    let standard = Blob::standard(board.flash);
+    let reading = steps.run(&step("the host's bits"), || compared(cross, qemu, board, standard));
+    for variant in Blob::VARIANTS {
+        let name = format!("the host's bits, {}", variant.name());
+        steps.run(&step(&name), || compared(cross, qemu, board, variant).map(drop));
+    }
     if cross.has_clippy() {
-        steps.run(&step("lints"), || images::lint(cross, board.target, &blobs::make(board.flash)?));
+        steps.run(&step("lints"), || images::lint(cross, board.target, &standard.file()?));
     }
     for profile in Profile::ALL {
         steps.run(&step(&format!("no panic, {}", profile.name())), || {
@@ -57,6 +56,16 @@ fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
     steps.run(&step("a panic is noticed"), || proof::notices_a_panic(cross, board.target, Profile::Release));
     let added = steps.run(&step("sizes"), || sizes(cross, board)).unwrap_or_default();
     Row { board: *board, reading, added }
+}
+
+/// Runs the suite on a board; its answers are the host's bit by bit, or it is an error.
+fn compared(cross: &Cross, qemu: &Qemu, board: &Board, blob: Blob) -> Result<Reading, String> {
+    let file = blob.file()?;
+    let bytes = fs::read(&file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
+    let image = images::suite(cross, board.target, &file)?;
+    let reading = Reading::parse(&qemu.run(board.machine, &image)?, board)?;
+    reading.compare(&Reading::of_host(&bytes)?)?;
+    Ok(reading)
 }
 
 fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {

@@ -7,20 +7,25 @@
 //!           ├ reading (what an image printed) ─ compared with the host's own run
 //!           ├ proof   (no panic left)
 //!           └ elf     (sizes) ─ table
+//! fixtures ── generators and builder
+//! measuring ─ host_tests::measure, firmware
+//! count ───── callgrind on this program itself
 //! ```
 
 mod blobs;
 mod boards;
 mod checks;
+mod count;
 mod cross;
 mod elf;
 mod firmware;
+mod fixtures;
 mod images;
+mod measuring;
 mod process;
 mod proof;
 mod qemu;
 mod reading;
-mod stand_in;
 mod steps;
 mod table;
 mod toolbox;
@@ -34,6 +39,10 @@ const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets and of QEMU
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
+cargo xtask fixtures                writes fixtures/ anew
+cargo xtask measure [--firmware] [--json FILE] [MESH...]
+                                    work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
+cargo xtask count                   instructions a query, by callgrind
 
 environment:
   MESHSWEEP_STD=rustup|debian       where the cross targets' std comes from (default: rustup, else debian)
@@ -64,6 +73,17 @@ fn main() -> ExitCode {
             if let Some(tools) = firmware::setup(&mut steps) {
                 firmware::run(&mut steps, &tools, json);
             }
+        }
+        ["fixtures"] => fixtures::write(&mut steps),
+        ["measure", rest @ ..] => match measuring::Options::parse(rest) {
+            Some(options) => measuring::run(&mut steps, &options),
+            None => return usage(),
+        },
+        ["count"] => count::run(&mut steps),
+        // What `count` runs in the simulator.
+        ["ask", question, queries] => {
+            let Ok(queries) = queries.parse() else { return usage() };
+            steps.run(question, || count::ask(question, queries));
         }
         _ => return usage(),
     }

@@ -1,0 +1,191 @@
+//! What is refused: with which exit status, in one line, leaving what was there.
+
+mod cli_support;
+
+use cli_support::{arg, blob, fixture, meshsweep, ok, refused, run, scratch, write_raw};
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+
+/// A file with this content.
+fn file(directory: &Path, name: &str, content: impl AsRef<[u8]>) -> std::path::PathBuf {
+    let path = directory.join(name);
+    fs::write(&path, content).unwrap();
+    path
+}
+
+#[test]
+fn wrong_usage_is_status_2() {
+    for args in [
+        &["fly"][..],
+        &["build", "a.stl"],
+        &["build", "a.stl", "-o", "b", "--base", "3"],
+        &["build", "a.stl", "-o", "b", "--vertex-bits", "17"],
+        &["build", "a.stl", "-o", "b", "--compactness", "nan"],
+        &["build", "a.stl", "-o", "b", "--max-normal-deviation", "181"],
+        &["closest", "a.msw", "p.csv", "--rel=-1"],
+        &["closest", "a.msw", "p.csv", "--abs", "inf"],
+        &["closest", "a.msw", "p.csv", "--queue", "0"],
+        &["segment", "a.msw", "s.csv", "--all", "--steps", "3"],
+        &["segment", "a.msw", "s.csv", "--engine", "hull", "--queue", "3"],
+        &["segment", "a.msw", "s.csv", "--engine", "hull", "--all"],
+        &["build", "a.stl", "-o", "-"],
+    ] {
+        assert_eq!(run(args).status.code(), Some(2), "{args:?}");
+    }
+    assert!(run(["help"]).status.success() && run(["--version"]).status.success());
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named() {
+    let directory = scratch("unreadable");
+    let out = directory.join("out.msw");
+    refused(&run(["build", "no/such.stl", "-o", arg(&out)]), 1, "no/such.stl");
+    refused(&run(["build", arg(&directory), "-o", arg(&out)]), 1, "unreadable");
+    refused(&run(["info", "no/such.msw"]), 1, "no/such.msw");
+    refused(&run(["info", arg(&directory)]), 1, "unreadable");
+    refused(&run(["closest", "no/such.msw", "p.csv"]), 1, "no/such.msw");
+    let path = blob(&directory, "torus.ply", &[]);
+    refused(&run(["closest", arg(&path), "no/such.csv"]), 1, "no/such.csv");
+    assert!(!out.exists());
+}
+
+#[test]
+fn what_is_no_whole_blob_is_refused_with_a_remedy() {
+    let directory = scratch("no_blob");
+    let mesh = fixture("torus.ply");
+    let line = refused(&run(["info", arg(&mesh)]), 1, "torus.ply");
+    assert!(line.contains("meshsweep build"), "{line}");
+    refused(&run(["info", arg(&file(&directory, "empty.msw", ""))]), 1, "empty.msw");
+    let bytes = fs::read(blob(&directory, "torus.ply", &[])).unwrap();
+    for length in [8, 100, 1000, bytes.len() - 1] {
+        refused(&run(["info", arg(&file(&directory, "short.msw", &bytes[..length]))]), 1, "short.msw");
+    }
+    let mut damaged = bytes.clone();
+    damaged[5000] ^= 4;
+    let line = refused(&run(["info", arg(&file(&directory, "bad.msw", &damaged))]), 1, "bad.msw");
+    assert!(line.contains("damaged"), "{line}");
+    let whole = file(&directory, "whole.msw", &bytes);
+    refused(&run(["build", arg(&whole), "-o", "x.msw"]), 1, "whole.msw: is a blob already");
+}
+
+#[test]
+fn a_mesh_with_holes_is_refused_in_one_line_with_places() {
+    let directory = scratch("holes");
+    let (mesh, out) = (fixture("evil/open_box.stl"), directory.join("out.msw"));
+    let line = refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "open_box.stl");
+    assert!(line.contains("not closed") && line.contains("edge ["), "{line}");
+    let (mesh, ply) = (fixture("evil/stuck_cap.obj"), directory.join("out.ply"));
+    let line = refused(&run(["hull", arg(&mesh), "-o", arg(&ply)]), 1, "stuck_cap.obj");
+    assert!(line.contains("zero-area triangle"), "{line}");
+}
+
+#[test]
+fn an_error_leaves_the_old_output_alone() {
+    let directory = scratch("old_output");
+    let out = file(&directory, "out.msw", "precious");
+    let mesh = fixture("evil/open_box.stl");
+    refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "open_box.stl");
+    let path = blob(&directory, "torus.ply", &[]);
+    refused(&run(["cut", arg(&path), "--level", "99", "-o", arg(&out)]), 1, "level 99 does not exist");
+    let points = file(&directory, "p.csv", "1,2,3\n1,2\n");
+    refused(&run(["closest", arg(&path), arg(&points), "-o", arg(&out)]), 1, "line 2");
+    assert_eq!(fs::read_to_string(&out).unwrap(), "precious");
+    assert_eq!(fs::read_dir(&directory).unwrap().count(), 3, "no temporary file is left");
+}
+
+#[test]
+fn outputs_that_cannot_be_written_are_named_before_the_work() {
+    let directory = scratch("unwritable");
+    let mesh = fixture("torus.ply");
+    refused(&run(["build", arg(&mesh), "-o", arg(&directory)]), 1, "unwritable");
+    let missing = directory.join("missing/out.msw");
+    refused(&run(["build", arg(&mesh), "-o", arg(&missing)]), 1, "missing/out.msw: cannot be written");
+    let path = blob(&directory, "torus.ply", &[]);
+    let line = refused(&run(["cut", arg(&path), "--level", "1", "-o", arg(&path)]), 1, "torus.msw");
+    assert!(line.contains("both input and output"), "{line}");
+}
+
+#[test]
+fn malformed_queries_are_named_by_line_and_field() {
+    let directory = scratch("malformed");
+    let path = blob(&directory, "torus.ply", &[]);
+    for (text, place) in [
+        ("x,y,z\n1,2,3\n1,2,three\n", "p.csv, line 3, field 3: \"three\""),
+        ("1;2\n", "p.csv, line 1: 2 fields"),
+        ("# three\n\n1 2 3 4\n", "p.csv, line 3: 4 fields"),
+        ("1,2,nan\n", "p.csv, line 1, field 3: \"nan\" is not finite"),
+        ("1,2,-inf\n", "p.csv, line 1, field 3: \"-inf\" is not finite"),
+        ("1,2,1e39\n", "p.csv, line 1, field 3: \"1e39\" is beyond f32"),
+        ("1,2,\u{fffd}\n", "p.csv, line 1, field 3"),
+    ] {
+        let points = file(&directory, "p.csv", text);
+        refused(&run(["closest", arg(&path), arg(&points)]), 1, place);
+    }
+    let binary = file(&directory, "p.csv", [0xFFu8, 0xFE, b'\n', b'1', 0, 0xFF]);
+    refused(&run(["closest", arg(&path), arg(&binary)]), 1, "p.csv, line 2");
+    let far = file(&directory, "s.csv", "0 0 0 1 1 1\n0 0 0 1e38 0 0\n");
+    let line = refused(&run(["segment", arg(&path), arg(&far)]), 1, "s.csv, line 2");
+    assert!(line.contains("clip it"), "{line}");
+}
+
+#[test]
+fn malformed_raw_queries_are_named_by_number() {
+    let directory = scratch("malformed_raw");
+    let path = blob(&directory, "torus.ply", &[]);
+    let raw = directory.join("p.f32");
+    write_raw(&raw, &[[1f32, 2.0, 3.0], [1.0, f32::NAN, 3.0]]);
+    refused(&run(["closest", arg(&path), arg(&raw)]), 1, "p.f32, query 1 at byte 12");
+    fs::write(&raw, [0; 25]).unwrap();
+    refused(&run(["closest", arg(&path), arg(&raw)]), 1, "p.f32: 25 bytes");
+    fs::write(&raw, [0; 36]).unwrap();
+    refused(&run(["segment", arg(&path), arg(&raw)]), 1, "p.f32: 36 bytes");
+}
+
+#[test]
+fn the_hull_engine_refuses_blobs_it_can_say_nothing_about() {
+    let directory = scratch("hull_engine");
+    let path = blob(&directory, "torus.ply", &[]);
+    let cut = directory.join("cut.msw");
+    ok(["cut", arg(&path), "--level", "1", "-o", arg(&cut)]);
+    let segments = file(&directory, "s.csv", "9 9 9 0 0 0\n");
+    let line = refused(&run(["segment", arg(&cut), arg(&segments), "--engine", "hull"]), 1, "cut.msw");
+    assert!(line.contains("--engine cover"), "{line}");
+    let coarse = blob(&directory, "torus.ply", &["--vertex-bits", "16"]);
+    refused(&run(["segment", arg(&coarse), arg(&segments), "--engine", "hull"]), 1, "torus.msw");
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let directory = scratch("broken_pipe");
+    let path = blob(&directory, "torus.ply", &[]);
+    let points = file(&directory, "p.csv", "3 3 3\n".repeat(20_000));
+    let mut child = meshsweep()
+        .args(["closest", arg(&path), arg(&points)])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(
+        output.status.success() && output.stderr.is_empty(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_an_error_and_a_device_is_not_replaced() {
+    let directory = scratch("full");
+    let path = blob(&directory, "torus.ply", &[]);
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    for args in [&["info", arg(&path)][..], &[]] {
+        let output = meshsweep().args(args).stdout(full()).output().unwrap();
+        refused(&output, 1, "standard output: cannot be written");
+    }
+    let cut = run(["cut", arg(&path), "--level", "0", "-o", "/dev/full"]);
+    refused(&cut, 1, "/dev/full: cannot be written");
+    assert!(!fs::metadata("/dev/full").unwrap().is_file());
+}

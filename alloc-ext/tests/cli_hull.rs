@@ -1,0 +1,100 @@
+//! `meshsweep hull` and `cut`: what is written is a closed hull, a blob, and whole.
+
+mod cli_support;
+
+use cli_support::{arg, blob, fixture, ok, run, scratch};
+use meshsweep_alloc::mesh;
+use std::fs;
+use std::path::Path;
+
+/// Faces and volume of a closed mesh file.
+fn closed(path: &Path) -> (usize, f64) {
+    let (mesh, _) = mesh::load_closed(path).expect("a hull is closed");
+    let at = |v: u32| mesh.positions[v as usize].map(f64::from);
+    let volume = |&[a, b, c]: &[u32; 3]| {
+        let [[a, b, c], [d, e, f], [g, h, i]] = [at(a), at(b), at(c)];
+        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
+    };
+    (mesh.triangles.len(), mesh.triangles.iter().map(volume).sum())
+}
+
+/// The percentage that a line of output names.
+fn void_percent(text: &str) -> f64 {
+    text.split(" % void").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn a_hull_has_the_faces_and_the_void_that_are_printed() {
+    let directory = scratch("hull_of_mesh");
+    let out = directory.join("hull.ply");
+    for (name, priority) in [("bracket.stl", "lp"), ("torus.ply", "span"), ("groove.obj", "lp")] {
+        let mesh = fixture(name);
+        let text = ok(["hull", arg(&mesh), "--faces", "150", "--priority", priority, "-o", arg(&out)]);
+        let (faces, volume) = closed(&out);
+        assert!(text.contains(&format!(": {faces} faces, ")), "{text}");
+        assert!(faces <= 150, "{text}");
+        let (_, solid) = closed(&mesh);
+        let void = (volume / solid - 1.0) * 100.0;
+        assert!(void >= -1e-6 && (void - void_percent(&text)).abs() < 1e-2, "{void} {text}");
+        let bytes = fs::read(&out).unwrap();
+        assert!(bytes.starts_with(b"ply\nformat binary_little_endian 1.0\n"));
+    }
+}
+
+#[test]
+fn a_hull_that_stops_early_says_why() {
+    let directory = scratch("hull_stuck");
+    let (mesh, out) = (fixture("bracket.stl"), directory.join("hull.ply"));
+    let text = ok(["hull", arg(&mesh), "--faces", "4", "-o", arg(&out)]);
+    assert!(text.contains("stopped before 4 faces"), "{text}");
+    closed(&out);
+}
+
+#[test]
+fn every_level_of_a_blob_is_a_closed_hull_with_the_level_s_faces() {
+    let directory = scratch("hull_of_blob");
+    let path = blob(&directory, "bracket.stl", &[]);
+    let info: serde_json::Value = serde_json::from_str(&ok(["info", arg(&path), "--json"])).unwrap();
+    let levels = info["levels"].as_array().unwrap();
+    let out = directory.join("level.ply");
+    let mut last = f64::INFINITY;
+    for (index, level) in levels.iter().enumerate() {
+        ok(["hull", arg(&path), "--level", &index.to_string(), "-o", arg(&out)]);
+        let (faces, volume) = closed(&out);
+        assert_eq!(Some(faces as u64), level["faces"].as_u64());
+        assert!(volume <= last * (1.0 + 1e-6), "finer hulls are tighter");
+        last = volume;
+    }
+    let (_, solid) = closed(&fixture("bracket.stl"));
+    assert!((last / solid - 1.0).abs() < 1e-6, "the last level is the surface");
+}
+
+#[test]
+fn the_last_level_cuts_nothing_and_a_cut_can_be_cut_again() {
+    let directory = scratch("cut_again");
+    let path = blob(&directory, "torus.ply", &[]);
+    let info: serde_json::Value = serde_json::from_str(&ok(["info", arg(&path), "--json"])).unwrap();
+    let last = info["levels"].as_array().unwrap().len() - 1;
+    let (one, two, direct) = (directory.join("1.msw"), directory.join("2.msw"), directory.join("d.msw"));
+    ok(["cut", arg(&path), "--level", &last.to_string(), "-o", arg(&one)]);
+    assert!(fs::read(&one).unwrap() == fs::read(&path).unwrap());
+    ok(["cut", arg(&path), "--level", "2", "-o", arg(&one)]);
+    ok(["cut", arg(&one), "--level", "1", "-o", arg(&two)]);
+    ok(["cut", arg(&path), "--level", "1", "-o", arg(&direct)]);
+    assert!(fs::read(&two).unwrap() == fs::read(&direct).unwrap());
+    assert!(ok(["info", arg(&two)]).contains("cut: finer levels are not there"));
+}
+
+#[test]
+fn hull_arguments_that_do_not_go_together_are_usage_errors() {
+    let directory = scratch("hull_usage");
+    let path = blob(&directory, "torus.ply", &[]);
+    let out = directory.join("hull.ply");
+    cli_support::refused(&run(["hull", arg(&path), "-o", arg(&out)]), 2, "torus.msw");
+    cli_support::refused(&run(["hull", arg(&path), "--faces", "9", "-o", arg(&out)]), 2, "torus.msw");
+    let stl = directory.join("hull.stl");
+    cli_support::refused(&run(["hull", arg(&path), "--level", "0", "-o", arg(&stl)]), 2, "hull.stl");
+    let both = run(["hull", arg(&path), "--level", "0", "--faces", "9", "-o", arg(&out)]);
+    assert_eq!(both.status.code(), Some(2));
+    assert!(!out.exists() && !stl.exists());
+}

@@ -1,0 +1,126 @@
+//! `cargo xtask count`: instructions a query on this machine, counted by callgrind.
+//!
+//! Times on a busy machine are noise; instructions are not. The program runs itself in the simulator twice, with different numbers
+//! of queries: the difference is the queries' alone.
+
+use std::env;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use meshsweep_core::query::{Search, Stop, closest_point, first_hit, outer_hits};
+use meshsweep_core::refine::{Face, Front};
+use meshsweep_core::{Model, QueueEntry};
+use meshsweep_host_tests::measure::Subject;
+use meshsweep_host_tests::measure::table::{Cell, Table, fixed};
+use meshsweep_host_tests::measure::workload::{Points, points, segments};
+
+use crate::process;
+use crate::steps::Steps;
+use crate::toolbox::{Toolbox, Wanted};
+use crate::workspace;
+
+const VALGRIND: Wanted =
+    Wanted { name: "valgrind", alternatives: &[&["valgrind"]], ignore_installed: &["valgrind", "libc6-dbg"] };
+
+/// Questions by their word on the command line.
+const QUESTIONS: [&str; 6] = ["far", "near", "path", "first_hit", "outer_first", "outer_all"];
+
+/// Queries of the two runs.
+const QUERIES: [usize; 2] = [500, 2500];
+
+/// Counts all questions and prints the table.
+pub fn run(steps: &mut Steps) {
+    let Some(valgrind) = find() else { return };
+    let columns = ["question", "instructions"];
+    let mut table =
+        Table::new("instructions", "Instructions a query, fixtures/bracket.msw, this machine", &columns);
+    for question in QUESTIONS {
+        let counted = steps.run(&format!("count {question}"), || {
+            let [few, many] = QUERIES.map(|queries| instructions(&valgrind, question, queries));
+            Ok((many? - few?) / (QUERIES[1] - QUERIES[0]) as f64)
+        });
+        table.push(vec![Cell::from(question), counted.map_or(Cell::Empty, |count| fixed(count, 0))]);
+    }
+    table.note("far, near, path: closest point; all with the memory that the model's capacities name");
+    println!("{}", table.text());
+}
+
+/// The run that is counted: `queries` of one question.
+pub fn ask(question: &str, queries: usize) -> Result<(), String> {
+    let folder = workspace::root().join("fixtures");
+    let subject = Subject::load(&folder.join("bracket.stl"))?;
+    let blob = std::fs::read(folder.join("bracket.msw"))
+        .map_err(|error| format!("fixtures/bracket.msw: {error}"))?;
+    let model = Model::open(&blob).map_err(|error| error.to_string())?;
+    let capacities = model.capacities();
+    let mut queue = vec![QueueEntry::EMPTY; capacities.queue];
+    let failed = |error: meshsweep_core::QueryError| error.to_string();
+    // Placed for the greater number always, so that placing them is no part of the difference.
+    let kind = Points::ALL.into_iter().find(|kind| kind.name() == question);
+    if let Some(kind) = kind {
+        for point in points(&subject, kind, QUERIES[1]).into_iter().take(queries) {
+            black_box(closest_point(&model, point, &Stop::EXACT, &mut queue).map_err(failed)?);
+        }
+        return Ok(());
+    }
+    let (mut performed, mut swept) = (vec![0; capacities.front_words], vec![0; capacities.front_words]);
+    let mut candidates = vec![Face::EMPTY; 64];
+    let mut hits = [meshsweep_core::query::Hit::EMPTY; 16];
+    let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
+    for [a, b] in segments(&subject, QUERIES[1]).into_iter().take(queries) {
+        if question == "first_hit" {
+            black_box(first_hit(&model, a, b, &Stop::EXACT, &mut queue).map_err(failed)?);
+        } else {
+            let search = if question == "outer_first" { Search::First } else { Search::Outer };
+            black_box(outer_hits(&model, a, b, search, &mut front, &mut hits).map_err(failed)?);
+        }
+    }
+    Ok(())
+}
+
+/// Where valgrind is.
+enum Valgrind {
+    Installed,
+    Unpacked(Toolbox),
+}
+
+/// valgrind, or a line that says why it is skipped: counts are worth having, but no machine has to have them.
+fn find() -> Option<Valgrind> {
+    if process::on_path("valgrind") {
+        return Some(Valgrind::Installed);
+    }
+    match Toolbox::open(&VALGRIND) {
+        Ok(toolbox) => Some(Valgrind::Unpacked(toolbox)),
+        Err(reason) => {
+            println!("   skipped: no valgrind here, and none to be had: {reason}");
+            None
+        }
+    }
+}
+
+impl Valgrind {
+    fn command(&self) -> Command {
+        match self {
+            Self::Installed => Command::new("valgrind"),
+            Self::Unpacked(toolbox) => {
+                let mut command = toolbox.command("valgrind");
+                command.env("VALGRIND_LIB", toolbox.path("usr/libexec/valgrind"));
+                let symbols = toolbox.path("usr/lib/debug");
+                command.arg(format!("--extra-debuginfo-path={}", symbols.display()));
+                command
+            }
+        }
+    }
+}
+
+fn instructions(valgrind: &Valgrind, question: &str, queries: usize) -> Result<f64, String> {
+    let own: PathBuf = env::current_exe().map_err(|error| error.to_string())?;
+    let mut command = valgrind.command();
+    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(Path::new(&own));
+    let output = process::output(command.args(["ask", question, &queries.to_string()]))?;
+    let text = String::from_utf8_lossy(&output.stderr);
+    let refs = text.lines().find_map(|line| line.split_once("Collected : "));
+    refs.and_then(|(_, count)| count.trim().parse().ok())
+        .ok_or_else(|| format!("callgrind counted nothing\n{text}"))
+}

@@ -1,0 +1,83 @@
+//! What the level table says of volumes and distances.
+
+use super::CheckReport;
+use super::bounds::distance;
+use super::parse::Blob;
+use glam::DVec3;
+
+/// Pairs of a sample and a triangle that may be looked at.
+const BUDGET: usize = 20_000_000;
+
+/// Six times the signed volume, around a vertex of the mesh.
+fn volume(blob: &Blob, triangles: &[[u32; 3]]) -> f64 {
+    let Some(&[first, ..]) = triangles.first() else { return 0.0 };
+    let origin = DVec3::from(blob.vertices[first as usize]);
+    triangles
+        .iter()
+        .map(|&t| {
+            let [a, b, c] = blob.corners(t).map(|p| DVec3::from(p) - origin);
+            a.dot(b.cross(c))
+        })
+        .sum()
+}
+
+/// Void ratios are those of the meshes, and never grow from coarse to fine.
+pub(super) fn volumes(blob: &Blob, hulls: &[Vec<[u32; 3]>]) -> Result<(), String> {
+    if blob.is_cut {
+        return Ok(());
+    }
+    let surface = volume(blob, &blob.surface);
+    let mut before = f64::INFINITY;
+    for (index, (level, hull)) in blob.levels.iter().zip(hulls).enumerate() {
+        let void = volume(blob, hull) / surface - 1.0;
+        let stored = f64::from(level.void_ratio);
+        if (void - stored).abs() > 1e-6 * void.abs() + 1e-9 {
+            return Err(format!("level {index}: its void is {void:e}, the table says {stored:e}"));
+        }
+        if void > before + 1e-9 {
+            return Err(format!("level {index} is looser than the one before: {void:e} > {before:e}"));
+        }
+        before = void;
+    }
+    Ok(())
+}
+
+/// The cover of each level is as near the surface as the table says, at sampled points, and its radii are below the table's.
+pub(super) fn distances(blob: &Blob, report: &mut CheckReport) -> Result<(), String> {
+    let Some((last, coarser)) = blob.levels.split_last() else { return Err("no levels".into()) };
+    if !blob.is_cut && (last.hull_to_surface != 0.0 || last.surface_to_hull != 0.0) {
+        return Err("the finest level is the surface, and the table says that it is not".into());
+    }
+    if blob.is_cut {
+        return Ok(());
+    }
+    let surface: Vec<[DVec3; 3]> = blob.surface.iter().map(|&t| blob.corners(t).map(DVec3::from)).collect();
+    let budget = (BUDGET / surface.len().max(1) / coarser.len().max(1)).max(8);
+    for (index, level) in coarser.iter().enumerate() {
+        let ends: Vec<_> = blob.nodes[..level.nodes as usize]
+            .iter()
+            .filter(|node| node.leaf || node.first + node.count > level.nodes)
+            .collect();
+        if let Some(node) = ends.iter().find(|node| node.radius > f64::from(level.surface_to_hull)) {
+            return Err(format!(
+                "level {index}: a radius of {:e} exceeds {:e}",
+                node.radius, level.surface_to_hull
+            ));
+        }
+        let stride = (ends.len() * 4).div_ceil(budget).max(1);
+        for node in ends.iter().step_by(stride) {
+            let [a, b, c] = blob.corners(node.corners).map(DVec3::from);
+            for p in [a, b, c, (a + b + c) / 3.0] {
+                let nearest = surface.iter().map(|&t| distance(p, t)).fold(f64::INFINITY, f64::min);
+                report.samples += 1;
+                if nearest > f64::from(level.hull_to_surface) * (1.0 + 1e-12) + 1e-14 {
+                    return Err(format!(
+                        "level {index}: {p} is {nearest:e} from the surface, the table says {:e}",
+                        level.hull_to_surface
+                    ));
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,315 @@
+//! The format read anew: header, section table, CRCs, records of one to four byte indices.
+
+use crate::corrupt::{crc32, entries, word};
+
+/// A node of the cover tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// Corners.
+    pub corners: [u32; 3],
+    /// Radius, a bfloat16.
+    pub radius: f64,
+    /// First child.
+    pub first: u32,
+    /// Children; 0 where they were cut off.
+    pub count: u32,
+    /// Whether the children are triangles.
+    pub leaf: bool,
+}
+
+/// A vertex split.
+#[derive(Clone, Debug)]
+pub struct Split {
+    /// The vertex that is replaced.
+    pub vertex: u32,
+    /// Vertices around it.
+    pub ring: Vec<u32>,
+    /// Position of the right wing.
+    pub right: usize,
+    /// Claimed greatest distance of the ring and the new vertices from it.
+    pub reach: f64,
+}
+
+/// A record of the level table.
+#[derive(Clone, Copy, Debug)]
+pub struct Level {
+    /// Triangles of the hull.
+    pub faces: u32,
+    /// Splits that make it.
+    pub splits: u32,
+    /// Cover nodes that belong to it.
+    pub nodes: u32,
+    /// Claimed greatest distance from the cover to the surface.
+    pub hull_to_surface: f32,
+    /// And from the surface to what covers it.
+    pub surface_to_hull: f32,
+    /// Void over the surface's volume.
+    pub void_ratio: f32,
+}
+
+/// All that a blob holds, in the local frame.
+#[derive(Clone, Debug)]
+pub struct Blob {
+    /// Whether finer levels were cut off.
+    pub is_cut: bool,
+    /// Vertices of the base hull.
+    pub base_vertices: u32,
+    /// Coordinates, exact.
+    pub vertices: Vec<[f64; 3]>,
+    /// Triangles of the base hull.
+    pub base: Vec<[u32; 3]>,
+    /// Bounds of sixteen base triangles each.
+    pub groups: Vec<([u32; 3], f64)>,
+    /// Splits, coarse to fine.
+    pub splits: Vec<Split>,
+    /// The split of each vertex.
+    pub splits_with: Vec<Option<u32>>,
+    /// Radius codes, one byte each.
+    pub radii: Vec<u8>,
+    /// Cover tree.
+    pub nodes: Vec<Node>,
+    /// Triangles of the surface.
+    pub surface: Vec<[u32; 3]>,
+    /// Levels.
+    pub levels: Vec<Level>,
+    /// Box of all vertices: least, greatest.
+    pub hull_box: [[f64; 3]; 2],
+    /// Box of the surface.
+    pub surface_box: [[f64; 3]; 2],
+    /// Queue entries that a descent may need, as claimed.
+    pub queue_capacity: u32,
+    /// Longest chain of splits, as claimed.
+    pub dependency_depth: u32,
+}
+
+/// A section, read from front to back.
+struct Cursor<'a>(&'a [u8], &'static str);
+
+impl Cursor<'_> {
+    fn uint(&mut self, width: usize) -> Result<u32, String> {
+        let Some((head, rest)) = self.0.split_at_checked(width) else {
+            return Err(format!("section {} ends early", self.1));
+        };
+        self.0 = rest;
+        Ok(head.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte)))
+    }
+
+    fn float(&mut self) -> Result<f32, String> {
+        self.uint(4).map(f32::from_bits)
+    }
+
+    fn triple(&mut self, width: usize) -> Result<[u32; 3], String> {
+        Ok([self.uint(width)?, self.uint(width)?, self.uint(width)?])
+    }
+
+    fn end(self) -> Result<(), String> {
+        if self.0.is_empty() { Ok(()) } else { Err(format!("section {} is too long", self.1)) }
+    }
+}
+
+/// Bytes that hold `count` values and one more.
+fn width(count: u32) -> usize {
+    [0xFF, 0xFFFF, 0xFF_FFFF].iter().position(|&most| count <= most).map_or(4, |at| at + 1)
+}
+
+fn bfloat(code: u32) -> f64 {
+    f64::from(f32::from_bits(code << 16))
+}
+
+/// A radius of one byte: 1 is 2^-29, eight steps for each octave; 0 is zero, 255 infinity.
+pub(super) fn small_radius(code: u8) -> f64 {
+    match code {
+        0 => 0.0,
+        255 => f64::INFINITY,
+        _ => {
+            let steps = i32::from(code) - 1;
+            (1.0 + f64::from(steps % 8) / 8.0) * 2f64.powi(steps / 8 - 29)
+        }
+    }
+}
+
+impl Blob {
+    /// Reads all sections and follows no reference.
+    ///
+    /// # Errors
+    /// A section is missing, damaged or of the wrong length.
+    pub fn parse(bytes: &[u8]) -> Result<Blob, String> {
+        let at = |offset: usize| word(bytes, offset).ok_or("the header is cut short".to_owned());
+        if bytes.get(..10) != Some(b"meshswep\x01\x00".as_slice()) || at(16)? as usize != bytes.len() {
+            return Err("not a whole blob of version 1".into());
+        }
+        let table_end = (at(12)? as usize).min(bytes.len()).max(160);
+        let covered = [&bytes[..156], &bytes[160..table_end]].concat();
+        if crc32(&covered) != at(156)? {
+            return Err("the header's CRC does not hold".into());
+        }
+        let section = |kind: u32, name: &'static str| -> Result<Cursor<'_>, String> {
+            let Some(entry) = entries(bytes).into_iter().find(|e| e.kind == kind) else {
+                return Ok(Cursor(&[], name));
+            };
+            let start = entry.offset as usize;
+            let body =
+                bytes.get(start..start + entry.bytes as usize).ok_or(format!("{name} leaves the blob"))?;
+            if Some(crc32(body)) != word(bytes, entry.at + 12) {
+                return Err(format!("the CRC of {name} does not hold"));
+            }
+            Ok(Cursor(body, name))
+        };
+        let corner = |offset: usize| -> Result<[f64; 3], String> {
+            let mut p = [0.0; 3];
+            for (k, x) in p.iter_mut().enumerate() {
+                *x = f64::from(f32::from_bits(at(offset + 4 * k)?));
+            }
+            Ok(p)
+        };
+        let counts = [at(52)?, at(56)?, at(60)?, at(64)?, at(68)?, at(72)?, at(76)?, at(80)?];
+        let [vertices, base_vertices, base, splits, rings, nodes, surface, levels] = counts;
+        if vertices != base_vertices + 2 * splits {
+            return Err("vertices are not those of the base and two for each split".into());
+        }
+        let (wv, ws, wr, wc) = (width(vertices), width(splits), width(rings), width(nodes.max(surface)));
+        let triples = |kind: u32, name: &'static str, count: u32| -> Result<Vec<[u32; 3]>, String> {
+            let mut cursor = section(kind, name)?;
+            let read = (0..count).map(|_| cursor.triple(wv)).collect::<Result<_, _>>()?;
+            cursor.end()?;
+            Ok(read)
+        };
+
+        let mut cursor = section(7, "cover")?;
+        let mut read_nodes = Vec::new();
+        for _ in 0..nodes {
+            let (corners, radius) = (cursor.triple(wv)?, bfloat(cursor.uint(2)?));
+            let (first, tag) = (cursor.uint(wc)?, cursor.uint(1)?);
+            let (mut count, leaf) = (tag & 0x7F, tag & 0x80 != 0);
+            if u64::from(first) + u64::from(count) > u64::from(if leaf { surface } else { nodes }) {
+                count = 0;
+            }
+            read_nodes.push(Node { corners, radius, first, count, leaf });
+        }
+        cursor.end()?;
+
+        let mut cursor = section(11, "base groups")?;
+        let mut groups = Vec::new();
+        for _ in 0..base.div_ceil(16) {
+            groups.push((cursor.triple(wv)?, bfloat(cursor.uint(2)?)));
+        }
+        cursor.end()?;
+
+        let mut cursor = section(6, "splits with")?;
+        let none = u32::MAX >> (32 - 8 * ws);
+        let mut splits_with = Vec::new();
+        for _ in 0..vertices {
+            splits_with.push(Some(cursor.uint(ws)?).filter(|&s| s != none));
+        }
+        cursor.end()?;
+
+        let mut cursor = section(10, "levels")?;
+        let mut read_levels = Vec::new();
+        for _ in 0..levels {
+            read_levels.push(Level {
+                faces: cursor.uint(4)?,
+                splits: cursor.uint(4)?,
+                nodes: cursor.uint(4)?,
+                hull_to_surface: cursor.float()?,
+                surface_to_hull: cursor.float()?,
+                void_ratio: cursor.float()?,
+            });
+        }
+        cursor.end()?;
+
+        let radii = section(5, "radii")?.0.to_vec();
+        if radii.len() as u64 != u64::from(base) + u64::from(rings) + 2 * u64::from(splits) {
+            return Err("radii: not one for each triangle".into());
+        }
+        Ok(Blob {
+            is_cut: at(24)? & 1 != 0,
+            base_vertices,
+            vertices: read_vertices(bytes, section(1, "vertices")?, vertices)?,
+            base: triples(2, "base triangles", base)?,
+            groups,
+            splits: read_splits(section(3, "splits")?, section(4, "rings")?, [splits, rings], [wv, wr])?,
+            splits_with,
+            radii,
+            nodes: read_nodes,
+            surface: triples(8, "surface", surface)?,
+            levels: read_levels,
+            hull_box: [corner(92)?, corner(104)?],
+            surface_box: [corner(116)?, corner(128)?],
+            queue_capacity: at(140)?,
+            dependency_depth: at(144)?,
+        })
+    }
+
+    /// Coordinates of three vertices.
+    pub(super) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
+        triangle.map(|v| self.vertices[v as usize])
+    }
+
+    /// Triangles that a split brings, in the order of their radii.
+    pub(super) fn fine(&self, index: usize) -> Vec<[u32; 3]> {
+        let Split { ring, right, .. } = &self.splits[index];
+        let origin = self.base_vertices + 2 * index as u32;
+        let destination = origin + 1;
+        let mut fine: Vec<[u32; 3]> = (0..ring.len())
+            .map(|i| [if i < *right { origin } else { destination }, ring[i], ring[(i + 1) % ring.len()]])
+            .collect();
+        fine.extend([[origin, ring[*right], destination], [origin, destination, ring[0]]]);
+        fine
+    }
+}
+
+fn read_vertices(bytes: &[u8], mut cursor: Cursor<'_>, count: u32) -> Result<Vec<[f64; 3]>, String> {
+    let at = |offset: usize| word(bytes, offset).unwrap_or(0);
+    let width = match at(32) & 0xFF {
+        0 => 0,
+        1 => 2,
+        2 => 3,
+        other => return Err(format!("vertex format {other}")),
+    };
+    let step = 2f64.powi(at(36).cast_signed());
+    let mut vertices = Vec::new();
+    for _ in 0..count {
+        let mut p = [0.0; 3];
+        for (k, x) in p.iter_mut().enumerate() {
+            *x = if width == 0 {
+                f64::from(cursor.float()?)
+            } else {
+                // Both parts are integers below 2^25: exact.
+                (f64::from(cursor.uint(width)?) + f64::from(at(40 + 4 * k).cast_signed())) * step
+            };
+            if !x.is_finite() {
+                return Err("a coordinate is not finite".into());
+            }
+        }
+        vertices.push(p);
+    }
+    cursor.end()?;
+    Ok(vertices)
+}
+
+fn read_splits(
+    mut records: Cursor<'_>,
+    mut rings: Cursor<'_>,
+    [splits, ring_entries]: [u32; 2],
+    [wv, wr]: [usize; 2],
+) -> Result<Vec<Split>, String> {
+    let mut heads = Vec::new();
+    for _ in 0..splits {
+        let (vertex, start) = (records.uint(wv)?, records.uint(wr)?);
+        let (right, reach) = (records.uint(1)? as usize, small_radius(records.uint(1)? as u8));
+        heads.push((vertex, start, right, reach));
+    }
+    records.end()?;
+    let mut read = Vec::new();
+    for (i, &(vertex, start, right, reach)) in heads.iter().enumerate() {
+        let end = heads.get(i + 1).map_or(ring_entries, |next| next.1);
+        let length = end.checked_sub(start).ok_or(format!("split {i}: its ring ends before it begins"))?;
+        let ring: Vec<u32> = (0..length).map(|_| rings.uint(wv)).collect::<Result<_, _>>()?;
+        if right == 0 || right >= ring.len() {
+            return Err(format!("split {i}: its right wing is not in its ring"));
+        }
+        read.push(Split { vertex, ring, right, reach });
+    }
+    rings.end()?;
+    Ok(read)
+}

@@ -1,0 +1,37 @@
+//! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
+
+use meshsweep_host_tests::fuzz_targets::{closest, open, outer, random_input, segment};
+use meshsweep_host_tests::generate::Rng;
+
+const RUNS: u64 = 5_000;
+
+fn drive(seed: u64, target: fn(&[u8])) {
+    for run in 0..RUNS {
+        let mut rng = Rng::new(seed << 32 | run);
+        let data = random_input(&mut rng);
+        if let Err(panic) = std::panic::catch_unwind(|| target(&data)) {
+            eprintln!("run {run} of seed {seed}: {data:?}");
+            std::panic::resume_unwind(panic);
+        }
+    }
+}
+
+#[test]
+fn open_survives_seeded_edits() {
+    drive(1, open);
+}
+
+#[test]
+fn closest_survives_seeded_edits() {
+    drive(2, closest);
+}
+
+#[test]
+fn segment_survives_seeded_edits() {
+    drive(3, segment);
+}
+
+#[test]
+fn outer_survives_seeded_edits() {
+    drive(4, outer);
+}
