@@ -38,7 +38,8 @@ pub enum Ended {
     Steps,
     /// The caller's memory was too short; [`Model::capacities`](crate::Model::capacities) says what is needed.
     Capacity,
-    /// The blob was cut after a coarser level.
+    /// The blob knows the surface only to within an error, and that decides: it was cut after a coarser level, or a segment
+    /// passes so near that vertices moved to a grid leave it open.
     Level,
 }
 

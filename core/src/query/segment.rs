@@ -15,8 +15,8 @@ use glam::DVec3;
 ///
 /// If [`SegmentHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the lengths involved, or within the
 /// stored surface's error, of an edge may be reported as a hit. Segments in the plane of a triangle hit where they enter
-/// it; a segment of zero length hits if its point lies on the surface. On a cut blob, `hit` is the first place where the
-/// surface may be.
+/// it; a segment of zero length hits if its point lies on the surface. Where the stored surface is not exactly the input's (a cut
+/// blob, a grid that moved vertices), `hit` is the first place where the surface may be, and [`Ended::Level`] says so.
 ///
 /// Of [`Stop`] only `steps` matters. `queue` as for [`closest_point`](super::closest_point).
 ///
@@ -170,7 +170,7 @@ fn trace(
     let mut hull = model.header().hull_box;
     hull.min = hull.min.min(bounds.min);
     hull.max = hull.max.max(bounds.max);
-    let mut walk = Walk { model, frame, start, end, probe: SegmentProbe::new(&clipped, &hull), clipped, surface_error, cut: false };
+    let mut walk = Walk { model, frame, start, end, probe: SegmentProbe::new(&clipped, &hull), clipped, surface_error, doubtful: false };
     let frontier = Frontier::new(queue, model.capacities().queue);
     walk.run(frontier, stop, collect, &mut traced).ok_or(QueryError::Model)?;
     Ok(traced)
@@ -184,7 +184,8 @@ struct Walk<'a> {
     probe: SegmentProbe,
     clipped: Clipped,
     surface_error: f32,
-    cut: bool,
+    /// Something was reported that the stored surface cannot decide.
+    doubtful: bool,
 }
 
 impl Walk<'_> {
@@ -211,7 +212,7 @@ impl Walk<'_> {
         if frontier.dropped() <= collect.limit() && frontier.dropped().is_finite() {
             traced.unopened = traced.unopened.min(frontier.dropped());
             traced.ended = Ended::Capacity;
-        } else if self.cut {
+        } else if self.doubtful {
             traced.ended = Ended::Level;
         }
         Some(())
@@ -263,7 +264,7 @@ impl Walk<'_> {
     }
 
     #[inline]
-    fn triangle(&self, triangle: TriIdx, collect: &mut dyn Collect, work: &mut Work) -> Option<()> {
+    fn triangle(&mut self, triangle: TriIdx, collect: &mut dyn Collect, work: &mut Work) -> Option<()> {
         work.triangles += 1;
         let corners = self.model.positions(self.model.surface_triangle(triangle)?)?;
         let Some(key) = self.probe.enter(corners, self.surface_error) else { return Some(()) };
@@ -272,16 +273,15 @@ impl Walk<'_> {
         }
         work.exact += 1;
         let met = segment_triangle(self.start, self.end, corners.map(|v| v.as_dvec3()));
-        let met = match met {
-            Some(meet) if self.surface_error == 0.0 => Some(meet),
-            // The input surface may lie up to `surface_error` from the stored one: a hit's parameter is that uncertain,
-            // and a near miss may be one.
-            Some(meet) => Some(SegmentTriangle { t_lower: f64::from(key.max(0.0)).min(meet.t), t_upper: 1.0, ..meet }),
-            None if self.surface_error > 0.0 => {
-                let t = f64::from(key.max(0.0));
-                Some(SegmentTriangle { t, t_lower: t, t_upper: 1.0 })
-            }
-            None => None,
+        let met = if self.surface_error == 0.0 {
+            met
+        } else {
+            // The input surface may lie up to `surface_error` from the stored one: a hit may be a miss, a near miss a
+            // hit, and the parameter is that uncertain.
+            self.doubtful = true;
+            let enter = f64::from(key.max(0.0));
+            let t = met.map_or(enter, |meet| meet.t);
+            Some(SegmentTriangle { t, t_lower: enter.min(t), t_upper: 1.0 })
         };
         if let Some(meet) = met {
             let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
@@ -292,7 +292,7 @@ impl Walk<'_> {
 
     /// All that is known below a cut is that the surface may be hit from here on.
     fn cut_node(&mut self, entry: QueueEntry, collect: &mut dyn Collect) {
-        self.cut = true;
+        self.doubtful = true;
         let t = f64::from(entry.key).max(self.clipped.t_start.min(1.0)).max(0.0);
         let point = self.frame.point(self.start + (self.end - self.start) * t);
         let t_lower = f64::from(entry.key.max(0.0));
