@@ -120,7 +120,7 @@ fn outer_search_names_only_true_hits_and_the_first_of_all() {
 }
 
 /// Runs in a thread, so that a search that does not end fails the test and not the machine.
-fn within_a_minute(what: &str, run: impl FnOnce() + Send + 'static) {
+fn in_time(what: &str, run: impl FnOnce() + Send + 'static) {
     let (done, wait) = mpsc::channel();
     let thread = std::thread::spawn(move || {
         run();
@@ -137,7 +137,7 @@ fn within_a_minute(what: &str, run: impl FnOnce() + Send + 'static) {
 }
 
 fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Send + 'static) {
-    within_a_minute(what, move || {
+    in_time(what, move || {
         for scene in [
             Scene::new("torus", torus(2.0, 0.75, 24, 12), &options(40)),
             Scene::new("groove block", groove_block(), &options(30)),

@@ -3,6 +3,7 @@
 //! A bound of this file may be too low by rounding but never too high: it is a supporting plane, which holds for any
 //! direction, so a region misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §2, §3.
 
+use super::lanes::Lanes;
 use super::{Aabb, Clipped};
 use crate::num::tolerance::{
     POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64, UNDERFLOW,
@@ -13,18 +14,29 @@ use glam::Vec3;
 /// dozen roundings of (farthest corner + longest edge). Zero where the direction is too short to trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
-    let (along, rr) = support(a, b, c);
-    if rr < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(rr) }
+    let Support { along, length_sq } = Support::new(a, b, c);
+    if length_sq < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(length_sq) }
 }
 
-/// The plane that supports the triangle and faces the origin: its distance times the length of its normal, and that length squared.
-#[inline(always)]
-fn support(a: Vec3, b: Vec3, c: Vec3) -> (f32, f32) {
-    let ap = -a;
-    let ab = b - a;
-    let ac = c - a;
-    let r = residual(ap, ab, ac);
-    (r.dot(ap) - greater(greater(0.0, r.dot(ab)), r.dot(ac)), r.dot(r))
+/// The plane that supports a triangle and faces the origin.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Support {
+    /// Its distance from the origin times the length of its normal.
+    pub along: f32,
+    /// Squared length of its normal.
+    pub length_sq: f32,
+}
+
+impl Support {
+    /// Of the triangle `a b c`.
+    #[inline(always)]
+    pub fn new(a: Vec3, b: Vec3, c: Vec3) -> Self {
+        let ap = -a;
+        let ab = b - a;
+        let ac = c - a;
+        let r = residual(ap, ab, ac);
+        Support { along: r.dot(ap) - greater(greater(0.0, r.dot(ab)), r.dot(ac)), length_sq: r.dot(r) }
+    }
 }
 
 /// The greater of two numbers, by one instruction: `f32::max` spends four on NaN, which does not occur here.
@@ -34,6 +46,7 @@ fn greater(x: f32, y: f32) -> f32 {
 }
 
 /// Vector from the (approximately) closest point to the query. Any finite result is safe, so no branch needs a proof.
+/// `lanes` evaluates the same formulas.
 #[inline(always)]
 fn residual(ap: Vec3, ab: Vec3, ac: Vec3) -> Vec3 {
     let d1 = ab.dot(ap);
@@ -50,7 +63,7 @@ fn residual(ap: Vec3, ab: Vec3, ac: Vec3) -> Vec3 {
     }
     let vc = d1 * d4 - d3 * d2;
     if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && aa > 0.0 {
-        return ap - ab * (d1 / aa);
+        return ap - ab * (d1 * (1.0 / aa));
     }
     let cc = ac.dot(ac);
     let d5 = d1 - bb;
@@ -60,13 +73,13 @@ fn residual(ap: Vec3, ab: Vec3, ac: Vec3) -> Vec3 {
     }
     let vb = d5 * d2 - d1 * d6;
     if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && cc > 0.0 {
-        return ap - ac * (d2 / cc);
+        return ap - ac * (d2 * (1.0 / cc));
     }
     let va = d3 * d6 - d5 * d4;
     let e4 = d4 - d3;
     let e5 = d5 - d6;
     if va <= 0.0 && e4 >= 0.0 && e5 >= 0.0 && e4 + e5 > 0.0 {
-        let v = e4 / (e4 + e5);
+        let v = e4 * (1.0 / (e4 + e5));
         return ap - ab * (1.0 - v) - ac * v;
     }
     let sum = va + vb + vc;
@@ -97,16 +110,28 @@ impl PointProbe {
     /// certainly exceeds `limit`, which is found out without a square root.
     #[inline(always)]
     pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<f32> {
-        let (along, rr) = support(a - self.point, b - self.point, c - self.point);
-        if rr < TRUSTED_DIRECTION_SQ {
+        self.bound(Support::new(a - self.point, b - self.point, c - self.point), radius, limit)
+    }
+
+    /// Puts a triangle, seen from the point, into a lane.
+    #[inline(always)]
+    pub fn load(&self, lanes: &mut Lanes, lane: usize, corners: [Vec3; 3]) {
+        lanes.set(lane, corners.map(|corner| corner - self.point));
+    }
+
+    /// [`lower`](Self::lower) from the triangle's supporting plane.
+    #[inline(always)]
+    pub fn bound(&self, support: Support, radius: f32, limit: f32) -> Option<f32> {
+        let Support { along, length_sq } = support;
+        if length_sq < TRUSTED_DIRECTION_SQ {
             return Some(0.0);
         }
         let inside = radius + self.margin;
         let reach = limit + inside;
-        if along > 0.0 && along * along * SQUARED_SLACK > reach * reach * rr {
+        if along > 0.0 && along * along * SQUARED_SLACK > reach * reach * length_sq {
             return None;
         }
-        Some(greater(0.0, along / libm::sqrtf(rr) - inside))
+        Some(greater(0.0, along / libm::sqrtf(length_sq) - inside))
     }
 }
 

@@ -8,7 +8,7 @@ use super::answer::{ClosestPoint, Ended, QueryError, Stop, Work};
 use super::frame::Frame;
 use super::frontier::{Frontier, QueueEntry};
 use crate::blob::{Children, Model, NodeIdx, TriIdx};
-use crate::geom::{PointProbe, point_triangle};
+use crate::geom::{LANES, Lanes, PointProbe, Support, point_triangle};
 use crate::num::tolerance::FAR;
 use crate::num::up_to_f32;
 use glam::{DVec3, Vec3};
@@ -51,6 +51,13 @@ pub fn closest_point(
         sweep.lower = sweep.lower.max(lower.min(sweep.upper));
     }
     Ok(sweep.answer(&frame, ended))
+}
+
+/// `first .. first + count` in runs of at most [`LANES`]: where each begins and how long it is.
+#[inline(always)]
+fn chunks(first: u32, count: u32) -> impl Iterator<Item = (u32, usize)> {
+    let run = LANES as u32;
+    (0..count.div_ceil(run)).map(move |i| (first.wrapping_add(i * run), (count - i * run).min(run) as usize))
 }
 
 /// The best triangle so far.
@@ -144,19 +151,23 @@ impl<'a> Sweep<'a> {
             Children::Nodes { first, count } => {
                 frontier.begin_children(count);
                 let mut nearest: Option<QueueEntry> = None;
-                for child in first..first.checked_add(count)? {
-                    let Some(entry) = self.visit(child)? else { continue };
-                    match &mut nearest {
-                        Some(near) if !entry.before(near) => frontier.push(entry),
-                        Some(near) => frontier.push(core::mem::replace(near, entry)),
-                        None => nearest = Some(entry),
+                for (from, lanes) in chunks(first, count) {
+                    let (supports, radii) = self.bounds(from, lanes)?;
+                    for (node, (support, radius)) in (from..).zip(supports.into_iter().zip(radii)).take(lanes) {
+                        let Some(key) = self.probe.bound(support, radius, self.upper_f32) else { continue };
+                        let entry = QueueEntry { key, node };
+                        match &mut nearest {
+                            Some(near) if !entry.before(near) => frontier.push(entry),
+                            Some(near) => frontier.push(core::mem::replace(near, entry)),
+                            None => nearest = Some(entry),
+                        }
                     }
                 }
                 return Some(nearest);
             }
             Children::Triangles { first, count } => {
-                for triangle in first..first.checked_add(count)? {
-                    self.triangle(TriIdx(triangle))?;
+                for (from, lanes) in chunks(first, count) {
+                    self.triangles(from, lanes)?;
                 }
             }
             Children::Cut => self.cut_node(node.corners, key)?,
@@ -164,25 +175,39 @@ impl<'a> Sweep<'a> {
         Some(None)
     }
 
-    /// The entry of a node that is still in the race.
-    #[inline]
-    fn visit(&mut self, node: u32) -> Option<Option<QueueEntry>> {
-        self.work.nodes += 1;
-        let record = self.model.bound(NodeIdx(node))?;
-        let corners = self.model.positions(record.0)?;
-        let key = self.probe.lower(corners, record.1, self.upper_f32);
-        Some(key.map(|key| QueueEntry { key, node }))
+    /// Supporting planes and radii of up to four nodes.
+    #[inline(always)]
+    fn bounds(&mut self, first: u32, count: usize) -> Option<([Support; LANES], [f32; LANES])> {
+        self.work.nodes += count as u32;
+        let mut lanes = Lanes::EMPTY;
+        let mut radii = [0f32; LANES];
+        for ((lane, radius), node) in radii.iter_mut().enumerate().zip(first..).take(count) {
+            let (corners, stored) = self.model.bound(NodeIdx(node))?;
+            self.probe.load(&mut lanes, lane, self.model.positions(corners)?);
+            *radius = stored;
+        }
+        Some((lanes.supports(count), radii))
     }
 
-    /// A triangle of the surface: a bound in f32, and the interval in f64 if the bound leaves it in the race.
-    #[inline]
-    fn triangle(&mut self, triangle: TriIdx) -> Option<()> {
-        self.work.triangles += 1;
-        let corners = self.model.positions(self.model.surface_triangle(triangle)?)?;
-        if self.probe.lower(corners, 0.0, self.upper_f32).is_some() {
-            self.evaluate(triangle, corners);
+    /// Up to four triangles of the surface: a bound in f32, and the interval in f64 where the bound leaves them in the race.
+    #[inline(always)]
+    fn triangles(&mut self, first: u32, count: usize) -> Option<()> {
+        self.work.triangles += count as u32;
+        let mut lanes = Lanes::EMPTY;
+        for (lane, triangle) in (0..LANES).zip(first..).take(count) {
+            self.probe.load(&mut lanes, lane, self.corners(TriIdx(triangle))?);
+        }
+        for (support, triangle) in lanes.supports(count).into_iter().zip(first..).take(count) {
+            if self.probe.bound(support, 0.0, self.upper_f32).is_some() {
+                self.evaluate(TriIdx(triangle), self.corners(TriIdx(triangle))?);
+            }
         }
         Some(())
+    }
+
+    #[inline(always)]
+    fn corners(&self, triangle: TriIdx) -> Option<[Vec3; 3]> {
+        self.model.positions(self.model.surface_triangle(triangle)?)
     }
 
     fn evaluate(&mut self, triangle: TriIdx, corners: [Vec3; 3]) {
