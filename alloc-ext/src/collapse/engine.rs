@@ -147,7 +147,7 @@ impl Engine {
             if !self.step() {
                 return Some(self.why_stuck());
             }
-            if self.history.collapses.len() % 1024 == 0 {
+            if self.history.collapses.len().is_multiple_of(1024) {
                 on_progress(self.progress());
             }
         }
@@ -171,7 +171,8 @@ impl Engine {
     fn step(&mut self) -> bool {
         while let Some(candidate) = self.queue.pop() {
             let [a, b] = candidate.ends;
-            if !matches!(self.edges.get(&candidate.ends), Some(EdgeState::Queued(time)) if *time == candidate.time) {
+            if !matches!(self.edges.get(&candidate.ends), Some(EdgeState::Queued(time)) if *time == candidate.time)
+            {
                 continue;
             }
             let changed = self.changed[a as usize].max(self.changed[b as usize]);
@@ -257,7 +258,9 @@ impl Engine {
                 self.refuse(ends, refusal);
                 false
             }
-            Ok(placement) if self.priority == Priority::Span && placement.volume > 6.000_001 * candidate.cost => {
+            Ok(placement)
+                if self.priority == Priority::Span && placement.volume > 6.000_001 * candidate.cost =>
+            {
                 self.enqueue(placement.volume / 6.0, ends, self.now);
                 false
             }

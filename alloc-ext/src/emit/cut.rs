@@ -35,9 +35,8 @@ impl std::error::Error for CutError {}
 /// # Errors
 /// [`CutError::NoLevel`].
 pub fn cut(model: &Model<'_>, index: u32) -> Result<Tables, CutError> {
-    let level = model
-        .level(index)
-        .ok_or(CutError::NoLevel { wanted: index, levels: model.header().levels })?;
+    let level =
+        model.level(index).ok_or(CutError::NoLevel { wanted: index, levels: model.header().levels })?;
     let mut tables = Tables::from_model(model).ok_or(CutError::Model)?;
     if index + 1 == model.header().levels {
         return Ok(tables);

@@ -84,9 +84,14 @@ impl std::fmt::Display for BuildError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             BuildError::TooLarge { triangles } => {
-                write!(f, "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh")
+                write!(
+                    f,
+                    "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh"
+                )
             }
-            BuildError::Reopen(error) => write!(f, "internal error: the blob does not open: {error}; please report it"),
+            BuildError::Reopen(error) => {
+                write!(f, "internal error: the blob does not open: {error}; please report it")
+            }
         }
     }
 }
@@ -291,13 +296,10 @@ fn assemble(
         radii,
         splits_with,
         nodes,
-        surface: cover
-            .triangles
-            .iter()
-            .map(|&t| history.original_triangles[t as usize].map(index))
-            .collect(),
+        surface: cover.triangles.iter().map(|&t| history.original_triangles[t as usize].map(index)).collect(),
         source: cover.triangles.iter().map(|&t| mesh.source[t as usize]).collect(),
-        input_triangles: input_triangles.max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0)) as u32,
+        input_triangles: input_triangles.max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0))
+            as u32,
         surface_box: Aabb { min: low, max: high },
         levels: Vec::new(),
         queue_capacity: cover.queue_capacity,

@@ -143,7 +143,8 @@ pub fn store(mesh: &Mesh, bits: VertexBits) -> Stored {
 /// The finest power-of-two grid of a format on which the box of `local` takes at most [`FILL`] of the range, if its
 /// coordinates can be summed in f32 exactly.
 fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
-    let (low, high) = local.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+    let (low, high) =
+        local.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
     let extent = (high - low).max_element();
     let probe = Grid { format, exponent: 0, origin: [0; 3] };
     let (_, exponent) = libm_frexp(extent / (probe.max_units() * FILL));
@@ -151,9 +152,10 @@ fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
     let middle = (low + high) * 0.5;
     let origin = (middle / step - DVec3::splat((probe.max_units() / 2.0).floor())).floor();
     let end = origin + DVec3::splat(probe.max_units());
-    let exact_sums = origin.abs().max(end.abs()).max_element() <= 16_777_216.0 && (-60..=0).contains(&exponent);
-    #[expect(clippy::cast_possible_truncation, reason = "bounded by the test above")]
-    exact_sums.then(|| Grid { format, exponent, origin: [origin.x as i32, origin.y as i32, origin.z as i32] })
+    let exact_sums =
+        origin.abs().max(end.abs()).max_element() <= 16_777_216.0 && (-60..=0).contains(&exponent);
+    let origin = [origin.x as i32, origin.y as i32, origin.z as i32];
+    exact_sums.then_some(Grid { format, exponent, origin })
 }
 
 /// Moves raw positions to the grid that [`store`] would choose for them, before welding and repair; the greatest distance moved, rounded up,

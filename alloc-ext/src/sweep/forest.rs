@@ -41,9 +41,10 @@ pub fn grow(history: &History) -> Forest {
     for (index, collapse) in history.collapses.iter().enumerate() {
         let first = history.first_coarse(index);
         corners.clear();
-        corners.extend((0..collapse.ring_len as usize).map(|i| {
-            history.coarse_corners(collapse, i).map(|label| history.positions[label as usize])
-        }));
+        corners.extend(
+            (0..collapse.ring_len as usize)
+                .map(|i| history.coarse_corners(collapse, i).map(|label| history.positions[label as usize])),
+        );
         for (slot, &instance) in history.fine(index).iter().enumerate() {
             let vertices = std::mem::take(&mut below[instance as usize]);
             if vertices.is_empty() {

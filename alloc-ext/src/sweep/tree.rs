@@ -64,7 +64,8 @@ const FAN_OUT: usize = 4;
 pub fn plant(history: &History, order: &VertexOrder, forest: &Forest, levels: &[u32]) -> Cover {
     let grove = Grove::new(history, forest);
     let mut drafts = Drafts { history, order, forest, drafts: Vec::new() };
-    let roots = grove.roots.iter().map(|&(bottom, position)| (drafts.grow(&grove, bottom), position)).collect();
+    let roots =
+        grove.roots.iter().map(|&(bottom, position)| (drafts.grow(&grove, bottom), position)).collect();
     let root = drafts.crown(roots);
     emit(&drafts.drafts, root, levels)
 }
@@ -201,9 +202,8 @@ impl Drafts<'_> {
         let (mut large, mut small) = split(&grove.children[instance as usize]);
         loop {
             let radius = |c: u32| self.forest.radius[c as usize];
-            let widest = (0..large.len()).max_by(|&i, &j| {
-                radius(large[i]).total_cmp(&radius(large[j])).then(large[j].cmp(&large[i]))
-            });
+            let widest = (0..large.len())
+                .max_by(|&i, &j| radius(large[i]).total_cmp(&radius(large[j])).then(large[j].cmp(&large[i])));
             let Some(at) = widest else { break };
             let below = &grove.children[large[at] as usize];
             if large.len() + below.len() + small.len().div_ceil(2) > FAN_OUT + 1 {
@@ -310,7 +310,9 @@ impl Drafts<'_> {
                     let extent = (high - low).to_array();
                     let axis = (0..3).max_by(|&i, &j| extent[i].total_cmp(&extent[j])).unwrap_or(0);
                     part.sort_by(|&(a, i), &(b, j)| {
-                        self.centre(a).to_array()[axis].total_cmp(&self.centre(b).to_array()[axis]).then(i.cmp(&j))
+                        self.centre(a).to_array()[axis]
+                            .total_cmp(&self.centre(b).to_array()[axis])
+                            .then(i.cmp(&j))
                     });
                     let right = part.split_off(part.len() / 2);
                     vec![part, right]

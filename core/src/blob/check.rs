@@ -2,7 +2,7 @@
 
 use super::error::OpenError;
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING, SectionKind, VertexFormat};
+use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_LEVELS, MAX_RING, SectionKind, VertexFormat};
 use super::model::{Children, Model};
 
 impl Model<'_> {
@@ -44,6 +44,9 @@ impl Model<'_> {
         if u64::from(h.vertices) != u64::from(h.base_vertices) + 2 * u64::from(h.splits) {
             return wrong("vertices are not base vertices and two for each split");
         }
+        if h.levels > MAX_LEVELS {
+            return wrong("too many levels");
+        }
         if h.nodes == 0 || h.base_triangles == 0 || h.levels == 0 {
             return wrong("an empty model");
         }
@@ -59,7 +62,9 @@ impl Model<'_> {
         if h.surface_error.is_sign_negative() {
             return wrong("negative surface error");
         }
-        let ordered = |b: &crate::geom::Aabb| b.min.cmple(b.max).all() && b.min.abs().max(b.max.abs()).max_element() <= 16.0;
+        let ordered = |b: &crate::geom::Aabb| {
+            b.min.cmple(b.max).all() && b.min.abs().max(b.max.abs()).max_element() <= 16.0
+        };
         if !ordered(&h.hull_box) || !ordered(&h.surface_box) {
             return wrong("a box is inverted or far outside the local frame");
         }
@@ -68,7 +73,7 @@ impl Model<'_> {
         }
         let grid = h.vertex_format != VertexFormat::F32;
         let origin_fits = h.grid_origin.iter().all(|o| o.unsigned_abs() <= 1 << 24);
-        if grid && (!origin_fits || !(h.grid_exponent >= -60 && h.grid_exponent <= 0)) {
+        if grid && !(origin_fits && (-60..=0).contains(&h.grid_exponent)) {
             return wrong("grid out of range");
         }
         Ok(())
@@ -112,7 +117,7 @@ impl Model<'_> {
             if !inside {
                 return Err(OpenError::Record { section: SectionKind::Surface, index });
             }
-            if !self.source(TriIdx(index)).is_some_and(|s| s < self.header.input_triangles) {
+            if self.source(TriIdx(index)).is_none_or(|s| s >= self.header.input_triangles) {
                 return Err(OpenError::Record { section: SectionKind::Source, index });
             }
         }
@@ -125,7 +130,11 @@ impl Model<'_> {
             let bad = OpenError::Record { section: SectionKind::Splits, index };
             let split = self.split(SplitIdx(index)).ok_or(bad)?;
             let k = split.ring_len();
-            if !(2..=MAX_RING).contains(&k) || split.right == 0 || split.right >= k || split.vertex >= split.origin {
+            if !(2..=MAX_RING).contains(&k)
+                || split.right == 0
+                || split.right >= k
+                || split.vertex >= split.origin
+            {
                 return Err(bad);
             }
             if self.split_of(split.vertex) != Some(SplitIdx(index)) {
@@ -136,9 +145,9 @@ impl Model<'_> {
             }
         }
         for index in 0..self.header.vertices {
-            let consistent = self.split_of(VertIdx(index)).is_none_or(|split| {
-                self.split(split).is_some_and(|s| s.vertex == VertIdx(index))
-            });
+            let consistent = self
+                .split_of(VertIdx(index))
+                .is_none_or(|split| self.split(split).is_some_and(|s| s.vertex == VertIdx(index)));
             if !consistent {
                 return Err(OpenError::Record { section: SectionKind::SplitsWith, index });
             }
@@ -164,7 +173,9 @@ impl Model<'_> {
             }
             match node.children {
                 Children::Nodes { first, count } if first > index && count > 0 => {}
-                Children::Triangles { first, count } if first == next_triangle && count > 0 => next_triangle += count,
+                Children::Triangles { first, count } if first == next_triangle && count > 0 => {
+                    next_triangle += count
+                }
                 Children::Cut if self.is_cut() => {}
                 _ => return Err(bad),
             }

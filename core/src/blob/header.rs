@@ -62,6 +62,9 @@ impl Header {
         if bytes.slice(0, 8).ok_or(short)? != MAGIC {
             return Err(OpenError::NotABlob);
         }
+        if bytes.len() < HEADER_BYTES {
+            return Err(short);
+        }
         let word = |at: usize| bytes.u32(at).ok_or(short);
         let version = bytes.u16(8).ok_or(short)?;
         if version != VERSION_MAJOR {

@@ -15,6 +15,8 @@ pub const HEADER_CRC_AT: usize = 156;
 pub const SECTION_ENTRY_BYTES: usize = 16;
 /// Every section starts at a multiple of this.
 pub const SECTION_ALIGNMENT: usize = 4;
+/// Most levels: faces double from one to the next, so 32 exceed any blob.
+pub const MAX_LEVELS: u32 = 32;
 /// Most sections that a table may list.
 pub const MAX_SECTIONS: usize = 32;
 /// Bytes of one record of the level table.

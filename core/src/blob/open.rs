@@ -2,7 +2,9 @@
 
 use super::error::OpenError;
 use super::header::Header;
-use super::layout::{HEADER_BYTES, HEADER_CRC_AT, MAX_SECTIONS, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind};
+use super::layout::{
+    HEADER_BYTES, HEADER_CRC_AT, MAX_SECTIONS, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind,
+};
 use super::model::{Model, Section, Vertices, Widths};
 use super::read::Bytes;
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
@@ -99,7 +101,10 @@ impl<'a> Model<'a> {
             let offset = self.bytes.u32(at + 4).ok_or(malformed)?;
             let length = self.bytes.u32(at + 8).ok_or(malformed)?;
             let section_end = offset.checked_add(length).ok_or(malformed)?;
-            if offset < end || section_end > self.header.total_bytes || offset as usize % SECTION_ALIGNMENT != 0 {
+            if offset < end
+                || section_end > self.header.total_bytes
+                || !(offset as usize).is_multiple_of(SECTION_ALIGNMENT)
+            {
                 return Err(malformed);
             }
             // The gap between sections is padding: shorter than the alignment, and zero.

@@ -33,10 +33,7 @@ impl Aabb {
         let (lo, hi) = (self.min.as_dvec3(), self.max.as_dvec3());
         let gap = (lo - p).max(p - hi).max(DVec3::ZERO);
         let far = (p - lo).abs().max((hi - p).abs());
-        (
-            libm::sqrt(gap.dot(gap)) * (1.0 - 8.0 * U64),
-            libm::sqrt(far.dot(far)) * (1.0 + 8.0 * U64),
-        )
+        (libm::sqrt(gap.dot(gap)) * (1.0 - 8.0 * U64), libm::sqrt(far.dot(far)) * (1.0 + 8.0 * U64))
     }
 
     /// The part of the segment `a b` that may meet the box, by slabs, rounded outward; `None` if it certainly misses.

@@ -22,14 +22,12 @@ impl Lanes {
     /// No triangles.
     pub const EMPTY: Lanes = Lanes { t: [[0.0; LANES]; 9] };
 
-    /// Puts a triangle into a lane; a lane that is not there is passed over.
+    /// Puts a triangle into lane `lane` modulo [`LANES`], which needs no check.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, [a, b, c]: [Vec3; 3]) {
         let coordinates = [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z];
         for (row, x) in self.t.iter_mut().zip(coordinates) {
-            if let Some(slot) = row.get_mut(lane) {
-                *slot = x;
-            }
+            row[lane % LANES] = x;
         }
     }
 
@@ -41,7 +39,7 @@ impl Lanes {
         }
         let mut out = [Support::default(); LANES];
         for (lane, slot) in out.iter_mut().enumerate().take(count) {
-            let [ax, ay, az, bx, by, bz, cx, cy, cz] = self.t.map(|row| row[lane]);
+            let [ax, ay, az, bx, by, bz, cx, cy, cz] = self.t.map(|row| row[lane % LANES]);
             *slot = Support::new(Vec3::new(ax, ay, az), Vec3::new(bx, by, bz), Vec3::new(cx, cy, cz));
         }
         out
@@ -118,7 +116,8 @@ mod tests {
     fn lanes_give_the_bits_of_the_scalar_kernel() {
         let mut state = 7;
         for round in 0..100_000 {
-            let mut vector = || Vec3::from_array(core::array::from_fn(|_| coordinate(&mut state, round % 2 == 0)));
+            let mut vector =
+                || Vec3::from_array(core::array::from_fn(|_| coordinate(&mut state, round % 2 == 0)));
             let triangles: [[Vec3; 3]; LANES] = core::array::from_fn(|_| core::array::from_fn(|_| vector()));
             let mut rows = Lanes::EMPTY;
             for (lane, triangle) in triangles.iter().enumerate() {

@@ -9,5 +9,5 @@ mod swept_triangle;
 pub use boxes::{Aabb, Clipped};
 pub use lanes::{LANES, Lanes};
 pub use point_triangle::{PointTriangle, point_triangle};
-pub use segment_triangle::{SegmentTriangle, segment_triangle};
+pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
 pub use swept_triangle::{PointProbe, SegmentProbe, Support, direction_bound};

@@ -95,7 +95,7 @@ fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
     }
     let inverse = 1.0 / sum;
     let (u, v) = (vb * inverse, vc * inverse);
-    let u = u.max(0.0).min(1.0);
+    let u = u.clamp(0.0, 1.0);
     let v = v.max(0.0).min(1.0 - u);
     // Near the surface the residual is all rounding; the normal is not.
     let normal = ab.cross(ac);

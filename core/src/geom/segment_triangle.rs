@@ -22,8 +22,8 @@ pub struct SegmentTriangle {
 
 /// First common point of the closed segment `a b` and the closed triangle `v0 v1 v2`.
 ///
-/// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths involved: a caller
-/// that must never hear "clear" by mistake wants exactly that. Both facings hit. A segment in the triangle's plane hits at
+/// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths involved (on a needle, times its
+/// aspect ratio): a caller that must never hear "clear" by mistake wants exactly that. Both facings hit. A segment in the triangle's plane hits at
 /// the first point that it shares with it; a segment of zero length hits if its point lies on the triangle.
 pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<SegmentTriangle> {
     let d = b - a;
@@ -56,7 +56,7 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
         return None;
     }
     Some(SegmentTriangle {
-        t: t.max(0.0).min(1.0),
+        t: t.clamp(0.0, 1.0),
         t_lower: (t - error).max(0.0),
         t_upper: (t + error).min(1.0),
     })
@@ -90,6 +90,22 @@ fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> 
     Some(SegmentTriangle { t, t_lower: shadow.max(0.0).min(t), t_upper: 1.0 })
 }
 
+/// Whether the segment comes within `reach` of a triangle that it does not cross; yes where rounding leaves it open.
+///
+/// Then the least distance is that of an end and the triangle, or of the segment and an edge. `reach` must be well above f64's
+/// roundoff times the lengths involved, as the rounding of coordinates to a grid is: a millionth of it is allowed for.
+pub fn comes_within(a: DVec3, b: DVec3, corners: [DVec3; 3], reach: f64) -> bool {
+    let [v0, v1, v2] = corners;
+    let d = b - a;
+    let lengths = norm_1(v0 - a) + norm_1(v1 - a) + norm_1(v2 - a) + norm_1(d);
+    let reach = reach * (1.0 + 1e-6) + COPLANAR_TOUCH * U64 * lengths;
+    let end_is_near = |p: DVec3| point_triangle(p, v0, v1, v2).lower <= reach;
+    let edges = [(v0, v1), (v1, v2), (v2, v0)];
+    end_is_near(a)
+        || end_is_near(b)
+        || edges.into_iter().any(|(from, to)| edge_crossing(a, d, from, to, reach).is_some())
+}
+
 /// Parameter on `a + t·d` at which the segment comes within `touch` of the edge, if it does.
 fn edge_crossing(a: DVec3, d: DVec3, from: DVec3, to: DVec3, touch: f64) -> Option<f64> {
     // Closest points of two segments (Ericson 5.1.9), both ends clamped, the better of two orders.
@@ -97,7 +113,7 @@ fn edge_crossing(a: DVec3, d: DVec3, from: DVec3, to: DVec3, touch: f64) -> Opti
     let s = a - from;
     let (dd, ee, de) = (d.dot(d), e.dot(e), d.dot(e));
     let (ds, es) = (d.dot(s), e.dot(s));
-    let clamp = |x: f64| x.max(0.0).min(1.0);
+    let clamp = |x: f64| x.clamp(0.0, 1.0);
     let divide = |x: f64, by: f64| if by > 0.0 { clamp(x / by) } else { 0.0 };
     let distance = |t: f64, k: f64| {
         let gap = s + d * t - e * k;

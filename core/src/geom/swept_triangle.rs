@@ -209,9 +209,11 @@ mod tests {
     fn point_bound_is_below_the_distance_and_close_to_it() {
         let bounds = Aabb { min: Vec3::splat(-1.0), max: Vec3::splat(1.0) };
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
-        for (point, distance) in
-            [(Vec3::new(0.2, 0.2, 3.0), 3.0), (Vec3::new(-3.0, -4.0, 0.0), 5.0), (Vec3::new(0.5, -2.0, 0.0), 2.0)]
-        {
+        for (point, distance) in [
+            (Vec3::new(0.2, 0.2, 3.0), 3.0),
+            (Vec3::new(-3.0, -4.0, 0.0), 5.0),
+            (Vec3::new(0.5, -2.0, 0.0), 2.0),
+        ] {
             let probe = PointProbe::new(point, &bounds);
             let lower = probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
             assert!(probe.lower(corners, 0.25, distance - 0.2).is_some());

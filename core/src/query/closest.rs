@@ -6,7 +6,7 @@
 
 use super::answer::{ClosestPoint, Ended, QueryError, Stop, Work};
 use super::frame::Frame;
-use super::frontier::{Frontier, QueueEntry};
+use super::frontier::{Frontier, QueueEntry, Taken};
 use crate::blob::{Children, Model, NodeIdx, TriIdx};
 use crate::geom::{LANES, Lanes, PointProbe, Support, point_triangle};
 use crate::num::tolerance::FAR;
@@ -105,7 +105,7 @@ impl<'a> Sweep<'a> {
         let tolerant = stop.relative > 0.0 || stop.absolute > 0.0;
         let mut met_tolerance = false;
         let mut next = Some(QueueEntry { key: 0.0, node: 0 });
-        while let Some(entry) = frontier.take(next, self.best.is_none()) {
+        while let Some(Taken { entry, least }) = frontier.take(next, self.best.is_none()) {
             let key = f64::from(entry.key);
             let beaten = entry.key > self.upper_f32;
             let tolerated = tolerant && (key * relative >= self.upper || self.upper - key <= absolute);
@@ -114,12 +114,11 @@ impl<'a> Sweep<'a> {
                     self.lower = self.lower.min(key);
                     met_tolerance = true;
                 }
-                // What waits on the heap waits by a key that is no smaller.
-                if frontier.is_descending() {
-                    next = None;
-                    continue;
+                if least {
+                    break;
                 }
-                break;
+                next = None;
+                continue;
             }
             if self.work.splits >= stop.steps {
                 self.lower = self.lower.min(key).min(f64::from(frontier.lower()));
@@ -153,7 +152,8 @@ impl<'a> Sweep<'a> {
                 let mut nearest: Option<QueueEntry> = None;
                 for (from, lanes) in chunks(first, count) {
                     let (supports, radii) = self.bounds(from, lanes)?;
-                    for (node, (support, radius)) in (from..).zip(supports.into_iter().zip(radii)).take(lanes) {
+                    for (node, (support, radius)) in (from..).zip(supports.into_iter().zip(radii)).take(lanes)
+                    {
                         let Some(key) = self.probe.bound(support, radius, self.upper_f32) else { continue };
                         let entry = QueueEntry { key, node };
                         match &mut nearest {
@@ -279,4 +279,3 @@ impl<'a> Sweep<'a> {
         }
     }
 }
-

@@ -40,7 +40,7 @@ impl Frame {
 
     /// A point in input units, rounded to nearest, kept finite.
     pub(super) fn point(&self, local: DVec3) -> [f32; 3] {
-        (local * self.scale).to_array().map(|x| (x as f32).max(-f32::MAX).min(f32::MAX))
+        (local * self.scale).to_array().map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
     /// A lower bound of the distance to the stored surface as one to the input surface, in input units.

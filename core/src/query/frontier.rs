@@ -22,6 +22,14 @@ impl QueueEntry {
     }
 }
 
+/// An entry that left the queue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Taken {
+    pub(super) entry: QueueEntry,
+    /// No entry that still waits has a smaller key.
+    pub(super) least: bool,
+}
+
 pub(super) struct Frontier<'a> {
     slots: &'a mut [QueueEntry],
     heap: usize,
@@ -37,7 +45,15 @@ pub(super) struct Frontier<'a> {
 
 impl<'a> Frontier<'a> {
     pub(super) fn new(slots: &'a mut [QueueEntry], reserve: usize) -> Self {
-        Frontier { slots, heap: 0, stack: 0, reserve, dropped: f32::INFINITY, depth_first: false, siblings: 0 }
+        Frontier {
+            slots,
+            heap: 0,
+            stack: 0,
+            reserve,
+            dropped: f32::INFINITY,
+            depth_first: false,
+            siblings: 0,
+        }
     }
 
     /// To be called before the children of a popped node are pushed: decides where they go.
@@ -57,43 +73,38 @@ impl<'a> Frontier<'a> {
         }
     }
 
-    /// The entry to open next: `nearest`, the nearest child of the node opened last, if it comes first anyway (or if `dive`
-    /// says to go down whatever waits); else the best that waits, `nearest` joining the queue.
+    /// The entry to open next: `nearest`, the nearest child of the node opened last, if it comes first anyway or if `dive`
+    /// says to go down whatever waits; else the best that waits, `nearest` joining the queue.
     #[inline]
-    pub(super) fn take(&mut self, nearest: Option<QueueEntry>, dive: bool) -> Option<QueueEntry> {
+    pub(super) fn take(&mut self, nearest: Option<QueueEntry>, dive: bool) -> Option<Taken> {
         let Some(nearest) = nearest else { return self.pop() };
-        // On the stack the nearest child of a descent lies on top.
-        let first = dive
-            || self.stack > 0
-            || self.heap == 0
-            || self.slots.first().is_none_or(|top| nearest.before(top));
-        if first {
-            return Some(nearest);
+        // In a descent the nearest child would lie on top of the stack.
+        if dive || self.stack > 0 || self.depth_first {
+            return Some(Taken { entry: nearest, least: false });
+        }
+        if self.heap == 0 || self.slots.first().is_none_or(|top| nearest.before(top)) {
+            return Some(Taken { entry: nearest, least: true });
         }
         self.push(nearest);
         self.pop()
     }
 
-    /// Best known entry: top of the stack during a descent, else of the heap.
-    pub(super) fn pop(&mut self) -> Option<QueueEntry> {
+    /// Top of the stack during a descent, else of the heap.
+    pub(super) fn pop(&mut self) -> Option<Taken> {
         if self.stack > 0 {
             let top = self.slots.get(self.slots.len() - self.stack).copied();
             self.stack -= 1;
-            return top;
+            return top.map(|entry| Taken { entry, least: false });
         }
-        self.pop_heap()
+        self.pop_heap().map(|entry| Taken { entry, least: true })
     }
 
     /// Least key of all that waits or was dropped; infinity if there is none.
     pub(super) fn lower(&self) -> f32 {
-        let heap = if self.heap > 0 { self.slots.first().map_or(f32::INFINITY, |e| e.key) } else { f32::INFINITY };
+        let heap =
+            if self.heap > 0 { self.slots.first().map_or(f32::INFINITY, |e| e.key) } else { f32::INFINITY };
         let stack = self.slots.iter().rev().take(self.stack).fold(f32::INFINITY, |low, e| low.min(e.key));
         heap.min(stack).min(self.dropped)
-    }
-
-    /// Whether depth-first siblings wait; if not, keys come in rising order.
-    pub(super) fn is_descending(&self) -> bool {
-        self.stack > 0
     }
 
     pub(super) fn dropped(&self) -> f32 {
@@ -108,7 +119,9 @@ impl<'a> Frontier<'a> {
         let bottom = at + self.siblings;
         self.siblings += 1;
         while at < bottom {
-            let Some(below) = self.slots.get(at + 1).copied().filter(|below| below.before(&entry)) else { break };
+            let Some(below) = self.slots.get(at + 1).copied().filter(|below| below.before(&entry)) else {
+                break;
+            };
             self.set(at, below);
             at += 1;
         }
@@ -186,9 +199,9 @@ mod tests {
         entries(&keys).for_each(|e| frontier.push(e));
         let mut last = QueueEntry { key: -1.0, node: 0 };
         for _ in 0..keys.len() {
-            let entry = frontier.pop().expect("six were pushed");
-            assert!(last.before(&entry));
-            last = entry;
+            let taken = frontier.pop().expect("six were pushed");
+            assert!(last.before(&taken.entry) && taken.least);
+            last = taken.entry;
         }
         assert!(frontier.pop().is_none());
     }
@@ -199,12 +212,27 @@ mod tests {
         let mut frontier = Frontier::new(&mut slots, 4);
         frontier.begin_children(2);
         entries(&[7.0, 6.0]).for_each(|e| frontier.push(e));
-        assert_eq!(frontier.pop().map(|e| e.key), Some(6.0));
+        assert_eq!(frontier.pop().map(|t| t.entry.key), Some(6.0));
         frontier.begin_children(2);
         entries(&[9.0, 8.0]).for_each(|e| frontier.push(e));
         assert_eq!(frontier.lower(), 7.0);
-        let order: [Option<f32>; 4] = core::array::from_fn(|_| frontier.pop().map(|e| e.key));
+        let order: [Option<f32>; 4] = core::array::from_fn(|_| frontier.pop().map(|t| t.entry.key));
         assert_eq!(order, [Some(8.0), Some(9.0), Some(7.0), None]);
+    }
+
+    #[test]
+    fn the_last_of_a_descent_is_not_taken_for_the_least() {
+        let mut slots = [QueueEntry::EMPTY; 5];
+        let mut frontier = Frontier::new(&mut slots, 3);
+        frontier.begin_children(2);
+        entries(&[1.0, 2.0]).for_each(|e| frontier.push(e));
+        assert_eq!(frontier.pop().map(|t| (t.entry.key, t.least)), Some((1.0, true)));
+        frontier.begin_children(2);
+        frontier.push(QueueEntry { key: 9.0, node: 7 });
+        let nearest = QueueEntry { key: 8.0, node: 8 };
+        assert_eq!(frontier.take(Some(nearest), false), Some(Taken { entry: nearest, least: false }));
+        assert_eq!(frontier.pop().map(|t| (t.entry.key, t.least)), Some((9.0, false)));
+        assert_eq!(frontier.pop().map(|t| (t.entry.key, t.least)), Some((2.0, true)));
     }
 
     #[test]

@@ -9,9 +9,9 @@
 use super::answer::{Ended, Hit, QueryError, Work};
 use super::frame::Frame;
 use super::segment::insert;
-use crate::blob::{Model, SplitIdx, TriIdx, VertIdx};
 use crate::blob::layout::BASE_GROUP;
 use crate::blob::{Children, NodeIdx};
+use crate::blob::{Model, SplitIdx, TriIdx, VertIdx};
 use crate::geom::{PointProbe, SegmentProbe, segment_triangle};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::refine::{Face, Front, Refined};
@@ -89,7 +89,20 @@ pub fn outer_hits(
     }
     front.reset();
     let probe = SegmentProbe::new(&clipped, &bounds);
-    let mut sweep = Sweep { model, frame, start, end, probe, search, front, hits, out, waiting: 0, overflowed: false };
+    let mut sweep = Sweep {
+        model,
+        frame,
+        start,
+        end,
+        probe,
+        search,
+        front,
+        hits,
+        out,
+        waiting: 0,
+        spare: None,
+        overflowed: false,
+    };
     sweep.run().ok_or(QueryError::Model)?;
     Ok(sweep.out)
 }
@@ -105,6 +118,8 @@ struct Sweep<'a, 'f> {
     hits: &'a mut [Hit],
     out: OuterHits,
     waiting: usize,
+    /// One candidate that needs none of the caller's memory.
+    spare: Option<Face>,
     overflowed: bool,
 }
 
@@ -112,25 +127,30 @@ impl Sweep<'_, '_> {
     fn run(&mut self) -> Option<()> {
         self.test_base(true)?;
         loop {
-            while self.waiting > 0 {
-                self.waiting -= 1;
-                let face = self.front.candidates.get(self.waiting).copied()?;
+            while let Some(face) = self.next_candidate() {
                 self.refine(face)?;
             }
             if !self.overflowed {
                 return Some(());
             }
-            // Some candidates did not fit: what is alive and crossed is found again from the tables.
+            // Some candidates did not fit: what is alive and crossed is found again from the tables. At least one fits, and
+            // all of them can be refined, so the hull gets finer each time.
             self.overflowed = false;
             self.test_base(false)?;
             self.test_splits(0, self.model.header().splits, false)?;
         }
     }
 
+    fn next_candidate(&mut self) -> Option<Face> {
+        let Some(last) = self.waiting.checked_sub(1) else { return self.spare.take() };
+        self.waiting = last;
+        self.front.candidates.get(last).copied()
+    }
+
     /// One candidate: forgotten if it is gone or too far, else replaced by the split that refines it.
     fn refine(&mut self, face: Face) -> Option<()> {
         let corners = face.corners(self.model)?;
-        if self.beyond(face.enter) || !self.front.is_alive(self.model, corners) {
+        if self.beyond(face.enter_at()) || !self.front.is_alive(self.model, corners) {
             return Some(());
         }
         let split = Front::split_of_face(self.model, corners)?;
@@ -150,13 +170,16 @@ impl Sweep<'_, '_> {
                 Some(())
             }
             Refined::Capacity => {
-                // The face stays; the surface may be hit wherever the face is.
-                let t = self.probe.enter(self.model.positions(corners)?, 0.0).unwrap_or(0.0).max(0.0);
-                self.out.lower = self.out.lower.min(t);
-                self.out.ended = Ended::Capacity;
+                self.give_up(face.enter_at());
                 Some(())
             }
         }
+    }
+
+    /// A face that cannot be refined stays, and the surface may be hit wherever the face is.
+    fn give_up(&mut self, t: f32) {
+        self.out.lower = self.out.lower.min(t.max(0.0));
+        self.out.ended = Ended::Capacity;
     }
 
     fn test_base(&mut self, first_time: bool) -> Option<()> {
@@ -229,10 +252,14 @@ impl Sweep<'_, '_> {
         if self.beyond(t) {
             return Some(());
         }
-        if Front::split_of_face(self.model, corners).is_some() {
-            if let Some(slot) = self.front.candidates.get_mut(self.waiting) {
+        if let Some(split) = Front::split_of_face(self.model, corners) {
+            if !self.front.holds(split) {
+                self.give_up(t);
+            } else if let Some(slot) = self.front.candidates.get_mut(self.waiting) {
                 *slot = face.entered_at(t);
                 self.waiting += 1;
+            } else if self.spare.is_none() {
+                self.spare = Some(face.entered_at(t));
             } else {
                 self.overflowed = true;
             }

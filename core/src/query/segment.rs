@@ -5,9 +5,9 @@
 
 use super::answer::{AllHits, Ended, Hit, QueryError, SegmentHit, Stop, Work};
 use super::frame::Frame;
-use super::frontier::{Frontier, QueueEntry};
+use super::frontier::{Frontier, QueueEntry, Taken};
 use crate::blob::{Children, Model, NodeIdx, TriIdx};
-use crate::geom::{Clipped, SegmentProbe, SegmentTriangle, segment_triangle};
+use crate::geom::{Clipped, SegmentProbe, SegmentTriangle, comes_within, segment_triangle};
 use crate::num::{down_to_f32, up_to_f32};
 use glam::DVec3;
 
@@ -161,16 +161,28 @@ fn trace(
     if queue.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let mut traced = Traced { work: Work { nodes: 1, ..Work::default() }, ended: Ended::Exact, unopened: f32::INFINITY };
+    let mut traced =
+        Traced { work: Work { nodes: 1, ..Work::default() }, ended: Ended::Exact, unopened: f32::INFINITY };
     let surface_error = model.header().surface_error;
     let mut bounds = model.header().surface_box;
-    bounds.min -= surface_error;
-    bounds.max += surface_error;
+    if surface_error > 0.0 {
+        bounds.min = (bounds.min - surface_error).map(f32::next_down);
+        bounds.max = (bounds.max + surface_error).map(f32::next_up);
+    }
     let Some(clipped) = bounds.clip(start, end) else { return Ok(traced) };
     let mut hull = model.header().hull_box;
     hull.min = hull.min.min(bounds.min);
     hull.max = hull.max.max(bounds.max);
-    let mut walk = Walk { model, frame, start, end, probe: SegmentProbe::new(&clipped, &hull), clipped, surface_error, doubtful: false };
+    let mut walk = Walk {
+        model,
+        frame,
+        start,
+        end,
+        probe: SegmentProbe::new(&clipped, &hull),
+        clipped,
+        surface_error,
+        doubtful: false,
+    };
     let frontier = Frontier::new(queue, model.capacities().queue);
     walk.run(frontier, stop, collect, &mut traced).ok_or(QueryError::Model)?;
     Ok(traced)
@@ -198,7 +210,7 @@ impl Walk<'_> {
     ) -> Option<()> {
         frontier.begin_children(1);
         self.visit(0, &mut frontier, collect, &mut traced.work)?;
-        while let Some(entry) = frontier.pop() {
+        while let Some(Taken { entry, .. }) = frontier.pop() {
             if entry.key > collect.limit() {
                 continue;
             }
@@ -272,17 +284,19 @@ impl Walk<'_> {
             return Some(());
         }
         work.exact += 1;
-        let met = segment_triangle(self.start, self.end, corners.map(|v| v.as_dvec3()));
-        let met = if self.surface_error == 0.0 {
-            met
-        } else {
+        let corners = corners.map(|v| v.as_dvec3());
+        let mut met = segment_triangle(self.start, self.end, corners);
+        if self.surface_error > 0.0 {
             // The input surface may lie up to `surface_error` from the stored one: a hit may be a miss, a near miss a
             // hit, and the parameter is that uncertain.
+            if met.is_none() && !comes_within(self.start, self.end, corners, f64::from(self.surface_error)) {
+                return Some(());
+            }
             self.doubtful = true;
             let enter = f64::from(key.max(0.0));
             let t = met.map_or(enter, |meet| meet.t);
-            Some(SegmentTriangle { t, t_lower: enter.min(t), t_upper: 1.0 })
-        };
+            met = Some(SegmentTriangle { t, t_lower: enter.min(t), t_upper: 1.0 });
+        }
         if let Some(meet) = met {
             let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
             collect.add(Met { meet, triangle: triangle.0, point });

@@ -16,7 +16,7 @@ pub struct Face {
     /// Position among the split's fine triangles, or the number of the base triangle.
     slot: u32,
     /// No point of the face meets the segment below this parameter.
-    pub(crate) enter: f32,
+    enter: f32,
 }
 
 impl Face {
@@ -33,6 +33,10 @@ impl Face {
 
     pub(crate) fn entered_at(self, enter: f32) -> Self {
         Face { enter, ..self }
+    }
+
+    pub(crate) fn enter_at(self) -> f32 {
+        self.enter
     }
 
     /// Corners of the face.

@@ -18,8 +18,9 @@ pub struct HullFace {
 pub fn hull_faces<'a>(model: &'a Model<'a>, level: &Level) -> impl Iterator<Item = HullFace> + 'a {
     let splits = level.splits;
     let alive = move |vertex: VertIdx| model.split_of(vertex).is_none_or(|split| split.0 >= splits);
-    let base = (0..model.header().base_triangles)
-        .filter_map(move |index| Some(HullFace { corners: model.base_triangle(index)?, radius: model.radius(index)? }));
+    let base = (0..model.header().base_triangles).filter_map(move |index| {
+        Some(HullFace { corners: model.base_triangle(index)?, radius: model.radius(index)? })
+    });
     let fine = (0..splits).flat_map(move |index| {
         let split = model.split(SplitIdx(index));
         let count = split.map_or(0, |s| s.fine_len());

@@ -48,6 +48,6 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend(closest::tables(&subject, &model)?);
     tables.extend([trade::tolerances(&subject, &model)?, trade::steps(&subject, &model)?]);
     tables.push(trade::cuts(&subject, &model)?);
-    // The structural check of the blob (`check::check_blob`) belongs here.
+    tables.push(storage::proofs(&built.bytes)?);
     Ok(tables)
 }

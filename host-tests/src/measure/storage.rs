@@ -57,6 +57,28 @@ pub fn limits(model: &Model<'_>) -> Table {
     table
 }
 
+/// What the independent checker proved from the bytes alone.
+///
+/// # Errors
+/// The first claim of the blob that does not hold.
+pub fn proofs(bytes: &[u8]) -> Result<Table, String> {
+    let columns = ["splits", "planes", "by integers", "violations", "triangles", "cover pairs"];
+    let mut table = Table::new("proofs", "Proved again from the blob alone, by exact predicates", &columns);
+    let report = crate::check::check_blob(bytes)?;
+    table.push(row![
+        report.splits,
+        report.planes,
+        report.exact_planes,
+        0usize,
+        report.triangles,
+        report.covered
+    ]);
+    table.note(
+        "planes: faces that the vertex of a coarser hull lies on or outside; by integers: not decided by f64",
+    );
+    Ok(table)
+}
+
 /// The level table.
 pub fn levels(model: &Model<'_>) -> Table {
     let columns = ["level", "faces", "splits", "nodes", "hull to surface", "surface to hull", "void %"];
