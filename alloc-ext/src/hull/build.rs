@@ -76,6 +76,11 @@ pub enum BuildError {
         /// Triangles of the mesh.
         triangles: usize,
     },
+    /// The signed volume is not positive: the mesh is inside out where it passes through itself.
+    NotPositive {
+        /// The volume, input units.
+        volume: f64,
+    },
     /// The reader refused what was written: a defect of this program.
     Reopen(OpenError),
 }
@@ -89,6 +94,10 @@ impl std::fmt::Display for BuildError {
                     "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh"
                 )
             }
+            BuildError::NotPositive { volume } => write!(
+                f,
+                "the enclosed volume is {volume}: the mesh passes through itself and is inside out there; unite its parts first"
+            ),
             BuildError::Reopen(error) => {
                 write!(f, "internal error: the blob does not open: {error}; please report it")
             }
@@ -102,6 +111,9 @@ impl std::error::Error for BuildError {}
 const MAX_TRIANGLES: usize = 20_000_000;
 
 /// Builds the hull hierarchy of a closed manifold mesh (see [`require_closed_manifold`](crate::mesh::require_closed_manifold)).
+///
+/// Parts may overlap. But where a mesh passes through itself inside out, so that it winds around points negatively, its hulls do
+/// not enclose it; distances and [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were.
 ///
@@ -118,6 +130,7 @@ pub fn build(
         return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
     }
     let stored = store(mesh, options.vertex_bits);
+    let volume = positive_volume(&stored, mesh)?;
     let started = Instant::now();
     let (history, stuck, programs) = collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
     let collapse_time = started.elapsed();
@@ -128,7 +141,6 @@ pub fn build(
     let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
-    let volume = signed_volume(&stored.positions, &mesh.triangles);
     let mut tables = assemble(&stored, mesh, moved, input_triangles, &history, &order, &forest, &cover);
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
@@ -148,13 +160,17 @@ pub fn build(
 }
 
 /// A hull alone: its triangles in input units, the void it adds as a part of the mesh's volume, and why it stopped early.
+///
+/// # Errors
+/// [`BuildError::NotPositive`].
 pub fn hull_of(
     mesh: &Mesh,
     faces: usize,
     options: &BuildOptions,
     mut on_progress: impl FnMut(Progress),
-) -> (Mesh, f64, Option<Stuck>) {
+) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
     let stored = store(mesh, options.vertex_bits);
+    let volume = positive_volume(&stored, mesh)?;
     let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
     let order = VertexOrder::new(&history);
     let scale = meshsweep_core::num::exp2(stored.scale_exponent);
@@ -163,9 +179,19 @@ pub fn hull_of(
         .map(|&l| (history.positions[l as usize] * scale).as_vec3().to_array())
         .collect();
     let triangles = history.base.iter().map(|t| t.map(|l| order.index[l as usize])).collect();
-    let volume = signed_volume(&stored.positions, &mesh.triangles);
     let void = history.added_volume.iter().sum::<f64>() / volume;
-    (Mesh::new(positions, triangles), void, stuck)
+    Ok((Mesh::new(positions, triangles), void, stuck))
+}
+
+/// Volume in the local frame, which void is measured against.
+fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
+    let volume = signed_volume(&stored.positions, &mesh.triangles);
+    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    if volume > 0.0 {
+        Ok(volume)
+    } else {
+        Err(BuildError::NotPositive { volume: volume * scale * scale * scale })
+    }
 }
 
 fn collapse(

@@ -264,6 +264,7 @@ impl Drafts<'_> {
             Split(Vec<(usize, usize)>),
             Join { members: Vec<(usize, usize)>, parts: usize },
         }
+        let all = roots.clone();
         let mut tasks = vec![Task::Split(roots)];
         let mut done: Vec<usize> = Vec::new();
         while let Some(task) = tasks.pop() {
@@ -286,7 +287,9 @@ impl Drafts<'_> {
                 }
             }
         }
-        done.pop().unwrap_or(0)
+        let root = done.pop().unwrap_or(0);
+        // One base triangle may stand for everything, by a node of a finer level: the root must exist at every level.
+        if self.drafts[root].ready > 0 { self.crown_node(&all, vec![root]) } else { root }
     }
 
     fn centre(&self, draft: usize) -> DVec3 {

@@ -72,7 +72,10 @@ impl Model<'_> {
             return wrong("queue capacity");
         }
         let grid = h.vertex_format != VertexFormat::F32;
-        let origin_fits = h.grid_origin.iter().all(|o| o.unsigned_abs() <= 1 << 24);
+        // Every sum of a stored integer and the origin is exact in f32.
+        let range = if h.vertex_format == VertexFormat::Grid16 { 0xFFFF } else { 0xFF_FFFF };
+        let limit = 1 << 24;
+        let origin_fits = h.grid_origin.iter().all(|&o| o >= -limit && o <= limit - range);
         if grid && !(origin_fits && (-60..=0).contains(&h.grid_exponent)) {
             return wrong("grid out of range");
         }
@@ -214,7 +217,8 @@ impl Model<'_> {
             if lengths.iter().any(|x| x.is_nan() || x.is_sign_negative())
                 || level.splits > self.header.splits
                 || level.nodes > self.header.nodes
-                || (level.splits, level.nodes) < before
+                || level.splits < before.0
+                || level.nodes < before.1
             {
                 return Err(bad);
             }

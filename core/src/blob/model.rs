@@ -2,7 +2,7 @@
 //!
 //! If [`Model::open`] returned `Ok`, then every index that the blob stores is in range, every ring vertex exists before its
 //! split, every child of a cover node comes after it, and every coordinate is finite. The accessors still return `Option`:
-//! an index that the caller made up gives `None`, and no path can panic.
+//! an index past the end gives `None` (or, where its byte offset wraps on a 32-bit target, some record), and no path can panic.
 
 use super::Header;
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};

@@ -15,7 +15,7 @@ pub struct Aabb {
 /// The part of a segment that may lie in a box.
 #[derive(Clone, Copy, Debug)]
 pub struct Clipped {
-    /// Where the part begins, up to `4·2^-53·magnitude`.
+    /// Where the part begins, up to `16·2^-53·magnitude`.
     pub start: DVec3,
     /// Where it ends, up to the same.
     pub end: DVec3,

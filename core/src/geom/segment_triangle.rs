@@ -64,46 +64,81 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
 
 /// The segment lies in the plane of the triangle up to rounding, or one of them is degenerate.
 fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> {
-    let [v0, v1, v2] = corners;
     let d = b - a;
-    let (p, q, r) = (v0 - a, v1 - a, v2 - a);
-    let touch = COPLANAR_TOUCH * U64 * (norm_1(p) + norm_1(q) + norm_1(r) + norm_1(d));
+    let [p, q, r] = corners.map(|v| v - a);
+    let lengths = norm_1(p) + norm_1(q) + norm_1(r) + norm_1(d);
+    let touch = COPLANAR_TOUCH * U64 * lengths;
+    if gap(a, b, corners) > touch {
+        return None;
+    }
+    let [v0, v1, v2] = corners;
     if point_triangle(a, v0, v1, v2).lower <= touch {
         return Some(SegmentTriangle { t: 0.0, t_lower: 0.0, t_upper: 0.0 });
     }
-    // The start is outside, so the first common point lies on an edge.
-    let mut first: Option<f64> = None;
-    for (from, to) in [(v0, v1), (v1, v2), (v2, v0)] {
-        if let Some(t) = edge_crossing(a, d, from, to, touch) {
-            first = Some(first.map_or(t, |best| best.min(t)));
-        }
-    }
-    let t = first?;
-    // The crossing of nearly parallel lines is ill-conditioned; the shadow of the triangle on the segment is not.
+    // The start is outside, so the first common point lies on an edge. The crossing of nearly parallel lines is
+    // ill-conditioned; the shadow of the triangle on the segment is not.
     let dd = d.dot(d);
-    let shadow = if dd > 0.0 {
-        let nearest = d.dot(p).min(d.dot(q)).min(d.dot(r));
-        (nearest - touch * libm::sqrt(dd)) / dd - 16.0 * U64
-    } else {
-        0.0
-    };
-    Some(SegmentTriangle { t, t_lower: shadow.max(0.0).min(t), t_upper: 1.0 })
+    let nearest = d.dot(p).min(d.dot(q)).min(d.dot(r));
+    let shadow = if dd > 0.0 { (nearest - touch * libm::sqrt(dd)) / dd - 16.0 * U64 } else { 0.0 };
+    let t_lower = shadow.clamp(0.0, 1.0);
+    let crossings = [(v0, v1), (v1, v2), (v2, v0)];
+    let first = crossings
+        .into_iter()
+        .filter_map(|(from, to)| edge_crossing(a, d, from, to, touch))
+        .fold(f64::INFINITY, f64::min);
+    let t = if first <= 1.0 { first } else { t_lower };
+    Some(SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 })
 }
 
-/// Whether the segment comes within `reach` of a triangle that it does not cross; yes where rounding leaves it open.
+/// A lower bound of the distance between a segment and a triangle, by separating axes; tight up to rounding.
 ///
-/// Then the least distance is that of an end and the triangle, or of the segment and an edge. `reach` must be well above f64's
-/// roundoff times the lengths involved, as the rounding of coordinates to a grid is: a millionth of it is allowed for.
-pub fn comes_within(a: DVec3, b: DVec3, corners: [DVec3; 3], reach: f64) -> bool {
-    let [v0, v1, v2] = corners;
+/// The closest points of the two are an end and the triangle, two points inside the segment and an edge, or one inside the
+/// segment and a corner; so one of the axes below points from one to the other. Any axis gives a true bound.
+fn gap(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> f64 {
     let d = b - a;
-    let lengths = norm_1(v0 - a) + norm_1(v1 - a) + norm_1(v2 - a) + norm_1(d);
-    let reach = reach * (1.0 + 1e-6) + COPLANAR_TOUCH * U64 * lengths;
-    let end_is_near = |p: DVec3| point_triangle(p, v0, v1, v2).lower <= reach;
-    let edges = [(v0, v1), (v1, v2), (v2, v0)];
-    end_is_near(a)
-        || end_is_near(b)
-        || edges.into_iter().any(|(from, to)| edge_crossing(a, d, from, to, reach).is_some())
+    let [v0, v1, v2] = corners;
+    let [p, q, r] = corners.map(|v| v - a);
+    let margin = TRIPLE_PRODUCT * U64 * (norm_1(p) + norm_1(q) + norm_1(r) + norm_1(d));
+    let along = |g: DVec3| {
+        let gg = g.dot(g);
+        if gg <= 0.0 {
+            return 0.0;
+        }
+        let (low, high) = (g.dot(p).min(g.dot(q)).min(g.dot(r)), g.dot(p).max(g.dot(q)).max(g.dot(r)));
+        let (near, far) = (g.dot(d).min(0.0), g.dot(d).max(0.0));
+        (low - far).max(near - high) / libm::sqrt(gg) - margin
+    };
+    let towards = |end: DVec3| {
+        let hit = point_triangle(end, v0, v1, v2);
+        end - v0 - (v1 - v0) * hit.u - (v2 - v0) * hit.v
+    };
+    let dd = d.dot(d);
+    let across = |e: DVec3| if dd > 0.0 { e - d * (e.dot(d) / dd) } else { e };
+    let (e0, e1, e2) = (v1 - v0, v2 - v1, v0 - v2);
+    let normal = e0.cross(v2 - v0);
+    [
+        towards(a),
+        towards(b),
+        d.cross(e0),
+        d.cross(e1),
+        d.cross(e2),
+        across(p),
+        across(q),
+        across(r),
+        normal,
+        normal.cross(d),
+        normal.cross(e0),
+        normal.cross(e1),
+        normal.cross(e2),
+    ]
+    .into_iter()
+    .map(along)
+    .fold(0.0, f64::max)
+}
+
+/// Whether the segment may come within `reach` of the triangle; `false` proves that it does not.
+pub fn comes_within(a: DVec3, b: DVec3, corners: [DVec3; 3], reach: f64) -> bool {
+    gap(a, b, corners) <= reach
 }
 
 /// Parameter on `a + t·d` at which the segment comes within `touch` of the edge, if it does.
@@ -179,6 +214,15 @@ mod tests {
         assert_eq!(hit([0.2, 0.2, 0.0], [0.3, 0.3, 0.0]), Some(0.0));
         let along_an_edge = hit([-1.0, 0.0, 0.0], [2.0, 0.0, 0.0]).expect("along an edge");
         assert!((along_an_edge - 1.0 / 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_segment_that_ends_inside_a_needle_in_its_plane_is_not_missed() {
+        // Exact integers: the end is strictly inside, the segment nearly along the needle.
+        let at = |x: i32, y: i32| DVec3::new(f64::from(x), f64::from(y), 2_097_152.0) / 8_388_608.0;
+        let needle = [at(4_304_180, 3_903_190), at(-2_053_968, -987_130), at(-2_067_330, -997_041)];
+        assert!(segment_triangle(at(8_549_885, 7_170_973), at(60_960, 639_673), needle).is_some());
+        assert!(!comes_within(at(8_549_885, 7_170_973), at(4_400_000, 4_000_000), needle, 1e-6));
     }
 
     #[test]

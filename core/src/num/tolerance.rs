@@ -40,6 +40,10 @@ pub const TRUSTED_DIRECTION_SQ: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) 
 /// is divided by a direction no shorter than 2^-50 (§2).
 pub const UNDERFLOW: f32 = 1.0 / ((1u64 << 48) as f32 * (1u64 << 48) as f32);
 
-/// Largest query coordinate in the local frame for which f32 bounds are computed: 2^40. Products of four lengths stay
-/// below 2^90. Beyond it the whole model subtends less than a unit of f32, and the answer is read off its box.
+/// Largest query coordinate in the local frame for which nodes are bounded in f32: 2^12. There the rounding margin is half a
+/// percent of the model; farther out it would hide the model, so f64 takes over. Products of four lengths stay below 2^60.
+pub const SINGLE: f64 = 4096.0;
+
+/// Largest query coordinate in the local frame for which distances are computed at all: 2^40. Beyond it the whole model
+/// subtends less than a unit of f32, and the answer is read off its box.
 pub const FAR: f64 = (1u64 << 40) as f64;

@@ -104,7 +104,7 @@ impl Hit {
 pub struct SegmentHit {
     /// No common point below this parameter; infinity if there is none at all.
     pub lower: f32,
-    /// The first common point is not above this parameter; infinity if none is known.
+    /// The first common point, if there is one, is not above this parameter; infinity if none is known.
     pub upper: f32,
     /// The first hit found.
     pub hit: Option<Hit>,

@@ -9,8 +9,8 @@ use super::frame::Frame;
 use super::frontier::{Frontier, QueueEntry, Taken};
 use crate::blob::{Children, Model, NodeIdx, TriIdx};
 use crate::geom::{LANES, Lanes, PointProbe, Support, point_triangle};
-use crate::num::tolerance::FAR;
-use crate::num::up_to_f32;
+use crate::num::tolerance::{FAR, SINGLE, U64};
+use crate::num::{down_to_f32, up_to_f32};
 use glam::{DVec3, Vec3};
 
 /// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that contains the distance.
@@ -20,7 +20,8 @@ use glam::{DVec3, Vec3};
 /// A point on the surface gives `lower = 0`. Equidistant triangles: the least in blob order, whatever the order of visits.
 /// A point farther than 2^40 times the model's size gets an interval from the model's box.
 ///
-/// Cost: 100 to 200 nodes and 10 to 40 triangles on scanned parts of 20,000 to 270,000 triangles (`cargo xtask measure`).
+/// Cost: some hundreds of nodes and triangles near a scanned part (`cargo xtask measure` prints them for any mesh). The
+/// worst case is all of them, at the centre of a sphere: where time is bounded, set [`Stop::steps`].
 ///
 /// # Errors
 /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`].
@@ -80,6 +81,8 @@ struct Sweep<'a> {
     lower: f64,
     best: Option<Best>,
     cut: bool,
+    /// Beyond [`SINGLE`]: bounds in f64.
+    distant: bool,
     work: Work,
 }
 
@@ -96,6 +99,7 @@ impl<'a> Sweep<'a> {
             lower: f64::INFINITY,
             best: None,
             cut: false,
+            distant: p.abs().max_element() > SINGLE,
             work: Work::default(),
         }
     }
@@ -151,6 +155,10 @@ impl<'a> Sweep<'a> {
                 frontier.begin_children(count);
                 let mut nearest: Option<QueueEntry> = None;
                 for (from, lanes) in chunks(first, count) {
+                    if self.distant {
+                        self.visit_distant(from, lanes, frontier)?;
+                        continue;
+                    }
                     let (supports, radii) = self.bounds(from, lanes)?;
                     for (node, (support, radius)) in (from..).zip(supports.into_iter().zip(radii)).take(lanes)
                     {
@@ -175,6 +183,21 @@ impl<'a> Sweep<'a> {
         Some(None)
     }
 
+    /// Queues nodes by bounds in f64, for a query from which f32 cannot tell the parts of the model apart.
+    #[cold]
+    fn visit_distant(&mut self, first: u32, count: usize, frontier: &mut Frontier<'_>) -> Option<()> {
+        self.work.nodes += count as u32;
+        for (node, _) in (first..).zip(0..count) {
+            let (corners, radius) = self.model.bound(NodeIdx(node))?;
+            let [a, b, c] = self.model.positions(corners)?.map(|v| v.as_dvec3());
+            let lower = point_triangle(self.p, a, b, c).lower - f64::from(radius) * (1.0 + U64);
+            if lower <= self.upper {
+                frontier.push(QueueEntry { key: down_to_f32(lower.max(0.0)), node });
+            }
+        }
+        Some(())
+    }
+
     /// Supporting planes and radii of up to four nodes.
     #[inline(always)]
     fn bounds(&mut self, first: u32, count: usize) -> Option<([Support; LANES], [f32; LANES])> {
@@ -196,6 +219,12 @@ impl<'a> Sweep<'a> {
         let mut lanes = Lanes::EMPTY;
         for (lane, triangle) in (0..LANES).zip(first..).take(count) {
             self.probe.load(&mut lanes, lane, self.corners(TriIdx(triangle))?);
+        }
+        if self.distant {
+            for triangle in (first..).take(count) {
+                self.evaluate(TriIdx(triangle), self.corners(TriIdx(triangle))?);
+            }
+            return Some(());
         }
         for (support, triangle) in lanes.supports(count).into_iter().zip(first..).take(count) {
             if self.probe.bound(support, 0.0, self.upper_f32).is_some() {

@@ -49,7 +49,9 @@ pub struct OuterHits {
 ///
 /// `front` is working memory of any size ([`Front`]). The hull is reset to the base hull first. If `starts_inside` comes
 /// back set, ask [`first_hit`](super::first_hit) instead: the segment may start between hull and surface. The surface must
-/// be stored exactly (no grid rounding), or the answer is [`Ended::Level`] with the base hull's interval only.
+/// be stored exactly (no grid rounding, no cut), or the answer is [`Ended::Level`] and says nothing. It must not wind around any
+/// point negatively, as a solid that is turned inside out where it passes through itself does: the hulls of such a mesh do
+/// not enclose it there. [`first_hit`](super::first_hit) has no such conditions.
 ///
 /// Cost: faces tested and splits as in the paper's Table 3, which `cargo xtask measure` prints side by side.
 ///
@@ -81,12 +83,13 @@ pub fn outer_hits(
         out.lower = 0.0;
         return Ok(out);
     }
-    let Some(clipped) = bounds.clip(start, end) else { return Ok(out) };
     if model.header().surface_error > 0.0 || model.is_cut() {
-        out.lower = down_to_f32(clipped.t_start);
+        // The hull encloses the stored surface, and the input's may stick out.
+        out.lower = 0.0;
         out.ended = Ended::Level;
         return Ok(out);
     }
+    let Some(clipped) = bounds.clip(start, end) else { return Ok(out) };
     front.reset();
     let probe = SegmentProbe::new(&clipped, &bounds);
     let mut sweep = Sweep {

@@ -64,7 +64,8 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     let bar = Bar::new(solid.mesh.triangles.len(), options.base_faces);
     let started = Instant::now();
     let (hull, void, stuck) =
-        hull_of(&solid.mesh, options.base_faces, &options, |progress| bar.show(progress));
+        hull_of(&solid.mesh, options.base_faces, &options, |progress| bar.show(progress))
+            .map_err(|error| Failure::Build { file: args.input.clone(), error })?;
     let time = started.elapsed();
     drop(bar);
     write_hull(&args.output, &hull)?;
