@@ -137,7 +137,7 @@ impl fmt::Display for MeshError {
                 if let Some(triangle) = dropped_triangle {
                     write!(f, "; likely cause: zero-area triangle {triangle} was dropped there")?;
                 }
-                write!(f, "; fill the holes, or build without a hull{}", Edges(places))
+                write!(f, "; fill the holes first{}", Edges(places))
             }
             Self::NonManifoldEdges { count, most, places } => write!(
                 f,
