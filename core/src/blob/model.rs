@@ -57,6 +57,8 @@ pub(super) struct Widths {
     pub(super) ring: usize,
     pub(super) child: usize,
     pub(super) source: usize,
+    /// Bytes of a cover node.
+    pub(super) node: usize,
     pub(super) grid_step: f32,
 }
 
@@ -68,6 +70,7 @@ impl Widths {
             ring: header.ring_index_bytes(),
             child: header.child_index_bytes(),
             source: header.source_index_bytes(),
+            node: header.node_bytes(),
             grid_step: exp2(header.grid_exponent) as f32,
         }
     }
@@ -364,18 +367,24 @@ impl<'a> Model<'a> {
     /// Swept triangle of a cover node: corners and radius.
     #[inline(always)]
     pub fn bound(&self, node: NodeIdx) -> Option<([VertIdx; 3], f32)> {
-        let Widths { vertex: wv, child: wc, .. } = self.widths;
         // No product of an index that the blob stores and a record's size overflows: `open` bounds the counts.
-        let record = Bytes(self.cover.slice(node.usize().wrapping_mul(3 * wv + 2 + wc + 1), 3 * wv + 2)?);
-        let corners = record.index3(0, wv)?.map(VertIdx);
-        Some((corners, Radius16(record.u16(3 * wv)?).get()))
+        let at = node.usize().wrapping_mul(self.widths.node);
+        if self.widths.vertex == 2 {
+            // Three corners and the radius in one load: most parts have fewer than 65,536 vertices.
+            let word = u64::from_le_bytes(self.cover.array::<8>(at)?);
+            let corners = [word & 0xFFFF, word >> 16 & 0xFFFF, word >> 32 & 0xFFFF];
+            return Some((corners.map(|v| VertIdx(v as u32)), Radius16((word >> 48) as u16).get()));
+        }
+        let wv = self.widths.vertex;
+        let record = Bytes(self.cover.slice(at, 3 * wv + 2)?);
+        Some((record.index3(0, wv)?.map(VertIdx), Radius16(record.u16(3 * wv)?).get()))
     }
 
     /// A node of the cover tree.
     #[inline(always)]
     pub fn node(&self, node: NodeIdx) -> Option<Node> {
         let Widths { vertex: wv, child: wc, .. } = self.widths;
-        let at = node.usize().wrapping_mul(3 * wv + 2 + wc + 1);
+        let at = node.usize().wrapping_mul(self.widths.node);
         let (corners, radius) = self.bound(node)?;
         let first = self.cover.index(at + 3 * wv + 2, wc)?;
         let tag = self.cover.u8(at + 3 * wv + 2 + wc)?;

@@ -226,10 +226,26 @@ impl<'a> Sweep<'a> {
             }
             return Some(());
         }
-        for (support, triangle) in lanes.supports(count).into_iter().zip(first..).take(count) {
-            if self.probe.bound(support, 0.0, self.upper_f32).is_some() {
-                self.evaluate(TriIdx(triangle), self.corners(TriIdx(triangle))?);
+        let mut bounds = [f32::INFINITY; LANES];
+        for (bound, support) in bounds.iter_mut().zip(lanes.supports(count)).take(count) {
+            *bound = self.probe.bound(support, 0.0, self.upper_f32).unwrap_or(f32::INFINITY);
+        }
+        // Nearest first: each evaluation may spare the others theirs, which on a Cortex-M are done in software.
+        for _ in 0..count {
+            let mut nearest = (f32::INFINITY, 0);
+            for (bound, triangle) in bounds.iter().zip(first..) {
+                if *bound < nearest.0 {
+                    nearest = (*bound, triangle);
+                }
             }
+            let (bound, triangle) = nearest;
+            if bound > self.upper_f32 || bound == f32::INFINITY {
+                break;
+            }
+            if let Some(done) = bounds.get_mut(triangle.wrapping_sub(first) as usize) {
+                *done = f32::INFINITY;
+            }
+            self.evaluate(TriIdx(triangle), self.corners(TriIdx(triangle))?);
         }
         Some(())
     }
