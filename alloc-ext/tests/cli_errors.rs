@@ -123,7 +123,7 @@ fn malformed_queries_are_named_by_line_and_field() {
         refused(&run(["closest", arg(&path), arg(&points)]), 1, place);
     }
     let binary = file(&directory, "p.csv", [0xFFu8, 0xFE, b'\n', b'1', 0, 0xFF]);
-    refused(&run(["closest", arg(&path), arg(&binary)]), 1, "p.csv, line 2");
+    refused(&run(["closest", arg(&path), arg(&binary)]), 1, "p.csv, line 1");
     let far = file(&directory, "s.csv", "0 0 0 1 1 1\n0 0 0 1e38 0 0\n");
     let line = refused(&run(["segment", arg(&path), arg(&far)]), 1, "s.csv, line 2");
     assert!(line.contains("clip it"), "{line}");

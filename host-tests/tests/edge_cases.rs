@@ -9,7 +9,7 @@ use meshsweep_alloc::precision::VertexBits;
 use meshsweep_core::query::{Ended, Search, Stop, closest_point, outer_hits};
 use meshsweep_core::refine::{Face, Front};
 use meshsweep_core::{Model, QueueEntry};
-use meshsweep_host_tests::generate::{cube, rough_sphere, transformed, uv_sphere};
+use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, transformed, uv_sphere};
 use scene::{Scene, options};
 
 #[test]
@@ -85,5 +85,32 @@ fn a_mesh_that_is_mostly_inside_out_is_refused_by_name() {
         Err(error @ BuildError::NotPositive { .. }) => assert!(error.to_string().contains("inside out")),
         Ok(built) => assert!(built.report.volume > 0.0),
         Err(other) => panic!("{other}"),
+    }
+}
+
+#[test]
+fn tolerance_is_claimed_only_for_intervals_that_meet_it() {
+    let mesh = rough_sphere(3, 0.2, 5);
+    let grid = meshsweep_alloc::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(60) };
+    let (exact, moved) = (Scene::new("exact", mesh.clone(), &options(60)), Scene::new("moved", mesh, &grid));
+    let coarse = cut(&exact.model(), 2).expect("three levels").to_bytes();
+    let mut rng = Rng::new(11);
+    for bytes in [&exact.bytes, &moved.bytes, &coarse] {
+        let model = Model::open(bytes).expect("opens");
+        let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+        for _ in 0..500 {
+            let point = [0; 3].map(|_| 4.0 * rng.unit_f32() - 2.0);
+            for stop in [
+                Stop { relative: 0.01, ..Stop::EXACT },
+                Stop { relative: 0.5, ..Stop::EXACT },
+                Stop { absolute: 1e-3, ..Stop::EXACT },
+            ] {
+                let answer = closest_point(&model, point, &stop, &mut queue).expect("answers");
+                let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+                let met = upper <= lower * (1.0 + f64::from(stop.relative))
+                    || upper - lower <= f64::from(stop.absolute);
+                assert!(answer.ended != Ended::Tolerance || met, "{answer:?} {stop:?}");
+            }
+        }
     }
 }

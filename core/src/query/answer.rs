@@ -30,7 +30,7 @@ impl Default for Stop {
 /// Why a query ended. Whatever the reason, its interval holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
-    /// Nothing is left to look at.
+    /// Nothing is left to look at: the interval is as narrow as the stored surface allows.
     Exact,
     /// The tolerance of [`Stop`] was met.
     Tolerance,
@@ -104,9 +104,11 @@ impl Hit {
 pub struct SegmentHit {
     /// No common point below this parameter; infinity if there is none at all.
     pub lower: f32,
-    /// The first common point, if there is one, is not above this parameter; infinity if none is known.
+    /// The first common point, if there is one, is not above this parameter; infinity if none is known. 1 where the segment
+    /// touches an edge or a plane so flatly that rounding leaves more open.
     pub upper: f32,
-    /// The first hit found.
+    /// The first hit found. With [`Ended::Level`] only the first place where the surface may be; with [`Ended::Steps`] or
+    /// [`Ended::Capacity`] perhaps not the first.
     pub hit: Option<Hit>,
     /// What it cost.
     pub work: Work,

@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::frontier::{Frontier, QueueEntry, Taken};
 use crate::blob::{Children, Model, NodeIdx, TriIdx};
 use crate::geom::{LANES, Lanes, PointProbe, Support, point_triangle};
-use crate::num::tolerance::{FAR, SINGLE, U64};
+use crate::num::tolerance::{FAR, SINGLE, U32, U64};
 use crate::num::{down_to_f32, up_to_f32};
 use glam::{DVec3, Vec3};
 
@@ -40,7 +40,7 @@ pub fn closest_point(
     let mut sweep = Sweep::new(model, p);
     let ended = if p.abs().max_element() > FAR {
         sweep.far()?;
-        Ended::Exact
+        if model.is_cut() { Ended::Level } else { Ended::Exact }
     } else {
         let frontier = Frontier::new(queue, model.capacities().queue);
         sweep.run(frontier, stop, frame.length(stop.absolute))?
@@ -60,6 +60,9 @@ fn chunks(first: u32, count: u32) -> impl Iterator<Item = (u32, usize)> {
     let run = LANES as u32;
     (0..count.div_ceil(run)).map(move |i| (first.wrapping_add(i * run), (count - i * run).min(run) as usize))
 }
+
+/// What rounding to f32 and the change of units may do to either end of the interval.
+const REPORTED: f64 = 8.0 * U32 as f64;
 
 /// The best triangle so far.
 #[derive(Clone, Copy)]
@@ -106,13 +109,19 @@ impl<'a> Sweep<'a> {
 
     fn run(&mut self, mut frontier: Frontier<'_>, stop: &Stop, absolute: f64) -> Result<Ended, QueryError> {
         let relative = 1.0 + f64::from(stop.relative);
+        let surface_error = f64::from(self.model.header().surface_error);
         let tolerant = stop.relative > 0.0 || stop.absolute > 0.0;
         let mut met_tolerance = false;
         let mut next = Some(QueueEntry { key: 0.0, node: 0 });
         while let Some(Taken { entry, least }) = frontier.take(next, self.best.is_none()) {
             let key = f64::from(entry.key);
             let beaten = entry.key > self.upper_f32;
-            let tolerated = tolerant && (key * relative >= self.upper || self.upper - key <= absolute);
+            let tolerated = tolerant && {
+                // As it will be reported: with the stored surface's error, and rounded to f32 outward.
+                let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
+                let high = (self.upper + surface_error) * (1.0 + REPORTED);
+                high <= low * relative || high - low <= absolute
+            };
             if beaten || tolerated {
                 if !beaten {
                     self.lower = self.lower.min(key);

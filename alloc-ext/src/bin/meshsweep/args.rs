@@ -22,8 +22,8 @@ const QUERY_FILES: &str = "Query files: decimal numbers separated by commas, sem
     *.f32 holds raw little-endian f32 numbers.";
 
 const HIT_COLUMN: &str = "The column 'hit' says yes, with the first hit; no, which is proved; or unknown, if the query ended \
-    early: then the segment is proved clear before t, which px, py, pz belong to. Where the blob's surface error is not zero, \
-    a hit is one of a surface within that error of the mesh.";
+    early, the blob is cut, or its vertices were moved to a grid: then the segment is proved clear before t, which px, py, pz \
+    belong to. Cut blobs and such grids prove 'no' but not 'yes'. t is the hit rounded to f32.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -172,10 +172,10 @@ pub struct ClosestArgs {
     /// Query points: x, y, z
     pub points: PathBuf,
     /// Stop a query when upper ≤ lower · (1 + REL)
-    #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
+    #[arg(long, value_name = "REL", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
     pub rel: f32,
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
-    #[arg(long, value_name = "ABS", default_value_t = 0.0, value_parser = tolerance)]
+    #[arg(long, value_name = "ABS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
     pub abs: f32,
     #[command(flatten)]
     pub search: SearchArgs,

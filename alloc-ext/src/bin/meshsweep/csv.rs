@@ -6,7 +6,7 @@ use std::path::Path;
 /// Rows of `N` numbers, and the line that each was on, counting from 1.
 pub type Rows<const N: usize> = (Vec<[f32; N]>, Vec<usize>);
 
-/// Reads `N` numbers a line. Skipped: blank lines, what follows a `#`, and a first line without any number in it.
+/// Reads `N` numbers a line. Skipped: blank lines, what follows a `#`, and a first line of names.
 ///
 /// A number is rounded to the nearest f32, which is the query's coordinate.
 pub fn parse<const N: usize>(file: &Path, bytes: &[u8], wanted: &'static str) -> Result<Rows<N>, Failure> {
@@ -22,13 +22,19 @@ pub fn parse<const N: usize>(file: &Path, bytes: &[u8], wanted: &'static str) ->
         }
         let line = number + 1;
         let first = std::mem::replace(&mut may_be_header, false);
-        if first && fields(text).all(|field| field.parse::<f64>().is_err()) {
+        if first && fields(text).all(is_name) {
             continue;
         }
         rows.push(row(file, line, text, wanted)?);
         lines.push(line);
     }
     Ok((rows, lines))
+}
+
+/// Whether a field may head a column: it begins with a letter or a quotation mark, and is no number (as `nan` is).
+fn is_name(field: &str) -> bool {
+    let begins = field.starts_with(|c: char| c.is_alphabetic() || c == '"' || c == '_');
+    begins && field.parse::<f64>().is_err()
 }
 
 /// The fields of a line: between semicolons if it has any, else between commas, else between blanks.
@@ -104,5 +110,7 @@ mod tests {
         assert!(at("1,nan,2").starts_with("a.csv, line 1, field 2: \"nan\" is not finite"));
         assert!(at("1,2,-1e39").starts_with("a.csv, line 1, field 3: \"-1e39\" is beyond f32"));
         assert!(at("x,2,3").starts_with("a.csv, line 1, field 1"));
+        assert!(at("1,5;2,5;3,5").starts_with("a.csv, line 1, field 1: \"1,5\" is not a number"));
+        assert!(at("\0\0\0\0").starts_with("a.csv, line 1"));
     }
 }

@@ -70,12 +70,15 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     drop(bar);
     write_hull(&args.output, &hull)?;
     Output::stdout().finish(|out| {
+        if !solid.report.is_clean() {
+            writeln!(out, "{}\n  {}", args.input.display(), solid.report)?;
+        }
         writeln!(
             out,
             "{}: {} faces, {:.3} % void space, {:.3} s",
             args.output.display(),
             hull.triangles.len(),
-            void * 100.0,
+            (void * 100.0).max(0.0),
             time.as_secs_f64()
         )?;
         stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", why_stuck(faces, &stuck)))

@@ -83,7 +83,7 @@ impl fmt::Display for Tally {
             (self.tolerance, "within tolerance"),
             (self.steps, "out of steps"),
             (self.capacity, "out of queue"),
-            (self.level, "at the level of the cut"),
+            (self.level, "left open by the blob (cut, or vertices moved to a grid)"),
         ] {
             if count > 0 {
                 write!(f, ", {count} {reason}")?;
