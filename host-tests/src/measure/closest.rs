@@ -13,7 +13,7 @@ use super::workload::{Points, points};
 /// Points of each kind.
 const COUNT: usize = 10_000;
 /// Points of each kind that are compared with every triangle in f64.
-const BRUTE: usize = 300;
+const BRUTE: usize = 3334;
 /// Room for a best-first search.
 pub const LONG_QUEUE: usize = 4096;
 
