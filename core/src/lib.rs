@@ -15,7 +15,7 @@
 //!
 //! # Layers
 //! Each layer may use those to its left and no other: `num` ← `geom` ← `refine` ← `query`, with `blob` under the last two.
-//! `geom` knows no bytes and `blob` knows no geometry.
+//! `geom` knows no bytes, and of geometry `blob` knows the box alone.
 //!
 //! | folder | owns |
 //! | --- | --- |

@@ -11,7 +11,6 @@ mod star;
 
 pub use engine::{Engine, Progress, Stuck};
 pub use history::{Collapse, History, VertexOrder};
-pub use placement::is_outside_or_on;
 pub use star::Connectivity;
 
 /// How candidate edges are ordered (paper 000, 3.1.3).

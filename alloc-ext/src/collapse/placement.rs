@@ -157,7 +157,7 @@ impl<'a> Program<'a> {
 
 /// Exact: `p` does not lie below the plane of the counter-clockwise triangle.
 #[inline]
-pub fn is_outside_or_on([a, b, c]: [DVec3; 3], p: DVec3) -> bool {
+fn is_outside_or_on([a, b, c]: [DVec3; 3], p: DVec3) -> bool {
     let coord = |v: DVec3| Coord3D { x: v.x, y: v.y, z: v.z };
     orient3d(coord(a), coord(b), coord(c), coord(p)) <= 0.0
 }

@@ -70,12 +70,6 @@ impl Connectivity {
         self.at(vertex).iter().map(move |&t| self.next_in(t, vertex))
     }
 
-    /// Whether two vertices share an edge.
-    #[inline]
-    pub fn adjacent(&self, a: u32, b: u32) -> bool {
-        self.at(a).iter().any(|&t| self.corners[t as usize].contains(&b))
-    }
-
     /// Puts the triangles of edge `a b`'s star into `star` and says whether collapsing the edge keeps the mesh manifold
     /// (link condition, Dey et al. 1999) and the valence in bounds. If not, `star` holds nothing of use.
     #[inline]

@@ -92,12 +92,12 @@ impl Grid {
 /// Power of two that brings the largest coordinate of the mesh into [½, 1).
 fn scale_exponent(mesh: &Mesh) -> i32 {
     let largest = mesh.positions.iter().flatten().fold(0f32, |m, x| m.max(x.abs()));
-    let (_, exponent) = libm_frexp(f64::from(largest));
+    let (_, exponent) = split_exponent(f64::from(largest));
     exponent
 }
 
 /// `x = m·2^e` with m in [½, 1), for normal f64.
-fn libm_frexp(x: f64) -> (f64, i32) {
+fn split_exponent(x: f64) -> (f64, i32) {
     if x == 0.0 {
         return (0.0, 0);
     }
@@ -147,7 +147,7 @@ fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
         local.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
     let extent = (high - low).max_element();
     let probe = Grid { format, exponent: 0, origin: [0; 3] };
-    let (_, exponent) = libm_frexp(extent / (probe.max_units() * FILL));
+    let (_, exponent) = split_exponent(extent / (probe.max_units() * FILL));
     let step = exp2(exponent);
     let middle = (low + high) * 0.5;
     let origin = (middle / step - DVec3::splat((probe.max_units() / 2.0).floor())).floor();
@@ -167,7 +167,7 @@ pub fn snap(positions: &mut [[f64; 3]], bits: VertexBits) -> f64 {
         VertexBits::Grid24 => VertexFormat::Grid24,
     };
     let largest = positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
-    let (_, scale) = libm_frexp(largest);
+    let (_, scale) = split_exponent(largest);
     let local: Vec<DVec3> = positions.iter().map(|&p| DVec3::from(p) * exp2(-scale)).collect();
     let Some(grid) = fitting_grid(&local, format) else { return 0.0 };
     let mut moved = 0f64;

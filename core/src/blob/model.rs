@@ -83,7 +83,7 @@ pub struct Capacities {
     pub queue: usize,
     /// Words of u32 for each of the two bit sets of a [`Front`](crate::refine::Front).
     pub front_words: usize,
-    /// Longest chain of splits of which each needs the one before it: the path that avoids repeated searches.
+    /// Longest chain of splits of which each needs the one before it: how deep one refinement may have to search.
     pub dependency_depth: usize,
 }
 

@@ -160,11 +160,12 @@ impl Sweep<'_, '_> {
         match self.front.refine(self.model, split)? {
             Refined::Splits(count) => {
                 self.out.work.splits += count;
-                let fresh = self.front.fresh.clone();
-                if (fresh.len() as u32) < count {
+                if (self.front.fresh.len() as u32) < count {
                     return self.test_splits(0, split.0.checked_add(1)?, true);
                 }
-                for split in fresh {
+                // By position: testing borrows the front.
+                for i in 0..count as usize {
+                    let split = self.front.fresh.get(i).copied()?;
                     if let Some(word) = self.front.swept.get_mut(split.usize() / 32) {
                         *word |= 1 << (split.0 % 32);
                     }
