@@ -9,8 +9,10 @@
 
 pub mod collapse;
 pub mod emit;
+pub mod fan;
 pub mod hull;
 pub mod lp;
 pub mod mesh;
 pub mod precision;
 pub mod sweep;
+pub mod tree;

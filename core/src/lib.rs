@@ -33,10 +33,12 @@
 #![forbid(unsafe_code)]
 
 pub mod blob;
+pub mod fan;
 pub mod geom;
 pub mod num;
 pub mod query;
 pub mod refine;
+pub mod tree;
 
-pub use blob::{Model, OpenError};
+pub use blob::{Model, OpenError, Tree};
 pub use query::{QueryError, QueueEntry};

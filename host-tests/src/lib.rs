@@ -6,3 +6,4 @@ pub mod fuzz_targets;
 pub mod generate;
 pub mod measure;
 pub mod oracle;
+pub mod race;

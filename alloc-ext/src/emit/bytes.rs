@@ -1,43 +1,85 @@
 //! Writing a blob. Same tables, same bytes.
 
 use super::tables::Tables;
+use crate::tree::TreeTables;
 use glam::Vec3;
 use meshsweep_core::blob::layout::{
     FLAG_CUT, HEADER_BYTES, HEADER_CRC_AT, LEAF_FLAG, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind,
     VertexFormat, none,
 };
 use meshsweep_core::blob::{Header, section_crc};
-use meshsweep_core::num::exp2;
+use meshsweep_core::geom::Aabb;
+use meshsweep_core::num::{down_to_f32, exp2, up_to_f32};
+
+/// A blob of a hull hierarchy, a box tree, or both of the same mesh.
+///
+/// The sections follow each other as given here; same tables, same bytes. Without either the blob does not open.
+pub fn blob(hull: Option<&Tables>, tree: Option<&TreeTables>) -> Vec<u8> {
+    let mut header = match (hull, tree) {
+        (Some(tables), _) => tables.header(),
+        (None, Some(tree)) => tree_header(tree),
+        (None, None) => Tables::default().header(),
+    };
+    let mut bodies: Vec<(SectionKind, Vec<u8>)> = Vec::new();
+    if let Some(tables) = hull {
+        let kinds = SectionKind::ALL.into_iter().filter(|kind| !kind.is_tree());
+        bodies.extend(kinds.map(|kind| (kind, tables.section(kind, &header))));
+    }
+    if let Some(tree) = tree {
+        header.input_triangles = header.input_triangles.max(tree.input_triangles);
+        bodies.extend(tree.sections.iter().cloned());
+    }
+    bodies.retain(|(_, body)| !body.is_empty());
+    join(header, &bodies)
+}
+
+/// The header of a blob that holds a box tree alone.
+fn tree_header(tree: &TreeTables) -> Header {
+    let h = &tree.header;
+    let at = |stored: [u16; 3], axis: usize, down: bool| {
+        let units = f64::from(stored[axis]) + f64::from(h.grid_origin[axis]);
+        let x = units * exp2(h.grid_exponent);
+        if down { down_to_f32(x) } else { up_to_f32(x) }
+    };
+    let corner =
+        |stored: [u16; 3], down: bool| Vec3::from_array([0, 1, 2].map(|axis| at(stored, axis, down)));
+    let bounds = Aabb { min: corner(h.low, true), max: corner(h.high, false) };
+    Header {
+        scale_exponent: tree.scale_exponent,
+        surface_error: h.surface_error,
+        hull_box: bounds,
+        surface_box: bounds,
+        queue_capacity: 0,
+        ..Tables::default().header()
+    }
+}
+
+fn join(mut header: Header, bodies: &[(SectionKind, Vec<u8>)]) -> Vec<u8> {
+    let table_bytes = HEADER_BYTES + bodies.len() * SECTION_ENTRY_BYTES;
+    let mut table = Vec::new();
+    let mut out = vec![0u8; table_bytes];
+    for (kind, body) in bodies {
+        out.resize(out.len().next_multiple_of(SECTION_ALIGNMENT), 0);
+        for word in [*kind as u32, out.len() as u32, body.len() as u32, section_crc(body)] {
+            table.extend(word.to_le_bytes());
+        }
+        out.extend(body);
+    }
+    header.header_bytes = table_bytes as u32;
+    header.section_count = bodies.len() as u32;
+    header.total_bytes = out.len() as u32;
+    out[..HEADER_BYTES].copy_from_slice(&header.write());
+    out[HEADER_BYTES..table_bytes].copy_from_slice(&table);
+    let mut covered = out[..HEADER_CRC_AT].to_vec();
+    covered.extend(&out[HEADER_CRC_AT + 4..table_bytes]);
+    out[HEADER_CRC_AT..HEADER_CRC_AT + 4].copy_from_slice(&section_crc(&covered).to_le_bytes());
+    out
+}
 
 impl Tables {
-    /// The blob.
+    /// A blob of the hull hierarchy alone.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut header = self.header();
-        let kinds: Vec<SectionKind> = SectionKind::ALL.into_iter().collect();
-        let bodies: Vec<(SectionKind, Vec<u8>)> = kinds
-            .into_iter()
-            .map(|kind| (kind, self.section(kind, &header)))
-            .filter(|(_, body)| !body.is_empty())
-            .collect();
-        let table_bytes = HEADER_BYTES + bodies.len() * SECTION_ENTRY_BYTES;
-        let mut table = Vec::new();
-        let mut out = vec![0u8; table_bytes];
-        for (kind, body) in &bodies {
-            out.resize(out.len().next_multiple_of(SECTION_ALIGNMENT), 0);
-            for word in [*kind as u32, out.len() as u32, body.len() as u32, section_crc(body)] {
-                table.extend(word.to_le_bytes());
-            }
-            out.extend(body);
-        }
-        header.header_bytes = table_bytes as u32;
-        header.section_count = bodies.len() as u32;
-        header.total_bytes = out.len() as u32;
-        out[..HEADER_BYTES].copy_from_slice(&header.write());
-        out[HEADER_BYTES..table_bytes].copy_from_slice(&table);
-        let mut covered = out[..HEADER_CRC_AT].to_vec();
-        covered.extend(&out[HEADER_CRC_AT + 4..table_bytes]);
-        out[HEADER_CRC_AT..HEADER_CRC_AT + 4].copy_from_slice(&section_crc(&covered).to_le_bytes());
-        out
+        blob(Some(self), None)
     }
 
     fn header(&self) -> Header {
@@ -117,6 +159,8 @@ impl Tables {
                     }
                 }
             }
+            // The box tree brings its own.
+            _ => {}
         }
         out
     }

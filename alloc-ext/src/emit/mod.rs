@@ -4,5 +4,6 @@ mod bytes;
 mod cut;
 mod tables;
 
+pub use bytes::blob;
 pub use cut::{CutError, cut};
 pub use tables::{NodeRecord, SplitRecord, Tables};

@@ -53,7 +53,7 @@ const FILL: f64 = 0.8;
 const REACH: f64 = 8.0;
 
 impl Grid {
-    const F32: Grid = Grid { format: VertexFormat::F32, exponent: 0, origin: [0; 3] };
+    pub(crate) const F32: Grid = Grid { format: VertexFormat::F32, exponent: 0, origin: [0; 3] };
 
     /// Nearest stored coordinates; `None` outside the stored range.
     #[inline]
@@ -90,14 +90,14 @@ impl Grid {
 }
 
 /// Power of two that brings the largest coordinate of the mesh into [½, 1).
-fn scale_exponent(mesh: &Mesh) -> i32 {
+pub(crate) fn scale_exponent(mesh: &Mesh) -> i32 {
     let largest = mesh.positions.iter().flatten().fold(0f32, |m, x| m.max(x.abs()));
     let (_, exponent) = split_exponent(f64::from(largest));
     exponent
 }
 
 /// `x = m·2^e` with m in [½, 1), for normal f64.
-fn split_exponent(x: f64) -> (f64, i32) {
+pub(crate) fn split_exponent(x: f64) -> (f64, i32) {
     if x == 0.0 {
         return (0.0, 0);
     }

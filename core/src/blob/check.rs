@@ -24,6 +24,7 @@ impl Model<'_> {
             SectionKind::Surface => (h.surface_triangles as usize, 3 * self.widths.vertex),
             SectionKind::Source => (h.surface_triangles as usize, self.widths.source),
             SectionKind::Levels => (h.levels as usize, LEVEL_BYTES),
+            _ => (0, 0),
         };
         records.checked_mul(each)
     }
@@ -36,6 +37,18 @@ impl Model<'_> {
         self.check_splits()?;
         self.check_levels()?;
         self.check_cover()
+    }
+
+    /// A blob that holds a box tree alone says nothing of a hull.
+    pub(super) fn check_without_hull(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let counts =
+            [h.vertices, h.base_vertices, h.base_triangles, h.splits, h.rings, h.surface_triangles, h.levels];
+        let rest = [h.flags, h.queue_capacity, h.dependency_depth];
+        if counts.iter().chain(&rest).any(|&count| count != 0) {
+            return Err(OpenError::Counts { what: "parts of a hull hierarchy without its cover" });
+        }
+        self.check_frame()
     }
 
     fn check_counts(&self) -> Result<(), OpenError> {
@@ -56,6 +69,17 @@ impl Model<'_> {
         if h.vertices.max(h.rings).max(h.nodes).max(h.surface_triangles) > u32::MAX / 16 {
             return wrong("more records than a blob can address");
         }
+        self.check_frame()?;
+        if h.queue_capacity == 0 || h.queue_capacity > h.nodes {
+            return wrong("queue capacity");
+        }
+        Ok(())
+    }
+
+    /// Scale, error bound, boxes and grid.
+    fn check_frame(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let wrong = |what: &'static str| Err(OpenError::Counts { what });
         if !(h.scale_exponent >= -200 && h.scale_exponent <= 200) {
             return wrong("scale out of range");
         }
@@ -67,9 +91,6 @@ impl Model<'_> {
         };
         if !ordered(&h.hull_box) || !ordered(&h.surface_box) {
             return wrong("a box is inverted or far outside the local frame");
-        }
-        if h.queue_capacity == 0 || h.queue_capacity > h.nodes {
-            return wrong("queue capacity");
         }
         let grid = h.vertex_format != VertexFormat::F32;
         // Every sum of a stored integer and the origin is exact in f32.

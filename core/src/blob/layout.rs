@@ -6,7 +6,7 @@ pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
 pub const VERSION_MAJOR: u16 = 1;
 /// A reader accepts any minor version: additions that an older reader may ignore.
-pub const VERSION_MINOR: u16 = 0;
+pub const VERSION_MINOR: u16 = 1;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
 /// Offset of the header's own CRC, which covers the header with this field skipped, and the section table.
@@ -31,6 +31,31 @@ pub const FLAG_CUT: u32 = 1;
 pub const BASE_GROUP: u32 = 16;
 /// Most ring vertices of a split.
 pub const MAX_RING: usize = 255;
+
+/// Most children of a node of the box tree, and most triangles of a leaf.
+pub const WIDTH: usize = 8;
+/// Bytes of the box tree's header.
+pub const TREE_BYTES: usize = 64;
+/// Bytes of a node's links.
+pub const LINK_BYTES: usize = 20;
+/// Bytes of a node's boxes in a shared frame.
+pub const FRAME_BYTES: usize = 108;
+/// Bytes of a node's axis-aligned boxes.
+pub const BOXES_BYTES: usize = 72;
+/// Bytes of zeros after the last leaf, so that a leaf may be read at full width wherever it lies; for f32 vertices twice that.
+pub const FAN_PADDING: usize = 48;
+/// Triangles of a block of source numbers.
+pub const SOURCE_BLOCK: usize = 64;
+/// Bytes of a block's entry in the directory of source numbers.
+pub const SOURCE_ENTRY_BYTES: usize = 8;
+/// Bytes of zeros after the last source number.
+pub const SOURCE_PADDING: usize = 8;
+/// Bytes of a leaf's normal cone.
+pub const CONE_BYTES: usize = 4;
+/// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so that the sign of a distance is defined.
+pub const TREE_CLOSED: u8 = 1;
+/// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
+pub const TREE_SINGLE: u8 = 2;
 
 /// What a section holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,11 +83,25 @@ pub enum SectionKind {
     Levels = 10,
     /// One swept triangle for each [`BASE_GROUP`] triangles of the base hull, which it contains.
     BaseGroups = 11,
+    /// Counts, grid and error bound of the box tree.
+    Tree = 12,
+    /// For each node of the box tree where its children are.
+    TreeLinks = 13,
+    /// Boxes of the children of each node, in a frame that they share: for distances.
+    TreeFrames = 14,
+    /// Boxes of the children of each node, axis-aligned: for segments.
+    TreeBoxes = 15,
+    /// Vertices of the leaves: one or two triangle fans each.
+    TreeFans = 16,
+    /// For each triangle of the box tree its number in the input file.
+    TreeSource = 17,
+    /// For each leaf of the box tree a cone that contains the normals of its triangles.
+    TreeCones = 18,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 11] = [
+    pub const ALL: [SectionKind; 18] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -74,7 +113,19 @@ impl SectionKind {
         SectionKind::Cover,
         SectionKind::Surface,
         SectionKind::Source,
+        SectionKind::Tree,
+        SectionKind::TreeLinks,
+        SectionKind::TreeFrames,
+        SectionKind::TreeBoxes,
+        SectionKind::TreeFans,
+        SectionKind::TreeSource,
+        SectionKind::TreeCones,
     ];
+
+    /// Whether the section belongs to the box tree; the others are the hull hierarchy's.
+    pub fn is_tree(self) -> bool {
+        self as u32 >= SectionKind::Tree as u32
+    }
 
     /// The kind's name as `info` prints it.
     pub fn name(self) -> &'static str {
@@ -90,6 +141,13 @@ impl SectionKind {
             SectionKind::Source => "source numbers",
             SectionKind::Levels => "levels",
             SectionKind::BaseGroups => "base groups",
+            SectionKind::Tree => "tree header",
+            SectionKind::TreeLinks => "tree links",
+            SectionKind::TreeFrames => "tree boxes for distances",
+            SectionKind::TreeBoxes => "tree boxes for segments",
+            SectionKind::TreeFans => "tree fans",
+            SectionKind::TreeSource => "tree source numbers",
+            SectionKind::TreeCones => "tree normal cones",
         }
     }
 }

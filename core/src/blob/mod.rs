@@ -8,9 +8,15 @@ pub mod layout;
 mod model;
 mod open;
 mod read;
+mod sections;
+mod tree;
+mod tree_header;
+mod tree_open;
 
 pub use error::OpenError;
 pub use header::Header;
 pub use index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-pub use model::{Capacities, Children, Level, Model, Node, Section, Split};
-pub use open::section_crc;
+pub use model::{Capacities, Children, Level, Model, Node, Split};
+pub use sections::{Section, section_crc};
+pub use tree::{Links, Patch, Tag, Tree, TreeChild};
+pub use tree_header::TreeHeader;

@@ -6,7 +6,7 @@
 
 use super::Header;
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-use super::layout::{FLAG_CUT, LEAF_FLAG, LEVEL_BYTES, SectionKind, VertexFormat, none};
+use super::layout::{FLAG_CUT, LEAF_FLAG, LEVEL_BYTES, VertexFormat, none};
 use super::read::Bytes;
 use crate::num::{Radius8, Radius16, exp2};
 use glam::Vec3;
@@ -197,19 +197,6 @@ pub struct Level {
     pub surface_to_hull: f32,
     /// Volume between hull and surface over the surface's volume.
     pub void_ratio: f32,
-}
-
-/// A section as the table lists it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Section {
-    /// What it holds.
-    pub kind: SectionKind,
-    /// First byte.
-    pub offset: u32,
-    /// Bytes.
-    pub bytes: u32,
-    /// CRC-32 (ISO-HDLC) of the bytes.
-    pub crc: u32,
 }
 
 /// Three f32.

@@ -47,3 +47,26 @@ pub const SINGLE: f64 = 4096.0;
 /// Largest query coordinate in the local frame for which distances are computed at all: 2^40. Beyond it the whole model
 /// subtends less than a unit of f32, and the answer is read off its box.
 pub const FAR: f64 = (1u64 << 40) as f64;
+
+/// What a denominator in a fan's kernel has to exceed, grid units to the fourth power or less: 2^-60. On a u16 grid every
+/// denominator that is not 0 is at least 1; with f32 vertices a smaller one belongs to a triangle that is a point for all that f32 can tell, and
+/// its centre stands for it. The bound that certifies it does not depend on the choice (§8).
+pub const TREE_TINY: f32 = 1.0 / ((1u64 << 60) as f32);
+
+/// Rounding of a computed point–triangle distance of a fan, in units of [`U32`] times the tree's `reach`. Proved: 23 (§8). Larger widens
+/// the interval near the surface, smaller loses the guarantee.
+pub const TREE_FAN: f32 = 32.0;
+
+/// The same, in units of [`U32`] times the distance itself. Proved: 9 (§8).
+pub const TREE_RELATIVE: f32 = 16.0;
+
+/// Rounding of a box bound of the tree, in units of [`U32`] times the 1-norm of the way to the farthest corner of the model's box.
+/// Proved: 10 (§8). Larger visits more.
+pub const TREE_BOX: f32 = 16.0;
+
+/// A certified square less than the best square by more than this part counts as weak and is looked at again: 2^-19.
+pub const TREE_WEAK: f32 = 1.0 - 1.0 / 524_288.0;
+
+/// Distance in grid units, 1-norm, beyond which the interval of the tree's box is narrower than four units of f32: 2^38, which is
+/// a million times the model's size.
+pub const TREE_FAR: f32 = (1u64 << 38) as f32;

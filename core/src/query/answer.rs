@@ -147,6 +147,8 @@ pub enum QueryError {
     OutOfDomain,
     /// The caller's queue is empty.
     NoQueue,
+    /// The blob was built without the sections that this question needs (`meshsweep build --for`).
+    NotServed,
     /// The model is not one that `Model::open` returned. Cannot happen.
     Model,
 }
@@ -158,6 +160,7 @@ impl core::fmt::Display for QueryError {
             QueryError::Tolerance => "a tolerance is negative, NaN or infinite",
             QueryError::OutOfDomain => "a segment's end is farther than 2^40 model sizes away: clip it first",
             QueryError::NoQueue => "the queue has no entries",
+            QueryError::NotServed => "the blob was built without the sections that this question needs",
             QueryError::Model => "the model was not opened",
         })
     }

@@ -13,6 +13,7 @@ mod frame;
 mod frontier;
 mod outer_hits;
 mod segment;
+pub mod tree;
 
 pub use answer::{AllHits, ClosestPoint, Ended, Hit, QueryError, SegmentHit, Stop, Work};
 pub use closest::closest_point;

@@ -10,13 +10,13 @@
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
 //! something. Counts are exact.
 
-mod brute;
+pub(crate) mod brute;
 mod closest;
 mod hulls;
 mod paper;
 pub mod rival;
 mod segments;
-mod stopwatch;
+pub(crate) mod stopwatch;
 mod storage;
 mod subject;
 pub mod table;

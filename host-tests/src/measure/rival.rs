@@ -19,6 +19,12 @@ impl Rival {
         TriMesh::new(vertices, subject.mesh.triangles.clone()).map(Self).map_err(|error| error.to_string())
     }
 
+    /// Bytes that it keeps, the mesh included.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.0.total_memory_size()
+    }
+
     /// Closest point of the surface.
     #[must_use]
     pub fn closest(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {

@@ -67,12 +67,84 @@ pub fn segments(subject: &Subject, count: usize) -> Vec<[[f32; 3]; 2]> {
         .collect()
 }
 
+/// Nodes of a grid with `side` nodes along each axis, x fastest, over the mesh's box enlarged by a tenth.
+#[must_use]
+pub fn field(subject: &Subject, side: usize) -> Vec<[f32; 3]> {
+    let [low, high] = enlarged(subject, 1.1);
+    let at = |axis: usize, node: usize| {
+        low[axis] + (high[axis] - low[axis]) * (node as f32 / side.saturating_sub(1).max(1) as f32)
+    };
+    let row = |y: usize, z: usize| (0..side).map(move |x| [at(0, x), at(1, y), at(2, z)]);
+    (0..side).flat_map(|z| (0..side).flat_map(move |y| row(y, z))).collect()
+}
+
+/// Step of [`surface_path`] and [`orbit`] in diagonals of the mesh's box: a tool that crosses it in 3 s, asked 1,000 times a second.
+pub const COHERENT_STEP: f64 = 3.0e-4;
+
+/// A wandering path about 1 % of the diagonal off the surface, on whichever side it began, in steps of [`COHERENT_STEP`].
+/// `closest` tells the closest point of the surface, which keeps the path there.
+pub fn surface_path(
+    subject: &Subject,
+    count: usize,
+    closest: impl Fn([f32; 3]) -> [f32; 3],
+) -> Vec<[f32; 3]> {
+    let mut rng = Rng::new(0x0073_7572_6661_6365);
+    let step = (COHERENT_STEP * subject.diagonal()) as f32;
+    let off = (0.01 * subject.diagonal()) as f32;
+    let mut here = glam::Vec3::from_array(near(subject, &areas(subject), &mut rng));
+    let mut heading = glam::Vec3::from_array(rng.direction());
+    (0..count)
+        .map(|_| {
+            let now = here.to_array();
+            let away = here - glam::Vec3::from_array(closest(now));
+            let distance = away.length();
+            let outward = away.normalize_or_zero();
+            heading = (heading + glam::Vec3::from_array(rng.direction()) * 0.03).normalize_or_zero();
+            let pull = ((off - distance) / off).clamp(-1.0, 1.0);
+            heading = (heading + outward * (0.2 * pull - 0.05 * heading.dot(outward))).normalize_or_zero();
+            here += heading * step;
+            now
+        })
+        .collect()
+}
+
+/// Along a closed curve through and around the mesh, in a box of 1.5 times its extents, in steps of about [`COHERENT_STEP`].
+#[must_use]
+pub fn orbit(subject: &Subject, count: usize) -> Vec<[f32; 3]> {
+    // Frequencies without a common multiple worth mentioning: the curve does not come back.
+    const FREQUENCIES: [f64; 3] = [0.70, 0.93, 1.13];
+    const PHASES: [f64; 3] = [0.0, 0.4, 1.1];
+    let [low, high] = enlarged(subject, 1.5).map(|corner| corner.map(f64::from));
+    let amplitude: [f64; 3] = std::array::from_fn(|k| 0.5 * (high[k] - low[k]));
+    let step = COHERENT_STEP * subject.diagonal();
+    let mut time = 0.0;
+    (0..count)
+        .map(|_| {
+            let angle = |k: usize| FREQUENCIES[k] * time + PHASES[k];
+            let point = std::array::from_fn(|k| {
+                (f64::midpoint(low[k], high[k]) + amplitude[k] * libm::sin(angle(k))) as f32
+            });
+            let speed_sq: f64 =
+                (0..3).map(|k| (amplitude[k] * FREQUENCIES[k] * libm::cos(angle(k))).powi(2)).sum();
+            // Where the curve nearly stops, time must not jump.
+            time += step / speed_sq.sqrt().max(0.05 * subject.diagonal());
+            point
+        })
+        .collect()
+}
+
 fn doubled(subject: &Subject) -> [[f32; 3]; 2] {
+    enlarged(subject, 2.0)
+}
+
+/// The mesh's box about its middle, `factor` times as large.
+fn enlarged(subject: &Subject, factor: f32) -> [[f32; 3]; 2] {
     let [low, high] = subject.bounds;
     let middle: [f32; 3] = std::array::from_fn(|k| f32::midpoint(low[k], high[k]));
+    let half = 0.5 * factor;
     [
-        std::array::from_fn(|k| middle[k] - (high[k] - low[k])),
-        std::array::from_fn(|k| middle[k] + (high[k] - low[k])),
+        std::array::from_fn(|k| middle[k] - half * (high[k] - low[k])),
+        std::array::from_fn(|k| middle[k] + half * (high[k] - low[k])),
     ]
 }
 

@@ -6,7 +6,6 @@
 use std::env;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use meshsweep_core::query::{Search, Stop, closest_point, first_hit, outer_hits};
 use meshsweep_core::refine::{Face, Front};
@@ -17,11 +16,8 @@ use meshsweep_host_tests::measure::workload::{Points, points, segments};
 
 use crate::process;
 use crate::steps::Steps;
-use crate::toolbox::{Toolbox, Wanted};
+use crate::valgrind::Valgrind;
 use crate::workspace;
-
-const VALGRIND: Wanted =
-    Wanted { name: "valgrind", alternatives: &[&["valgrind"]], ignore_installed: &["valgrind", "libc6-dbg"] };
 
 /// Questions by their word on the command line.
 const QUESTIONS: [&str; 6] = ["far", "near", "path", "first_hit", "outer_first", "outer_all"];
@@ -31,7 +27,7 @@ const QUERIES: [usize; 2] = [500, 2500];
 
 /// Counts all questions and prints the table.
 pub fn run(steps: &mut Steps) {
-    let Some(valgrind) = find() else { return };
+    let Some(valgrind) = Valgrind::find() else { return };
     let columns = ["question", "instructions"];
     let mut table =
         Table::new("instructions", "Instructions a query, fixtures/bracket.msw, this machine", &columns);
@@ -77,41 +73,6 @@ pub fn ask(question: &str, queries: usize) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-/// Where valgrind is.
-enum Valgrind {
-    Installed,
-    Unpacked(Toolbox),
-}
-
-/// valgrind, or a line that says why it is skipped: counts are worth having, but no machine has to have them.
-fn find() -> Option<Valgrind> {
-    if process::on_path("valgrind") {
-        return Some(Valgrind::Installed);
-    }
-    match Toolbox::open(&VALGRIND) {
-        Ok(toolbox) => Some(Valgrind::Unpacked(toolbox)),
-        Err(reason) => {
-            println!("   skipped: no valgrind here, and none to be had: {reason}");
-            None
-        }
-    }
-}
-
-impl Valgrind {
-    fn command(&self) -> Command {
-        match self {
-            Self::Installed => Command::new("valgrind"),
-            Self::Unpacked(toolbox) => {
-                let mut command = toolbox.command("valgrind");
-                command.env("VALGRIND_LIB", toolbox.path("usr/libexec/valgrind"));
-                let symbols = toolbox.path("usr/lib/debug");
-                command.arg(format!("--extra-debuginfo-path={}", symbols.display()));
-                command
-            }
-        }
-    }
 }
 
 fn instructions(valgrind: &Valgrind, question: &str, queries: usize) -> Result<f64, String> {

@@ -9,7 +9,9 @@
 //!           └ elf     (sizes) ─ table
 //! fixtures ── generators and builder
 //! measuring ─ host_tests::measure, firmware
-//! count ───── callgrind on this program itself
+//! count ───── valgrind (callgrind) on this program itself
+//! racing ──── host_tests::race, valgrind
+//! rival ───── images of other engines, in the emulator
 //! ```
 
 mod blobs;
@@ -25,10 +27,13 @@ mod measuring;
 mod process;
 mod proof;
 mod qemu;
+mod racing;
 mod reading;
+mod rival;
 mod steps;
 mod table;
 mod toolbox;
+mod valgrind;
 mod workspace;
 
 use std::process::ExitCode;
@@ -43,6 +48,12 @@ cargo xtask fixtures                writes fixtures/ anew
 cargo xtask measure [--firmware] [--json FILE] [MESH...]
                                     work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
 cargo xtask count                   instructions a query, by callgrind
+cargo xtask race [--count] [--quick] [--hull] [--json FILE] [MESH...]
+                                    this library, parry3d, obvhs and a plain loop on the same queries: times or, with
+                                    --count, instructions; --hull: the hull engine on large meshes too
+                                    (AVX2: RUSTFLAGS=\"-C target-cpu=x86-64-v3\" cargo xtask race)
+cargo xtask rival [MESH] [--faces COUNT,COUNT...] [--seed NUMBER]
+                                    parry3d on a Cortex-M4F (default: a rough sphere at 2500,10000)
 
 environment:
   MESHSWEEP_STD=rustup|debian       where the cross targets' std comes from (default: rustup, else debian)
@@ -80,10 +91,23 @@ fn main() -> ExitCode {
             None => return usage(),
         },
         ["count"] => count::run(&mut steps),
+        ["rival", rest @ ..] => match rival::Options::parse(rest) {
+            Some(options) => rival::run(&mut steps, &options),
+            None => return usage(),
+        },
+        ["race", rest @ ..] => match racing::Options::parse(rest) {
+            Some(options) => racing::run(&mut steps, &options),
+            None => return usage(),
+        },
         // What `count` runs in the simulator.
         ["ask", question, queries] => {
             let Ok(queries) = queries.parse() else { return usage() };
             steps.run(question, || count::ask(question, queries));
+        }
+        // What `race --count` runs in the simulator.
+        ["ask-engine", engine, mesh, hull_triangles] => {
+            let Ok(hull_triangles) = hull_triangles.parse() else { return usage() };
+            steps.run(engine, || racing::ask(engine, mesh, hull_triangles));
         }
         _ => return usage(),
     }

@@ -1,0 +1,108 @@
+//! What a packing promises, checked.
+
+use std::fmt;
+
+use super::{Fan, MAX_PATCH, Patch};
+
+/// The first broken promise that [`validate()`] found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FanFault {
+    /// A patch, or a fan of it, has no triangle or more than [`MAX_PATCH`].
+    Size {
+        /// The patch's index.
+        patch: usize,
+        /// Its triangles.
+        found: usize,
+    },
+    /// A fan's ring does not have one vertex more than the fan has triangles.
+    Ring {
+        /// The patch's index.
+        patch: usize,
+    },
+    /// A first fan is reversed.
+    Reversed {
+        /// The patch's index.
+        patch: usize,
+    },
+    /// A second fan's ring does not start where the first's ends.
+    Apart {
+        /// The patch's index.
+        patch: usize,
+    },
+    /// A fan names other vertices than the mesh, or the same in the other winding, or a triangle that is not there.
+    Corners {
+        /// The triangle's number.
+        triangle: u32,
+    },
+    /// A triangle is in no fan or in several.
+    Cover {
+        /// The triangle's number.
+        triangle: u32,
+        /// How often it was found.
+        found: u32,
+    },
+}
+
+impl fmt::Display for FanFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size { patch, found } => {
+                write!(f, "patch {patch} has {found} triangles, not 1 to {MAX_PATCH}")
+            }
+            Self::Ring { patch } => write!(f, "patch {patch} has a ring that does not fit its triangles"),
+            Self::Reversed { patch } => write!(f, "the first fan of patch {patch} is reversed"),
+            Self::Apart { patch } => {
+                write!(f, "the fans of patch {patch} share no vertex at their rings' ends")
+            }
+            Self::Corners { triangle } => {
+                write!(f, "triangle {triangle} has other corners in its fan than in the mesh")
+            }
+            Self::Cover { triangle, found } => write!(f, "triangle {triangle} is in {found} fans, not 1"),
+        }
+    }
+}
+
+impl std::error::Error for FanFault {}
+
+/// Checks the promises of [`Fan`] and [`Patch`], and that every triangle is in exactly one fan. Linear.
+///
+/// # Errors
+/// The first promise that does not hold.
+pub fn validate(patches: &[Patch], triangles: &[[u32; 3]]) -> Result<(), FanFault> {
+    let mut found = vec![0u32; triangles.len()];
+    for (index, patch) in patches.iter().enumerate() {
+        let size = patch.triangle_count();
+        if size > MAX_PATCH || patch.fans().any(|fan| fan.triangles.is_empty()) {
+            return Err(FanFault::Size { patch: index, found: size });
+        }
+        if patch.fans().any(|fan| fan.ring.len() != fan.triangles.len() + 1) {
+            return Err(FanFault::Ring { patch: index });
+        }
+        if patch.first.reversed {
+            return Err(FanFault::Reversed { patch: index });
+        }
+        if patch.second.as_ref().is_some_and(|second| second.ring.first() != patch.first.ring.last()) {
+            return Err(FanFault::Apart { patch: index });
+        }
+        for fan in patch.fans() {
+            for (i, &triangle) in fan.triangles.iter().enumerate() {
+                if !triangles.get(triangle as usize).is_some_and(|corners| same_triangle(corners, fan, i)) {
+                    return Err(FanFault::Corners { triangle });
+                }
+                found[triangle as usize] += 1;
+            }
+        }
+    }
+    match (0u32..).zip(found).find(|&(_, found)| found != 1) {
+        Some((triangle, found)) => Err(FanFault::Cover { triangle, found }),
+        None => Ok(()),
+    }
+}
+
+/// True if triangle `i` of `fan` has these corners, in this winding, whichever comes first.
+fn same_triangle(&[a, b, c]: &[u32; 3], fan: &Fan, i: usize) -> bool {
+    let [from, to] =
+        if fan.reversed { [fan.ring[i + 1], fan.ring[i]] } else { [fan.ring[i], fan.ring[i + 1]] };
+    let in_fan = [fan.centre, from, to];
+    [[a, b, c], [b, c, a], [c, a, b]].contains(&in_fan)
+}

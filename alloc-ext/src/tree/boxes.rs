@@ -1,0 +1,329 @@
+//! A node's frame and the 8-bit boxes of its children, rounded outward in the *decoded* frame.
+//!
+//! The frame is a quaternion of integers, so the matrix `M = n·R` of [`NodeBoxes::matrix`] is exact in
+//! integers, and boxes are computed in exactly the coordinates in which a reader compares them: nothing is
+//! lost between fitting and decoding.
+//!
+//! Why containment is rigorous: entries of `M` are integers of at most 17 bits and coordinates relative to
+//! the origin stay below 2^18, so for grid points every product and sum of `M·(P − origin)` is an integer
+//! below 2^37, which f64 holds exactly; scaling by a power of two, `floor` and `ceil` are exact as well. For
+//! fractional points, the difference, the products and the two sums err by at most
+//! `4u / (1 − 4u) · Σ|M_kj (P − origin)_j|` with `u = 2^−53` (Higham, "Accuracy and stability of numerical algorithms", section 3.1);
+//! the intervals are widened by twice that, which also pays for rounding the bound and the widening.
+
+use glam::DVec3;
+
+/// Children of a node at most.
+pub const LANES: usize = 8;
+/// Least and greatest exponent of a box coordinate's unit.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -20..=40;
+/// Coordinates may not exceed this in magnitude, grid units.
+const MAX_ABS_COORDINATE: f64 = 70_000.0;
+/// Grid points per axis, less one.
+const GRID_MAX: f64 = 65_535.0;
+/// Relative error of `M·(P − origin)` for fractional points: twice the proved bound, see above.
+const FRACTIONAL_MARGIN: f64 = 1.0 / (1u64 << 50) as f64;
+
+/// What the blob stores of a node's frame and boxes.
+///
+/// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−exponent_k) + 128` for
+/// `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all its points, in real arithmetic.
+/// Absent children have `low = 255` and `high = 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NodeBoxes {
+    /// Grid point near the middle of the children.
+    pub origin: [u16; 3],
+    /// `(w, x, y, z)`, not zero; not normalised.
+    pub quaternion: [i8; 4],
+    /// Binary exponent of the box coordinates' unit, per axis, -20 to 40.
+    pub exponent: [i8; 3],
+    /// Lower ends of the boxes by axis and child.
+    pub low: [[u8; LANES]; 3],
+    /// Upper ends of the boxes by axis and child.
+    pub high: [[u8; LANES]; 3],
+}
+
+impl NodeBoxes {
+    /// Squared length of the quaternion: what [`Self::matrix`] scales lengths by. 1 for an axis-aligned node,
+    /// 16129 to 64516 for a fitted one.
+    pub fn n(&self) -> i32 {
+        self.quaternion.iter().map(|&c| i32::from(c) * i32::from(c)).sum()
+    }
+
+    /// `M = n·R`: integer rows, each of length `n`, orthogonal to each other.
+    pub fn matrix(&self) -> [[i32; 3]; 3] {
+        let [w, x, y, z] = self.quaternion.map(i32::from);
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    }
+
+    /// Whether child `lane` covers `point`, decided in exact integer arithmetic.
+    ///
+    /// Exact for coordinates that are multiples of 2^−76; smaller bits count as an interval that must be
+    /// covered whole, so `true` is always right. False for absent lanes and for coordinates beyond ±70,000,
+    /// which no model has.
+    pub fn covers(&self, lane: usize, point: DVec3) -> bool {
+        const FRACTION_BITS: u32 = 76;
+        if point.abs().max_element().is_nan() || point.abs().max_element() > MAX_ABS_COORDINATE {
+            return false;
+        }
+        let scale = (1u128 << FRACTION_BITS) as f64;
+        // Scaling by a power of two is exact, so `floor` and `ceil` enclose the coordinate; they are equal
+        // unless bits fall off.
+        let below = point.to_array().map(|c| (c * scale).floor() as i128);
+        let above = point.to_array().map(|c| (c * scale).ceil() as i128);
+        let matrix = self.matrix();
+        (0..3).all(|k| {
+            let (mut least, mut greatest) = (0i128, 0i128);
+            for j in 0..3 {
+                let entry = i128::from(matrix[k][j]);
+                let origin = i128::from(self.origin[j]) << FRACTION_BITS;
+                let (a, b) = (entry * (below[j] - origin), entry * (above[j] - origin));
+                least += a.min(b);
+                greatest += a.max(b);
+            }
+            let shift = FRACTION_BITS.wrapping_add_signed(i32::from(self.exponent[k]));
+            let end = |stored: u8| (i128::from(stored) - 128) << shift;
+            end(self.low[k][lane]) <= least && greatest <= end(self.high[k][lane])
+        })
+    }
+}
+
+/// Box of one child in the frame, units of `M`, relative to an origin; widened where coordinates are
+/// fractional.
+#[derive(Clone, Copy)]
+struct Extent {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Extent {
+    const EMPTY: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+
+    fn of(points: &[DVec3], matrix: &[DVec3; 3], origin: DVec3) -> Self {
+        let mut extent = Self::EMPTY;
+        let mut reach = 0f64;
+        let mut fractional = false;
+        for &point in points {
+            debug_assert!(point.abs().max_element() <= MAX_ABS_COORDINATE);
+            let d = point - origin;
+            // An integer conversion and back is one cheap instruction each; `trunc` is a call on targets
+            // without SSE 4.1.
+            fractional |= point.to_array().iter().any(|&c| c as i64 as f64 != c);
+            reach = reach.max(d.x.abs()).max(d.y.abs()).max(d.z.abs());
+            for (k, row) in matrix.iter().enumerate() {
+                let q = row.x * d.x + row.y * d.y + row.z * d.z;
+                extent.low[k] = if q < extent.low[k] { q } else { extent.low[k] };
+                extent.high[k] = if q > extent.high[k] { q } else { extent.high[k] };
+            }
+        }
+        if fractional {
+            for (k, row) in matrix.iter().enumerate() {
+                let row_sum = row.x.abs() + row.y.abs() + row.z.abs();
+                extent.low[k] -= FRACTIONAL_MARGIN * row_sum * reach;
+                extent.high[k] += FRACTIONAL_MARGIN * row_sum * reach;
+            }
+        }
+        extent
+    }
+
+    fn union(mut self, other: &Self) -> Self {
+        for k in 0..3 {
+            self.low[k] = self.low[k].min(other.low[k]);
+            self.high[k] = self.high[k].max(other.high[k]);
+        }
+        self
+    }
+}
+
+/// Boxes of up to eight children in the frame of `quaternion`; children without points become absent lanes.
+///
+/// Coordinates are grid units within ±[`MAX_ABS_COORDINATE`]. The exponents are the least that fit, so the
+/// node spans 128 to 255 units per axis unless it is flat there. Cost: two passes over the points. Panics on
+/// more than eight children or a zero quaternion.
+pub(super) fn quantise(quaternion: [i8; 4], children: &[&[DVec3]]) -> NodeBoxes {
+    assert!(children.len() <= LANES, "a node has at most {LANES} children");
+    assert!(quaternion != [0; 4], "a frame needs a non-zero quaternion");
+    let mut boxes = NodeBoxes {
+        origin: [0; 3],
+        quaternion,
+        exponent: [0; 3],
+        low: [[255; LANES]; 3],
+        high: [[0; LANES]; 3],
+    };
+    let matrix = boxes.matrix().map(|row| DVec3::from_array(row.map(f64::from)));
+    let mut extents = [Extent::EMPTY; LANES];
+    let mut origin = children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
+    // The first pass only finds the middle.
+    for pass in 0..2 {
+        origin = origin.round().clamp(DVec3::ZERO, DVec3::splat(GRID_MAX));
+        for (extent, points) in extents.iter_mut().zip(children) {
+            *extent = Extent::of(points, &matrix, origin);
+        }
+        if pass == 0 {
+            let all = extents.iter().fold(Extent::EMPTY, Extent::union);
+            let n = f64::from(boxes.n());
+            for k in (0..3).filter(|&k| all.low[k] <= all.high[k]) {
+                origin += matrix[k] * ((all.low[k] + all.high[k]) * 0.5 / (n * n));
+            }
+        }
+    }
+    boxes.origin = origin.to_array().map(|c| c as u16);
+    let all = extents.iter().fold(Extent::EMPTY, Extent::union);
+    for k in 0..3 {
+        let exponent = least_exponent(all.low[k], all.high[k]);
+        boxes.exponent[k] = exponent as i8;
+        let per_unit = power_of_two(-exponent);
+        for (lane, extent) in extents.iter().enumerate().filter(|(_, extent)| extent.low[k] <= extent.high[k])
+        {
+            // In 0..=255 by the choice of the exponent.
+            boxes.low[k][lane] = ((extent.low[k] * per_unit).floor() + 128.0) as u8;
+            boxes.high[k][lane] = ((extent.high[k] * per_unit).ceil() + 128.0) as u8;
+        }
+    }
+    boxes
+}
+
+/// Node whose boxes are aligned with the grid's axes: `M` is the identity.
+///
+/// The same contract and cost as for rotated frames; children without points become absent lanes.
+pub fn axis_aligned(children: &[&[DVec3]]) -> NodeBoxes {
+    quantise([1, 0, 0, 0], children)
+}
+
+/// Least exponent in whose unit `low..=high`, rounded outward, fits in `-128..=127`.
+fn least_exponent(low: f64, high: f64) -> i32 {
+    EXPONENTS
+        .into_iter()
+        .find(|&exponent| {
+            let per_unit = power_of_two(-exponent);
+            (low * per_unit).floor() >= -128.0 && (high * per_unit).ceil() <= 127.0
+        })
+        .expect("coordinates below 2^37 fit in units of 2^40")
+}
+
+/// `2^exponent`, exact, for normal exponents.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Deterministic numbers in 0..1 for tests of this folder.
+    pub(in super::super) struct Noise(pub u64);
+
+    impl Noise {
+        pub fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1u64 << 53) as f64
+        }
+
+        pub fn point(&mut self, centre: DVec3, size: DVec3) -> DVec3 {
+            centre + (DVec3::new(self.next(), self.next(), self.next()) - 0.5) * size
+        }
+    }
+
+    pub(in super::super) fn assert_covers_all(boxes: &NodeBoxes, children: &[&[DVec3]]) {
+        for (lane, points) in children.iter().enumerate() {
+            for &point in *points {
+                assert!(boxes.covers(lane, point), "lane {lane} misses {point} in {boxes:?}");
+            }
+        }
+        for lane in children.len()..LANES {
+            assert!((0..3).all(|k| boxes.low[k][lane] == 255 && boxes.high[k][lane] == 0));
+        }
+    }
+
+    fn slices(children: &[Vec<DVec3>]) -> Vec<&[DVec3]> {
+        children.iter().map(Vec::as_slice).collect()
+    }
+
+    const SKEW: [i8; 4] = [93, -127, 41, 7];
+
+    #[test]
+    fn grid_points_are_covered() {
+        let mut noise = Noise(1);
+        for size in [2.0, 30.0, 900.0, 65_535.0] {
+            let children: Vec<Vec<DVec3>> = (0..7)
+                .map(|_| {
+                    (0..20).map(|_| noise.point(DVec3::splat(32_767.5), DVec3::splat(size)).round()).collect()
+                })
+                .collect();
+            for quaternion in [[1, 0, 0, 0], SKEW, [127; 4], [0, 0, -127, 1]] {
+                assert_covers_all(&quantise(quaternion, &slices(&children)), &slices(&children));
+            }
+        }
+    }
+
+    #[test]
+    fn fractional_points_are_covered() {
+        let mut noise = Noise(2);
+        for size in [1e-9, 1e-3, 1.0, 140_000.0] {
+            let children: Vec<Vec<DVec3>> = (0..8)
+                .map(|_| (0..20).map(|_| noise.point(DVec3::ZERO, DVec3::splat(size))).collect())
+                .collect();
+            for quaternion in [[1, 0, 0, 0], SKEW, [127, 127, -127, 0]] {
+                assert_covers_all(&quantise(quaternion, &slices(&children)), &slices(&children));
+            }
+        }
+    }
+
+    #[test]
+    fn flat_collinear_and_single_points_are_covered() {
+        let mut noise = Noise(3);
+        let centre = DVec3::new(40_000.0, 3.0, 65_535.0);
+        for size in [DVec3::new(900.0, 900.0, 0.0), DVec3::new(0.0, 0.0, 77.0), DVec3::ZERO] {
+            for fraction in [0.0, 0.37] {
+                let children: Vec<Vec<DVec3>> = (0..8)
+                    .map(|_| (0..5).map(|_| noise.point(centre, size).round() + fraction).collect())
+                    .collect();
+                for quaternion in [[1, 0, 0, 0], SKEW] {
+                    assert_covers_all(&quantise(quaternion, &slices(&children)), &slices(&children));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn extreme_corners_fit_the_exponents() {
+        let corners = [DVec3::splat(-MAX_ABS_COORDINATE), DVec3::splat(MAX_ABS_COORDINATE)];
+        for quaternion in [[1, 0, 0, 0], [127; 4], SKEW, [-128, 127, 127, -128]] {
+            assert_covers_all(&quantise(quaternion, &[&corners]), &[&corners]);
+        }
+    }
+
+    #[test]
+    fn boxes_span_half_of_the_range_or_more() {
+        let mut noise = Noise(4);
+        let points: Vec<DVec3> =
+            (0..200).map(|_| noise.point(DVec3::splat(30_000.0), DVec3::splat(5000.0)).round()).collect();
+        let boxes = quantise(SKEW, &[&points]);
+        for k in 0..3 {
+            assert!(boxes.high[k][0] - boxes.low[k][0] >= 126, "{boxes:?}");
+        }
+    }
+
+    #[test]
+    fn covers_is_false_one_step_outside() {
+        let boxes = axis_aligned(&[&[DVec3::new(10.0, 10.0, 10.0), DVec3::new(20.0, 20.0, 20.0)]]);
+        assert!(boxes.covers(0, DVec3::new(10.0, 20.0, 15.0)));
+        assert!(!boxes.covers(0, DVec3::new(10.0f64.next_down(), 20.0, 15.0)));
+        assert!(!boxes.covers(0, DVec3::new(10.0, 20.0f64.next_up(), 15.0)));
+        assert!(!boxes.covers(1, DVec3::new(15.0, 15.0, 15.0)));
+        assert!(!boxes.covers(0, DVec3::NAN));
+    }
+
+    #[test]
+    fn children_without_points_are_absent() {
+        let boxes = axis_aligned(&[&[], &[DVec3::ONE]]);
+        assert!((0..3).all(|k| boxes.low[k][0] == 255 && boxes.high[k][0] == 0));
+        assert!(boxes.covers(1, DVec3::ONE));
+        let nothing = axis_aligned(&[]);
+        assert!((0..LANES).all(|lane| !nothing.covers(lane, DVec3::ZERO)));
+    }
+}

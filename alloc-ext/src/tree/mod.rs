@@ -1,0 +1,27 @@
+//! The box tree: triangle fans, an 8-wide tree over them, quantised boxes, and their bytes.
+//!
+//! ```text
+//! mesh ─ store (grid) ─ fan (patches) ─ sah ─ collapse ─ order ─ fit (frames, boxes) ─ encode ─ sections
+//! ```
+//!
+//! Any triangle soup will do: nothing here asks for a closed or manifold mesh.
+
+mod boxes;
+mod build;
+mod collapse;
+mod encode;
+mod extremes;
+mod fit;
+mod frame;
+mod order;
+mod rotation;
+mod sah;
+mod source;
+mod store;
+
+pub use boxes::{LANES, NodeBoxes, axis_aligned};
+pub use build::{TreeOptions, TreeReport, build};
+pub use encode::TreeTables;
+pub use fit::{axis_aligned_boxes, shared_frames};
+pub use frame::{FrameOptions, shared_frame, shared_frame_with};
+pub use order::{Topology, TopologyOptions, WideNode, topology, topology_with};

@@ -1,0 +1,456 @@
+//! Checked views of the box tree.
+//!
+//! If [`Tree::open`] returned `Ok`, then every node below the root is a child of exactly one node with a lesser number, every leaf lies within the
+//! fans, and every coordinate is finite and within the tree's box. Accessors still return `Option`, and no path can panic.
+
+use super::layout::{
+    BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, WIDTH,
+};
+use super::read::Bytes;
+use super::tree_header::TreeHeader;
+use crate::fan::Edges8;
+use glam::Vec3;
+
+/// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows the bytes and holds the header.
+#[derive(Clone, Copy, Debug)]
+pub struct Tree<'a> {
+    pub(super) header: TreeHeader,
+    pub(super) scale_exponent: i32,
+    pub(super) input_triangles: u32,
+    pub(super) links: &'a [[u8; LINK_BYTES]],
+    pub(super) frames: &'a [[u8; FRAME_BYTES]],
+    pub(super) boxes: &'a [[u8; BOXES_BYTES]],
+    pub(super) fans: &'a [u8],
+    pub(super) source: Bytes<'a>,
+    pub(super) cones: &'a [[u8; CONE_BYTES]],
+}
+
+/// Where the children of a node are: inner nodes first, then leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct Links {
+    /// Number of the first inner child; the others follow it.
+    pub first_node: u32,
+    /// Children that are nodes.
+    pub inner: u32,
+    /// All children, 1 to 8.
+    pub count: u32,
+    /// First vertex of the first leaf; the others follow it.
+    pub first_vertex: u32,
+    /// First triangle of the first leaf.
+    pub first_triangle: u32,
+    /// Shapes of the leaves, a byte for each child; 0 for a node.
+    tags: u64,
+}
+
+/// Shape of a leaf in one byte: vertices, where the second fan begins, whether its winding is opposite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tag(pub u8);
+
+impl Tag {
+    /// The tag of a patch of `triangles` with the second fan beginning at triangle `turn` (0: one fan).
+    pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
+        let vertices = triangles + 2 + usize::from(turn > 0);
+        Tag(vertices as u8 & 0x0F | (turn as u8 & 7) << 4 | u8::from(reversed) << 7)
+    }
+
+    /// Vertices stored.
+    #[inline(always)]
+    pub fn vertices(self) -> usize {
+        usize::from(self.0 & 0x0F)
+    }
+
+    /// First triangle of the second fan; 8 if there is none.
+    #[inline(always)]
+    pub fn turn(self) -> usize {
+        match usize::from(self.0 >> 4 & 7) {
+            0 => WIDTH,
+            turn => turn,
+        }
+    }
+
+    /// Centres stored.
+    #[inline(always)]
+    pub fn centres(self) -> usize {
+        1 + usize::from(self.0 & 0x70 != 0)
+    }
+
+    /// Triangles.
+    #[inline(always)]
+    pub fn triangles(self) -> usize {
+        self.vertices().wrapping_sub(1 + self.centres())
+    }
+
+    /// Whether the triangles of the second fan run the other way round than those of the first.
+    pub fn second_reversed(self) -> bool {
+        self.0 & 0x80 != 0
+    }
+
+    /// Whether a patch can look like that.
+    pub(super) fn is_sound(self) -> bool {
+        let triangles = self.vertices().checked_sub(1 + self.centres());
+        let turns = self.turn() == WIDTH || triangles.is_some_and(|count| self.turn() < count);
+        triangles.is_some_and(|count| (1..=WIDTH).contains(&count))
+            && turns
+            && (self.centres() == 2 || !self.second_reversed())
+    }
+}
+
+/// A leaf: one or two fans.
+#[derive(Clone, Copy, Debug)]
+pub struct Patch<'a> {
+    bytes: &'a [u8],
+    tag: Tag,
+    single: bool,
+    origin: [i32; 3],
+}
+
+/// A child of a node.
+#[derive(Clone, Copy, Debug)]
+pub enum TreeChild<'a> {
+    /// Another node.
+    Node(u32),
+    /// A leaf.
+    Leaf(Patch<'a>),
+}
+
+/// Sum of the low nibbles of the tags of the children before `lane`.
+#[inline(always)]
+fn vertices_before(tags: u64, lane: u32) -> u32 {
+    let before = tags & !(u64::MAX << (8 * (lane & 7))) & 0x0F0F_0F0F_0F0F_0F0F;
+    (before.wrapping_mul(0x0101_0101_0101_0101) >> 56) as u32
+}
+
+impl Links {
+    #[inline(always)]
+    fn read(bytes: &[u8; LINK_BYTES]) -> Option<Self> {
+        let (words, _) = bytes.as_chunks::<4>();
+        let [node, vertex, triangle, low, high] = words.first_chunk::<5>()?.map(u32::from_le_bytes);
+        Some(Links {
+            first_node: node & 0xFF_FFFF,
+            inner: node >> 24 & 0xF,
+            count: node >> 28,
+            first_vertex: vertex,
+            first_triangle: triangle,
+            tags: u64::from(low) | u64::from(high) << 32,
+        })
+    }
+
+    /// The record's bytes.
+    pub fn write(
+        first_node: u32,
+        inner: usize,
+        first_vertex: u32,
+        first_triangle: u32,
+        tags: &[Tag],
+    ) -> [u8; LINK_BYTES] {
+        let mut out = [0u8; LINK_BYTES];
+        let count = inner + tags.len();
+        let node = first_node & 0xFF_FFFF | (inner as u32 & 0xF) << 24 | (count as u32) << 28;
+        let words = [node, first_vertex, first_triangle].into_iter().flat_map(u32::to_le_bytes);
+        let tags = core::iter::repeat_n(0, inner).chain(tags.iter().map(|tag| tag.0));
+        out.iter_mut().zip(words.chain(tags)).for_each(|(slot, byte)| *slot = byte);
+        out
+    }
+
+    /// Shape of child `lane`; 0 for a node.
+    #[inline(always)]
+    pub fn tag(&self, lane: u32) -> Tag {
+        Tag((self.tags >> (8 * (lane & 7))) as u8)
+    }
+
+    /// First triangle of leaf `lane`.
+    pub fn triangle(&self, lane: u32) -> u32 {
+        (self.inner..lane)
+            .fold(self.first_triangle, |sum, i| sum.wrapping_add(self.tag(i).triangles() as u32))
+    }
+
+    /// First vertex of leaf `lane`.
+    #[inline(always)]
+    pub fn vertex(&self, lane: u32) -> u32 {
+        self.first_vertex.wrapping_add(vertices_before(self.tags, lane))
+    }
+}
+
+impl<'a> Tree<'a> {
+    /// The tree's header.
+    pub fn header(&self) -> &TreeHeader {
+        &self.header
+    }
+
+    /// Input coordinate = local coordinate × 2^this.
+    pub fn scale_exponent(&self) -> i32 {
+        self.scale_exponent
+    }
+
+    /// Triangles of the input file.
+    pub fn input_triangles(&self) -> u32 {
+        self.input_triangles
+    }
+
+    /// Whether there are boxes in shared frames, which distances need.
+    pub fn serves_distances(&self) -> bool {
+        !self.frames.is_empty()
+    }
+
+    /// Whether there are axis-aligned boxes, which segments need.
+    pub fn serves_segments(&self) -> bool {
+        !self.boxes.is_empty()
+    }
+
+    /// Whether there are normal cones.
+    pub fn serves_culling(&self) -> bool {
+        !self.cones.is_empty()
+    }
+
+    /// Links of a node.
+    #[inline(always)]
+    pub fn links(&self, node: u32) -> Option<Links> {
+        Links::read(self.links.get(node as usize)?)
+    }
+
+    /// Boxes of a node's children in the frame that they share, for distances.
+    #[inline(always)]
+    pub fn frame(&self, node: u32) -> Option<&'a [u8; FRAME_BYTES]> {
+        self.frames.get(node as usize)
+    }
+
+    /// Axis-aligned boxes of a node's children.
+    #[inline(always)]
+    pub fn boxes(&self, node: u32) -> Option<&'a [u8; BOXES_BYTES]> {
+        self.boxes.get(node as usize)
+    }
+
+    /// Normal cone of a leaf, leaves counted in the order of nodes.
+    pub fn cone(&self, leaf: u32) -> Option<[u8; CONE_BYTES]> {
+        self.cones.get(leaf as usize).copied()
+    }
+
+    /// Child `lane` of `node`.
+    #[inline(always)]
+    pub fn child(&self, node: u32, lane: u32) -> Option<TreeChild<'a>> {
+        self.linked(&self.links(node)?, lane)
+    }
+
+    /// Child `lane` of the node that `links` belongs to.
+    #[inline(always)]
+    pub fn linked(&self, links: &Links, lane: u32) -> Option<TreeChild<'a>> {
+        if lane < links.inner {
+            return Some(TreeChild::Node(links.first_node.wrapping_add(lane)));
+        }
+        Some(TreeChild::Leaf(self.patch(links.vertex(lane), links.tag(lane))?))
+    }
+
+    /// The leaf whose vertices begin at `vertex`.
+    #[inline(always)]
+    pub fn patch(&self, vertex: u32, tag: Tag) -> Option<Patch<'a>> {
+        let single = self.header.is_single();
+        let at = (vertex as usize).wrapping_mul(if single { 12 } else { 6 });
+        Some(Patch { bytes: self.fans.get(at..)?, tag, single, origin: self.header.grid_origin })
+    }
+
+    /// Number in the input file of a triangle of the tree.
+    pub fn source(&self, triangle: u32) -> Option<u32> {
+        if triangle >= self.header.triangles {
+            return None;
+        }
+        let (block, place) = (triangle as usize / SOURCE_BLOCK, triangle as usize % SOURCE_BLOCK);
+        let least = self.source.u32(block * SOURCE_ENTRY_BYTES)?;
+        let word = self.source.u32(block * SOURCE_ENTRY_BYTES + 4)?;
+        let (start, width) = ((word >> 5) as usize, (word & 31) as usize);
+        let bit = place * width;
+        let chunk = u64::from_le_bytes(self.source.array::<8>(start.checked_add(bit / 8)?)?);
+        let value = (chunk >> (bit % 8)) & !(u64::MAX << width);
+        least.checked_add(value as u32)
+    }
+}
+
+/// Bytes of the largest patch on the grid: two centres and nine ring vertices.
+const GRID_WINDOW: usize = 66;
+
+#[inline(always)]
+fn short(bytes: &[u8], at: usize) -> i32 {
+    match bytes.get(at..).and_then(|b| b.first_chunk::<2>()) {
+        Some(&pair) => i32::from(u16::from_le_bytes(pair)),
+        None => 0,
+    }
+}
+
+#[inline(always)]
+fn single(bytes: &[u8], at: usize) -> f32 {
+    match bytes.get(at..).and_then(|b| b.first_chunk::<4>()) {
+        Some(&word) => f32::from_le_bytes(word),
+        None => 0.0,
+    }
+}
+
+/// Eight u16 at a byte offset, as f32. No ring begins beyond byte 48 of a window.
+#[inline(always)]
+fn eight(window: &[u8; GRID_WINDOW], at: usize) -> [f32; WIDTH] {
+    let at = at.min(GRID_WINDOW - 16);
+    let mut out = [0f32; WIDTH];
+    if let Some(chunk) = window.get(at..at + 16).and_then(|b| b.first_chunk::<16>()) {
+        for i in 0..WIDTH {
+            out[i] = f32::from(u16::from_le_bytes([chunk[2 * i], chunk[2 * i + 1]]));
+        }
+    }
+    out
+}
+
+type Lanes8 = [f32; WIDTH];
+
+/// First spokes, second spokes and way to the point along one axis.
+#[inline(always)]
+fn grid_axis(
+    window: &[u8; GRID_WINDOW],
+    at: usize,
+    turn: &[u32; WIDTH],
+    [c, d]: [i32; 2],
+    origin: i32,
+    p: f32,
+) -> (Lanes8, Lanes8, Lanes8) {
+    let (here, next) = (eight(window, at), eight(window, at + 2));
+    let (first_s, second_s) = (p - c.wrapping_add(origin) as f32, p - d.wrapping_add(origin) as f32);
+    let (first, second) = (c as f32, d as f32);
+    let (mut e, mut g, mut s) = ([0f32; WIDTH], [0f32; WIDTH], [0f32; WIDTH]);
+    for i in 0..WIDTH {
+        let centre = blend(turn[i], first, second);
+        e[i] = here[i] - centre;
+        g[i] = next[i] - centre;
+        s[i] = blend(turn[i], first_s, second_s);
+    }
+    (e, g, s)
+}
+
+/// For each first triangle of a second fan, which lanes belong to the first. A table and bits, for a comparison would become branches.
+const TURNS: [[u32; WIDTH]; WIDTH + 1] = {
+    let mut table = [[0; WIDTH]; WIDTH + 1];
+    let mut turn = 0;
+    while turn <= WIDTH {
+        let mut lane = 0;
+        while lane < turn {
+            table[turn][lane] = u32::MAX;
+            lane += 1;
+        }
+        turn += 1;
+    }
+    table
+};
+
+/// `first` where the mask is ones, `second` where it is zeros.
+#[inline(always)]
+fn blend(mask: u32, first: f32, second: f32) -> f32 {
+    f32::from_bits(first.to_bits() & mask | second.to_bits() & !mask)
+}
+
+/// Three u16 at a byte offset that the compiler knows.
+#[inline(always)]
+fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
+    [0, 2, 4].map(|k| i32::from(u16::from_le_bytes([window[at + k], window[at + k + 1]])))
+}
+
+impl<'a> Patch<'a> {
+    /// Its shape.
+    #[inline(always)]
+    pub fn tag(&self) -> Tag {
+        self.tag
+    }
+
+    /// Centre 0 or 1, grid units, exactly.
+    #[inline(always)]
+    pub fn centre(&self, which: usize) -> Vec3 {
+        if self.single {
+            let at = 12 * which;
+            return Vec3::new(single(self.bytes, at), single(self.bytes, at + 4), single(self.bytes, at + 8));
+        }
+        let [x, y, z] = self.stored(6 * which, 2);
+        let [ox, oy, oz] = self.origin;
+        Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
+    }
+
+    #[inline(always)]
+    fn stored(&self, at: usize, step: usize) -> [i32; 3] {
+        [short(self.bytes, at), short(self.bytes, at + step), short(self.bytes, at + 2 * step)]
+    }
+
+    /// Ring vertex `i ≤ triangles`, grid units, exactly.
+    #[inline(always)]
+    pub fn ring(&self, i: usize) -> Vec3 {
+        let entries = self.tag.triangles() + 1;
+        if self.single {
+            let at = 12 * self.tag.centres() + 4 * i;
+            let step = 4 * entries;
+            return Vec3::new(
+                single(self.bytes, at),
+                single(self.bytes, at + step),
+                single(self.bytes, at + 2 * step),
+            );
+        }
+        let [x, y, z] = self.stored(6 * self.tag.centres() + 2 * i, 2 * entries);
+        let [ox, oy, oz] = self.origin;
+        Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
+    }
+
+    /// Ring vertex `i` less centre `which`: exact on the grid, rounded once with f32 vertices.
+    #[inline(always)]
+    pub fn spoke(&self, i: usize, which: usize) -> Vec3 {
+        if self.single {
+            return self.ring(i) - self.centre(which);
+        }
+        let step = 2 * (self.tag.triangles() + 1);
+        let [cx, cy, cz] = self.stored(6 * which, 2);
+        let [x, y, z] = self.stored(6 * self.tag.centres() + 2 * i, step);
+        Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
+    }
+
+    /// Corners of triangle `lane`, grid units, in the input's winding.
+    pub fn corners(&self, lane: usize) -> [Vec3; 3] {
+        let second = lane >= self.tag.turn();
+        let centre = self.centre(usize::from(second));
+        let (a, b) = (self.ring(lane), self.ring(lane + 1));
+        if second && self.tag.second_reversed() { [centre, b, a] } else { [centre, a, b] }
+    }
+
+    /// All triangles as seen from `p` (grid units), for the wide kernel.
+    #[inline(always)]
+    pub fn edges8(&self, p: Vec3) -> Option<Edges8> {
+        if self.single { self.single_edges8(p) } else { self.grid_edges8(p) }
+    }
+
+    #[inline(always)]
+    fn grid_edges8(&self, p: Vec3) -> Option<Edges8> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let two = self.tag.centres() == 2;
+        let ring = if two { 12 } else { 6 };
+        let step = 2 * (self.tag.triangles() + 1);
+        let turn = TURNS.get(self.tag.turn())?;
+        let (c, d) = (three(window, 0), three(window, 6));
+        let [ox, oy, oz] = self.origin;
+        let (ex, gx, sx) = grid_axis(window, ring, turn, [c[0], d[0]], ox, p.x);
+        let (ey, gy, sy) = grid_axis(window, ring + step, turn, [c[1], d[1]], oy, p.y);
+        let (ez, gz, sz) = grid_axis(window, ring + step + step, turn, [c[2], d[2]], oz, p.z);
+        Some(Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] })
+    }
+
+    #[inline(never)]
+    fn single_edges8(&self, p: Vec3) -> Option<Edges8> {
+        let turn = self.tag.turn();
+        let (first, second) = (self.centre(0), self.centre(self.tag.centres() - 1));
+        let (first_s, second_s) = ((p - first).to_array(), (p - second).to_array());
+        let (first, second) = (first.to_array(), second.to_array());
+        let mut edges = Edges8 { e: [[0.0; WIDTH]; 3], g: [[0.0; WIDTH]; 3], s: [[0.0; WIDTH]; 3] };
+        let entries = self.tag.triangles() + 1;
+        for axis in 0..3 {
+            let at = 12 * self.tag.centres() + 4 * entries * axis;
+            let chunk = self.bytes.get(at..)?.first_chunk::<36>()?;
+            for i in 0..WIDTH {
+                let centre = if i < turn { first[axis] } else { second[axis] };
+                let word =
+                    |k: usize| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]);
+                edges.e[axis][i] = word(4 * i) - centre;
+                edges.g[axis][i] = word(4 * i + 4) - centre;
+                edges.s[axis][i] = if i < turn { first_s[axis] } else { second_s[axis] };
+            }
+        }
+        Some(edges)
+    }
+}

@@ -1,0 +1,13 @@
+//! Kernels over triangle fans (Galin & Akkouche 2005, sections 3 and 4), scalar and eight lanes wide. Both give the same bits.
+//!
+//! A *patch* is what one leaf of the box tree holds: up to [`WIDTH`] triangles in one fan, or in two that share a ring vertex.
+//! Triangle `i` of a patch is `(centre, ring[i], ring[i + 1])`; its centre is the first one below `turn`, the second from there on.
+
+mod point;
+mod point8;
+
+pub use point::{Nearness, PointFan, SpokeTerms, certified_distance, point_patch};
+pub use point8::{Edges8, Nearness8, point_patch8};
+
+/// Most triangles of a patch, and lanes of the wide kernels.
+pub const WIDTH: usize = 8;

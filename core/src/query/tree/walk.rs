@@ -1,0 +1,148 @@
+//! The descent that all distance questions share: nearest child first, the others on the caller's stack, unsorted.
+//!
+//! Sorting them, or a heap, visits fewer nodes and takes longer: what decides is how often a branch is guessed wrong. So every lane is
+//! stored and the stack's end moves on if the lane is wanted; the nearest is followed at once. Keys never fall from parent to child, so that the set
+//! of leaves that a question depends on does not depend on the order of visits.
+
+use crate::blob::layout::WIDTH;
+use crate::blob::{Patch, Tree, TreeChild};
+use crate::query::{QueryError, Work};
+use crate::tree::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
+use glam::Vec3;
+
+/// A child that waits: 8 bytes of the caller's stack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TreeEntry {
+    /// Squared lower bound; the lane in the low bits.
+    key: f32,
+    /// Its parent.
+    node: u32,
+}
+
+impl TreeEntry {
+    /// Any value, for filling arrays.
+    pub const EMPTY: TreeEntry = TreeEntry { key: 0.0, node: 0 };
+}
+
+/// A leaf that a descent has come to.
+pub(super) struct Visit<'a> {
+    pub(super) patch: Patch<'a>,
+    /// Squared lower bound of everything in it.
+    pub(super) key: f32,
+    pub(super) node: u32,
+    pub(super) lane: u32,
+}
+
+/// What a question does with leaves.
+pub(super) trait Seek {
+    /// Squared bound above which nothing is wanted.
+    fn limit(&self) -> f32;
+
+    /// Looks at a leaf; `Some(false)` ends the descent, `None` says that the tree is not one that was opened.
+    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool>;
+}
+
+/// How a descent ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Descent {
+    /// Nothing within the limit is left.
+    Done,
+    /// The question was answered early.
+    Answered,
+    /// The budget is used up, or something did not fit the stack: nothing below this squared bound was missed.
+    Short { least: f32, steps: bool },
+}
+
+/// Visits every leaf within `seek`'s limit.
+#[inline(always)]
+pub(super) fn descend(
+    tree: &Tree<'_>,
+    p: Vec3,
+    stack: &mut [TreeEntry],
+    steps: u32,
+    seek: &mut impl Seek,
+    work: &mut Work,
+) -> Result<Descent, QueryError> {
+    let mut waiting = 0usize;
+    let mut dropped = f32::INFINITY;
+    let mut node = 0u32;
+    let mut bound = 0f32;
+    loop {
+        if work.splits >= steps {
+            let rest =
+                stack.iter().take(waiting).fold(bound.min(dropped), |least, entry| least.min(entry.key));
+            return Ok(Descent::Short { least: rest, steps: true });
+        }
+        let links = tree.links(node).ok_or(QueryError::Model)?;
+        let record = tree.frame(node).ok_or(QueryError::NotServed)?;
+        let frame = NodeFrame::of(record, p);
+        let keys = box_distances(record, &frame, links.count, bound);
+        work.splits += 1;
+        work.nodes += links.count;
+        let nearest = nearest_lane(&keys);
+        let limit = seek.limit();
+        let mut found = nearest <= limit;
+        if found {
+            if let Some(slots) = stack.get_mut(waiting..).and_then(|rest| rest.first_chunk_mut::<WIDTH>()) {
+                let mut next = 0usize;
+                for key in keys {
+                    slots[next & (WIDTH - 1)] = TreeEntry { key, node };
+                    next += usize::from((key <= limit) & (key != nearest));
+                }
+                waiting += next;
+            } else {
+                for key in keys {
+                    if key <= limit && key != nearest {
+                        match stack.get_mut(waiting) {
+                            Some(slot) => {
+                                *slot = TreeEntry { key, node };
+                                waiting += 1;
+                            }
+                            None => dropped = dropped.min(key),
+                        }
+                    }
+                }
+            }
+        }
+        // The nearest child's links are at hand; what comes off the stack has to look its parent's up.
+        let mut next = if found { tree.linked(&links, nearest.to_bits() & LANE_MASK) } else { None };
+        let mut entry = TreeEntry { key: nearest, node };
+        loop {
+            if let Some(child) = next {
+                bound = f32::from_bits(entry.key.to_bits() & !LANE_MASK);
+                match child {
+                    TreeChild::Node(child) => {
+                        node = child;
+                        break;
+                    }
+                    TreeChild::Leaf(patch) => {
+                        work.triangles += patch.tag().triangles() as u32;
+                        let lane = entry.key.to_bits() & LANE_MASK;
+                        let visit = Visit { patch, key: bound, node: entry.node, lane };
+                        if !seek.leaf(&visit).ok_or(QueryError::Model)? {
+                            return Ok(Descent::Answered);
+                        }
+                    }
+                }
+            } else if found {
+                return Err(QueryError::Model);
+            }
+            found = true;
+            loop {
+                let Some(top) = waiting.checked_sub(1) else {
+                    return Ok(if dropped <= seek.limit() {
+                        Descent::Short { least: dropped, steps: false }
+                    } else {
+                        Descent::Done
+                    });
+                };
+                waiting = top;
+                entry = stack.get(top).copied().ok_or(QueryError::Model)?;
+                if entry.key <= seek.limit() {
+                    break;
+                }
+            }
+            next = tree.child(entry.node, entry.key.to_bits() & LANE_MASK);
+        }
+    }
+}

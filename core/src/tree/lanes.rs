@@ -1,0 +1,113 @@
+//! Squared distances of a point from eight boxes.
+//!
+//! The wide form is loops over `[f32; 8]` without branches, the narrow one walks axis by axis and skips what is inside; both give the same bits.
+
+use super::NodeFrame;
+use crate::blob::layout::{FRAME_BYTES, WIDTH};
+
+/// The low bits of a key hold its lane.
+pub const LANE_MASK: u32 = WIDTH as u32 - 1;
+
+/// Key of a lane without a child: above every bound.
+pub const NO_CHILD: f32 = f32::from_bits(0x7F00_0000);
+
+/// Keys of a node's children: their squared distance from the point, grid units, not below `parent`'s, rounded down in the low three bits, which
+/// hold the lane. Lanes from `count` on are [`NO_CHILD`]. The distance is a lower bound up to the rounding that `core/docs/rounding.md` §8 bounds.
+#[inline(always)]
+pub fn box_distances(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+    if WIDE {
+        return wide(record, frame, count, parent);
+    }
+    let mut sum = [0f32; WIDTH];
+    narrow(record, frame, count, &mut sum);
+    let mut keys = [0f32; WIDTH];
+    for i in 0..WIDTH {
+        keys[i] = key(sum[i], parent, count, i as u32);
+    }
+    keys
+}
+
+/// The key of one lane.
+#[inline(always)]
+fn key(distance_sq: f32, parent: f32, count: u32, lane: u32) -> f32 {
+    let far = if distance_sq > parent { distance_sq } else { parent };
+    let far = if lane < count { far } else { NO_CHILD };
+    f32::from_bits(far.to_bits() & !LANE_MASK | lane)
+}
+
+/// The least key: its lane is in its low bits.
+#[inline(always)]
+pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
+    let less = |a: f32, b: f32| if b < a { b } else { a };
+    let [a, b, c, d, e, f, g, h] = *keys;
+    less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
+}
+
+/// Whether the target has vector registers that are worth the lanes that nobody asked for.
+pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
+
+#[inline(always)]
+fn wide(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+    let mut keys = [0f32; WIDTH];
+    let (rows, _) = record.as_chunks::<WIDTH>();
+    let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };
+    let [qx, qy, qz] = frame.q;
+    let [wx, wy, wz] = frame.weight;
+    for i in 0..WIDTH {
+        let x = outside(lx[i], hx[i], qx, wx);
+        let y = outside(ly[i], hy[i], qy, wy);
+        let z = outside(lz[i], hz[i], qz, wz);
+        keys[i] = key(x + y + z, parent, count, i as u32);
+    }
+    in_memory(keys)
+}
+
+/// The same lanes, written to memory side by side. What is only ever used lane by lane the compiler would compute so, too.
+#[inline(always)]
+pub fn in_memory<T>(lanes: T) -> T {
+    core::hint::black_box(lanes)
+}
+
+/// Squared distance along one axis.
+#[inline(always)]
+fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
+    let below = f32::from(low) - q;
+    let beyond = q - f32::from(high);
+    let far = if below > beyond { below } else { beyond };
+    let far = if far > 0.0 { far } else { 0.0 };
+    far * far * weight
+}
+
+#[inline(always)]
+fn narrow(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, sum: &mut [f32; WIDTH]) {
+    let (rows, _) = record.as_chunks::<WIDTH>();
+    let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return };
+    let axes = [(lx, hx), (ly, hy), (lz, hz)];
+    let count = (count as usize).min(WIDTH);
+    for ((low, high), (q, weight)) in axes.into_iter().zip(frame.q.into_iter().zip(frame.weight)) {
+        let (low, high, sum) = (low.iter().take(count), high.iter().take(count), sum.iter_mut());
+        if q <= 0.0 {
+            // Outside of all boxes on this axis: one side alone counts.
+            for (sum, &low) in sum.zip(low) {
+                let out = f32::from(low) - q;
+                *sum += out * out * weight;
+            }
+        } else if q >= 255.0 {
+            for (sum, &high) in sum.zip(high) {
+                let out = q - f32::from(high);
+                *sum += out * out * weight;
+            }
+        } else {
+            let whole = q as i32;
+            for ((sum, &low), &high) in sum.zip(low).zip(high) {
+                if i32::from(low) > whole {
+                    let out = f32::from(low) - q;
+                    *sum += out * out * weight;
+                } else if i32::from(high) <= whole {
+                    let out = q - f32::from(high);
+                    *sum += out * out * weight;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! What the host wrote for this image: a mesh, and what is asked of it.
+
+use meshsweep_rival_firmware::race::Questions;
+use meshsweep_rival_firmware::records::Records;
+
+macro_rules! file {
+    ($name:literal) => {
+        Records::new(include_bytes!(concat!(env!("MESHSWEEP_RIVAL"), "/", $name)))
+    };
+}
+
+/// The mesh's vertices.
+#[allow(dead_code, reason = "an engine may bring a mesh of its own")]
+pub const VERTICES: Records<3> = file!("vertices.f32");
+/// The mesh's triangles.
+#[allow(dead_code, reason = "an engine may bring a mesh of its own")]
+pub const TRIANGLES: Records<3> = file!("triangles.u32");
+
+/// What is asked.
+pub const QUESTIONS: Questions = Questions {
+    points: [("far", file!("far.f32")), ("near", file!("near.f32")), ("path", file!("path.f32"))],
+    segments: ("segment", file!("segment.f32")),
+};
