@@ -2,7 +2,7 @@
 
 mod cli_support;
 
-use cli_support::{arg, blob, fixture, ok, run, scratch};
+use cli_support::{arg, blob, distance, fixture, hull_blob, info, ok, run, scratch, triangles};
 use std::fs;
 
 #[test]
@@ -10,24 +10,25 @@ fn without_arguments_it_explains_itself_in_ten_lines_with_numbers() {
     let text = ok::<&str>([]);
     assert!(text.lines().count() <= 12, "{text}");
     assert!(text.contains("Closest point to") && text.contains("First hit"), "{text}");
-    // Radii 2 and 0.75: the triangles lie inside the torus, by up to 0.013.
-    let exact = (10f64.sqrt() - 2.0).hypot(0.5) - 0.75;
-    let lower: f64 = text.split("distance ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-    assert!((0.0..0.013).contains(&(lower - exact)), "{lower} {exact}");
+    let numbers = text.split("distance ").nth(1).unwrap().split([' ', ',']);
+    let numbers: Vec<f64> = numbers.take(3).filter_map(|word| word.parse().ok()).collect();
+    let exact = distance([10.0, 4.5, 7.0], &triangles(&fixture("bracket.stl")));
+    assert!(numbers[0] <= exact && exact <= numbers[1], "{numbers:?} {exact}");
 }
 
 #[test]
-fn the_built_in_torus_is_the_fixture() {
-    let copy = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/src/bin/meshsweep/demo/torus.ply")).unwrap();
-    assert!(copy == fs::read(fixture("torus.ply")).unwrap());
+fn the_built_in_bracket_is_the_fixture() {
+    let copy = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/src/bin/meshsweep/demo/bracket.stl")).unwrap();
+    assert!(copy == fs::read(fixture("bracket.stl")).unwrap());
 }
 
 #[test]
 fn build_is_deterministic() {
     let directory = scratch("build_is_deterministic");
-    let first = fs::read(blob(&directory, "bracket.stl", &[])).unwrap();
-    let second = fs::read(blob(&directory, "bracket.stl", &[])).unwrap();
-    assert!(first == second);
+    for questions in ["closest,segment", "hull", "closest,hull"] {
+        let build = || fs::read(blob(&directory, "bracket.stl", &["--for", questions])).unwrap();
+        assert!(build() == build(), "{questions}");
+    }
 }
 
 #[test]
@@ -35,21 +36,71 @@ fn build_reports_mesh_sections_memory_and_levels() {
     let directory = scratch("build_reports");
     let (mesh, out) = (fixture("bracket.stl"), directory.join("b.msw"));
     let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "closest,segment,hull"]);
-    for part in
-        ["1948 triangles read", "cover tree", "total", "queue", "void %", "surface error 0 ", "collapse"]
-    {
+    for part in [
+        "1948 triangles read",
+        "serves closest, within, nearest, field, signed, segment, hull --level, cut",
+        "cover tree",
+        "tree fans",
+        "total",
+        "queue",
+        "void %",
+        "surface error 0 ",
+        "1948 triangles in ",
+        "stack: ",
+        "closed: signed distance is defined",
+        "collapse",
+    ] {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert_eq!(fs::read_dir(&directory).unwrap().count(), 1, "nothing but the blob is left");
 }
 
 #[test]
+fn a_blob_holds_what_was_asked_for_and_no_more() {
+    let directory = scratch("asked_for");
+    let links = ["tree header", "tree links", "tree fans", "tree source numbers"];
+    for (questions, more, serves) in [
+        (&[][..], &["tree boxes for distances", "tree boxes for segments"][..], "segment"),
+        (&["--for", "closest"], &["tree boxes for distances"], "signed"),
+        (&["--for", "segment"], &["tree boxes for segments"], "segment"),
+    ] {
+        let info = info(&blob(&directory, "torus.ply", questions));
+        let mut wanted: Vec<&str> = links.iter().chain(more).copied().collect();
+        let mut found: Vec<&str> =
+            info["sections"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+        wanted.sort_unstable();
+        found.sort_unstable();
+        assert_eq!(found, wanted, "{questions:?}");
+        assert_eq!(info["serves"].as_array().unwrap().last().unwrap(), serves);
+        assert!(info["hull"].is_null());
+    }
+    let info = info(&hull_blob(&directory, "torus.ply", &[]));
+    assert!(info["tree"].is_null() && info["hull"]["levels"].is_array());
+    assert!(info["sections"].as_array().unwrap().iter().all(|s| s["hierarchy"] == "hull"));
+}
+
+#[test]
+fn an_open_mesh_is_built_and_its_report_says_that_it_is_open() {
+    let directory = scratch("open_mesh");
+    for name in ["evil/open_box.stl", "evil/moebius.obj", "evil/klein_bottle.obj", "evil/flat.obj"] {
+        let (mesh, out) = (fixture(name), directory.join("out.msw"));
+        let text = ok(["build", arg(&mesh), "-o", arg(&out)]);
+        let is_open = text.contains("open: signed distance is undefined");
+        // A tetrahedron squashed flat is closed all the same.
+        assert_eq!(is_open, name != "evil/flat.obj", "{name} {text}");
+        let info = info(&out);
+        assert_eq!(info["tree"]["is_closed"], !is_open);
+        assert_eq!(info["serves"].as_array().unwrap().iter().any(|s| s == "signed"), !is_open);
+    }
+}
+
+#[test]
 fn build_honours_its_options() {
     let directory = scratch("build_honours_its_options");
     let faces = |options: &[&str]| {
-        let path = blob(&directory, "torus.ply", options);
-        let info: serde_json::Value = serde_json::from_str(&ok(["info", arg(&path), "--json"])).unwrap();
-        (info["base_triangles"].as_u64().unwrap(), info["vertex_format"].as_str().unwrap().to_owned())
+        let info = info(&hull_blob(&directory, "torus.ply", options));
+        let hull = &info["hull"];
+        (hull["base_triangles"].as_u64().unwrap(), hull["vertex_format"].as_str().unwrap().to_owned())
     };
     assert_eq!(faces(&["--base", "400"]).0, 400);
     assert_eq!(faces(&["--base", "400", "--priority", "span"]).0, 400);
@@ -58,39 +109,56 @@ fn build_honours_its_options() {
     assert_eq!(faces(&["--vertex-bits", "32"]).1, "f32");
     let strict = ["--max-valence", "6", "--compactness", "1", "--max-normal-deviation", "5"];
     assert!(faces(&strict).0 > 400, "strict conditions stop early");
+    for (bits, format) in [("auto", "16-bit grid"), ("16", "16-bit grid"), ("24", "f32"), ("32", "f32")] {
+        let info = info(&blob(&directory, "torus.ply", &["--vertex-bits", bits]));
+        assert_eq!(info["tree"]["vertex_format"], format);
+        assert_eq!(info["tree"]["surface_error"] == 0.0, format == "f32", "{bits}");
+    }
 }
 
 #[test]
 fn a_build_that_stops_early_says_why() {
     let directory = scratch("stops_early");
     let (mesh, out) = (fixture("torus.ply"), directory.join("t.msw"));
-    let text = ok(["build", arg(&mesh), "-o", arg(&out), "--base", "4"]);
+    let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "hull", "--base", "4"]);
     assert!(text.contains("stopped before 4 faces"), "{text}");
 }
 
 #[test]
 fn json_parses_and_its_sections_fill_the_blob() {
     let directory = scratch("json_parses");
-    let path = blob(&directory, "bracket.stl", &[]);
-    let info: serde_json::Value = serde_json::from_str(&ok(["info", arg(&path), "--json"])).unwrap();
+    let path = blob(&directory, "bracket.stl", &["--for", "closest,segment,hull"]);
+    let info = info(&path);
     assert_eq!(info["bytes"].as_u64(), Some(fs::metadata(&path).unwrap().len()));
     let sections = info["sections"].as_array().unwrap();
     let end = sections.iter().map(|s| s["offset"].as_u64().unwrap() + s["bytes"].as_u64().unwrap()).max();
     assert_eq!(end, info["bytes"].as_u64());
-    assert_eq!(info["surface_triangles"], 1948);
-    let levels = info["levels"].as_array().unwrap();
-    assert_eq!(levels[0]["faces"], info["base_triangles"]);
+    let (hull, tree) = (&info["hull"], &info["tree"]);
+    assert_eq!(hull["surface_triangles"], 1948);
+    let levels = hull["levels"].as_array().unwrap();
+    assert_eq!(levels[0]["faces"], hull["base_triangles"]);
     assert_eq!(levels.last().unwrap()["faces"], 1948);
+    assert_eq!(tree["triangles"], 1948);
+    let leaves = tree["leaves"].as_f64().unwrap() * tree["triangles_per_leaf"].as_f64().unwrap();
+    assert!((leaves - 1948.0).abs() < 1e-6);
+    // Every node but the root is a child, and so is every leaf.
+    let nodes = tree["nodes"].as_f64().unwrap();
+    let children = nodes - 1.0 + tree["leaves"].as_f64().unwrap();
+    assert!((nodes * tree["children_per_node"].as_f64().unwrap() - children).abs() < 1e-6);
 }
 
 #[test]
 fn info_for_people_names_every_section() {
     let directory = scratch("info_for_people");
-    let path = blob(&directory, "groove.obj", &[]);
-    let text = ok(["info", arg(&path)]);
+    let text = ok(["info", arg(&hull_blob(&directory, "groove.obj", &[]))]);
     for section in ["vertices", "splits", "cover tree", "levels", "source numbers"] {
         assert!(text.contains(section), "{section} in {text}");
     }
+    let text = ok(["info", arg(&blob(&directory, "groove.obj", &[]))]);
+    for section in ["tree header", "tree links", "tree boxes for segments", "tree fans", "depth"] {
+        assert!(text.contains(section), "{section} in {text}");
+    }
+    assert!(!text.contains("levels"), "{text}");
 }
 
 #[test]
@@ -99,12 +167,17 @@ fn every_evil_fixture_is_built_or_refused_in_one_line_and_leaves_nothing_behind(
     for entry in fs::read_dir(fixture("evil")).unwrap() {
         let mesh = entry.unwrap().path();
         let out = directory.join("out.msw");
-        let output = run(["build", arg(&mesh), "-o", arg(&out)]);
-        if output.status.success() {
-            fs::remove_file(&out).unwrap();
-        } else {
-            cli_support::refused(&output, 1, mesh.file_name().unwrap().to_str().unwrap());
-        }
-        assert_eq!(fs::read_dir(&directory).unwrap().count(), 0, "{}", mesh.display());
+        let by = |questions| {
+            let output = run(["build", arg(&mesh), "-o", arg(&out), "--for", questions]);
+            if output.status.success() {
+                fs::remove_file(&out).unwrap();
+            } else {
+                cli_support::refused(&output, 1, mesh.file_name().unwrap().to_str().unwrap());
+            }
+            assert_eq!(fs::read_dir(&directory).unwrap().count(), 0, "{}", mesh.display());
+            output.status.success()
+        };
+        let (hull, tree) = (by("hull"), by("closest,segment"));
+        assert!(tree || !hull, "{}: a tree is built of whatever a hull is", mesh.display());
     }
 }

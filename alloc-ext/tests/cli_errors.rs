@@ -2,7 +2,7 @@
 
 mod cli_support;
 
-use cli_support::{arg, blob, fixture, meshsweep, ok, refused, run, scratch, write_raw};
+use cli_support::{arg, blob, fixture, hull_blob, meshsweep, ok, refused, run, scratch, write_raw};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
@@ -19,7 +19,7 @@ fn wrong_usage_is_status_2() {
     for args in [
         &["fly"][..],
         &["build", "a.stl"],
-        &["build", "a.stl", "-o", "b", "--base", "3"],
+        &["build", "a.stl", "-o", "b", "--for", "hull", "--base", "3"],
         &["build", "a.stl", "-o", "b", "--vertex-bits", "17"],
         &["build", "a.stl", "-o", "b", "--compactness", "nan"],
         &["build", "a.stl", "-o", "b", "--max-normal-deviation", "181"],
@@ -28,8 +28,20 @@ fn wrong_usage_is_status_2() {
         &["closest", "a.msw", "p.csv", "--queue", "0"],
         &["segment", "a.msw", "s.csv", "--all", "--steps", "3"],
         &["segment", "a.msw", "s.csv", "--engine", "hull", "--queue", "3"],
+        &["segment", "a.msw", "s.csv", "--engine", "tree", "--steps", "3"],
         &["segment", "a.msw", "s.csv", "--engine", "hull", "--all"],
         &["build", "a.stl", "-o", "-"],
+        &["build", "a.stl", "-o", "b", "--base", "100"],
+        &["build", "a.stl", "-o", "b", "--for", "closest", "--priority", "span"],
+        &["build", "a.stl", "-o", "b", "--for", "flying"],
+        &["within", "a.msw", "p.csv"],
+        &["within", "a.msw", "p.csv", "--distance=-1"],
+        &["nearest", "a.msw", "p.csv", "-n", "0"],
+        &["field", "a.msw", "-o", "f.txt"],
+        &["field", "a.msw", "-o", "f.npy", "--size", "4,4"],
+        &["field", "a.msw", "-o", "f.npy", "--margin=-1"],
+        &["field", "a.msw", "-o", "f.npy", "--threads", "0"],
+        &["cull", "a.msw", "--eye", "1,2"],
     ] {
         assert_eq!(run(args).status.code(), Some(2), "{args:?}");
     }
@@ -70,23 +82,82 @@ fn what_is_no_whole_blob_is_refused_with_a_remedy() {
 }
 
 #[test]
-fn a_mesh_with_holes_is_refused_in_one_line_with_places() {
+fn a_hull_of_a_mesh_with_holes_is_refused_in_one_line_with_places_and_a_way_out() {
     let directory = scratch("holes");
     let (mesh, out) = (fixture("evil/open_box.stl"), directory.join("out.msw"));
-    let line = refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "open_box.stl");
-    assert!(line.contains("not closed") && line.contains("edge ["), "{line}");
+    for questions in ["hull", "closest,hull"] {
+        let line =
+            refused(&run(["build", arg(&mesh), "-o", arg(&out), "--for", questions]), 1, "open_box.stl");
+        assert!(line.contains("not closed") && line.contains("edge ["), "{line}");
+        assert!(line.contains("--for closest,segment needs no closed mesh"), "{line}");
+    }
     let (mesh, ply) = (fixture("evil/stuck_cap.obj"), directory.join("out.ply"));
     let line = refused(&run(["hull", arg(&mesh), "-o", arg(&ply)]), 1, "stuck_cap.obj");
-    assert!(line.contains("zero-area triangle"), "{line}");
+    assert!(line.contains("zero-area triangle") && !line.contains("--for"), "{line}");
+}
+
+#[test]
+fn a_mesh_under_a_name_of_another_kind_is_refused_with_its_kind() {
+    let directory = scratch("misnamed");
+    let out = directory.join("out.msw");
+    for (from, name, kind) in [
+        ("torus.ply", "a.stl", "PLY"),
+        ("torus.ply", "a.obj", "PLY"),
+        ("torus.ply", "noname", "PLY"),
+        ("groove.obj", "b.ply", "OBJ"),
+        ("groove.obj", "b.STL", "OBJ"),
+    ] {
+        let mesh = file(&directory, name, fs::read(fixture(from)).unwrap());
+        let line = refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, name);
+        assert!(line.contains(&format!("looks like {kind}; rename")), "{line}");
+    }
+    let text = "solid x\nfacet normal 0 0 1\nouter loop\n";
+    let mesh = file(&directory, "c.ply", text);
+    let line = refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "c.ply");
+    assert!(line.contains("looks like STL"), "{line}");
+    // Its own kind, but broken: no word of another name.
+    let mesh = file(&directory, "d.stl", text);
+    let line = refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "d.stl");
+    assert!(!line.contains("looks like"), "{line}");
+}
+
+#[test]
+fn what_a_blob_was_not_built_for_is_refused_with_what_to_build() {
+    let directory = scratch("not_served");
+    let (tree, hull) = (directory.join("tree.msw"), directory.join("hull.msw"));
+    let mesh = fixture("torus.ply");
+    ok(["build", arg(&mesh), "-o", arg(&tree), "--for", "closest"]);
+    ok(["build", arg(&mesh), "-o", arg(&hull), "--for", "hull"]);
+    let (points, segments) =
+        (file(&directory, "p.csv", "1 2 3\n"), file(&directory, "s.csv", "9 9 9 0 0 0\n"));
+    let field = directory.join("f.npy");
+    for (args, wanted) in [
+        (&["segment", arg(&tree), arg(&segments)][..], "--for segment"),
+        (&["segment", arg(&tree), arg(&segments), "--engine", "cover"], "--for hull"),
+        (&["segment", arg(&tree), arg(&segments), "--engine", "hull"], "--for hull"),
+        (&["closest", arg(&tree), arg(&points), "--engine", "cover"], "or use --engine tree"),
+        (&["closest", arg(&tree), arg(&points), "--engine", "hull"], "--for hull"),
+        (&["closest", arg(&hull), arg(&points), "--engine", "tree"], "or use --engine cover"),
+        (&["segment", arg(&hull), arg(&segments), "--engine", "tree"], "--for segment"),
+        (&["within", arg(&hull), arg(&points), "-d", "1"], "--for closest"),
+        (&["nearest", arg(&hull), arg(&points), "-n", "1"], "--for closest"),
+        (&["signed", arg(&hull), arg(&points)], "--for closest"),
+        (&["field", arg(&hull), "-o", arg(&field)], "--for closest"),
+        (&["cull", arg(&tree), "--eye", "1,2,3"], "--for cull"),
+    ] {
+        let line = refused(&run(args), 1, ".msw: has no ");
+        assert!(line.contains(wanted), "{args:?} {line}");
+    }
+    assert!(!field.exists());
 }
 
 #[test]
 fn an_error_leaves_the_old_output_alone() {
     let directory = scratch("old_output");
     let out = file(&directory, "out.msw", "precious");
-    let mesh = fixture("evil/open_box.stl");
-    refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "open_box.stl");
-    let path = blob(&directory, "torus.ply", &[]);
+    let mesh = fixture("evil/nan.stl");
+    refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "nan.stl");
+    let path = hull_blob(&directory, "torus.ply", &[]);
     refused(&run(["cut", arg(&path), "--level", "99", "-o", arg(&out)]), 1, "level 99 does not exist");
     let points = file(&directory, "p.csv", "1,2,3\n1,2\n");
     refused(&run(["closest", arg(&path), arg(&points), "-o", arg(&out)]), 1, "line 2");
@@ -100,8 +171,10 @@ fn outputs_that_cannot_be_written_are_named_before_the_work() {
     let mesh = fixture("torus.ply");
     refused(&run(["build", arg(&mesh), "-o", arg(&directory)]), 1, "unwritable");
     let missing = directory.join("missing/out.msw");
-    refused(&run(["build", arg(&mesh), "-o", arg(&missing)]), 1, "missing/out.msw: cannot be written");
-    let path = blob(&directory, "torus.ply", &[]);
+    let line =
+        refused(&run(["build", arg(&mesh), "-o", arg(&missing)]), 1, "missing/out.msw: cannot be written");
+    assert!(line.contains("there is no directory"), "{line}");
+    let path = hull_blob(&directory, "torus.ply", &[]);
     let line = refused(&run(["cut", arg(&path), "--level", "1", "-o", arg(&path)]), 1, "torus.msw");
     assert!(line.contains("both input and output"), "{line}");
 }
@@ -113,6 +186,7 @@ fn malformed_queries_are_named_by_line_and_field() {
     for (text, place) in [
         ("x,y,z\n1,2,3\n1,2,three\n", "p.csv, line 3, field 3: \"three\""),
         ("1;2\n", "p.csv, line 1: 2 fields"),
+        ("1\n", "p.csv, line 1: 1 field,"),
         ("# three\n\n1 2 3 4\n", "p.csv, line 3: 4 fields"),
         ("1,2,nan\n", "p.csv, line 1, field 3: \"nan\" is not finite"),
         ("1,2,-inf\n", "p.csv, line 1, field 3: \"-inf\" is not finite"),
@@ -145,13 +219,13 @@ fn malformed_raw_queries_are_named_by_number() {
 #[test]
 fn the_hull_engine_refuses_blobs_it_can_say_nothing_about() {
     let directory = scratch("hull_engine");
-    let path = blob(&directory, "torus.ply", &[]);
+    let path = hull_blob(&directory, "torus.ply", &[]);
     let cut = directory.join("cut.msw");
     ok(["cut", arg(&path), "--level", "1", "-o", arg(&cut)]);
     let segments = file(&directory, "s.csv", "9 9 9 0 0 0\n");
     let line = refused(&run(["segment", arg(&cut), arg(&segments), "--engine", "hull"]), 1, "cut.msw");
     assert!(line.contains("--engine cover"), "{line}");
-    let coarse = blob(&directory, "torus.ply", &["--vertex-bits", "16"]);
+    let coarse = hull_blob(&directory, "torus.ply", &["--vertex-bits", "16"]);
     refused(&run(["segment", arg(&coarse), arg(&segments), "--engine", "hull"]), 1, "torus.msw");
 }
 
@@ -179,7 +253,7 @@ fn a_reader_that_leaves_early_is_no_error() {
 #[test]
 fn a_full_standard_output_is_an_error_and_a_device_is_not_replaced() {
     let directory = scratch("full");
-    let path = blob(&directory, "torus.ply", &[]);
+    let path = hull_blob(&directory, "torus.ply", &[]);
     let full = || fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     for args in [&["info", arg(&path)][..], &[]] {
         let output = meshsweep().args(args).stdout(full()).output().unwrap();

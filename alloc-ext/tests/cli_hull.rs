@@ -2,7 +2,7 @@
 
 mod cli_support;
 
-use cli_support::{arg, blob, fixture, ok, run, scratch};
+use cli_support::{arg, blob, fixture, hull_blob, info, ok, run, scratch};
 use meshsweep_alloc::mesh;
 use std::fs;
 use std::path::Path;
@@ -53,9 +53,9 @@ fn a_hull_that_stops_early_says_why() {
 #[test]
 fn every_level_of_a_blob_is_a_closed_hull_with_the_level_s_faces() {
     let directory = scratch("hull_of_blob");
-    let path = blob(&directory, "bracket.stl", &[]);
-    let info: serde_json::Value = serde_json::from_str(&ok(["info", arg(&path), "--json"])).unwrap();
-    let levels = info["levels"].as_array().unwrap();
+    let path = hull_blob(&directory, "bracket.stl", &[]);
+    let info = info(&path);
+    let levels = info["hull"]["levels"].as_array().unwrap();
     let out = directory.join("level.ply");
     let mut last = f64::INFINITY;
     for (index, level) in levels.iter().enumerate() {
@@ -72,9 +72,9 @@ fn every_level_of_a_blob_is_a_closed_hull_with_the_level_s_faces() {
 #[test]
 fn the_last_level_cuts_nothing_and_a_cut_can_be_cut_again() {
     let directory = scratch("cut_again");
-    let path = blob(&directory, "torus.ply", &[]);
-    let info: serde_json::Value = serde_json::from_str(&ok(["info", arg(&path), "--json"])).unwrap();
-    let last = info["levels"].as_array().unwrap().len() - 1;
+    let path = hull_blob(&directory, "torus.ply", &[]);
+    let info = info(&path);
+    let last = info["hull"]["levels"].as_array().unwrap().len() - 1;
     let (one, two, direct) = (directory.join("1.msw"), directory.join("2.msw"), directory.join("d.msw"));
     ok(["cut", arg(&path), "--level", &last.to_string(), "-o", arg(&one)]);
     assert!(fs::read(&one).unwrap() == fs::read(&path).unwrap());
@@ -88,13 +88,50 @@ fn the_last_level_cuts_nothing_and_a_cut_can_be_cut_again() {
 #[test]
 fn hull_arguments_that_do_not_go_together_are_usage_errors() {
     let directory = scratch("hull_usage");
-    let path = blob(&directory, "torus.ply", &[]);
+    let path = hull_blob(&directory, "torus.ply", &[]);
     let out = directory.join("hull.ply");
     cli_support::refused(&run(["hull", arg(&path), "-o", arg(&out)]), 2, "torus.msw");
     cli_support::refused(&run(["hull", arg(&path), "--faces", "9", "-o", arg(&out)]), 2, "torus.msw");
     let stl = directory.join("hull.stl");
     cli_support::refused(&run(["hull", arg(&path), "--level", "0", "-o", arg(&stl)]), 2, "hull.stl");
+    let mesh = fixture("bracket.stl");
+    let line =
+        cli_support::refused(&run(["hull", arg(&mesh), "--level", "1", "-o", arg(&out)]), 2, "bracket.stl");
+    assert!(line.contains("is a mesh") && line.contains("--for hull"), "{line}");
     let both = run(["hull", arg(&path), "--level", "0", "--faces", "9", "-o", arg(&out)]);
     assert_eq!(both.status.code(), Some(2));
     assert!(!out.exists() && !stl.exists());
+}
+
+#[test]
+fn a_hull_on_a_grid_encloses_the_mesh_that_moved_there() {
+    let directory = scratch("hull_bits");
+    let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
+    let text = ok(["hull", arg(&mesh), "--vertex-bits", "16", "-o", arg(&out)]);
+    assert!(text.contains("moved to the grid by up to "), "{text}");
+    let (faces, volume) = closed(&out);
+    let (_, solid) = closed(&mesh);
+    assert!(faces <= 200 && volume > solid * (1.0 - 1e-4), "{faces} {volume} {solid}");
+}
+
+#[test]
+fn a_cut_leaves_the_box_tree_out_and_says_so() {
+    let directory = scratch("cut_tree");
+    let path = blob(&directory, "torus.ply", &["--for", "closest,hull"]);
+    let out = directory.join("cut.msw");
+    let text = ok(["cut", arg(&path), "--level", "1", "-o", arg(&out)]);
+    assert!(text.contains("box tree"), "{text}");
+    assert!(info(&out)["tree"].is_null());
+}
+
+#[test]
+fn a_blob_without_hulls_has_no_levels() {
+    let directory = scratch("no_levels");
+    let path = blob(&directory, "torus.ply", &[]);
+    for (command, out) in [("hull", "out.ply"), ("cut", "out.msw")] {
+        let out = directory.join(out);
+        let output = run([command, arg(&path), "--level", "0", "-o", arg(&out)]);
+        let line = cli_support::refused(&output, 1, "torus.msw");
+        assert!(line.contains("--for hull") && !out.exists(), "{line}");
+    }
 }

@@ -3,8 +3,8 @@
 mod cli_support;
 
 use cli_support::{
-    arg, blob, distance, first_crossing, fixture, meshsweep, number, ok, parse_csv, random_queries, run,
-    scratch, triangles, wide, write_csv, write_raw,
+    arg, blob, distance, first_crossing, fixture, hull_blob, meshsweep, number, ok, parse_csv,
+    random_queries, run, scratch, triangles, wide, write_csv, write_raw,
 };
 use std::fs;
 use std::io::Write;
@@ -30,27 +30,45 @@ fn closest(blob: &Path, points: &Path, options: &[&str]) -> Vec<Vec<String>> {
 fn the_interval_contains_the_distance_to_the_file() {
     let directory = scratch("interval_contains");
     for (name, options) in [
-        ("bracket.stl", &[][..]),
-        ("torus.ply", &[]),
-        ("groove.obj", &[]),
-        ("torus.ply", &["--vertex-bits", "16"]),
-        ("groove.obj", &["--vertex-bits", "16"]),
-        ("torus.ply", &["--vertex-bits", "24", "--priority", "span"]),
+        ("bracket.stl", &["--for", "closest,hull"][..]),
+        ("torus.ply", &["--for", "closest,hull"]),
+        ("groove.obj", &["--for", "closest,hull"]),
+        ("torus.ply", &["--for", "closest,hull", "--vertex-bits", "16"]),
+        ("groove.obj", &["--for", "closest,hull", "--vertex-bits", "16"]),
+        ("bracket.stl", &["--for", "closest,hull", "--vertex-bits", "32"]),
+        ("torus.ply", &["--for", "closest,hull", "--vertex-bits", "24", "--priority", "span"]),
+        ("evil/open_box.stl", &["--for", "closest"]),
+        ("evil/klein_bottle.obj", &["--for", "closest"]),
     ] {
         let mesh = triangles(&fixture(name));
         let points = directory.join("points.csv");
         let rows = random_queries::<3>(&mesh, 60);
         write_csv(&points, &rows);
         let path = blob(&directory, name, options);
-        for (answer, point) in closest(&path, &points, &[]).iter().zip(&rows) {
-            let truth = distance(wide(point), &mesh);
-            assert!(contains(answer, truth), "{name} {options:?} {answer:?} {truth}");
-            // The witness is in the triangle that is named, and at most `upper` away.
-            let witness = [5, 6, 7].map(|k| number(&answer[k]));
-            let named = mesh[answer[8].parse::<usize>().unwrap()];
-            assert!(cli_support::to_triangle(witness, named) <= 1e-3, "{answer:?}");
+        let engines = if options[1].contains("hull") { &["tree", "cover"][..] } else { &["tree"] };
+        for engine in engines {
+            for (answer, point) in closest(&path, &points, &["--engine", engine]).iter().zip(&rows) {
+                let truth = distance(wide(point), &mesh);
+                assert!(contains(answer, truth), "{name} {options:?} {engine} {answer:?} {truth}");
+                // The witness is in the triangle that is named, and at most `upper` away.
+                let witness = [5, 6, 7].map(|k| number(&answer[k]));
+                let named = mesh[answer[8].parse::<usize>().unwrap()];
+                assert!(cli_support::to_triangle(witness, named) <= 1e-3, "{engine} {answer:?}");
+            }
         }
     }
+}
+
+#[test]
+fn the_box_tree_answers_unless_told_otherwise() {
+    let directory = scratch("engines");
+    let path = blob(&directory, "bracket.stl", &["--for", "closest,hull"]);
+    let points = directory.join("p.csv");
+    write_csv(&points, &random_queries::<3>(&triangles(&fixture("bracket.stl")), 20));
+    let by = |options: &[&str]| closest(&path, &points, options);
+    assert_eq!(by(&[]), by(&["--engine", "tree"]));
+    assert_eq!(by(&["--engine", "hull"]), by(&["--engine", "cover"]));
+    assert_ne!(by(&[]), by(&["--engine", "cover"]));
 }
 
 #[test]
@@ -60,20 +78,24 @@ fn queries_that_stop_early_still_contain_the_distance_and_say_so() {
     let rows = random_queries::<3>(&mesh, 50);
     let points = directory.join("points.csv");
     write_csv(&points, &rows);
-    let path = blob(&directory, "bracket.stl", &[]);
-    for (options, reason) in [
-        (["--steps", "5"], "out of steps"),
-        (["--rel", "0.5"], "within tolerance"),
-        (["--abs", "10"], "within tolerance"),
-        (["--queue", "1"], "out of queue"),
-        (["--steps", "0"], "out of steps"),
-    ] {
-        let output = run([&["closest", arg(&path), arg(&points)], &options[..]].concat());
-        let note = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(note.starts_with("ended: ") && note.contains(reason), "{options:?} {note}");
-        let answers = parse_csv(&String::from_utf8(output.stdout).unwrap(), CLOSEST);
-        for (answer, point) in answers.iter().zip(&rows) {
-            assert!(contains(answer, distance(wide(point), &mesh)), "{options:?} {answer:?}");
+    let path = blob(&directory, "bracket.stl", &["--for", "closest,hull"]);
+    for engine in ["tree", "cover"] {
+        for (options, reason) in [
+            (["--steps", "3"], "out of steps"),
+            (["--rel", "0.5"], "within tolerance"),
+            (["--abs", "10"], "within tolerance"),
+            (["--queue", "1"], "out of stack or queue"),
+            (["--steps", "0"], "out of steps"),
+        ] {
+            let output =
+                run([&["closest", arg(&path), arg(&points), "--engine", engine], &options[..]].concat());
+            let note = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(note.starts_with("ended: ") && note.contains(reason), "{engine} {options:?} {note}");
+            let answers = parse_csv(&String::from_utf8(output.stdout).unwrap(), CLOSEST);
+            for (answer, point) in answers.iter().zip(&rows) {
+                let truth = distance(wide(point), &mesh);
+                assert!(contains(answer, truth), "{engine} {options:?} {answer:?} {truth}");
+            }
         }
     }
 }
@@ -133,14 +155,14 @@ fn time_is_told_on_the_standard_error_only() {
 }
 
 #[test]
-fn first_hits_are_those_of_brute_force_for_both_engines() {
+fn first_hits_are_those_of_brute_force_for_all_engines() {
     let directory = scratch("first_hits");
     let mesh = triangles(&fixture("bracket.stl"));
     let rows = random_queries::<6>(&mesh, 200);
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
-    let path = blob(&directory, "bracket.stl", &[]);
-    for engine in ["cover", "hull"] {
+    let path = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
+    for engine in ["tree", "cover", "hull"] {
         let answers = parse_csv(&ok(["segment", arg(&path), arg(&segments), "--engine", engine]), SEGMENT);
         assert_eq!(answers.len(), rows.len());
         for (answer, row) in answers.iter().zip(&rows) {
@@ -148,11 +170,33 @@ fn first_hits_are_those_of_brute_force_for_both_engines() {
                 None => assert_eq!(answer[..6], ["no", "", "", "", "", ""], "{engine} {row:?}"),
                 Some(t) => {
                     assert_eq!(answer[0], "yes", "{engine} {row:?}");
-                    assert!((number(&answer[1]) - t).abs() < 1e-6, "{engine} {answer:?} {t}");
-                    assert!(distance([2, 3, 4].map(|k| number(&answer[k])), &mesh) < 1e-4);
+                    assert!((number(&answer[1]) - t).abs() < 1e-5, "{engine} {answer:?} {t}");
+                    assert!(distance([2, 3, 4].map(|k| number(&answer[k])), &mesh) < 1e-3);
                 }
             }
         }
+    }
+}
+
+#[test]
+fn on_a_grid_yes_and_no_are_still_those_of_brute_force() {
+    let directory = scratch("grid_hits");
+    let segments = directory.join("s.csv");
+    for name in ["bracket.stl", "torus.ply", "evil/open_box.stl"] {
+        let mesh = triangles(&fixture(name));
+        let rows = random_queries::<6>(&mesh, 300);
+        write_csv(&segments, &rows);
+        let path = blob(&directory, name, &[]);
+        let answers = parse_csv(&ok(["segment", arg(&path), arg(&segments)]), SEGMENT);
+        for (answer, row) in answers.iter().zip(&rows) {
+            let truth = first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh);
+            match (answer[0].as_str(), truth) {
+                ("unknown", None) => {}
+                ("unknown", Some(t)) => assert!(number(&answer[1]) <= t, "{answer:?} {t}"),
+                (verdict, _) => assert_eq!(verdict == "yes", truth.is_some(), "{name} {row:?} {answer:?}"),
+            }
+        }
+        assert!(answers.iter().filter(|answer| answer[0] == "unknown").count() < 10, "{name}");
     }
 }
 
@@ -163,26 +207,32 @@ fn all_hits_begin_with_the_first_and_number_their_query() {
     let rows = random_queries::<6>(&mesh, 100);
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
-    let path = blob(&directory, "bracket.stl", &[]);
-    let first = parse_csv(&ok(["segment", arg(&path), arg(&segments)]), SEGMENT);
-    let all = parse_csv(&ok(["segment", arg(&path), arg(&segments), "--all"]), &format!("query,{SEGMENT}"));
-    assert!(all.len() > rows.len());
-    for (query, first) in first.iter().enumerate() {
-        let hits: Vec<_> = all.iter().filter(|hit| hit[0] == query.to_string()).collect();
-        assert_eq!(hits[0][1..7], first[..6]);
-        assert!(hits.windows(2).all(|pair| number(&pair[0][2]) <= number(&pair[1][2])));
+    let path = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
+    for engine in ["tree", "cover"] {
+        let ask = ["segment", arg(&path), arg(&segments), "--engine", engine];
+        let first = parse_csv(&ok(ask), SEGMENT);
+        let all = parse_csv(&ok([&ask[..], &["--all"]].concat()), &format!("query,{SEGMENT}"));
+        assert!(all.len() > rows.len());
+        for (query, first) in first.iter().enumerate() {
+            let hits: Vec<_> = all.iter().filter(|hit| hit[0] == query.to_string()).collect();
+            assert_eq!(hits[0][1..7], first[..6], "{engine}");
+            assert!(hits.windows(2).all(|pair| number(&pair[0][2]) <= number(&pair[1][2])));
+        }
     }
 }
 
 #[test]
 fn a_segment_with_more_hits_than_the_buffer_gets_them_all() {
     let directory = scratch("many_hits");
-    let path = blob(&directory, "bracket.stl", &[]);
+    let path = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
     let segments = directory.join("s.csv");
     // Through a vertex in which some hundred triangles meet.
     fs::write(&segments, "10,10,10,-10,-10,-10\n").unwrap();
-    let all = parse_csv(&ok(["segment", arg(&path), arg(&segments), "--all"]), &format!("query,{SEGMENT}"));
-    assert!(all.len() > 64, "{}", all.len());
+    for engine in ["tree", "cover"] {
+        let text = ok(["segment", arg(&path), arg(&segments), "--all", "--engine", engine]);
+        let all = parse_csv(&text, &format!("query,{SEGMENT}"));
+        assert!(all.len() > 64, "{engine} {}", all.len());
+    }
 }
 
 #[test]
@@ -192,7 +242,7 @@ fn a_segment_query_that_ends_early_is_unknown_and_clear_before_its_parameter() {
     let rows = random_queries::<6>(&mesh, 100);
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
-    let path = blob(&directory, "bracket.stl", &[]);
+    let path = hull_blob(&directory, "bracket.stl", &[]);
     let text = ok(["segment", arg(&path), arg(&segments), "--steps", "4"]);
     let answers = parse_csv(&text, SEGMENT);
     assert!(answers.iter().any(|answer| answer[0] == "unknown"));
@@ -209,7 +259,7 @@ fn answers_of_a_cut_blob_contain_those_of_the_whole() {
     let (points, segments) = (directory.join("p.csv"), directory.join("s.csv"));
     write_csv(&points, &random_queries::<3>(&mesh, 60));
     write_csv(&segments, &random_queries::<6>(&mesh, 60));
-    let path = blob(&directory, "torus.ply", &[]);
+    let path = hull_blob(&directory, "torus.ply", &[]);
     let cut = directory.join("cut.msw");
     for level in ["0", "1", "2"] {
         ok(["cut", arg(&path), "--level", level, "-o", arg(&cut)]);

@@ -4,30 +4,32 @@
 //! of [`query`] then answer with intervals that contain the true distance to the input mesh in real arithmetic.
 //!
 //! ```
-//! use meshsweep_core::{Model, QueueEntry, query::{Stop, closest_point}};
+//! use meshsweep_core::{Tree, query::{Stop, tree::{TreeEntry, closest_point}}};
 //! # fn probe(blob: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
-//! let model = Model::open(blob)?;
-//! let mut queue = [QueueEntry::EMPTY; 256]; // `model.capacities()` says what this mesh needs
-//! let answer = closest_point(&model, [0.1, 0.2, 0.3], &Stop::EXACT, &mut queue)?;
+//! let tree = Tree::open(blob)?;
+//! let mut stack = [TreeEntry::EMPTY; 64]; // `tree.header().stack_entries` says what this mesh needs
+//! let answer = closest_point(&tree, [0.1, 0.2, 0.3], &Stop::EXACT, &mut stack)?;
 //! assert!(answer.lower <= answer.upper);
 //! # Ok(()) }
 //! ```
 //!
 //! # Layers
-//! Each layer may use those to its left and no other: `num` ← `geom` ← `refine` ← `query`, with `blob` under the last two.
-//! `geom` knows no bytes, and of geometry `blob` knows the box alone.
+//! Each layer may use those to its left and no other: `num` ← `geom` ← `fan` ← {`tree`, `refine`} ← `query`, with `blob` under the last three.
+//! `geom` and `fan` know no bytes; of geometry `blob` knows the box and how lanes of a fan lie side by side.
 //!
 //! | folder | owns |
 //! | --- | --- |
 //! | [`num`] | directed rounding, stored radii, every tolerance with its derivation |
 //! | [`geom`] | closed-form kernels: point–triangle, segment–triangle, swept triangle |
+//! | [`fan`] | point–fan and ray–fan kernels, scalar and eight lanes wide; normal cones |
 //! | [`blob`] | the format: header, sections, checked views; the only place that reads bytes |
+//! | [`tree`] | the box tree: eight boxes at a time |
 //! | [`refine`] | split tables: the selectively refined hull, the faces of a level |
 //! | [`query`] | one file per question; stop rules, intervals, work counters |
 //!
 //! # The same bits everywhere
 //! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is `libm`'s, which is correctly
-//! rounded on every target. The same blob and query give the same bits on a workstation and on a Cortex-M0.
+//! rounded on every target; the box tree's is [`num::root`]. The same blob and query give the same bits on a workstation and on a Cortex-M0.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -20,6 +20,9 @@ pub enum CutError {
 impl std::fmt::Display for CutError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            CutError::NoLevel { levels: 0, .. } => {
+                write!(f, "the blob has no hull hierarchy to cut: build it with --for hull")
+            }
             CutError::NoLevel { wanted, levels } => {
                 write!(f, "level {wanted} does not exist: the blob has levels 0 to {}", levels - 1)
             }
@@ -30,7 +33,7 @@ impl std::fmt::Display for CutError {
 
 impl std::error::Error for CutError {}
 
-/// Tables of the model after level `index`, a valid and still certified coarser model; the last level returns all of it.
+/// Tables of the model's hull hierarchy after level `index`, a valid and still certified coarser model; the last level returns all of it.
 ///
 /// # Errors
 /// [`CutError::NoLevel`].

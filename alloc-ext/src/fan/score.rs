@@ -21,7 +21,8 @@ const ALONE: i32 = 64;
 const DANGLING: i32 = 6;
 /// Against each lane that will stay empty because a part was cut off whose size is no multiple of [`MAX_PATCH`].
 const EMPTY_LANE: i32 = 4;
-/// Against the box's half area for each triangle, in units of an eighth of the triangles' mean sum of squared edges.
+/// Against the box's half area for each triangle, in units of a full patch's mean squared edge. Without it boxes are 8 to 10 %
+/// larger and patches no fewer.
 const SPREAD: f64 = 16.0;
 
 /// The triangles of a mask, by their index in the window.
@@ -85,6 +86,6 @@ pub(super) fn spread(window: &Window, patch: u32, triangles: &[[u32; 3]], positi
     }
     let size = upper - lower;
     let half_area = size.x * size.y + size.y * size.z + size.z * size.x;
-    let count = f64::from(patch.count_ones());
-    if squared_edges > 0.0 { -SPREAD * half_area * 24.0 / (squared_edges * count) } else { 0.0 }
+    let unit = squared_edges / (3 * MAX_PATCH) as f64;
+    if unit > 0.0 { -SPREAD * half_area / (unit * f64::from(patch.count_ones())) } else { 0.0 }
 }

@@ -54,10 +54,20 @@ pub fn arg(path: &Path) -> &str {
 
 /// Builds a blob of a fixture in `directory`.
 pub fn blob(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
-    let path = directory.join(name).with_extension("msw");
     let mesh = fixture(name);
+    let path = directory.join(mesh.file_name().expect("it has a name")).with_extension("msw");
     ok([&["build", arg(&mesh), "-o", arg(&path)], options].concat());
     path
+}
+
+/// The same with the hull hierarchy alone.
+pub fn hull_blob(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
+    blob(directory, name, &[&["--for", "hull"], options].concat())
+}
+
+/// What `info --json` says of a blob.
+pub fn info(path: &Path) -> serde_json::Value {
+    serde_json::from_str(&ok(["info", arg(path), "--json"])).expect("it is JSON")
 }
 
 /// Triangles of a mesh file as it is, coordinates in f64.

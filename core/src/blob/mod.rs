@@ -18,5 +18,5 @@ pub use header::Header;
 pub use index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
 pub use model::{Capacities, Children, Level, Model, Node, Split};
 pub use sections::{Section, section_crc};
-pub use tree::{Links, Patch, Tag, Tree, TreeChild};
+pub use tree::{GridRing, Links, Patch, Tag, Tree, TreeChild};
 pub use tree_header::TreeHeader;

@@ -8,7 +8,7 @@ use super::layout::{
 };
 use super::read::Bytes;
 use super::tree_header::TreeHeader;
-use crate::fan::Edges8;
+use crate::fan::{Edges8, LANES_BELOW, Ring8};
 use glam::Vec3;
 
 /// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows the bytes and holds the header.
@@ -17,12 +17,53 @@ pub struct Tree<'a> {
     pub(super) header: TreeHeader,
     pub(super) scale_exponent: i32,
     pub(super) input_triangles: u32,
+    pub(super) scale: GridScale,
     pub(super) links: &'a [[u8; LINK_BYTES]],
     pub(super) frames: &'a [[u8; FRAME_BYTES]],
     pub(super) boxes: &'a [[u8; BOXES_BYTES]],
     pub(super) fans: &'a [u8],
     pub(super) source: Bytes<'a>,
     pub(super) cones: &'a [[u8; CONE_BYTES]],
+}
+
+/// What every query needs of the header, worked out once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GridScale {
+    /// Grid units of an input unit: a power of two, in two factors within f32's range.
+    pub(crate) inward: [f32; 2],
+    /// The inverse.
+    pub(crate) outward: [f32; 2],
+    /// Surface error, grid units.
+    pub(crate) surface_error: f32,
+    /// Corners of the tree's box, grid units.
+    pub(crate) low: Vec3,
+    /// See [`low`](Self::low).
+    pub(crate) high: Vec3,
+}
+
+/// `2^exponent`, exactly, within f32's range.
+fn power(exponent: i32) -> f32 {
+    f32::from_bits(((127 + exponent.clamp(-126, 127)).cast_unsigned()) << 23)
+}
+
+impl GridScale {
+    pub(super) fn of(header: &TreeHeader, scale_exponent: i32) -> GridScale {
+        let exponent = scale_exponent.wrapping_add(header.grid_exponent);
+        let half = exponent / 2;
+        let rest = exponent.wrapping_sub(half);
+        let [ox, oy, oz] = header.grid_origin;
+        let corner = |[x, y, z]: [u16; 3]| {
+            let sum = |stored: u16, origin: i32| i32::from(stored).wrapping_add(origin) as f32;
+            Vec3::new(sum(x, ox), sum(y, oy), sum(z, oz))
+        };
+        GridScale {
+            inward: [power(half.wrapping_neg()), power(rest.wrapping_neg())],
+            outward: [power(half), power(rest)],
+            surface_error: header.surface_error * power(header.grid_exponent.wrapping_neg()),
+            low: corner(header.low),
+            high: corner(header.high),
+        }
+    }
 }
 
 /// Where the children of a node are: inner nodes first, then leaves.
@@ -38,8 +79,8 @@ pub struct Links {
     pub first_vertex: u32,
     /// First triangle of the first leaf.
     pub first_triangle: u32,
-    /// Shapes of the leaves, a byte for each child; 0 for a node.
-    tags: u64,
+    /// Shapes of the leaves, a byte for each child; 0 for a node. Two words: a Cortex-M has no 64-bit shifts.
+    tags: [u32; 2],
 }
 
 /// Shape of a leaf in one byte: vertices, where the second fan begins, whether its winding is opposite.
@@ -104,20 +145,48 @@ pub struct Patch<'a> {
     origin: [i32; 3],
 }
 
-/// A child of a node.
+/// What a patch on the grid stores: integers without the grid's origin.
 #[derive(Clone, Copy, Debug)]
-pub enum TreeChild<'a> {
-    /// Another node.
-    Node(u32),
-    /// A leaf.
-    Leaf(Patch<'a>),
+pub struct GridRing<'a> {
+    /// First and second centre; the second means nothing if there is one fan.
+    pub centres: [[i32; 3]; 2],
+    /// First coordinates of the ring.
+    pub x: &'a [[u8; 2]],
+    /// Second coordinates.
+    pub y: &'a [[u8; 2]],
+    /// Third coordinates.
+    pub z: &'a [[u8; 2]],
 }
 
-/// Sum of the low nibbles of the tags of the children before `lane`.
+/// A child of a node: another node, or a leaf. Plain numbers rather than an enum of views: the descent decides by the tag when it has to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TreeChild {
+    /// Number of the node, or first vertex of the leaf.
+    pub at: u32,
+    /// Shape of the leaf; 0 for a node.
+    pub tag: Tag,
+}
+
+impl TreeChild {
+    /// Whether it is a leaf.
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.tag.0 != 0
+    }
+}
+
+/// Sum of the low nibbles of four tags.
 #[inline(always)]
-fn vertices_before(tags: u64, lane: u32) -> u32 {
-    let before = tags & !(u64::MAX << (8 * (lane & 7))) & 0x0F0F_0F0F_0F0F_0F0F;
-    (before.wrapping_mul(0x0101_0101_0101_0101) >> 56) as u32
+fn nibbles(tags: u32) -> u32 {
+    (tags & 0x0F0F_0F0F).wrapping_mul(0x0101_0101) >> 24
+}
+
+/// The tags of the children before `lane`.
+#[inline(always)]
+fn before(tags: [u32; 2], lane: u32) -> [u32; 2] {
+    let below = !(u32::MAX << (8 * (lane & 3)));
+    let [low, high] = tags;
+    if lane < 4 { [low & below, 0] } else { [low, high & below] }
 }
 
 impl Links {
@@ -131,7 +200,7 @@ impl Links {
             count: node >> 28,
             first_vertex: vertex,
             first_triangle: triangle,
-            tags: u64::from(low) | u64::from(high) << 32,
+            tags: [low, high],
         })
     }
 
@@ -155,19 +224,34 @@ impl Links {
     /// Shape of child `lane`; 0 for a node.
     #[inline(always)]
     pub fn tag(&self, lane: u32) -> Tag {
-        Tag((self.tags >> (8 * (lane & 7))) as u8)
+        let [low, high] = self.tags;
+        let word = if lane < 4 { low } else { high };
+        Tag((word >> (8 * (lane & 3))) as u8)
+    }
+
+    /// Child `lane`.
+    #[inline(always)]
+    pub fn child(&self, lane: u32) -> TreeChild {
+        let (node, vertex) = (self.first_node.wrapping_add(lane), self.vertex(lane));
+        TreeChild { at: if lane < self.inner { node } else { vertex }, tag: self.tag(lane) }
     }
 
     /// First triangle of leaf `lane`.
     pub fn triangle(&self, lane: u32) -> u32 {
-        (self.inner..lane)
-            .fold(self.first_triangle, |sum, i| sum.wrapping_add(self.tag(i).triangles() as u32))
+        // Vertices less two for each leaf and less one for each second fan.
+        let [low, high] = before(self.tags, lane);
+        let turns =
+            |tags: u32| ((tags >> 4 | tags >> 5 | tags >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101) >> 24;
+        let leaves = lane.saturating_sub(self.inner);
+        let less = 2 * leaves + turns(low) + turns(high);
+        self.first_triangle.wrapping_add(nibbles(low) + nibbles(high)).wrapping_sub(less)
     }
 
     /// First vertex of leaf `lane`.
     #[inline(always)]
     pub fn vertex(&self, lane: u32) -> u32 {
-        self.first_vertex.wrapping_add(vertices_before(self.tags, lane))
+        let [low, high] = before(self.tags, lane);
+        self.first_vertex.wrapping_add(nibbles(low) + nibbles(high))
     }
 }
 
@@ -180,6 +264,12 @@ impl<'a> Tree<'a> {
     /// Input coordinate = local coordinate × 2^this.
     pub fn scale_exponent(&self) -> i32 {
         self.scale_exponent
+    }
+
+    /// Units and box, for queries.
+    #[inline(always)]
+    pub(crate) fn scale(&self) -> &GridScale {
+        &self.scale
     }
 
     /// Triangles of the input file.
@@ -227,17 +317,15 @@ impl<'a> Tree<'a> {
 
     /// Child `lane` of `node`.
     #[inline(always)]
-    pub fn child(&self, node: u32, lane: u32) -> Option<TreeChild<'a>> {
-        self.linked(&self.links(node)?, lane)
+    pub fn child(&self, node: u32, lane: u32) -> Option<TreeChild> {
+        Some(self.links(node)?.child(lane))
     }
 
-    /// Child `lane` of the node that `links` belongs to.
+    /// Child `lane` of `node` if it is a leaf.
     #[inline(always)]
-    pub fn linked(&self, links: &Links, lane: u32) -> Option<TreeChild<'a>> {
-        if lane < links.inner {
-            return Some(TreeChild::Node(links.first_node.wrapping_add(lane)));
-        }
-        Some(TreeChild::Leaf(self.patch(links.vertex(lane), links.tag(lane))?))
+    pub fn leaf(&self, node: u32, lane: u32) -> Option<Patch<'a>> {
+        let child = self.child(node, lane)?;
+        if child.is_leaf() { self.patch(child.at, child.tag) } else { None }
     }
 
     /// The leaf whose vertices begin at `vertex`.
@@ -309,32 +397,17 @@ fn grid_axis(
     p: f32,
 ) -> (Lanes8, Lanes8, Lanes8) {
     let (here, next) = (eight(window, at), eight(window, at + 2));
-    let (first_s, second_s) = (p - c.wrapping_add(origin) as f32, p - d.wrapping_add(origin) as f32);
-    let (first, second) = (c as f32, d as f32);
+    let (first, second, origin) = (c as f32, d as f32, origin as f32);
     let (mut e, mut g, mut s) = ([0f32; WIDTH], [0f32; WIDTH], [0f32; WIDTH]);
     for i in 0..WIDTH {
         let centre = blend(turn[i], first, second);
         e[i] = here[i] - centre;
         g[i] = next[i] - centre;
-        s[i] = blend(turn[i], first_s, second_s);
+        // The sum is exact, so this is the point less the centre, rounded once.
+        s[i] = p - (centre + origin);
     }
     (e, g, s)
 }
-
-/// For each first triangle of a second fan, which lanes belong to the first. A table and bits, for a comparison would become branches.
-const TURNS: [[u32; WIDTH]; WIDTH + 1] = {
-    let mut table = [[0; WIDTH]; WIDTH + 1];
-    let mut turn = 0;
-    while turn <= WIDTH {
-        let mut lane = 0;
-        while lane < turn {
-            table[turn][lane] = u32::MAX;
-            lane += 1;
-        }
-        turn += 1;
-    }
-    table
-};
 
 /// `first` where the mask is ones, `second` where it is zeros.
 #[inline(always)]
@@ -402,6 +475,27 @@ impl<'a> Patch<'a> {
         Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
     }
 
+    /// The stored integers of a patch on the grid.
+    #[inline(always)]
+    pub fn grid_ring(&self) -> Option<GridRing<'a>> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let entries = self.tag.triangles() + 1;
+        let ring = self.bytes.get(6 * self.tag.centres()..)?;
+        let (x, rest) = ring.split_at_checked(2 * entries)?;
+        let (y, rest) = rest.split_at_checked(2 * entries)?;
+        let z = rest.get(..2 * entries)?;
+        let (x, y, z) = (x.as_chunks().0, y.as_chunks().0, z.as_chunks().0);
+        Some(GridRing { centres: [three(window, 0), three(window, 6)], x, y, z })
+    }
+
+    /// The point `centre + v·e + w·g` of triangle `lane`, grid units.
+    #[inline(always)]
+    pub fn point(&self, lane: usize, v: f32, w: f32) -> Vec3 {
+        let which = usize::from(lane >= self.tag.turn());
+        let (e, g) = (self.spoke(lane, which), self.spoke(lane + 1, which));
+        self.centre(which) + e * v + g * w
+    }
+
     /// Corners of triangle `lane`, grid units, in the input's winding.
     pub fn corners(&self, lane: usize) -> [Vec3; 3] {
         let second = lane >= self.tag.turn();
@@ -410,19 +504,20 @@ impl<'a> Patch<'a> {
         if second && self.tag.second_reversed() { [centre, b, a] } else { [centre, a, b] }
     }
 
-    /// All triangles as seen from `p` (grid units), for the wide kernel.
+    /// Whether vertices are f32: then [`single_edges8`](Self::single_edges8) is to be asked.
     #[inline(always)]
-    pub fn edges8(&self, p: Vec3) -> Option<Edges8> {
-        if self.single { self.single_edges8(p) } else { self.grid_edges8(p) }
+    pub fn is_single(&self) -> bool {
+        self.single
     }
 
+    /// All triangles as seen from `p` (grid units), for the wide kernel: vertices on the grid.
     #[inline(always)]
-    fn grid_edges8(&self, p: Vec3) -> Option<Edges8> {
+    pub fn grid_edges8(&self, p: Vec3) -> Option<Edges8> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
         let two = self.tag.centres() == 2;
         let ring = if two { 12 } else { 6 };
         let step = 2 * (self.tag.triangles() + 1);
-        let turn = TURNS.get(self.tag.turn())?;
+        let turn = LANES_BELOW.get(self.tag.turn())?;
         let (c, d) = (three(window, 0), three(window, 6));
         let [ox, oy, oz] = self.origin;
         let (ex, gx, sx) = grid_axis(window, ring, turn, [c[0], d[0]], ox, p.x);
@@ -431,8 +526,9 @@ impl<'a> Patch<'a> {
         Some(Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] })
     }
 
-    #[inline(never)]
-    fn single_edges8(&self, p: Vec3) -> Option<Edges8> {
+    /// All triangles as seen from `p` (grid units), for the wide kernel: f32 vertices.
+    #[inline(always)]
+    pub fn single_edges8(&self, p: Vec3) -> Option<Edges8> {
         let turn = self.tag.turn();
         let (first, second) = (self.centre(0), self.centre(self.tag.centres() - 1));
         let (first_s, second_s) = ((p - first).to_array(), (p - second).to_array());
@@ -452,5 +548,50 @@ impl<'a> Patch<'a> {
             }
         }
         Some(edges)
+    }
+
+    /// Ring and centres in the order of `axes`, grid units, exactly, for the wide segment kernel.
+    #[inline(always)]
+    pub fn ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        if self.single { self.single_ring8(axes) } else { self.grid_ring8(axes) }
+    }
+
+    #[inline(always)]
+    fn grid_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let second = 6 * (self.tag.centres() - 1);
+        let step = 2 * (self.tag.triangles() + 1);
+        let axis = |axis: usize| {
+            let at = 6 + second + step * axis;
+            let origin = self.origin.get(axis).copied().unwrap_or(0) as f32;
+            let mut lanes = (eight(window, at), eight(window, at + 2));
+            for i in 0..WIDTH {
+                lanes.0[i] += origin;
+                lanes.1[i] += origin;
+            }
+            let centre = |at: usize| short(window, at + 2 * axis) as f32 + origin;
+            (lanes.0, lanes.1, centre(0), centre(second))
+        };
+        let [u, v, w] = axes;
+        let ((hx, nx, cx, dx), (hy, ny, cy, dy), (hz, nz, cz, dz)) = (axis(u), axis(v), axis(w));
+        Some(Ring8 { here: [hx, hy, hz], next: [nx, ny, nz], centres: [[cx, cy, cz], [dx, dy, dz]] })
+    }
+
+    #[inline(never)]
+    fn single_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        let second = 12 * (self.tag.centres() - 1);
+        let step = 4 * (self.tag.triangles() + 1);
+        let mut ring = Ring8 { here: [[0.0; WIDTH]; 3], next: [[0.0; WIDTH]; 3], centres: [[0.0; 3]; 2] };
+        for (k, axis) in axes.into_iter().enumerate() {
+            let chunk = self.bytes.get(12 + second + step * axis..)?.first_chunk::<36>()?;
+            let word = |k: usize| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]);
+            for i in 0..WIDTH {
+                ring.here[k][i] = word(4 * i);
+                ring.next[k][i] = word(4 * i + 4);
+            }
+            ring.centres[0][k] = single(self.bytes, 4 * axis);
+            ring.centres[1][k] = single(self.bytes, second + 4 * axis);
+        }
+        Some(ring)
     }
 }

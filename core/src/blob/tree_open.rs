@@ -7,7 +7,7 @@ use super::layout::{
 };
 use super::read::Bytes;
 use super::sections::{place_sections, read_header};
-use super::tree::{Patch, Tag, Tree};
+use super::tree::{GridScale, Patch, Tag, Tree};
 use super::tree_header::TreeHeader;
 
 /// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate input a few more.
@@ -55,6 +55,7 @@ impl<'a> Tree<'a> {
             header: TreeHeader::EMPTY,
             scale_exponent: header.scale_exponent,
             input_triangles: header.input_triangles,
+            scale: GridScale::of(&TreeHeader::EMPTY, 0),
             links: &[],
             frames: &[],
             boxes: &[],
@@ -81,6 +82,7 @@ impl<'a> Tree<'a> {
             return Err(OpenError::MissingSection { section: SectionKind::Tree });
         }
         tree.header = TreeHeader::read(Bytes(head))?;
+        tree.scale = GridScale::of(&tree.header, tree.scale_exponent);
         Ok(tree)
     }
 

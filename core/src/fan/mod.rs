@@ -5,9 +5,13 @@
 
 mod point;
 mod point8;
+mod ray;
+mod ray8;
 
 pub use point::{Nearness, PointFan, SpokeTerms, certified_distance, point_patch};
-pub use point8::{Edges8, Nearness8, point_patch8};
+pub use point8::{Edges8, LANES_BELOW, Nearness8, point_patch8};
+pub use ray::{Crossing, FanRay, STILL, Shadow, ray_patch};
+pub use ray8::{Ring8, ray_patch8};
 
 /// Most triangles of a patch, and lanes of the wide kernels.
 pub const WIDTH: usize = 8;

@@ -5,6 +5,7 @@
 //! Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5, in the order in which the wide kernel overrides them.
 
 use super::WIDTH;
+use crate::num::root;
 use crate::num::tolerance::TREE_TINY;
 use glam::Vec3;
 
@@ -37,6 +38,8 @@ pub struct SpokeTerms {
 pub struct PointFan {
     /// From the centre to the point.
     s: Vec3,
+    /// `s · s`.
+    centre_sq: f32,
 }
 
 #[inline(always)]
@@ -48,13 +51,21 @@ impl PointFan {
     /// `s` is the point less the centre.
     #[inline(always)]
     pub fn new(s: Vec3) -> Self {
-        PointFan { s }
+        PointFan { s, centre_sq: dot(s, s) }
     }
 
     /// Terms of the spoke `edge` (ring vertex less centre).
     #[inline(always)]
     pub fn spoke(&self, edge: Vec3) -> SpokeTerms {
         SpokeTerms { edge, along: dot(edge, self.s), length_sq: dot(edge, edge) }
+    }
+
+    /// Whether the triangle between two spokes lies beyond a squared limit, by the supporting plane across the way to its centre: a first look that
+    /// takes three products. The limit has to allow for rounding already.
+    #[inline(always)]
+    pub fn is_beyond(&self, a: &SpokeTerms, b: &SpokeTerms, limit: f32) -> bool {
+        let least = self.centre_sq - above(above(0.0, a.along), b.along);
+        least > 0.0 && least * least > limit * self.centre_sq
     }
 
     /// The triangle between two spokes. Degenerate triangles are defined: a point of what is left of them is found, and the
@@ -64,7 +75,7 @@ impl PointFan {
         let s = self.s;
         let (d1, d2) = (a.along, b.along);
         if d1 <= 0.0 && d2 <= 0.0 {
-            let distance_sq = dot(s, s);
+            let distance_sq = self.centre_sq;
             return Nearness { distance_sq, certified_sq: distance_sq, v: 0.0, w: 0.0 };
         }
         let (aa, cc) = (a.length_sq, b.length_sq);
@@ -159,13 +170,14 @@ pub fn certified_distance(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let normal = Vec3::new(e.y * g.z - e.z * g.y, e.z * g.x - e.x * g.z, e.x * g.y - e.y * g.x);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
     let mut best = 0f32;
-    for direction in [r, orthogonal(e), orthogonal(g), orthogonal(g - e), side] {
+    // Along `s` too: what `is_beyond` leaves out has to be as far here.
+    for direction in [s, r, orthogonal(e), orthogonal(g), orthogonal(g - e), side] {
         let largest = direction.abs().max_element();
         if largest > TREE_TINY {
             // Of length about 1, so that no square leaves f32's range.
             let d = direction * (1.0 / largest);
             let along = dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g));
-            best = above(best, along / libm::sqrtf(dot(d, d)));
+            best = above(best, along / root(dot(d, d)));
         }
     }
     best

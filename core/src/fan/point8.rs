@@ -17,21 +17,43 @@ pub struct Edges8 {
     pub s: [[f32; WIDTH]; 3],
 }
 
-/// What [`Nearness`](super::Nearness) says of each lane, without the barycentric coordinates.
+/// For each count, all ones in the lanes below it. A table and bits, for a comparison of lanes would become branches.
+pub const LANES_BELOW: [[u32; WIDTH]; WIDTH + 1] = {
+    let mut table = [[0; WIDTH]; WIDTH + 1];
+    let mut count = 0;
+    while count <= WIDTH {
+        let mut lane = 0;
+        while lane < count {
+            table[count][lane] = u32::MAX;
+            lane += 1;
+        }
+        count += 1;
+    }
+    table
+};
+
+/// What [`Nearness`](super::Nearness) says of each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearness8 {
     /// Squared lengths of the residuals.
     pub distance_sq: [f32; WIDTH],
     /// Supporting planes' bounds.
     pub certified_sq: [f32; WIDTH],
+    /// Coordinates along the first spokes.
+    pub v: [f32; WIDTH],
+    /// Coordinates along the second spokes.
+    pub w: [f32; WIDTH],
 }
 
-/// All triangles of a patch; `f32::MAX` in lanes from `count` on, whatever they hold.
+/// Bits of 2^127.
+const UNUSED: u32 = 0x7F00_0000;
+
+/// All triangles of a patch; 2^127 in lanes that `used` leaves out, whatever they hold.
 #[inline(always)]
-pub fn point_patch8(edges: &Edges8, count: usize) -> Nearness8 {
-    let count = count as u32;
+pub fn point_patch8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
     let mut distance_sq = [0f32; WIDTH];
     let mut certified_sq = [0f32; WIDTH];
+    let (mut along_e, mut along_g) = ([0f32; WIDTH], [0f32; WIDTH]);
     let [ex, ey, ez] = &edges.e;
     let [gx, gy, gz] = &edges.g;
     let [sx, sy, sz] = &edges.s;
@@ -89,10 +111,13 @@ pub fn point_patch8(edges: &Edges8, count: usize) -> Nearness8 {
         let above = if ra > 0.0 { ra } else { 0.0 };
         let support = if rb > above { rb } else { above };
         let slack = support - (v * ra + w * rb);
-        let used = (i as u32) < count;
-        distance_sq[i] = if used { r2 } else { f32::MAX };
-        certified_sq[i] = if used { r2 - (slack + slack) } else { f32::MAX };
+        (along_e[i], along_g[i]) = (v, w);
+        // Bits again: an unused lane may hold anything.
+        let unused = !used[i] & UNUSED;
+        let certified = r2 - (slack + slack);
+        distance_sq[i] = f32::from_bits(r2.to_bits() & used[i] | unused);
+        certified_sq[i] = f32::from_bits(certified.to_bits() & used[i] | unused);
     }
     // Written to memory side by side: what is only ever used lane by lane the compiler would compute so, too.
-    core::hint::black_box(Nearness8 { distance_sq, certified_sq })
+    core::hint::black_box(Nearness8 { distance_sq, certified_sq, v: along_e, w: along_g })
 }

@@ -1,8 +1,10 @@
 //! Numbers: directed rounding, the stored radius, and every tolerance.
 
 mod radius;
+mod root;
 mod round;
 pub mod tolerance;
 
 pub use radius::{Radius8, Radius16};
+pub use root::root;
 pub use round::{down_to_f32, exp2, up_to_f32};

@@ -64,8 +64,13 @@ pub const TREE_RELATIVE: f32 = 16.0;
 /// Proved: 10 (§8). Larger visits more.
 pub const TREE_BOX: f32 = 16.0;
 
-/// A certified square less than the best square by more than this part counts as weak and is looked at again: 2^-19.
-pub const TREE_WEAK: f32 = 1.0 - 1.0 / 524_288.0;
+/// A certified square less than the best square by more than this part, 2^-18, counts as weak and is looked at again. The lower end of an
+/// interval is lower by half of that part.
+pub const TREE_WEAK: f32 = 1.0 - 1.0 / 262_144.0;
+
+/// What a certified square may moreover fall short by on a u16 grid, where vertices moved by up to 0.87 units anyway: 4 square units. It
+/// costs the interval 2/D units at distance D and spares nearly every second look. 0 with exact vertices.
+pub const TREE_SHORT: f32 = 4.0;
 
 /// Distance in grid units, 1-norm, beyond which the interval of the tree's box is narrower than four units of f32: 2^38, which is
 /// a million times the model's size.

@@ -24,7 +24,7 @@ use glam::{DVec3, Vec3};
 /// worst case is all of them, at the centre of a sphere: where time is bounded, set [`Stop::steps`].
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`].
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`]; [`QueryError::NotServed`] without a hull hierarchy.
 pub fn closest_point(
     model: &Model<'_>,
     point: [f32; 3],
@@ -32,6 +32,9 @@ pub fn closest_point(
     queue: &mut [QueueEntry],
 ) -> Result<ClosestPoint, QueryError> {
     stop.check()?;
+    if !model.has_hull() {
+        return Err(QueryError::NotServed);
+    }
     let frame = Frame::of(model);
     let p = frame.local(point)?;
     if queue.is_empty() {

@@ -5,6 +5,7 @@
 //! | closest point, distance interval | [`closest_point`] | cover tree, best first (Guéziec 2000, 4.3) |
 //! | first hit of a segment | [`first_hit`] | cover tree |
 //! | all hits of a segment | [`all_hits`] | cover tree |
+//! | all of these and more, faster | [`tree`] | box tree over triangle fans |
 //! | hits of a segment from outside | [`outer_hits`] | selectively refined hull (Platis & Theoharis 2003, 3.2) |
 
 mod answer;

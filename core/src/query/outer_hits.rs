@@ -65,6 +65,9 @@ pub fn outer_hits(
     front: &mut Front<'_>,
     hits: &mut [Hit],
 ) -> Result<OuterHits, QueryError> {
+    if !model.has_hull() {
+        return Err(QueryError::NotServed);
+    }
     let frame = Frame::of(model);
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
     let bounds = model.header().hull_box;

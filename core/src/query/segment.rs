@@ -156,6 +156,9 @@ fn trace(
     queue: &mut [QueueEntry],
     collect: &mut dyn Collect,
 ) -> Result<Traced, QueryError> {
+    if !model.has_hull() {
+        return Err(QueryError::NotServed);
+    }
     let frame = Frame::of(model);
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
     if queue.is_empty() {

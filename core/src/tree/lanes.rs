@@ -18,13 +18,7 @@ pub fn box_distances(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, 
     if WIDE {
         return wide(record, frame, count, parent);
     }
-    let mut sum = [0f32; WIDTH];
-    narrow(record, frame, count, &mut sum);
-    let mut keys = [0f32; WIDTH];
-    for i in 0..WIDTH {
-        keys[i] = key(sum[i], parent, count, i as u32);
-    }
-    keys
+    narrow(record, frame, count, parent)
 }
 
 /// The key of one lane.
@@ -38,6 +32,10 @@ fn key(distance_sq: f32, parent: f32, count: u32, lane: u32) -> f32 {
 /// The least key: its lane is in its low bits.
 #[inline(always)]
 pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
+    if !WIDE {
+        let least = keys.iter().fold(NO_CHILD.to_bits(), |least, key| least.min(key.to_bits()));
+        return f32::from_bits(least);
+    }
     let less = |a: f32, b: f32| if b < a { b } else { a };
     let [a, b, c, d, e, f, g, h] = *keys;
     less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
@@ -79,34 +77,50 @@ fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
 }
 
 #[inline(always)]
-fn narrow(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, sum: &mut [f32; WIDTH]) {
+fn narrow(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+    let mut keys = [NO_CHILD; WIDTH];
     let (rows, _) = record.as_chunks::<WIDTH>();
-    let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return };
-    let axes = [(lx, hx), (ly, hy), (lz, hz)];
+    let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };
+    let [qx, qy, qz] = frame.q;
+    let [wx, wy, wz] = frame.weight;
     let count = (count as usize).min(WIDTH);
-    for ((low, high), (q, weight)) in axes.into_iter().zip(frame.q.into_iter().zip(frame.weight)) {
-        let (low, high, sum) = (low.iter().take(count), high.iter().take(count), sum.iter_mut());
-        if q <= 0.0 {
-            // Outside of all boxes on this axis: one side alone counts.
-            for (sum, &low) in sum.zip(low) {
+    let mut sum = [0f32; WIDTH];
+    along(lx, hx, qx, wx, count, &mut sum);
+    along(ly, hy, qy, wy, count, &mut sum);
+    along(lz, hz, qz, wz, count, &mut sum);
+    // No number here is negative, so bits compare as numbers do, and cheaper.
+    let parent = parent.to_bits();
+    for (lane, (key, sum)) in (0u32..).zip(keys.iter_mut().zip(sum)).take(count) {
+        let far = sum.to_bits().max(parent);
+        *key = f32::from_bits(far & !LANE_MASK | lane);
+    }
+    keys
+}
+
+/// Adds the squared distances along one axis.
+#[inline(never)]
+fn along(low: &[u8; WIDTH], high: &[u8; WIDTH], q: f32, weight: f32, count: usize, sum: &mut [f32; WIDTH]) {
+    let (low, high, sum) = (low.iter().take(count), high.iter().take(count), sum.iter_mut());
+    if q <= 0.0 {
+        // Outside of all boxes on this axis: one side alone counts.
+        for (sum, &low) in sum.zip(low) {
+            let out = f32::from(low) - q;
+            *sum += out * out * weight;
+        }
+    } else if q >= 255.0 {
+        for (sum, &high) in sum.zip(high) {
+            let out = q - f32::from(high);
+            *sum += out * out * weight;
+        }
+    } else {
+        let whole = q as i32;
+        for ((sum, &low), &high) in sum.zip(low).zip(high) {
+            if i32::from(low) > whole {
                 let out = f32::from(low) - q;
                 *sum += out * out * weight;
-            }
-        } else if q >= 255.0 {
-            for (sum, &high) in sum.zip(high) {
+            } else if i32::from(high) <= whole {
                 let out = q - f32::from(high);
                 *sum += out * out * weight;
-            }
-        } else {
-            let whole = q as i32;
-            for ((sum, &low), &high) in sum.zip(low).zip(high) {
-                if i32::from(low) > whole {
-                    let out = f32::from(low) - q;
-                    *sum += out * out * weight;
-                } else if i32::from(high) <= whole {
-                    let out = q - f32::from(high);
-                    *sum += out * out * weight;
-                }
             }
         }
     }

@@ -5,6 +5,8 @@
 
 mod frame;
 mod lanes;
+mod slab;
 
 pub use frame::NodeFrame;
 pub use lanes::{LANE_MASK, NO_CHILD, WIDE, box_distances, in_memory, nearest_lane};
+pub use slab::{Slabs, box_entries};

@@ -1,6 +1,6 @@
 //! The suite's recorder on a board: prints hashes, counts ticks, measures the stack.
 
-use meshsweep_suite::{Kind, Recorder};
+use meshsweep_suite::{Clock, Kind, Recorder};
 use semihosting::println;
 
 use crate::{board, stack};
@@ -34,12 +34,7 @@ impl Default for Meter {
     }
 }
 
-impl Recorder for Meter {
-    fn kind_begins(&mut self, _kind: Kind) {
-        *self = Self::new();
-        stack::paint();
-    }
-
+impl Clock for Meter {
     #[inline]
     fn query_begins(&mut self) {
         self.begun = board::now();
@@ -53,6 +48,17 @@ impl Recorder for Meter {
         self.max = self.max.max(ticks);
         self.sum += u64::from(ticks);
     }
+}
+
+impl Recorder for Meter {
+    fn begins(&mut self, memory: usize) {
+        println!("scratch {memory}");
+    }
+
+    fn kind_begins(&mut self, _kind: Kind) {
+        *self = Self::new();
+        stack::paint();
+    }
 
     fn block(&mut self, kind: Kind, index: u32, hash: u64) {
         // Before and after printing, whose own frames must not count.
@@ -63,7 +69,10 @@ impl Recorder for Meter {
 
     fn kind_ends(&mut self, kind: Kind) {
         let Self { queries, min, sum, max, deepest, .. } = *self;
-        println!("ticks {} {queries} {min} {sum} {max}", kind.name());
-        println!("stack {} {deepest}", kind.name());
+        // What calls nothing of the core, or folds much more than it asks, has no cost of its own.
+        if queries > 0 {
+            println!("ticks {} {queries} {min} {sum} {max}", kind.name());
+            println!("stack {} {deepest}", kind.name());
+        }
     }
 }

@@ -20,6 +20,8 @@ pub struct Input<'a> {
     pub vertices: &'a [[f32; 3]],
     /// Vertices of the triangles.
     pub triangles: &'a [[u32; 3]],
+    /// A blob of the same mesh.
+    pub blob: &'a [u8],
     /// A query point, or a segment's first end.
     pub a: [f32; 3],
     /// A segment's second end.

@@ -16,8 +16,17 @@ pub const VERTICES: Records<3> = file!("vertices.f32");
 #[allow(dead_code, reason = "an engine may bring a mesh of its own")]
 pub const TRIANGLES: Records<3> = file!("triangles.u32");
 
+/// The box tree of the mesh.
+#[allow(dead_code, reason = "each engine reads its own")]
+pub const TREE: &[u8] = &Aligned(*include_bytes!(concat!(env!("MESHSWEEP_RIVAL"), "/tree.msw"))).0;
+
+/// As a linker script would align a section for it.
+#[repr(C, align(16))]
+struct Aligned<T>(T);
+
 /// What is asked.
 pub const QUESTIONS: Questions = Questions {
-    points: [("far", file!("far.f32")), ("near", file!("near.f32")), ("path", file!("path.f32"))],
+    points: [("far", file!("far.f32")), ("near", file!("near.f32"))],
+    path: ("path", file!("path.f32")),
     segments: ("segment", file!("segment.f32")),
 };

@@ -4,7 +4,7 @@
 //! ```text
 //! calibration INSTRUCTIONS TICKS
 //! reading ROUNDS TICKS                                what reading the counter costs
-//! build TICKS STACK HEAP MOST                         bytes of heap after it, and the most while it ran
+//! build TICKS STACK HEAP MOST MEMORY                  bytes of heap after it, and the most while it ran; bytes beside heap and stack
 //! asked KIND QUERIES TICKS MAX STACK HEAP FOUND SUM   heap beyond what building left; f64 sum of the answers, its bits
 //! done
 //! ```
@@ -20,8 +20,16 @@ use crate::records::Records;
 pub trait Engine {
     /// Its answer to a closest-point question. Only making it is timed.
     type Closest;
+    /// Bytes of RAM that it keeps for its queries outside of heap and stack.
+    fn memory(&self) -> usize {
+        0
+    }
     /// Closest point of the surface.
     fn closest(&mut self, point: [f32; 3]) -> Self::Closest;
+    /// Closest point to the next point of a path: an engine may start from what it found for the one before.
+    fn follow(&mut self, point: [f32; 3]) -> Self::Closest {
+        self.closest(point)
+    }
     /// The distance in such an answer: for the sum by which the host knows that the answers are right.
     fn distance(point: [f32; 3], closest: &Self::Closest) -> f32;
     /// Parameter of a segment's first hit, 0 at `a` and 1 at `b`.
@@ -31,8 +39,10 @@ pub trait Engine {
 /// Questions of all kinds, by their names.
 #[derive(Clone, Copy, Debug)]
 pub struct Questions {
-    /// Sets of query points.
-    pub points: [(&'static str, Records<3>); 3],
+    /// Sets of query points that have nothing to do with each other.
+    pub points: [(&'static str, Records<3>); 2],
+    /// Points along a path.
+    pub path: (&'static str, Records<3>),
     /// Segments: both ends.
     pub segments: (&'static str, Records<6>),
 }
@@ -55,7 +65,7 @@ pub fn run<E: Engine>(questions: &Questions, heap: Heap, build: impl FnOnce() ->
     let ticks = board::elapsed(begun, board::now());
     let deep = stack::depth();
     let (used, most) = heap();
-    println!("build {ticks} {deep} {used} {most}");
+    println!("build {ticks} {deep} {used} {most} {}", engine.memory());
     for (name, points) in questions.points {
         let mut asked = Asked::new(heap);
         for point in points.numbers() {
@@ -64,6 +74,13 @@ pub fn run<E: Engine>(questions: &Questions, heap: Heap, build: impl FnOnce() ->
         }
         asked.print(name);
     }
+    let (name, path) = questions.path;
+    let mut asked = Asked::new(heap);
+    for point in path.numbers() {
+        let closest = asked.time(|| engine.follow(black_box(point)));
+        asked.found(E::distance(point, &closest));
+    }
+    asked.print(name);
     let (name, segments) = questions.segments;
     let mut asked = Asked::new(heap);
     for [ax, ay, az, bx, by, bz] in segments.numbers() {

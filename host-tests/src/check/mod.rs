@@ -11,9 +11,11 @@ mod levels;
 mod mesh;
 mod parse;
 mod replay;
+mod tree;
 
 pub use exact::side;
 pub use parse::{Blob, Node};
+pub use tree::{TreeProof, check_tree};
 
 /// What was proved, in numbers.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -11,7 +11,12 @@ impl Brute {
     /// Takes over the mesh.
     pub fn new(subject: &Subject) -> Self {
         let at = |v: u32| Vec3::from_array(subject.mesh.positions[v as usize]).as_dvec3();
-        Self(subject.mesh.triangles.iter().map(|corners| corners.map(at)).collect())
+        Self::of(subject.mesh.triangles.iter().map(|corners| corners.map(at)).collect())
+    }
+
+    /// Takes over triangles.
+    pub fn of(triangles: Vec<[DVec3; 3]>) -> Self {
+        Self(triangles)
     }
 
     /// Distance to the surface.
@@ -40,12 +45,13 @@ impl Brute {
 fn distance_sq(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
     let to_edge = |a: DVec3, b: DVec3| {
         let ab = b - a;
-        let t = ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0);
+        // A grid may make an edge a point.
+        let t = if ab == DVec3::ZERO { 0.0 } else { ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0) };
         (p - a - ab * t).length_squared()
     };
     let normal = (b - a).cross(c - a);
     let inside = |a: DVec3, b: DVec3| (b - a).cross(p - a).dot(normal) >= 0.0;
-    if inside(a, b) && inside(b, c) && inside(c, a) {
+    if normal != DVec3::ZERO && inside(a, b) && inside(b, c) && inside(c, a) {
         (p - a).dot(normal).powi(2) / normal.length_squared()
     } else {
         to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))

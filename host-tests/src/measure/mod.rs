@@ -5,7 +5,8 @@
 //! workload (queries) ─────┼─ segments (paper 000, Table 3) ─┐
 //! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
 //! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
-//!                         └─ storage  (bytes, levels) ──────┘
+//!                         ├─ storage  (bytes, levels) ──────┤
+//!                         └─ tree     (all of the box tree) ┘
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
 //! something. Counts are exact.
@@ -21,6 +22,7 @@ mod storage;
 mod subject;
 pub mod table;
 mod trade;
+mod tree;
 pub mod workload;
 
 use std::path::Path;
@@ -33,7 +35,18 @@ pub use subject::Subject;
 /// Faces of the base hull that most tables are about: the builder's default.
 const BASE_FACES: usize = 200;
 
-/// Measures one mesh file; the tables in the order in which they should be read.
+/// Measures the box tree of one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or an answer is wrong.
+pub fn measure_tree(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject.table()];
+    tables.extend(tree::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures the hull hierarchy and the box tree of one mesh file; the tables in the order in which they should be read.
 ///
 /// # Errors
 /// The file is no closed manifold mesh, or an answer is missing that must be there.
@@ -49,5 +62,6 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     tables.extend([trade::tolerances(&subject, &model)?, trade::steps(&subject, &model)?]);
     tables.push(trade::cuts(&subject, &model)?);
     tables.push(storage::proofs(&built.bytes)?);
+    tables.extend(tree::tables(&subject)?);
     Ok(tables)
 }

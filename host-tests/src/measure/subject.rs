@@ -4,12 +4,12 @@ use std::path::Path;
 
 use meshsweep_alloc::collapse::Priority;
 use meshsweep_alloc::hull::{BuildOptions, Built, build};
-use meshsweep_alloc::mesh::{Mesh, load_closed};
+use meshsweep_alloc::mesh::{Mesh, RepairReport, load_closed, read, repair};
 use meshsweep_core::Model;
 
 use super::table::{Table, fixed, row};
 
-/// A closed mesh with its name and size.
+/// A mesh with its name and size.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The file's name without its extension.
@@ -28,13 +28,25 @@ impl Subject {
     /// # Errors
     /// What is wrong with the file.
     pub fn load(file: &Path) -> Result<Self, String> {
-        let (mesh, report) = load_closed(file).map_err(|error| error.to_string())?;
+        Ok(Self::new(file, load_closed(file).map_err(|error| error.to_string())?))
+    }
+
+    /// Reads and repairs a mesh file that may be open.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn load_any(file: &Path) -> Result<Self, String> {
+        let loaded = read(file).and_then(repair).map_err(|error| error.to_string())?;
+        Ok(Self::new(file, loaded))
+    }
+
+    fn new(file: &Path, (mesh, report): (Mesh, RepairReport)) -> Self {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let corner = |pick: fn(f32, f32) -> f32, start: f32| {
             std::array::from_fn(|axis| mesh.positions.iter().map(|p| p[axis]).fold(start, pick))
         };
         let bounds = [corner(f32::min, f32::INFINITY), corner(f32::max, f32::NEG_INFINITY)];
-        Ok(Self { name, mesh, triangles_read: report.triangles_read, bounds })
+        Self { name, mesh, triangles_read: report.triangles_read, bounds }
     }
 
     /// A blob with a base hull of so many faces, all else as the builder's defaults.

@@ -5,11 +5,12 @@
 use std::hint::black_box;
 use std::path::Path;
 
+use crate::measure::Subject;
 use crate::measure::rival::Rival;
 
 use super::engine::{Answer, ENTRANTS, Engine};
 use super::workload::Queries;
-use super::{Scale, Scope, Workload, load};
+use super::{Scale, Scope, Workload};
 
 /// The function inside of which instructions are counted; a pattern, for its full name has the compiler's hash in it.
 pub const COUNTED: &str = "*counted_queries*";
@@ -26,7 +27,7 @@ const PERIOD: usize = 131;
 /// # Errors
 /// As [`race`](super::race).
 pub fn ask(file: &Path, engine: &str, hull_triangles: usize) -> Result<Vec<(Workload, usize)>, String> {
-    let subject = load(file)?;
+    let subject = Subject::load_any(file)?;
     let scope = Scope { scale: Scale::COUNTED, hull_triangles };
     let entrant = ENTRANTS.iter().find(|entrant| entrant.name == engine);
     let entrant = entrant.ok_or_else(|| format!("no engine `{engine}`"))?;

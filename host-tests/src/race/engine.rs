@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use crate::measure::Subject;
 
-use super::{Scope, Workload, cwbvh, hull, parry, scalar};
+use super::{Scope, Workload, cwbvh, hull, parry, scalar, tree};
 
 /// An index over one mesh that answers lists of queries. A list is one call, so that the call's cost is no part of a query's, a
 /// session may carry over what it knows, and a batch may be sorted.
@@ -60,7 +60,7 @@ pub struct Entrant {
 pub const REFERENCE: &str = "parry3d";
 
 /// All engines, in the order of the tables.
-pub const ENTRANTS: [Entrant; 4] = [
+pub const ENTRANTS: [Entrant; 6] = [
     Entrant {
         name: REFERENCE,
         remark: "TriMesh: project_local_point, cast_local_ray",
@@ -72,6 +72,18 @@ pub const ENTRANTS: [Entrant; 4] = [
         remark: "CWBVH, very slow build, own triangle test; no closest points",
         counted: true,
         build: cwbvh::build,
+    },
+    Entrant {
+        name: "tree",
+        remark: "closest_point, first_hit on the box tree, 16-bit grid",
+        counted: true,
+        build: tree::build,
+    },
+    Entrant {
+        name: "tree single",
+        remark: "the same with vertices in f32",
+        counted: true,
+        build: tree::build_single,
     },
     Entrant {
         name: "hull",

@@ -4,7 +4,7 @@
 //! workload (which questions) ─┐
 //! engine (what each one is) ──┼─ timing (interleaved rounds) ─ agreement (with f64, with parry3d) ─ report (tables)
 //!   scalar, parry, cwbvh,     └─ counted (what callgrind counts)
-//!   hull: one file each
+//!   tree, hull: one file each
 //! ```
 //! A new engine is a file with an [`Engine`](engine::Engine) and a line in [`ENTRANTS`](engine::ENTRANTS).
 //!
@@ -20,11 +20,12 @@ mod parry;
 mod report;
 mod scalar;
 mod timing;
+mod tree;
 mod workload;
 
 use std::path::Path;
 
-use meshsweep_alloc::mesh::{read, repair, require_closed_manifold};
+use meshsweep_alloc::mesh::require_closed_manifold;
 
 use crate::measure::Subject;
 use crate::measure::table::Table;
@@ -60,23 +61,12 @@ pub struct Race {
 /// # Errors
 /// The file is no mesh, or an engine refused it or a query.
 pub fn race(file: &Path, scope: &Scope) -> Result<Race, String> {
-    let subject = load(file)?;
+    let subject = Subject::load_any(file)?;
     let mut blobs: Vec<Vec<u8>> = vec![Vec::new(); engine::ENTRANTS.len()];
     let mut lanes = timing::lanes(&subject, scope, &mut blobs)?;
     let laps = timing::laps(&subject, scope.scale, &mut lanes)?;
     let tables = vec![report::engines(&subject, &lanes), report::laps(&laps, scope.scale)];
     Ok(Race { mesh: subject.name.clone(), triangles: subject.mesh.triangles.len(), laps, tables })
-}
-
-/// Reads and repairs a mesh, which may be open: not every engine needs a closed one.
-fn load(file: &Path) -> Result<Subject, String> {
-    let (mesh, report) = read(file).and_then(repair).map_err(|error| error.to_string())?;
-    let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let corner = |pick: fn(f32, f32) -> f32, start: f32| {
-        std::array::from_fn(|axis| mesh.positions.iter().map(|p| p[axis]).fold(start, pick))
-    };
-    let bounds = [corner(f32::min, f32::INFINITY), corner(f32::max, f32::NEG_INFINITY)];
-    Ok(Subject { name, mesh, triangles_read: report.triangles_read, bounds })
 }
 
 fn is_closed(subject: &Subject) -> bool {

@@ -17,4 +17,4 @@ pub mod rng;
 pub mod run;
 
 pub use ask::Scratch;
-pub use run::{Kind, Plan, Recorder, run};
+pub use run::{Clock, Kind, Plan, Recorder, run};

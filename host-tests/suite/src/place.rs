@@ -27,8 +27,15 @@ pub fn path_point(rng: &mut Rng, bounds: &Bounds, previous: [f32; 3]) -> [f32; 3
 }
 
 /// A segment with both ends on the surface of the box of twice the size.
-pub fn segment(rng: &mut Rng, bounds: &Bounds) -> ([f32; 3], [f32; 3]) {
-    (surface_point(rng, bounds), surface_point(rng, bounds))
+pub fn segment(rng: &mut Rng, bounds: &Bounds) -> [[f32; 3]; 2] {
+    let start = surface_point(rng, bounds);
+    [start, surface_point(rng, bounds)]
+}
+
+/// A distance of at most half the box's half size along x.
+pub fn distance(rng: &mut Rng, bounds: &Bounds) -> f32 {
+    let (_, half) = centre_and_half(bounds, 0);
+    0.5 * half * rng.unit()
 }
 
 fn surface_point(rng: &mut Rng, bounds: &Bounds) -> [f32; 3] {
@@ -82,7 +89,7 @@ mod tests {
     fn segments_end_on_the_doubled_box() {
         let mut rng = Rng::new(8);
         for _ in 0..1000 {
-            let (a, b) = segment(&mut rng, &BOUNDS);
+            let [a, b] = segment(&mut rng, &BOUNDS);
             for end in [a, b] {
                 assert!((0..3).any(|axis| end[axis] == DOUBLED[0][axis] || end[axis] == DOUBLED[1][axis]));
                 assert!(inside(end, &DOUBLED));

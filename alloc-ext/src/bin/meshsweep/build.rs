@@ -1,68 +1,129 @@
 //! `meshsweep build`: a mesh file in, a blob and a report out.
 
 use super::args::{BuildArgs, StoredBits};
+use super::counted::Counted;
+use super::describe;
 use super::failure::Failure;
+use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
-use super::solid::{self, Solid};
-use super::{blob_file, describe};
 use meshsweep_alloc::collapse::Stuck;
-use meshsweep_alloc::hull::{self, BuildOptions, BuildReport};
+use meshsweep_alloc::hull::{self, BuildError, BuildOptions, BuildReport, Built};
+use meshsweep_alloc::tree::{self, TreeOptions};
+use meshsweep_alloc::{emit, precision::VertexBits};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::VertexFormat;
 use std::io::{self, Write};
+use std::time::Duration;
+
+/// Faces of a hull unless told otherwise.
+pub const FACES: u32 = 200;
+
+/// What a mesh that is not closed can be built for.
+const INSTEAD: &str = "for distances and segments, --for closest,segment needs no closed mesh";
 
 pub fn run(args: &BuildArgs) -> Result<(), Failure> {
+    let wanted = args.wanted();
+    if let Some(option) = args.hull_option().filter(|_| !wanted.hull) {
+        return Err(Failure::Usage { what: format!("{option} is for a hull; add hull to --for") });
+    }
     refuse_same_file(&args.output, &[&args.mesh])?;
     Output::probe(&args.output)?;
+    let loaded = if wanted.hull {
+        mesh_file::load_solid(&args.mesh, args.vertex_bits.format(), Some(INSTEAD))?
+    } else {
+        mesh_file::load(&args.mesh)?
+    };
+    let hull = if wanted.hull { Some(build_hull(args, &loaded)?) } else { None };
+    let options = TreeOptions {
+        closest: wanted.closest,
+        segments: wanted.segment,
+        cull: wanted.cull,
+        single: args.vertex_bits.is_single(),
+        ..TreeOptions::default()
+    };
+    let tree =
+        wanted.tree().then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
+    let bytes = emit::blob(hull.as_ref().map(|hull| &hull.tables), tree.as_ref().map(|(tables, _)| tables));
+    // What does not open must not be handed out.
+    let model = Model::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
+    Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
+    let report = Report {
+        args,
+        loaded: &loaded,
+        hull: hull.as_ref().map(|hull| &hull.report),
+        tree_time: tree.as_ref().map(|(_, report)| report.time),
+        model: &model,
+    };
+    Output::stdout().finish(|out| report.write(out))
+}
+
+fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
     let options = BuildOptions {
-        base_faces: args.base as usize,
+        base_faces: args.base.unwrap_or(FACES) as usize,
         priority: args.collapse.priority(),
         conditions: args.collapse.conditions(),
         vertex_bits: args.vertex_bits.format(),
     };
-    let solid = solid::load(&args.mesh, options.vertex_bits)?;
-    let bar = Bar::new(solid.mesh.triangles.len(), options.base_faces);
-    let built =
-        hull::build(&solid.mesh, solid.moved, solid.input_triangles, &options, |progress| bar.show(progress))
-            .map_err(|error| Failure::Build { file: args.mesh.clone(), error })?;
-    drop(bar);
-    Output::file(&args.output)?.finish(|out| out.write_all(&built.bytes))?;
-    let model = blob_file::open(&args.output, &built.bytes)?;
-    Output::stdout().finish(|out| write_report(out, args, &solid, &built.report, &model))
+    let faces = loaded.mesh.triangles.len();
+    let bar = Bar::new(faces.saturating_sub(options.base_faces), "collapsing", "faces");
+    hull::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options, |progress| {
+        bar.show(faces.saturating_sub(progress.faces));
+    })
+    .map_err(|error| failed(args, error))
 }
 
-fn write_report(
-    out: &mut dyn Write,
-    args: &BuildArgs,
-    solid: &Solid,
-    report: &BuildReport,
-    model: &Model<'_>,
-) -> io::Result<()> {
-    writeln!(out, "{}", args.mesh.display())?;
-    writeln!(out, "  {}", solid.report)?;
-    writeln!(out, "  volume {}", describe::Length(report.volume))?;
-    if solid.moved > 0.0 {
-        writeln!(out, "  vertices moved to the grid by up to {}", describe::Length(solid.moved))?;
+fn failed(args: &BuildArgs, error: BuildError) -> Failure {
+    Failure::Build { file: args.mesh.clone(), error }
+}
+
+/// What was read, built and written.
+struct Report<'a> {
+    args: &'a BuildArgs,
+    loaded: &'a Loaded,
+    hull: Option<&'a BuildReport>,
+    tree_time: Option<Duration>,
+    model: &'a Model<'a>,
+}
+
+impl Report<'_> {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Report { args, loaded, hull, tree_time, model } = self;
+        writeln!(out, "{}", args.mesh.display())?;
+        writeln!(out, "  {}", loaded.report)?;
+        if let Some(report) = hull {
+            writeln!(out, "  volume {}", describe::Length(report.volume))?;
+        }
+        if loaded.moved > 0.0 {
+            writeln!(out, "  vertices moved to the hull's grid by up to {}", describe::Length(loaded.moved))?;
+        }
+        writeln!(out, "{}", args.output.display())?;
+        if let Some(report) = hull {
+            writeln!(out, "  base hull: {}", Counted(report.base_faces, "face"))?;
+            if let Some(stuck) = report.stuck {
+                writeln!(out, "  {}", why_stuck(args.base.unwrap_or(FACES), &stuck))?;
+            }
+            if let Some(note) = other_format(args.vertex_bits, model.header().vertex_format) {
+                writeln!(out, "  {note}")?;
+            }
+        }
+        describe::write_blob(out, model)?;
+        write!(out, "seconds: read and repair {:.3}", loaded.time.as_secs_f64())?;
+        if let Some(report) = hull {
+            write!(
+                out,
+                ", collapse {:.3} ({} programs), sweep {:.3}, certify and check {:.3}",
+                report.collapse_time.as_secs_f64(),
+                report.programs,
+                report.sweep_time.as_secs_f64(),
+                report.certify_time.as_secs_f64()
+            )?;
+        }
+        if let Some(time) = tree_time {
+            write!(out, ", box tree {:.3}", time.as_secs_f64())?;
+        }
+        writeln!(out)
     }
-    writeln!(out, "{}", args.output.display())?;
-    writeln!(out, "  base hull: {} faces", report.base_faces)?;
-    if let Some(stuck) = report.stuck {
-        writeln!(out, "  {}", why_stuck(args.base, &stuck))?;
-    }
-    if let Some(note) = other_format(args.vertex_bits, model.header().vertex_format) {
-        writeln!(out, "  {note}")?;
-    }
-    describe::write_blob(out, model)?;
-    writeln!(
-        out,
-        "seconds: read and repair {:.3}, collapse {:.3} ({} programs), sweep {:.3}, certify and check {:.3}",
-        solid.time.as_secs_f64(),
-        report.collapse_time.as_secs_f64(),
-        report.programs,
-        report.sweep_time.as_secs_f64(),
-        report.certify_time.as_secs_f64()
-    )
 }
 
 /// Why a hull has more faces than `wanted`.
@@ -74,14 +135,14 @@ pub fn why_stuck(wanted: u32, stuck: &Stuck) -> String {
     )
 }
 
-/// Says so if the wanted format could not be had.
+/// Says so if the hull could not have the wanted format.
 fn other_format(wanted: StoredBits, got: VertexFormat) -> Option<&'static str> {
-    let wanted_format = match wanted {
-        StoredBits::Sixteen => VertexFormat::Grid16,
-        StoredBits::TwentyFour => VertexFormat::Grid24,
-        StoredBits::Auto | StoredBits::ThirtyTwo => return None,
+    let wanted_format = match wanted.format() {
+        VertexBits::Grid16 => VertexFormat::Grid16,
+        VertexBits::Grid24 => VertexFormat::Grid24,
+        VertexBits::Auto | VertexBits::F32 => return None,
     };
     (got != wanted_format).then_some(
-        "the mesh is too small or too far from its origin for the grid: coordinates are stored as f32",
+        "the mesh is too small or too far from its origin for the hull's grid: its coordinates are stored as f32",
     )
 }

@@ -1,9 +1,10 @@
-//! `meshsweep cut`: a coarser blob out of a finer one.
+//! `meshsweep cut`: a coarser blob out of a finer one. A box tree knows the whole surface or none, so it is left out.
 
 use super::args::CutArgs;
-use super::blob_file;
+use super::counted::Counted;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
+use super::{blob_file, served};
 use meshsweep_alloc::emit;
 use meshsweep_core::Model;
 
@@ -11,6 +12,7 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
     refuse_same_file(&args.output, &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
+    served::require_hull(&args.blob, &model)?;
     let cut =
         emit::cut(&model, args.level).map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
     let cut = cut.to_bytes();
@@ -22,9 +24,17 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         let share = kept as f64 / all as f64 * 100.0;
         writeln!(
             out,
-            "{}: {kept} of {all} bytes ({share:.1} %), levels 0 to {}",
+            "{}: {kept} of {} ({share:.1} %), levels 0 to {}",
             args.output.display(),
+            Counted(all, "byte"),
             args.level
-        )
+        )?;
+        match model.tree() {
+            Some(_) => writeln!(
+                out,
+                "the box tree cannot be cut and is left out: closest and segment use the cover tree"
+            ),
+            None => Ok(()),
+        }
     })
 }

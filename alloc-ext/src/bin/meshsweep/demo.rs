@@ -1,43 +1,44 @@
-//! `meshsweep` without a command: what it does, shown on a torus that is built in.
+//! `meshsweep` without a command: what it does, shown on a part that is built in.
 
 use super::failure::{Failure, Place};
 use super::output::Output;
 use super::{blob_file, describe};
-use meshsweep_alloc::hull::{self, BuildOptions};
-use meshsweep_alloc::mesh;
-use meshsweep_core::QueueEntry;
-use meshsweep_core::query::{Stop, closest_point, first_hit};
+use meshsweep_alloc::tree::{self, TreeOptions};
+use meshsweep_alloc::{emit, mesh};
+use meshsweep_core::query::Stop;
+use meshsweep_core::query::tree::{Facing, SegmentEntry, TreeEntry, closest_point, first_hit};
 use std::path::Path;
 
-/// A copy of `fixtures/torus.ply`, which a package would not contain: radii 2 and 0.75 around the z axis.
-const TORUS: &[u8] = include_bytes!("demo/torus.ply");
+/// A copy of `fixtures/bracket.stl`, which a package would not contain.
+const BRACKET: &[u8] = include_bytes!("demo/bracket.stl");
 
 pub fn run() -> Result<(), Failure> {
-    let file = Path::new("(built-in) torus.ply");
-    let refuse = |error| Failure::mesh(file, error);
-    let raw = mesh::read_bytes(file, TORUS.to_vec()).map_err(refuse)?;
-    let input_triangles = raw.triangles.len();
+    let file = Path::new("(built-in) bracket.stl");
+    let refuse = |error| Failure::Mesh { file: file.to_owned(), error };
+    let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
+    let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    mesh::require_closed_manifold(&mesh).map_err(refuse)?;
-    let built = hull::build(&mesh, 0.0, input_triangles, &BuildOptions::default(), |_| {})
-        .map_err(|error| Failure::Build { file: file.to_owned(), error })?;
-    let model = blob_file::open(file, &built.bytes)?;
-    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+    let (tables, _) = tree::build(&mesh, 0.0, triangles, &TreeOptions::default());
+    let bytes = emit::blob(None, Some(&tables));
+    let tree = blob_file::open_tree(file, &bytes)?;
+    let entries = tree.header().stack_entries as usize;
+    let (mut stack, mut segment_stack) =
+        (vec![TreeEntry::EMPTY; entries], vec![SegmentEntry::EMPTY; entries]);
     let place = |error| Failure::Query { file: file.to_owned(), place: Place::BuiltIn, error };
-    let point = [3.0, 1.0, 0.5];
-    let closest = closest_point(&model, point, &Stop::EXACT, &mut queue).map_err(place)?;
-    let (from, to) = ([4.0, 0.25, 0.1], [-4.0, 0.25, 0.1]);
-    let segment = first_hit(&model, from, to, &Stop::EXACT, &mut queue).map_err(place)?;
-    let bytes = built.bytes.len();
+    let point = [10.0, 4.5, 7.0];
+    let closest = closest_point(&tree, point, &Stop::EXACT, &mut stack).map_err(place)?;
+    let (from, to) = ([0.0, 0.0, 90.0], [0.0, 0.0, -90.0]);
+    let segment = first_hit(&tree, from, to, &Facing::Both, &mut segment_stack).map_err(place)?;
     Output::stdout().finish(|out| {
-        writeln!(out, "meshsweep answers closest-point, first-hit and outer-hull questions about closed triangle meshes.")?;
+        writeln!(out, "meshsweep answers questions about triangle meshes: distances, hits, signs, outer hulls.")?;
         writeln!(out, "Every answer is an interval that contains the truth; a blob is read in place, without a heap.")?;
         writeln!(
             out,
-            "Built in: a torus of {input_triangles} triangles. Its blob: {bytes} bytes, {:.1} per triangle; \
-             RAM of a query: {} bytes.",
-            bytes as f64 / input_triangles as f64,
-            describe::queue_bytes(&model)
+            "Built in: a bracket of {triangles} triangles. Its box tree: a blob of {} bytes, {:.1} a triangle; a query needs {} \
+             bytes of RAM.",
+            bytes.len(),
+            bytes.len() as f64 / triangles as f64,
+            describe::stack_bytes(&tree)
         )?;
         writeln!(
             out,
@@ -61,6 +62,7 @@ pub fn run() -> Result<(), Failure> {
         }
         writeln!(out, "Try:  meshsweep build part.stl -o part.msw")?;
         writeln!(out, "      meshsweep closest part.msw points.csv")?;
+        writeln!(out, "      meshsweep field part.msw -o distances.npy")?;
         writeln!(out, "      meshsweep hull part.stl --faces 200 -o hull.ply")?;
         writeln!(out, "      meshsweep help")
     })

@@ -1,5 +1,7 @@
 //! What ends the program early: each variant one line that names the file, the place and the remedy.
 
+use super::counted::Counted;
+use super::served::Need;
 use meshsweep_alloc::emit::CutError;
 use meshsweep_alloc::hull::BuildError;
 use meshsweep_alloc::mesh::MeshError;
@@ -18,8 +20,14 @@ pub enum Failure {
     Write { file: PathBuf, error: io::Error },
     /// The output would replace an input.
     SameFile { file: PathBuf },
+    /// The directory that a file should be written to is not there.
+    NoDirectory { file: PathBuf, directory: PathBuf },
     /// The mesh is refused.
     Mesh { file: PathBuf, error: MeshError },
+    /// A mesh file's content is not of the kind that its name says.
+    Misnamed { file: PathBuf, content: &'static str },
+    /// The mesh does not bound a solid, and a hull is wanted.
+    NotSolid { file: PathBuf, error: Box<MeshError>, instead: Option<&'static str> },
     /// A blob was given where a mesh is wanted.
     BlobForMesh { file: PathBuf },
     /// The blob was not built.
@@ -28,8 +36,14 @@ pub enum Failure {
     Open { file: PathBuf, error: OpenError },
     /// The blob has no such level.
     Cut { file: PathBuf, error: CutError },
+    /// The blob was built without what the question needs; another engine may have it.
+    NotServed { file: PathBuf, need: Need, other: Option<&'static str> },
     /// The hull engine cannot say anything about this blob.
     HullEngine { file: PathBuf, reason: &'static str },
+    /// Sides are asked of a mesh that bounds no solid.
+    NotClosed { file: PathBuf },
+    /// A grid reaches beyond f32.
+    GridTooLarge { file: PathBuf },
     /// A query line has too few or too many fields.
     FieldCount { file: PathBuf, line: usize, wanted: &'static str, found: usize },
     /// A field of a query is no number.
@@ -38,6 +52,8 @@ pub enum Failure {
     RawLength { file: PathBuf, bytes: usize, record: usize },
     /// A query is refused.
     Query { file: PathBuf, place: Place, error: QueryError },
+    /// A search over many points of the program's own is refused.
+    Search { file: PathBuf, error: QueryError },
     /// The arguments do not go together.
     Usage { what: String },
     /// Whoever read the standard output has gone: no error.
@@ -56,16 +72,18 @@ pub enum Place {
 }
 
 impl Failure {
-    pub fn mesh(file: &Path, error: MeshError) -> Self {
-        Failure::Mesh { file: file.to_owned(), error }
-    }
-
     pub fn open(file: &Path, error: OpenError) -> Self {
         Failure::Open { file: file.to_owned(), error }
     }
 
     pub fn write(file: &Path, error: io::Error) -> Self {
-        Failure::Write { file: file.to_owned(), error }
+        let directory = file.parent().filter(|parent| !parent.as_os_str().is_empty() && !parent.exists());
+        match directory {
+            Some(directory) if error.kind() == io::ErrorKind::NotFound => {
+                Failure::NoDirectory { file: file.to_owned(), directory: directory.to_owned() }
+            }
+            _ => Failure::Write { file: file.to_owned(), error },
+        }
     }
 
     /// Says it on the standard error.
@@ -112,6 +130,12 @@ impl fmt::Display for Failure {
             Failure::SameFile { file } => {
                 write!(f, "{}: is both input and output; name another output", file.display())
             }
+            Failure::NoDirectory { file, directory } => write!(
+                f,
+                "{}: cannot be written: there is no directory {}; make it first",
+                file.display(),
+                directory.display()
+            ),
             Failure::Mesh { file, error } => {
                 let text = error.to_string();
                 // Errors of reading name the file themselves.
@@ -121,19 +145,46 @@ impl fmt::Display for Failure {
                     write!(f, "{}: {text}", file.display())
                 }
             }
+            Failure::NotSolid { file, error, instead } => {
+                write!(f, "{}: {error}", file.display())?;
+                // On a line of its own, as places are.
+                instead.map_or(Ok(()), |instead| write!(f, "\n{instead}"))
+            }
+            Failure::Misnamed { file, content } => write!(
+                f,
+                "{}: the content looks like {}; rename the file to end in .{content}",
+                file.display(),
+                content.to_ascii_uppercase()
+            ),
             Failure::BlobForMesh { file } => {
                 write!(f, "{}: is a blob already; name the mesh that it was built from", file.display())
             }
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Open { file, error } => write!(f, "{}: {error}; {}", file.display(), remedy(error)),
             Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::NotServed { file, need, other } => {
+                let (part, option) = (need.part(), need.option());
+                write!(f, "{}: has no {part}; build it again with --for {option}", file.display())?;
+                other.map_or(Ok(()), |engine| write!(f, ", or use --engine {engine}"))
+            }
+            Failure::NotClosed { file } => write!(
+                f,
+                "{}: was built from a mesh that is not closed, so inside and outside are not defined; leave out --signed",
+                file.display()
+            ),
+            Failure::GridTooLarge { file } => write!(
+                f,
+                "{}: the grid reaches beyond f32 (3.4e38); choose a smaller --margin",
+                file.display()
+            ),
             Failure::HullEngine { file, reason } => {
                 write!(f, "{}: the hull engine needs {reason}; use --engine cover", file.display())
             }
             Failure::FieldCount { file, line, wanted, found } => write!(
                 f,
-                "{}, line {line}: {found} fields, and the query needs {wanted}; mend the line or begin it with #",
-                file.display()
+                "{}, line {line}: {}, and the query needs {wanted}; mend the line or begin it with #",
+                file.display(),
+                Counted(*found, "field")
             ),
             Failure::Field { file, line, field, text, reason } => {
                 let text: String = text.chars().take(40).collect();
@@ -141,8 +192,9 @@ impl fmt::Display for Failure {
             }
             Failure::RawLength { file, bytes, record } => write!(
                 f,
-                "{}: {bytes} bytes are not whole queries of {record} bytes, the last begins at byte {}; write little-endian f32",
+                "{}: {} is no whole number of queries of {record} bytes, the last begins at byte {}; write little-endian f32",
                 file.display(),
+                Counted(*bytes, "byte"),
                 bytes - bytes % record
             ),
             Failure::Query { file, place, error } => {
@@ -152,6 +204,7 @@ impl fmt::Display for Failure {
                 };
                 write!(f, "{}, {place}: {error}{remedy}", file.display())
             }
+            Failure::Search { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Usage { what } => f.write_str(what),
             Failure::ClosedPipe => f.write_str("the standard output was closed"),
         }

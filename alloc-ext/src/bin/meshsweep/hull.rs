@@ -2,24 +2,21 @@
 
 use super::args::HullArgs;
 use super::blob_file;
-use super::build::why_stuck;
+use super::build::{FACES, why_stuck};
+use super::counted::Counted;
+use super::describe::Length;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
-use super::solid;
+use super::{mesh_file, served};
 use meshsweep_alloc::emit::CutError;
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, write_ply};
 use meshsweep_core::Model;
-use meshsweep_core::blob::layout::MAGIC;
 use meshsweep_core::blob::{Level, VertIdx};
 use meshsweep_core::refine::hull_faces;
-use std::io::Read;
 use std::path::Path;
 use std::time::Instant;
-
-/// Faces unless told otherwise: the base hull's of `build`.
-const FACES: u32 = 200;
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
@@ -30,8 +27,16 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         ));
     }
     refuse_same_file(&args.output, &[&args.input])?;
-    let is_blob = begins_with_magic(&args.input);
+    let is_blob = mesh_file::is_blob(&args.input);
+    let named_as_mesh = args.input.extension().and_then(|e| e.to_str()).is_some_and(|extension| {
+        ["stl", "ply", "obj"].into_iter().any(|mesh| mesh.eq_ignore_ascii_case(extension))
+    });
     match args.level {
+        Some(_) if named_as_mesh && !is_blob => usage(format!(
+            "{0}: is a mesh, and --level is for a blob; give --faces, or build a blob first: meshsweep build {0} --for hull \
+             -o BLOB",
+            args.input.display()
+        )),
         Some(level) => of_blob(args, level),
         None if is_blob && args.faces.is_some() => usage(format!(
             "{}: --faces is for a mesh; choose a hull of a blob with --level",
@@ -45,27 +50,22 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     }
 }
 
-/// A file that cannot be read is no blob here; whoever reads it next says why.
-fn begins_with_magic(path: &Path) -> bool {
-    let mut head = [0; MAGIC.len()];
-    let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut head));
-    read.is_ok() && head == MAGIC
-}
-
 fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     Output::probe(&args.output)?;
     let options = BuildOptions {
         base_faces: faces as usize,
         priority: args.collapse.priority(),
         conditions: args.collapse.conditions(),
-        ..BuildOptions::default()
+        vertex_bits: args.vertex_bits.format(),
     };
-    let solid = solid::load(&args.input, options.vertex_bits)?;
-    let bar = Bar::new(solid.mesh.triangles.len(), options.base_faces);
+    let solid = mesh_file::load_solid(&args.input, options.vertex_bits, None)?;
+    let from = solid.mesh.triangles.len();
+    let bar = Bar::new(from.saturating_sub(options.base_faces), "collapsing", "faces");
     let started = Instant::now();
-    let (hull, void, stuck) =
-        hull_of(&solid.mesh, options.base_faces, &options, |progress| bar.show(progress))
-            .map_err(|error| Failure::Build { file: args.input.clone(), error })?;
+    let (hull, void, stuck) = hull_of(&solid.mesh, options.base_faces, &options, |progress| {
+        bar.show(from.saturating_sub(progress.faces))
+    })
+    .map_err(|error| Failure::Build { file: args.input.clone(), error })?;
     let time = started.elapsed();
     drop(bar);
     write_hull(&args.output, &hull)?;
@@ -73,11 +73,14 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         if !solid.report.is_clean() {
             writeln!(out, "{}\n  {}", args.input.display(), solid.report)?;
         }
+        if solid.moved > 0.0 {
+            writeln!(out, "vertices of the mesh moved to the grid by up to {}", Length(solid.moved))?;
+        }
         writeln!(
             out,
-            "{}: {} faces, {:.3} % void space, {:.3} s",
+            "{}: {}, {:.3} % void space, {:.3} s",
             args.output.display(),
-            hull.triangles.len(),
+            Counted(hull.triangles.len(), "face"),
             (void * 100.0).max(0.0),
             time.as_secs_f64()
         )?;
@@ -88,6 +91,7 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
 fn of_blob(args: &HullArgs, index: u32) -> Result<(), Failure> {
     let bytes = blob_file::read(&args.input)?;
     let model = blob_file::open(&args.input, &bytes)?;
+    served::require_hull(&args.input, &model)?;
     let levels = model.header().levels;
     let no_level =
         || Failure::Cut { file: args.input.clone(), error: CutError::NoLevel { wanted: index, levels } };
@@ -97,9 +101,9 @@ fn of_blob(args: &HullArgs, index: u32) -> Result<(), Failure> {
     Output::stdout().finish(|out| {
         writeln!(
             out,
-            "{}: {} faces, {:.3} % void space, level {index} of 0 to {}",
+            "{}: {}, {:.3} % void space, level {index} of 0 to {}",
             args.output.display(),
-            hull.triangles.len(),
+            Counted(hull.triangles.len(), "face"),
             f64::from(level.void_ratio) * 100.0,
             levels - 1
         )

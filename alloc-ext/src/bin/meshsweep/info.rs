@@ -1,13 +1,13 @@
 //! `meshsweep info`: what a blob holds, for people and for machines.
 
 use super::args::InfoArgs;
-use super::describe::{self, LevelDistances};
+use super::counted::Counted;
+use super::describe::{self, LevelDistances, Shape, distances, in_input_units};
 use super::failure::Failure;
 use super::output::Output;
-use super::{blob_file, describe::distances};
-use meshsweep_core::Model;
+use super::{blob_file, served};
 use meshsweep_core::blob::layout::{VERSION_MAJOR, VERSION_MINOR};
-use meshsweep_core::geom::Aabb;
+use meshsweep_core::{Model, Tree};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -26,34 +26,41 @@ pub fn run(args: &InfoArgs) -> Result<(), Failure> {
     })
 }
 
-/// A box of the local frame in the mesh's unit: low and high corner.
-fn box_in_input_units(model: &Model<'_>, local: &Aabb) -> [[f64; 3]; 2] {
-    [local.min, local.max].map(|corner| (corner.as_dvec3() * model.scale()).to_array())
-}
-
 fn write_header(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     let h = model.header();
-    let [low, high] = box_in_input_units(model, &h.surface_box);
+    let [low, high] = in_input_units(model, &h.surface_box);
     let cut = if model.is_cut() { ", cut: finer levels are not there" } else { "" };
+    let input = Counted(model.tree().map_or(h.input_triangles, |tree| tree.input_triangles()), "triangle");
     writeln!(out, "  format {VERSION_MAJOR}, {} bytes{cut}", h.total_bytes)?;
-    writeln!(
-        out,
-        "  {} surface triangles ({} in the input file), {} vertices, {} splits, {} cover nodes",
-        h.surface_triangles, h.input_triangles, h.vertices, h.splits, h.nodes
-    )?;
-    writeln!(out, "  base hull: {} triangles, {} vertices", h.base_triangles, h.base_vertices)?;
-    writeln!(out, "  surface box: {low:?} to {high:?}")
+    writeln!(out, "  {input} in the input file; box {low:?} to {high:?}")?;
+    if model.has_hull() {
+        writeln!(
+            out,
+            "  hull hierarchy of {}: {}, {}, {}",
+            Counted(h.surface_triangles, "triangle"),
+            Counted(h.vertices, "vertex"),
+            Counted(h.splits, "split"),
+            Counted(h.nodes, "cover node")
+        )?;
+        writeln!(
+            out,
+            "  base hull: {}, {}",
+            Counted(h.base_triangles, "triangle"),
+            Counted(h.base_vertices, "vertex")
+        )?;
+    }
+    Ok(())
 }
 
 fn as_json(model: &Model<'_>) -> Value {
     let h = model.header();
-    let capacities = model.capacities();
     let sections: Vec<Value> = model
         .sections()
         .map(|s| {
             json!({
                 "name": s.kind.name(),
                 "kind": s.kind as u32,
+                "hierarchy": if s.kind.is_tree() { "tree" } else { "hull" },
                 "offset": s.offset,
                 "bytes": s.bytes,
                 "bytes_per_triangle": f64::from(s.bytes) / f64::from(describe::triangles(model)),
@@ -61,6 +68,23 @@ fn as_json(model: &Model<'_>) -> Value {
             })
         })
         .collect();
+    json!({
+        "version": { "major": VERSION_MAJOR, "minor_known": VERSION_MINOR },
+        "bytes": h.total_bytes,
+        "header_bytes": h.header_bytes,
+        "scale_exponent": h.scale_exponent,
+        "input_triangles": h.input_triangles,
+        "surface_box": in_input_units(model, &h.surface_box),
+        "serves": served::questions(model),
+        "sections": sections,
+        "hull": model.has_hull().then(|| hull_as_json(model)),
+        "tree": model.tree().map(|tree| tree_as_json(&tree)),
+    })
+}
+
+fn hull_as_json(model: &Model<'_>) -> Value {
+    let h = model.header();
+    let capacities = model.capacities();
     let levels: Vec<Value> = model
         .levels()
         .map(|level| {
@@ -76,12 +100,9 @@ fn as_json(model: &Model<'_>) -> Value {
         })
         .collect();
     json!({
-        "version": { "major": VERSION_MAJOR, "minor_known": VERSION_MINOR },
-        "bytes": h.total_bytes,
-        "header_bytes": h.header_bytes,
         "is_cut": model.is_cut(),
-        "scale_exponent": h.scale_exponent,
         "vertex_format": describe::format_name(h.vertex_format),
+        "surface_error": describe::surface_error(h),
         "vertices": h.vertices,
         "base_vertices": h.base_vertices,
         "base_triangles": h.base_triangles,
@@ -89,10 +110,7 @@ fn as_json(model: &Model<'_>) -> Value {
         "ring_entries": h.rings,
         "cover_nodes": h.nodes,
         "surface_triangles": h.surface_triangles,
-        "input_triangles": h.input_triangles,
-        "surface_error": describe::surface_error(h),
-        "surface_box": box_in_input_units(model, &h.surface_box),
-        "hull_box": box_in_input_units(model, &h.hull_box),
+        "hull_box": in_input_units(model, &h.hull_box),
         "capacities": {
             "queue": capacities.queue,
             "queue_bytes": describe::queue_bytes(model),
@@ -100,7 +118,25 @@ fn as_json(model: &Model<'_>) -> Value {
             "front_bytes": describe::front_bytes(model),
             "dependency_depth": capacities.dependency_depth,
         },
-        "sections": sections,
         "levels": levels,
+    })
+}
+
+fn tree_as_json(tree: &Tree<'_>) -> Value {
+    let h = tree.header();
+    let shape = Shape::of(tree);
+    json!({
+        "is_closed": h.is_closed(),
+        "vertex_format": describe::tree_format_name(tree),
+        "surface_error": describe::tree_surface_error(tree),
+        "triangles": h.triangles,
+        "leaves": h.leaves,
+        "triangles_per_leaf": shape.triangles_per_leaf,
+        "vertices": h.vertices,
+        "nodes": h.nodes,
+        "children_per_node": shape.children_per_node,
+        "depth": shape.depth,
+        "stack_entries": h.stack_entries,
+        "stack_bytes": describe::stack_bytes(tree),
     })
 }

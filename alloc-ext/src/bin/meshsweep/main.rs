@@ -4,32 +4,40 @@
 //! | --- | --- |
 //! | `args` | the command line |
 //! | `failure` | what can go wrong, each in one line, and the exit status |
-//! | `solid` | from a mesh file to a closed manifold mesh |
-//! | `blob_file` | reading and opening a blob |
+//! | `mesh_file` | from a mesh file to a clean mesh, closed if a hull is wanted |
+//! | `blob_file`, `served` | reading and opening a blob; which questions it answers, and by which hierarchy |
 //! | `queries`, `csv` | points and segments from files |
-//! | `stop` | stop rules, the queue, how queries ended |
+//! | `stop` | stop rules, working memory, how queries ended |
 //! | `output` | files that are whole or not there, and pipes that close early |
-//! | `describe` | tables of sections, levels and memory |
+//! | `describe`, `counted` | tables of sections, levels and memory; numbers with their nouns |
 //! | `progress` | the bar |
-//! | `build`, `info`, `closest`, `segment`, `hull`, `cut`, `demo` | one command each |
+//! | `points` | questions about points that only the box tree answers: `within`, `nearest`, `signed` |
+//! | `build`, `info`, `closest`, `field`, `segment`, `cull`, `hull`, `cut`, `demo` | one command each |
 
 mod args;
 mod blob_file;
 mod build;
 mod closest;
+mod counted;
 mod csv;
 mod cut;
 mod demo;
 mod describe;
 mod failure;
+mod field;
 mod hull;
 mod info;
+mod mesh_file;
+mod nearest;
 mod output;
+mod points;
 mod progress;
 mod queries;
 mod segment;
-mod solid;
+mod served;
+mod signed;
 mod stop;
+mod within;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -49,6 +57,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Build(args)) => build::run(&args),
         Some(Command::Info(args)) => info::run(&args),
         Some(Command::Closest(args)) => closest::run(&args),
+        Some(Command::Within(args)) => within::run(&args),
+        Some(Command::Nearest(args)) => nearest::run(&args),
+        Some(Command::Signed(args)) => signed::run(&args),
+        Some(Command::Cull(_)) => Err(Failure::Usage { what: "not there yet".to_owned() }),
+        Some(Command::Field(args)) => field::run(&args),
         Some(Command::Segment(args)) => segment::run(&args),
         Some(Command::Hull(args)) => hull::run(&args),
         Some(Command::Cut(args)) => cut::run(&args),

@@ -1,38 +1,41 @@
-//! The progress bar of the collapses, on a terminal only.
+//! The progress bar, on a terminal only.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use meshsweep_alloc::collapse::Progress;
 use std::io::IsTerminal;
 
-/// From a mesh's faces down to a hull's. It goes away when it is dropped.
-pub struct Bar {
-    bar: Option<ProgressBar>,
-    from: usize,
-}
+/// Goes away when it is dropped.
+pub struct Bar(Option<ProgressBar>);
 
 impl Bar {
-    pub fn new(from: usize, to: usize) -> Self {
+    /// Of `length` things: `doing` says what is done, `things` to what.
+    pub fn new(length: usize, doing: &str, things: &str) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
-            let bar = ProgressBar::new(from.saturating_sub(to) as u64);
-            let template = "collapsing {wide_bar} {pos}/{len} faces, {eta} left";
-            if let Ok(style) = ProgressStyle::with_template(template) {
+            let bar = ProgressBar::new(length as u64);
+            let template = format!("{doing} {{wide_bar}} {{pos}}/{{len}} {things}, {{eta}} left");
+            if let Ok(style) = ProgressStyle::with_template(&template) {
                 bar.set_style(style);
             }
             bar
         });
-        Bar { bar, from }
+        Bar(bar)
     }
 
-    pub fn show(&self, progress: Progress) {
-        if let Some(bar) = &self.bar {
-            bar.set_position(self.from.saturating_sub(progress.faces) as u64);
+    pub fn show(&self, position: usize) {
+        if let Some(bar) = &self.0 {
+            bar.set_position(position as u64);
+        }
+    }
+
+    pub fn advance(&self, by: usize) {
+        if let Some(bar) = &self.0 {
+            bar.inc(by as u64);
         }
     }
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
+        if let Some(bar) = &self.0 {
             bar.finish_and_clear();
         }
     }

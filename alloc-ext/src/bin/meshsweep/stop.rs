@@ -1,8 +1,10 @@
 //! Stop rules and working memory of a search, and the note on how queries ended.
 
 use super::args::SearchArgs;
+use super::counted::Counted;
+use meshsweep_core::query::tree::{SegmentEntry, TreeEntry};
 use meshsweep_core::query::{Ended, Stop, Work};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::{Model, QueueEntry, Tree};
 use std::fmt;
 use std::io::Write;
 use std::time::Duration;
@@ -16,7 +18,17 @@ impl SearchArgs {
         Stop { relative, absolute, steps: self.steps.unwrap_or(u32::MAX) }
     }
 
-    /// The queue to search with.
+    /// The stack to search the box tree with.
+    pub fn stack(&self, tree: &Tree<'_>) -> Vec<TreeEntry> {
+        vec![TreeEntry::EMPTY; self.queue.unwrap_or(tree.header().stack_entries) as usize]
+    }
+
+    /// The stack to cast segments into the box tree with.
+    pub fn segment_stack(&self, tree: &Tree<'_>) -> Vec<SegmentEntry> {
+        vec![SegmentEntry::EMPTY; self.queue.unwrap_or(tree.header().stack_entries) as usize]
+    }
+
+    /// The queue to search the cover tree with.
     pub fn queue(&self, model: &Model<'_>) -> Vec<QueueEntry> {
         let needed = model.capacities().queue;
         let entries = self.queue.map_or(needed.max(COMFORTABLE_QUEUE), |entries| entries as usize);
@@ -31,10 +43,10 @@ impl SearchArgs {
             let queries = tally.queries().max(1) as f64;
             let _ = writeln!(
                 stderr,
-                "{:.1} ns and {:.1} steps of work per query; {} queries in {:.3} s",
+                "{:.1} ns and {:.1} steps of work per query; {} in {:.3} s",
                 time.as_nanos() as f64 / queries,
                 tally.work as f64 / queries,
-                tally.queries(),
+                Counted(tally.queries(), "query"),
                 time.as_secs_f64()
             );
         }
@@ -82,7 +94,7 @@ impl fmt::Display for Tally {
         for (count, reason) in [
             (self.tolerance, "within tolerance"),
             (self.steps, "out of steps"),
-            (self.capacity, "out of queue"),
+            (self.capacity, "out of stack or queue"),
             (self.level, "left open by the blob (cut, or vertices moved to a grid)"),
         ] {
             if count > 0 {

@@ -1,12 +1,12 @@
 //! Closest point on the box tree.
 
+use super::leaf::{Lanes, NearestOf, nearest_triangle, nearest_within};
 use super::probe::{Probe, bounds};
 use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
-use crate::blob::{Patch, Tree, TreeChild};
-use crate::fan::{PointFan, WIDTH, certified_distance, point_patch, point_patch8};
-use crate::num::tolerance::TREE_WEAK;
+use crate::blob::{Patch, Tree};
+use crate::fan::{certified_distance, point_patch};
+use crate::num::root;
 use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
-use crate::tree::WIDE;
 use glam::Vec3;
 
 /// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe; a bad one costs a leaf.
@@ -37,7 +37,7 @@ pub fn closest_point(
     closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())
 }
 
-/// [`closest_point`], which looks at `hint`'s leaf first and leaves its own there. The answer has the same bits whatever the hint.
+/// [`closest_point`], which looks at `hint`'s leaf first and leaves its own there. An exact answer has the same bits whatever the hint.
 ///
 /// # Errors
 /// Those of [`closest_point`].
@@ -60,7 +60,7 @@ pub fn closest_point_from(
     let mut work = Work::default();
     let mut seek = Closest::new(tree, &probe, stop);
     if *hint != Hint::NONE
-        && let Some(TreeChild::Leaf(patch)) = tree.child(hint.0 >> 3, hint.0 & 7)
+        && let Some(patch) = tree.leaf(hint.0 >> 3, hint.0 & 7)
     {
         seek.bound_by(&patch).ok_or(QueryError::Model)?;
     }
@@ -68,14 +68,17 @@ pub fn closest_point_from(
     seek.answer(descent, work, hint)
 }
 
-/// The best triangle so far.
+/// The best leaf so far.
 #[derive(Clone, Copy)]
-pub(super) struct Best {
-    pub(super) distance_sq: f32,
+struct Best {
+    distance_sq: f32,
     node: u32,
     child: u32,
-    lane: u32,
+    lanes: Lanes,
 }
+
+/// Above every square of the domain and below what stands for no child.
+const NOTHING_YET: f32 = f32::from_bits(0x7E80_0000);
 
 struct Closest<'a> {
     tree: &'a Tree<'a>,
@@ -83,7 +86,11 @@ struct Closest<'a> {
     stop: &'a Stop,
     /// Squared bound above which nothing matters.
     limit: f32,
+    /// The same without the tolerance: no triangle beyond this square can improve the answer.
+    beyond: f32,
     best: Best,
+    /// Certified squares below this are weak.
+    weak: f32,
     /// Least certified square of a triangle whose own distance says too little.
     certified: f32,
     tolerant: bool,
@@ -96,8 +103,10 @@ impl<'a> Closest<'a> {
             tree,
             probe,
             stop,
-            limit: f32::from_bits(0x7E80_0000),
-            best: Best { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lane: 0 },
+            limit: NOTHING_YET,
+            beyond: NOTHING_YET,
+            best: Best { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lanes: Lanes::NONE },
+            weak: f32::NEG_INFINITY,
             certified: f32::INFINITY,
             tolerant: stop.relative > 0.0 || stop.absolute > 0.0,
         }
@@ -107,70 +116,82 @@ impl<'a> Closest<'a> {
     #[inline(always)]
     fn bound_by(&mut self, patch: &Patch<'_>) -> Option<()> {
         let near = nearest_triangle(patch, self.probe.p)?;
-        self.limit = self.limit_for(near.distance_sq);
+        self.beyond = self.probe.limit(near.distance_sq);
+        self.limit = self.beyond;
         Some(())
-    }
-
-    #[inline(always)]
-    fn limit_for(&self, distance_sq: f32) -> f32 {
-        if self.tolerant { self.tolerant_limit(distance_sq) } else { self.probe.limit(distance_sq) }
     }
 
     /// With a tolerance, what is not nearer by that much is not wanted.
     #[cold]
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
-        let distance = libm::sqrtf(distance_sq);
+        let distance = root(distance_sq);
         let absolute = self.probe.units.inward(self.stop.absolute);
         let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute);
         if wanted > 0.0 { wanted * wanted } else { 0.0 }
     }
 
     #[inline(always)]
-    fn improve(&mut self, distance_sq: f32, lane: usize, visit: &Visit<'_>) {
-        let nearer = distance_sq < self.best.distance_sq
-            || (distance_sq == self.best.distance_sq
-                && self.number(visit.node, visit.lane, lane as u32) < self.best_number());
-        if nearer {
-            self.best = Best { distance_sq, node: visit.node, child: visit.lane, lane: lane as u32 };
-            let limit = self.limit_for(distance_sq);
-            if limit < self.limit {
-                self.limit = limit;
-            }
+    fn improve(&mut self, near: &NearestOf, visit: &Visit<'_>) {
+        let distance_sq = near.distance_sq;
+        if distance_sq == self.best.distance_sq && self.comes_later(visit) {
+            return;
         }
+        self.best = Best { distance_sq, node: visit.node, child: visit.lane, lanes: near.lanes };
+        self.weak = self.probe.weak(distance_sq);
+        let beyond = self.probe.limit(distance_sq);
+        if beyond < self.beyond {
+            self.beyond = beyond;
+        }
+        self.limit = if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond };
     }
 
+    /// Whether the leaf's triangles have greater numbers than the best one's.
     #[cold]
-    fn number(&self, node: u32, child: u32, lane: u32) -> Option<u32> {
-        Some(self.tree.links(node)?.triangle(child).wrapping_add(lane))
+    fn comes_later(&self, visit: &Visit<'_>) -> bool {
+        let first = |node, child| Some(self.tree.links(node)?.triangle(child));
+        first(visit.node, visit.lane) > first(self.best.node, self.best.child)
     }
 
-    #[cold]
-    fn best_number(&self) -> Option<u32> {
-        self.number(self.best.node, self.best.child, self.best.lane)
-    }
-
-    /// A triangle whose supporting plane is worse than its distance by more than rounding: slivers, and points next to the surface.
+    /// Triangles whose supporting plane is worse than the best distance by more than rounding: slivers, and points next to the surface.
+    /// Each is looked at again. A triangle that is weak beside the final best is weak beside every one before it, so the order of visits does
+    /// not decide what is found.
     #[cold]
     #[inline(never)]
     fn certify(&mut self, visit: &Visit<'_>) {
         let patch = &visit.patch;
-        for lane in 0..patch.tag().triangles() {
-            let which = usize::from(lane >= patch.tag().turn());
-            let s = self.probe.p - patch.centre(which);
-            let lower = certified_distance(s, patch.spoke(lane, which), patch.spoke(lane + 1, which));
-            let lower_sq = lower * lower;
-            let lower_sq = if lower_sq > visit.key { lower_sq } else { visit.key };
-            if lower_sq < self.certified {
-                self.certified = lower_sq;
-            }
-        }
+        let weak = self.weak;
+        let p = self.probe.p;
+        let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
+        let turn = patch.tag().turn();
+        let mut certified = self.certified;
+        point_patch(
+            patch.tag().triangles(),
+            turn,
+            s,
+            |i, which| patch.spoke(i, which),
+            |lane, near| {
+                if near.certified_sq >= weak {
+                    return;
+                }
+                let which = usize::from(lane >= turn);
+                let from = if which == 0 { s[0] } else { s[1] };
+                let lower = certified_distance(from, patch.spoke(lane, which), patch.spoke(lane + 1, which));
+                let lower_sq = lower * lower;
+                let lower_sq = if lower_sq > visit.key { lower_sq } else { visit.key };
+                if lower_sq < certified {
+                    certified = lower_sq;
+                }
+            },
+        );
+        self.certified = certified;
     }
 
     #[inline(always)]
     fn answer(&self, descent: Descent, work: Work, hint: &mut Hint) -> Result<ClosestPoint, QueryError> {
-        let Best { distance_sq, node, child, lane } = self.best;
-        let mut least_sq = distance_sq;
-        if self.certified < distance_sq * TREE_WEAK {
+        let Best { distance_sq, node, child, lanes } = self.best;
+        // What is not weak is certified to this part of the best square, and no more.
+        let mut least_sq = if self.weak > 0.0 { self.weak } else { 0.0 };
+        if self.certified < least_sq {
             least_sq = self.certified;
         }
         let mut ended = Ended::Exact;
@@ -180,26 +201,25 @@ impl<'a> Closest<'a> {
         }
         if node == u32::MAX {
             let mut answer = from_afar(self.tree, self.probe)?;
-            answer.lower = answer.lower.max(self.probe.lower(libm::sqrtf(least_sq))).min(answer.upper);
+            answer.lower = answer.lower.max(self.probe.lower(root(least_sq))).min(answer.upper);
             return Ok(ClosestPoint { work, ended, ..answer });
         }
         *hint = Hint(node << 3 | child);
-        let distance = libm::sqrtf(distance_sq);
-        let mut least = if least_sq == distance_sq { distance } else { libm::sqrtf(least_sq) };
+        let distance = root(distance_sq);
+        let mut least = root(least_sq);
         if self.tolerant {
             let absolute = self.probe.units.inward(self.stop.absolute);
             least = least.min((distance / (1.0 + self.stop.relative)).min(distance - absolute).max(0.0));
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
-        let number = self.best_number().ok_or(QueryError::Model)?;
-        let TreeChild::Leaf(patch) = self.tree.child(node, child).ok_or(QueryError::Model)? else {
-            return Err(QueryError::Model);
-        };
+        let (lane, v, w) = lanes.at(distance_sq);
+        let first = self.tree.links(node).ok_or(QueryError::Model)?.triangle(child);
+        let patch = self.tree.leaf(node, child).ok_or(QueryError::Model)?;
         Ok(ClosestPoint {
             lower: self.probe.lower(least),
             upper: self.probe.upper(distance),
-            point: self.probe.units.point(witness(&patch, lane as usize, self.probe.p)),
-            triangle: self.tree.source(number),
+            point: self.probe.units.point(patch.point(lane, v, w)),
+            triangle: self.tree.source(first.wrapping_add(lane as u32)),
             work,
             ended,
         })
@@ -214,87 +234,17 @@ impl Seek for Closest<'_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.patch, self.probe.p)?;
+        let near = nearest_within(&visit.patch, self.probe.p, self.beyond)?;
         if near.distance_sq <= self.best.distance_sq {
-            self.improve(near.distance_sq, near.lane(), visit);
+            self.improve(&near, visit);
         }
         let certified_sq = near.certified_sq;
         let certified_sq = if certified_sq > visit.key { certified_sq } else { visit.key };
-        if certified_sq < self.best.distance_sq * TREE_WEAK {
+        if certified_sq < self.weak {
             self.certify(visit);
         }
         Some(true)
     }
-}
-
-/// The nearest triangle of a patch.
-pub(super) struct NearestOf {
-    /// Its squared distance.
-    pub(super) distance_sq: f32,
-    /// Least certified square of all triangles of the patch.
-    pub(super) certified_sq: f32,
-    /// All squared distances, where they were computed side by side.
-    all: [f32; WIDTH],
-    lane: usize,
-}
-
-impl NearestOf {
-    /// The least lane that is so near.
-    #[inline(always)]
-    pub(super) fn lane(&self) -> usize {
-        if WIDE { self.all.iter().position(|&d| d == self.distance_sq).unwrap_or(0) } else { self.lane }
-    }
-}
-
-/// The nearest triangle of a patch.
-#[inline(always)]
-pub(super) fn nearest_triangle(patch: &Patch<'_>, p: Vec3) -> Option<NearestOf> {
-    let count = patch.tag().triangles();
-    if WIDE {
-        let near = point_patch8(&patch.edges8(p)?, count);
-        return Some(NearestOf {
-            distance_sq: least_of(&near.distance_sq),
-            certified_sq: least_of(&near.certified_sq),
-            all: near.distance_sq,
-            lane: 0,
-        });
-    }
-    let turn = patch.tag().turn();
-    let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
-    let mut nearest = NearestOf { distance_sq: f32::MAX, certified_sq: f32::MAX, all: [0.0; WIDTH], lane: 0 };
-    point_patch(
-        count,
-        turn,
-        s,
-        |i, which| patch.spoke(i, which),
-        |i, near| {
-            if near.distance_sq < nearest.distance_sq {
-                (nearest.distance_sq, nearest.lane) = (near.distance_sq, i);
-            }
-            if near.certified_sq < nearest.certified_sq {
-                nearest.certified_sq = near.certified_sq;
-            }
-        },
-    );
-    Some(nearest)
-}
-
-#[inline(always)]
-fn least_of(values: &[f32; WIDTH]) -> f32 {
-    let less = |a: f32, b: f32| if b < a { b } else { a };
-    let [a, b, c, d, e, f, g, h] = *values;
-    less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
-}
-
-/// The closest point of one triangle, grid units.
-#[inline]
-pub(super) fn witness(patch: &Patch<'_>, lane: usize, p: Vec3) -> Vec3 {
-    let which = usize::from(lane >= patch.tag().turn());
-    let centre = patch.centre(which);
-    let fan = PointFan::new(p - centre);
-    let (a, b) = (fan.spoke(patch.spoke(lane, which)), fan.spoke(patch.spoke(lane + 1, which)));
-    let near = fan.triangle(&a, &b);
-    centre + a.edge * near.v + b.edge * near.w
 }
 
 /// From far enough away every point is the closest, within a rounding of f32: the interval of the box, and a point of the surface.
@@ -306,15 +256,16 @@ fn from_afar(tree: &Tree<'_>, probe: &Probe) -> Result<ClosestPoint, QueryError>
     let outside = (low - probe.p).max(probe.p - high).max(Vec3::ZERO) * down;
     let farthest = (low - probe.p).abs().max((probe.p - high).abs()) * down;
     let up = 1.0 / down;
-    let near = libm::sqrtf(outside.dot(outside)) * up;
-    let far = libm::sqrtf(farthest.dot(farthest)) * up;
+    let near = root(outside.dot(outside)) * up;
+    let far = root(farthest.dot(farthest)) * up;
     let mut node = 0;
     let (links, patch) = loop {
         let links = tree.links(node).ok_or(QueryError::Model)?;
-        match tree.child(node, 0).ok_or(QueryError::Model)? {
-            TreeChild::Node(child) => node = child,
-            TreeChild::Leaf(patch) => break (links, patch),
+        let child = links.child(0);
+        if child.is_leaf() {
+            break (links, tree.patch(child.at, child.tag).ok_or(QueryError::Model)?);
         }
+        node = child.at;
     };
     Ok(ClosestPoint {
         lower: probe.lower(near),

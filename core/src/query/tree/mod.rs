@@ -1,8 +1,29 @@
 //! Questions to the box tree.
 
+mod aim;
+mod all_within;
 mod closest;
+mod follow;
+mod front;
+mod interval;
+mod leaf;
+mod nearest;
 mod probe;
+mod pseudonormal;
+mod ranked;
+mod segment;
+mod session;
+mod shape;
+mod signed;
 mod walk;
+mod within;
 
+pub use all_within::{AllWithin, all_within};
 pub use closest::{Hint, closest_point, closest_point_from};
+pub use nearest::{Nearest, nearest};
+pub use ranked::Near;
+pub use segment::{AnyHit, Facing, SegmentEntry, all_hits, any_hit, first_hit};
+pub use session::{Followed, Session};
+pub use signed::{Side, SignedDistance, signed_distance};
 pub use walk::TreeEntry;
+pub use within::{Verdict, Within, is_within};

@@ -1,7 +1,7 @@
 //! A query point in the tree's grid units, and everything that rounding may do to an answer about it.
 
 use crate::blob::Tree;
-use crate::num::tolerance::{TREE_BOX, TREE_FAN, TREE_FAR, TREE_RELATIVE, U32};
+use crate::num::tolerance::{TREE_BOX, TREE_FAN, TREE_FAR, TREE_RELATIVE, TREE_SHORT, TREE_WEAK, U32};
 use crate::query::QueryError;
 use glam::Vec3;
 
@@ -16,22 +16,11 @@ pub(crate) struct Units {
     pub(crate) surface_error: f32,
 }
 
-#[inline(always)]
-fn power(exponent: i32) -> f32 {
-    f32::from_bits(((127 + exponent.clamp(-126, 127)) as u32) << 23)
-}
-
 impl Units {
     #[inline(always)]
     pub(crate) fn of(tree: &Tree<'_>) -> Units {
-        let exponent = tree.scale_exponent() + tree.header().grid_exponent;
-        let half = exponent / 2;
-        let rest = exponent - half;
-        Units {
-            inward: [power(-half), power(-rest)],
-            outward: [power(half), power(rest)],
-            surface_error: tree.header().surface_error * power(-tree.header().grid_exponent),
-        }
+        let scale = tree.scale();
+        Units { inward: scale.inward, outward: scale.outward, surface_error: scale.surface_error }
     }
 
     /// A length or coordinate in grid units: exact unless it leaves f32's range.
@@ -71,6 +60,8 @@ pub(crate) struct Probe {
     margin: f32,
     /// What is added to a squared limit, so that no rounding hides a candidate.
     allowance: f32,
+    /// Square that a certificate may fall short by: [`TREE_SHORT`], or 0 for exact vertices.
+    short: f32,
     /// Farther than [`TREE_FAR`]: the box is all that matters.
     pub(crate) far: bool,
 }
@@ -90,7 +81,9 @@ impl Probe {
         let size = farthest.x + farthest.y + farthest.z;
         let fan = TREE_FAN * U32 * header.reach;
         let off = TREE_BOX * U32 * size + fan;
-        Ok(Probe { p, units, margin: fan, allowance: 2100.0 * off * off, far: !(size <= TREE_FAR) })
+        let short = if header.is_single() { 0.0 } else { TREE_SHORT };
+        let near = size <= TREE_FAR;
+        Ok(Probe { p, units, short, margin: fan, allowance: 2100.0 * off * off, far: !near })
     }
 
     /// The squared bound above which a node cannot hold anything at the squared distance `distance_sq` as computed. (√B·(1 + 16u) + b)² ≤
@@ -98,6 +91,12 @@ impl Probe {
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
         distance_sq * (1.0 + 1.0 / 1024.0) + self.allowance
+    }
+
+    /// What a certified square has to reach beside the best computed one; below it is looked at again.
+    #[inline(always)]
+    pub(crate) fn weak(&self, distance_sq: f32) -> f32 {
+        distance_sq * TREE_WEAK - self.short
     }
 
     /// A computed distance to the stored surface as an upper bound of the true one to the input's, input units.
@@ -118,11 +117,5 @@ impl Probe {
 /// Corners of the tree's box, grid units.
 #[inline(always)]
 pub(crate) fn bounds(tree: &Tree<'_>) -> (Vec3, Vec3) {
-    let header = tree.header();
-    let corner = |stored: [u16; 3]| {
-        let [x, y, z] = stored;
-        let [ox, oy, oz] = header.grid_origin;
-        Vec3::new((i32::from(x) + ox) as f32, (i32::from(y) + oy) as f32, (i32::from(z) + oz) as f32)
-    };
-    (corner(header.low), corner(header.high))
+    (tree.scale().low, tree.scale().high)
 }

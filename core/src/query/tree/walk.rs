@@ -5,9 +5,9 @@
 //! of leaves that a question depends on does not depend on the order of visits.
 
 use crate::blob::layout::WIDTH;
-use crate::blob::{Patch, Tree, TreeChild};
+use crate::blob::{Patch, Tree};
 use crate::query::{QueryError, Work};
-use crate::tree::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
+use crate::tree::{LANE_MASK, NodeFrame, WIDE, box_distances, nearest_lane};
 use glam::Vec3;
 
 /// A child that waits: 8 bytes of the caller's stack.
@@ -83,7 +83,8 @@ pub(super) fn descend(
         let limit = seek.limit();
         let mut found = nearest <= limit;
         if found {
-            if let Some(slots) = stack.get_mut(waiting..).and_then(|rest| rest.first_chunk_mut::<WIDTH>()) {
+            let room = stack.get_mut(waiting..).and_then(|rest| rest.first_chunk_mut::<WIDTH>());
+            if WIDE && let Some(slots) = room {
                 let mut next = 0usize;
                 for key in keys {
                     slots[next & (WIDTH - 1)] = TreeEntry { key, node };
@@ -91,8 +92,10 @@ pub(super) fn descend(
                 }
                 waiting += next;
             } else {
-                for key in keys {
-                    if key <= limit && key != nearest {
+                // Bits of numbers that are not negative compare as the numbers do.
+                let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
+                for key in keys.into_iter().take(links.count as usize) {
+                    if key.to_bits() <= limit && key.to_bits() != nearest {
                         match stack.get_mut(waiting) {
                             Some(slot) => {
                                 *slot = TreeEntry { key, node };
@@ -105,27 +108,22 @@ pub(super) fn descend(
             }
         }
         // The nearest child's links are at hand; what comes off the stack has to look its parent's up.
-        let mut next = if found { tree.linked(&links, nearest.to_bits() & LANE_MASK) } else { None };
+        let mut child = links.child(nearest.to_bits() & LANE_MASK);
         let mut entry = TreeEntry { key: nearest, node };
         loop {
-            if let Some(child) = next {
+            if found {
                 bound = f32::from_bits(entry.key.to_bits() & !LANE_MASK);
-                match child {
-                    TreeChild::Node(child) => {
-                        node = child;
-                        break;
-                    }
-                    TreeChild::Leaf(patch) => {
-                        work.triangles += patch.tag().triangles() as u32;
-                        let lane = entry.key.to_bits() & LANE_MASK;
-                        let visit = Visit { patch, key: bound, node: entry.node, lane };
-                        if !seek.leaf(&visit).ok_or(QueryError::Model)? {
-                            return Ok(Descent::Answered);
-                        }
-                    }
+                if !child.is_leaf() {
+                    node = child.at;
+                    break;
                 }
-            } else if found {
-                return Err(QueryError::Model);
+                work.triangles += child.tag.triangles() as u32;
+                let patch = tree.patch(child.at, child.tag).ok_or(QueryError::Model)?;
+                let lane = entry.key.to_bits() & LANE_MASK;
+                let visit = Visit { patch, key: bound, node: entry.node, lane };
+                if !seek.leaf(&visit).ok_or(QueryError::Model)? {
+                    return Ok(Descent::Answered);
+                }
             }
             found = true;
             loop {
@@ -142,7 +140,7 @@ pub(super) fn descend(
                     break;
                 }
             }
-            next = tree.child(entry.node, entry.key.to_bits() & LANE_MASK);
+            child = tree.child(entry.node, entry.key.to_bits() & LANE_MASK).ok_or(QueryError::Model)?;
         }
     }
 }

@@ -28,7 +28,7 @@ struct Flash<T: ?Sized>(T);
 static BLOB: &Flash<[u8]> = &Flash(*include_bytes!(env!("MESHSWEEP_BLOB")));
 
 /// The caller's memory, outside of the stack so that the two are measured apart.
-struct Shared(UnsafeCell<Scratch>);
+struct Shared(UnsafeCell<Scratch<'static>>);
 // SAFETY: one core, no interrupt handler touches it.
 unsafe impl Sync for Shared {}
 static SCRATCH: Shared = Shared(UnsafeCell::new(Scratch::new()));
@@ -40,7 +40,6 @@ fn main() -> ! {
     println!("blob {} {:016x}", BLOB.0.len(), Fold::of_bytes(&BLOB.0));
     let (instructions, ticks) = board::calibrate();
     println!("calibration {instructions} {ticks}");
-    println!("scratch {}", size_of::<Scratch>());
     // SAFETY: the entry runs once, so this is the only reference.
     let scratch = unsafe { &mut *SCRATCH.0.get() };
     if let Err(refused) = run(&BLOB.0, Plan::STANDARD, scratch, &mut Meter::new()) {

@@ -110,7 +110,7 @@ mod tests {
         for blob in ALL {
             let bytes = blob.bytes().expect("a blob");
             let model = Model::open(&bytes).expect("opens");
-            assert!(ask::memory_suffices(&model), "{blob:?}: {:?}", model.capacities());
+            assert!(ask::Subject::Hull(model).memory_suffices(), "{blob:?}: {:?}", model.capacities());
         }
     }
 

@@ -3,6 +3,8 @@
 //! Times on a busy machine are noise; instructions are not. The program runs itself in the simulator twice, with different numbers
 //! of queries: the difference is the queries' alone.
 
+mod tree;
+
 use std::env;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
@@ -19,7 +21,9 @@ use crate::steps::Steps;
 use crate::valgrind::Valgrind;
 use crate::workspace;
 
-/// Questions by their word on the command line.
+pub use tree::check as check_lanes;
+
+/// Questions to the hull hierarchy by their word on the command line.
 const QUESTIONS: [&str; 6] = ["far", "near", "path", "first_hit", "outer_first", "outer_all"];
 
 /// Queries of the two runs.
@@ -30,20 +34,27 @@ pub fn run(steps: &mut Steps) {
     let Some(valgrind) = Valgrind::find() else { return };
     let columns = ["question", "instructions"];
     let mut table =
-        Table::new("instructions", "Instructions a query, fixtures/bracket.msw, this machine", &columns);
-    for question in QUESTIONS {
-        let counted = steps.run(&format!("count {question}"), || {
-            let [few, many] = QUERIES.map(|queries| instructions(&valgrind, question, queries));
-            Ok((many? - few?) / (QUERIES[1] - QUERIES[0]) as f64)
-        });
+        Table::new("instructions", "Instructions a query, fixtures/bracket, this machine", &columns);
+    for question in QUESTIONS.into_iter().chain(tree::QUESTIONS) {
+        let counted = steps.run(&format!("count {question}"), || each(&valgrind, question));
         table.push(vec![Cell::from(question), counted.map_or(Cell::Empty, |count| fixed(count, 0))]);
     }
     table.note("far, near, path: closest point; all with the memory that the model's capacities name");
+    table.note("tree: to the box tree, the others to the hull hierarchy");
     println!("{}", table.text());
+}
+
+/// Instructions of one query.
+fn each(valgrind: &Valgrind, question: &str) -> Result<f64, String> {
+    let [few, many] = QUERIES.map(|queries| instructions(valgrind, question, queries));
+    Ok((many? - few?) / (QUERIES[1] - QUERIES[0]) as f64)
 }
 
 /// The run that is counted: `queries` of one question.
 pub fn ask(question: &str, queries: usize) -> Result<(), String> {
+    if let Some(asked) = tree::ask(question, queries) {
+        return asked.map(|_| ());
+    }
     let folder = workspace::root().join("fixtures");
     let subject = Subject::load(&folder.join("bracket.stl"))?;
     let blob = std::fs::read(folder.join("bracket.msw"))

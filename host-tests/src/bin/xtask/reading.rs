@@ -1,7 +1,7 @@
 //! What the suite yields: on a board as printed lines, on the host by running it.
 
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Kind, Plan, Recorder, Scratch};
+use meshsweep_suite::{Clock, Kind, Plan, Recorder, Scratch};
 
 use crate::boards::Board;
 
@@ -117,6 +117,8 @@ impl Reading {
 struct Here {
     blocks: Vec<Block>,
 }
+
+impl Clock for Here {}
 
 impl Recorder for Here {
     fn block(&mut self, kind: Kind, index: u32, hash: u64) {

@@ -1,7 +1,7 @@
-//! `cargo xtask rival`: what parry3d takes of a Cortex-M4F, on the meshes and for the questions that our own index is asked.
+//! `cargo xtask rival`: what the box tree and parry3d take of a Cortex-M4F, on the same meshes and for the same questions.
 //!
 //! A mesh is reduced to so many triangles, questions are drawn, and both go into one image an engine. `target/rival/NAME-FACES/`
-//! keeps what the images carry, and `mesh.ply` for building a blob of the same surface. An engine more is a `race_NAME.rs` and
+//! keeps what the images carry, and the mesh as `mesh.ply`. An engine more is a `race_NAME.rs` and
 //! its `size_` images in `host-tests/rival-firmware/src/bin`, and a line in [`ENGINES`].
 
 mod answers;
@@ -23,7 +23,8 @@ use answers::{Answers, agree, of_host};
 use questions::Course;
 
 /// Engines by the names of their images, each with the questions that it has `size_` images for.
-const ENGINES: [(&str, &[&str]); 1] = [("parry", &["closest", "segment", "both"])];
+const ENGINES: [(&str, &[&str]); 2] =
+    [("parry", &["closest", "segment", "both"]), ("tree", &["open", "closest", "segment", "both"])];
 
 /// The only one with a floating-point unit whose emulated board also has RAM enough for a heap.
 const BOARD: Board = BOARDS[0];
@@ -96,7 +97,8 @@ pub fn run(steps: &mut Steps, options: &Options) {
 fn table(engine: &str, course: &Course, answers: &Answers) -> Table {
     let triangles = course.subject.mesh.triangles.len();
     let title = format!("{engine} on {}, {triangles} triangles, {}", course.subject.name, BOARD.cpu);
-    let columns = ["question", "count", "mean instructions", "max", "stack", "heap"];
+    let columns = ["question", "count", "mean instructions", "max", "stack", "heap", "RAM"];
+    let built = &answers.built;
     let mut table = Table::new("rival", title, &columns);
     for set in &answers.sets {
         table.push(vec![
@@ -106,9 +108,9 @@ fn table(engine: &str, course: &Course, answers: &Answers) -> Table {
             fixed(set.max, 0),
             set.stack.into(),
             set.heap.into(),
+            (built.memory + built.heap + set.heap + set.stack).into(),
         ]);
     }
-    let built = &answers.built;
     let each = |bytes: u32| f64::from(bytes) / triangles as f64;
     table.note(format!(
         "built in {:.0} instructions with {} bytes of stack; heap after it {} bytes, {:.1} a triangle; most while it ran {}, {:.1} a triangle",
@@ -119,7 +121,8 @@ fn table(engine: &str, course: &Course, answers: &Answers) -> Table {
         built.most,
         each(built.most)
     ));
-    table.note("a tick is 40 instructions: a mean is within a few of them, a maximum within 40; stack and heap in bytes");
+    table.note("a tick is 40 instructions: a mean is within a few of them, a maximum within 40");
+    table.note("bytes: the processor's stack, the heap beyond what building left, and all RAM that asking needs: with what building left, and what the engine keeps outside of the heap");
     table
 }
 

@@ -21,6 +21,8 @@ pub struct Built {
     /// Bytes after it, and the most while it ran.
     pub heap: u32,
     pub most: u32,
+    /// Bytes that the engine keeps outside of heap and stack.
+    pub memory: u32,
 }
 
 /// One set of questions.
@@ -65,12 +67,13 @@ impl Answers {
                     }
                 }
                 ["reading", rounds, ticks] => reading = instructions(ticks)? / number::<f64>(rounds)?,
-                ["build", ticks, stack, heap, most] => {
+                ["build", ticks, stack, heap, most, memory] => {
                     answers.built = Built {
                         instructions: instructions(ticks)?,
                         stack: number(stack)?,
                         heap: number(heap)?,
                         most: number(most)?,
+                        memory: number(memory)?,
                     };
                 }
                 ["asked", name, queries, ticks, max, stack, heap, found, sum] => {
@@ -138,7 +141,7 @@ mod tests {
     use super::{Answers, Told, agree};
     use crate::boards::BOARDS;
 
-    const PRINTED: &str = "calibration 2000000 50000\nreading 4 1\nbuild 10 64 1000 1500\n\
+    const PRINTED: &str = "calibration 2000000 50000\nreading 4 1\nbuild 10 64 1000 1500 160\n\
         asked far 2 100 60 128 0 2 3ff0000000000000\ndone\n";
 
     #[test]

@@ -5,8 +5,10 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
+use meshsweep_alloc::emit::blob;
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, write_ply};
+use meshsweep_alloc::tree::{self, TreeOptions};
 use meshsweep_host_tests::generate::{Rng, rough_sphere};
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::rival::Rival;
@@ -74,6 +76,8 @@ impl Course {
         let numbers =
             |records: &[[f32; 3]]| records.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
         let Mesh { positions, triangles, .. } = &self.subject.mesh;
+        let (tables, _) = tree::build(&self.subject.mesh, 0.0, triangles.len(), &TreeOptions::default());
+        file("tree.msw", blob(None, Some(&tables)))?;
         file("vertices.f32", numbers(positions))?;
         file("triangles.u32", triangles.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect())?;
         for (name, points) in &self.points {

@@ -1,0 +1,154 @@
+//! Arguments of the commands that ask a blob.
+
+use super::values::{Margin, margin, point, size, tolerance};
+use clap::{Args, ValueEnum};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Where answers go, and what limits a search.
+#[derive(Debug, Args)]
+pub struct SearchArgs {
+    /// CSV file to write instead of the standard output
+    #[arg(short, long, value_name = "CSV")]
+    pub output: Option<PathBuf>,
+    /// Stop a query after opening so many nodes (segments: on the cover tree only)
+    #[arg(long, value_name = "NODES")]
+    pub steps: Option<u32>,
+    /// Stack or queue entries to search with; the default is what the blob needs (cover tree: and no less than 4096)
+    #[arg(long, value_name = "ENTRIES", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    pub queue: Option<u32>,
+    /// Print nanoseconds per query to the standard error
+    #[arg(long)]
+    pub time: bool,
+}
+
+/// A blob and points to ask it about.
+#[derive(Debug, Args)]
+pub struct PointArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// Query points: x, y, z
+    pub points: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct ClosestArgs {
+    #[command(flatten)]
+    pub input: PointArgs,
+    /// Stop a query when upper ≤ lower · (1 + REL)
+    #[arg(long, value_name = "REL", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
+    pub rel: f32,
+    /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
+    #[arg(long, value_name = "ABS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
+    pub abs: f32,
+    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has one]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub engine: Option<ClosestEngine>,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ClosestEngine {
+    Tree,
+    #[value(alias = "hull")]
+    Cover,
+}
+
+#[derive(Debug, Args)]
+pub struct WithinArgs {
+    #[command(flatten)]
+    pub input: PointArgs,
+    /// The distance, in the mesh's unit
+    #[arg(short, long, value_name = "D", allow_negative_numbers = true, value_parser = tolerance)]
+    pub distance: f32,
+    /// All triangles that are within the distance or may be, nearest first, one on a line, with the number of the query
+    /// (from 0) in front
+    #[arg(long)]
+    pub all: bool,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct NearestArgs {
+    #[command(flatten)]
+    pub input: PointArgs,
+    /// Triangles for each point, nearest first
+    #[arg(short = 'n', long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub count: u32,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct SignedArgs {
+    #[command(flatten)]
+    pub input: PointArgs,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct FieldArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// File to write: .f32, .raw or .npy
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Samples along each axis: one number for all, or NX,NY,NZ
+    #[arg(long, value_name = "SIZE", default_value = "64", value_parser = size)]
+    pub size: Size,
+    /// How far the grid reaches beyond the mesh's box: a length, or a percentage of the box's longest edge
+    #[arg(long, value_name = "MARGIN", default_value = "10%", allow_negative_numbers = true, value_parser = margin)]
+    pub margin: Margin,
+    /// Negative values inside; the mesh must be closed
+    #[arg(long)]
+    pub signed: bool,
+    /// Write lower and upper bound instead of the middle between them
+    #[arg(long)]
+    pub interval: bool,
+    /// Threads [default: as many as the machine has processors for]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+}
+
+/// Samples along x, y and z.
+pub type Size = [usize; 3];
+
+#[derive(Debug, Args)]
+pub struct SegmentArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// Query segments: ax, ay, az, bx, by, bz
+    pub segments: PathBuf,
+    /// All hits, one on a line, with the number of the query (from 0) in front
+    #[arg(long, conflicts_with = "steps")]
+    pub all: bool,
+    /// tree, the box tree; cover, the hull hierarchy's cover tree; or hull, the selectively refined hull, for first hits of
+    /// segments that start outside (others use the cover tree), without --all, --steps and --queue [default: tree if the
+    /// blob has one, else cover]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub engine: Option<SegmentEngine>,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SegmentEngine {
+    Tree,
+    Cover,
+    Hull,
+}
+
+#[derive(Debug, Args)]
+pub struct CullArgs {
+    /// Blob file, built --for cull
+    pub blob: PathBuf,
+    /// The eye point: x,y,z
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
+    pub eye: [f32; 3],
+    /// File to write the numbers of the triangles that may face the eye to, one on a line; '-' for the standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}

@@ -1,0 +1,201 @@
+//! Arguments of the commands that make, describe and cut blobs.
+
+use super::values::{degrees, ratio};
+use clap::{Args, ValueEnum};
+use meshsweep_alloc::collapse::{Conditions, Priority};
+use meshsweep_alloc::precision::VertexBits;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct BuildArgs {
+    /// Mesh file: .stl, .ply or .obj
+    pub mesh: PathBuf,
+    /// Blob to write
+    #[arg(short, long, value_name = "BLOB")]
+    pub output: PathBuf,
+    /// What the blob will be asked; only what that needs is written (see below)
+    #[arg(
+        long = "for",
+        value_enum,
+        value_delimiter = ',',
+        value_name = "QUESTIONS",
+        default_value = "closest,segment"
+    )]
+    pub serves: Vec<Serves>,
+    /// Bits of a stored coordinate (see below)
+    #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
+    pub vertex_bits: StoredBits,
+    /// Faces of the base hull, with --for hull [default: 200]
+    #[arg(long, value_name = "FACES", value_parser = clap::value_parser!(u32).range(4..))]
+    pub base: Option<u32>,
+    #[command(flatten)]
+    pub collapse: CollapseArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Serves {
+    Closest,
+    Segment,
+    Hull,
+    Cull,
+}
+
+/// What a blob has to serve.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    pub closest: bool,
+    pub segment: bool,
+    pub hull: bool,
+    pub cull: bool,
+}
+
+impl Wanted {
+    /// Whether any question needs the box tree.
+    pub fn tree(self) -> bool {
+        self.closest || self.segment || self.cull
+    }
+}
+
+impl BuildArgs {
+    pub fn wanted(&self) -> Wanted {
+        let has = |what: Serves| self.serves.contains(&what);
+        Wanted {
+            closest: has(Serves::Closest),
+            segment: has(Serves::Segment),
+            hull: has(Serves::Hull),
+            cull: has(Serves::Cull),
+        }
+    }
+
+    /// The first option given that only a hull heeds.
+    pub fn hull_option(&self) -> Option<&'static str> {
+        let CollapseArgs { priority, max_valence, compactness, max_normal_deviation } = &self.collapse;
+        [
+            ("--base", self.base.is_some()),
+            ("--priority", priority.is_some()),
+            ("--max-valence", max_valence.is_some()),
+            ("--compactness", compactness.is_some()),
+            ("--max-normal-deviation", max_normal_deviation.is_some()),
+        ]
+        .into_iter()
+        .find_map(|(option, given)| given.then_some(option))
+    }
+}
+
+/// Order and conditions of edge collapses.
+#[derive(Debug, Args)]
+pub struct CollapseArgs {
+    /// Order of the hull's collapses: lp, by the volume that each adds (tighter); span, by a cheaper estimate of it [default: lp]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub priority: Option<PriorityName>,
+    /// Largest valence of a hull vertex [default: 12]
+    #[arg(long, value_name = "EDGES", value_parser = clap::value_parser!(u8).range(3..))]
+    pub max_valence: Option<u8>,
+    /// Least ratio of a star's worst compactness after a collapse to that before it [default: 0.8]
+    #[arg(long, value_name = "RATIO", value_parser = ratio)]
+    pub compactness: Option<f64>,
+    /// Largest change of a face's normal in a collapse, in degrees [default: 45]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
+    pub max_normal_deviation: Option<f64>,
+}
+
+impl CollapseArgs {
+    pub fn priority(&self) -> Priority {
+        match self.priority {
+            None | Some(PriorityName::Lp) => Priority::Program,
+            Some(PriorityName::Span) => Priority::Span,
+        }
+    }
+
+    pub fn conditions(&self) -> Conditions {
+        let default = Conditions::default();
+        // The library's cosine of 45° and this one may differ in the last bit, and the blob's bytes with them.
+        let cosine = |degrees: f64| {
+            if degrees == 45.0 { default.min_normal_cosine } else { degrees.to_radians().cos() }
+        };
+        Conditions {
+            max_valence: self.max_valence.map_or(default.max_valence, usize::from),
+            compactness_ratio: self.compactness.unwrap_or(default.compactness_ratio),
+            min_normal_cosine: self.max_normal_deviation.map_or(default.min_normal_cosine, cosine),
+            ..default
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum PriorityName {
+    Lp,
+    Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StoredBits {
+    Auto,
+    #[value(name = "16")]
+    Sixteen,
+    #[value(name = "24")]
+    TwentyFour,
+    #[value(name = "32")]
+    ThirtyTwo,
+}
+
+impl StoredBits {
+    /// Format of the hull's vertices.
+    pub fn format(self) -> VertexBits {
+        match self {
+            StoredBits::Auto => VertexBits::Auto,
+            StoredBits::Sixteen => VertexBits::Grid16,
+            StoredBits::TwentyFour => VertexBits::Grid24,
+            StoredBits::ThirtyTwo => VertexBits::F32,
+        }
+    }
+
+    /// Whether the box tree's vertices are f32.
+    pub fn is_single(self) -> bool {
+        matches!(self, StoredBits::TwentyFour | StoredBits::ThirtyTwo)
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct InfoArgs {
+    /// Blob file
+    pub blob: PathBuf,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct HullArgs {
+    /// Mesh file, with --faces; or blob file, with --level
+    pub input: PathBuf,
+    /// PLY file to write
+    #[arg(short, long, value_name = "PLY")]
+    pub output: PathBuf,
+    /// Faces of the hull of a mesh [default: 200]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(4..))]
+    pub faces: Option<u32>,
+    /// Level of a blob, 0 being the coarsest
+    #[arg(long, conflicts_with_all = [
+        "faces", "vertex_bits", "priority", "max_valence", "compactness", "max_normal_deviation",
+    ])]
+    pub level: Option<u32>,
+    /// Bits of a coordinate of the hull of a mesh: auto, the fewest that hold the mesh exactly; 16 or 24, on a grid, to
+    /// which the mesh moves; 32, single precision
+    #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
+    pub vertex_bits: StoredBits,
+    #[command(flatten)]
+    pub collapse: CollapseArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct CutArgs {
+    /// Blob file, built --for hull
+    pub blob: PathBuf,
+    /// Finest level to keep, 0 being the coarsest
+    #[arg(long)]
+    pub level: u32,
+    /// Blob to write
+    #[arg(short, long, value_name = "BLOB")]
+    pub output: PathBuf,
+}

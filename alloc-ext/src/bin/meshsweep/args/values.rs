@@ -1,0 +1,95 @@
+//! Values that need more than a number's syntax.
+
+/// How far a grid reaches beyond the mesh's box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Margin {
+    /// In the mesh's unit.
+    Length(f64),
+    /// As a part of the longest edge of the mesh's box.
+    Part(f64),
+}
+
+pub fn margin(text: &str) -> Result<Margin, String> {
+    let wanted =
+        "a length in the mesh's unit or a percentage of the box's longest edge is wanted, as 2.5 or 10%";
+    let number = |digits: &str| {
+        let parsed = digits.trim().parse().ok().filter(|x: &f64| (0.0..=f64::from(f32::MAX)).contains(x));
+        parsed.ok_or_else(|| wanted.to_owned())
+    };
+    match text.strip_suffix('%') {
+        Some(percent) => Ok(Margin::Part(number(percent)? / 100.0)),
+        None => Ok(Margin::Length(number(text)?)),
+    }
+}
+
+/// Samples of a grid along each axis: one number for all, or three.
+pub fn size(text: &str) -> Result<[usize; 3], String> {
+    let wanted = "one number from 1 to 65536 is wanted, or three, as 64 or 64,32,32";
+    let counts: Option<Vec<usize>> = text
+        .split(',')
+        .map(|count| count.trim().parse().ok().filter(|count| (1..=1 << 16).contains(count)))
+        .collect();
+    match counts.as_deref() {
+        Some(&[all]) => Ok([all; 3]),
+        Some(&[x, y, z]) => Ok([x, y, z]),
+        _ => Err(wanted.to_owned()),
+    }
+}
+
+/// A point: three finite numbers.
+pub fn point(text: &str) -> Result<[f32; 3], String> {
+    let wanted = "three numbers are wanted, as 1,-2.5,3";
+    let coordinates: Option<Vec<f32>> =
+        text.split(',').map(|x| x.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
+    coordinates.and_then(|p| <[f32; 3]>::try_from(p).ok()).ok_or_else(|| wanted.to_owned())
+}
+
+pub fn tolerance(text: &str) -> Result<f32, String> {
+    let wanted = "a number from 0 to 3.4e38 is wanted";
+    text.parse().ok().filter(|x: &f32| *x >= 0.0 && x.is_finite()).ok_or_else(|| wanted.to_owned())
+}
+
+fn up_to(text: &str, most: f64) -> Result<f64, String> {
+    let wanted = || format!("a number from 0 to {most} is wanted");
+    text.parse().ok().filter(|x| (0.0..=most).contains(x)).ok_or_else(wanted)
+}
+
+pub fn ratio(text: &str) -> Result<f64, String> {
+    up_to(text, 1.0)
+}
+
+pub fn degrees(text: &str) -> Result<f64, String> {
+    up_to(text, 180.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn margins_are_lengths_or_percentages() {
+        assert_eq!(margin("2.5"), Ok(Margin::Length(2.5)));
+        assert_eq!(margin("10%"), Ok(Margin::Part(0.1)));
+        assert_eq!(margin("0"), Ok(Margin::Length(0.0)));
+        for wrong in ["", "%", "-1", "nan", "inf", "1e39", "10 percent"] {
+            assert!(margin(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn sizes_are_one_number_or_three() {
+        assert_eq!(size("64"), Ok([64; 3]));
+        assert_eq!(size("1, 2,3"), Ok([1, 2, 3]));
+        for wrong in ["", "0", "1,2", "1,2,3,4", "-1", "65537", "1.5"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn points_are_three_finite_numbers() {
+        assert_eq!(point("1,-2.5,3e2"), Ok([1.0, -2.5, 300.0]));
+        for wrong in ["", "1,2", "1,2,3,4", "1,2,nan", "1,2,1e39"] {
+            assert!(point(wrong).is_err(), "{wrong}");
+        }
+    }
+}

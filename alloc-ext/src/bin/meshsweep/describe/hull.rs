@@ -1,0 +1,109 @@
+//! The hull hierarchy: memory, levels, surface error.
+
+use super::Length;
+use crate::counted::Counted;
+use meshsweep_core::blob::layout::VertexFormat;
+use meshsweep_core::blob::{Header, Level};
+use meshsweep_core::num::{exp2, up_to_f32};
+use meshsweep_core::{Model, QueueEntry};
+use std::io::{self, Write};
+
+/// Bytes of one word of a front's bit set.
+const WORD: usize = size_of::<u32>();
+
+/// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
+pub fn surface_error(header: &Header) -> f32 {
+    up_to_f32(f64::from(header.surface_error) * exp2(header.scale_exponent))
+}
+
+/// Certified distances of a level, in the mesh's unit and to the mesh as it was read.
+#[derive(Clone, Copy, Debug)]
+pub struct LevelDistances {
+    /// No point of the level's covering triangles is farther than this from the mesh.
+    pub cover_to_mesh: f32,
+    /// No point of the mesh is farther than this from them.
+    pub mesh_to_cover: f32,
+}
+
+pub fn distances(header: &Header, level: &Level) -> LevelDistances {
+    // One rounding of the sum, so a bound stays one.
+    let up = |local: f32| {
+        let sum = (f64::from(local) + f64::from(header.surface_error)) * (1.0 + f64::EPSILON);
+        up_to_f32(sum * exp2(header.scale_exponent))
+    };
+    LevelDistances { cover_to_mesh: up(level.hull_to_surface), mesh_to_cover: up(level.surface_to_hull) }
+}
+
+/// Bytes of a queue with which no query overflows.
+pub fn queue_bytes(model: &Model<'_>) -> usize {
+    model.capacities().queue * size_of::<QueueEntry>()
+}
+
+/// Bytes of both bit sets of a front that can perform every split.
+pub fn front_bytes(model: &Model<'_>) -> usize {
+    2 * model.capacities().front_words * WORD
+}
+
+/// How coordinates are stored.
+pub fn format_name(format: VertexFormat) -> &'static str {
+    match format {
+        VertexFormat::F32 => "f32",
+        VertexFormat::Grid16 => "16-bit grid",
+        VertexFormat::Grid24 => "24-bit grid",
+    }
+}
+
+pub(super) fn write(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
+    let h = model.header();
+    writeln!(out, "hull hierarchy")?;
+    writeln!(
+        out,
+        "  surface error {} (coordinates: {})",
+        Length(surface_error(h)),
+        format_name(h.vertex_format)
+    )?;
+    write_memory(out, model)?;
+    write_levels(out, model)
+}
+
+/// Working memory that makes overflow impossible.
+fn write_memory(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
+    let capacities = model.capacities();
+    writeln!(
+        out,
+        "  queue: {}, {} bytes of RAM: no query on the cover tree can overflow it",
+        Counted(capacities.queue, "entry"),
+        queue_bytes(model)
+    )?;
+    writeln!(
+        out,
+        "  front: {} in each of 2 bit sets, {} bytes of RAM: every split can be performed",
+        Counted(capacities.front_words, "word"),
+        front_bytes(model)
+    )?;
+    writeln!(
+        out,
+        "  dependency depth: {} in the longest chain",
+        Counted(capacities.dependency_depth, "split")
+    )
+}
+
+/// The level table.
+fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
+    writeln!(out, "  levels, with certified distances of their covering triangles")?;
+    writeln!(out, "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover")?;
+    for (index, level) in model.levels().enumerate() {
+        let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(model.header(), &level);
+        writeln!(
+            out,
+            "  {index:>5} {:>10} {:>10} {:>10} {:>10.3} {:>15} {:>15}",
+            level.faces,
+            level.splits,
+            level.nodes,
+            f64::from(level.void_ratio) * 100.0,
+            Length(cover_to_mesh),
+            Length(mesh_to_cover)
+        )?;
+    }
+    Ok(())
+}

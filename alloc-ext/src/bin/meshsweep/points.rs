@@ -1,0 +1,76 @@
+//! Questions about points that only the box tree answers: all points asked, then all rows written.
+
+use super::args::{PointArgs, SearchArgs};
+use super::blob_file;
+use super::failure::Failure;
+use super::output::{Output, refuse_same_file};
+use super::queries::Queries;
+use super::served::{self, Need};
+use super::stop::Tally;
+use meshsweep_core::Tree;
+use meshsweep_core::query::tree::TreeEntry;
+use meshsweep_core::query::{Ended, QueryError, Stop, Work};
+use std::io::{self, Write};
+use std::time::Instant;
+
+/// A question about a point.
+pub trait Question {
+    type Answer;
+
+    /// Names of the columns.
+    fn header(&self) -> &'static str;
+
+    fn ask(
+        &mut self,
+        tree: &Tree<'_>,
+        point: [f32; 3],
+        stop: &Stop,
+        stack: &mut [TreeEntry],
+    ) -> Result<Self::Answer, QueryError>;
+
+    /// How a search ended, and what it took.
+    fn outcome(answer: &Self::Answer) -> (Ended, Work);
+
+    /// Writes the rows of query number `query`, from 0.
+    fn write(
+        &self,
+        out: &mut dyn Write,
+        query: usize,
+        point: &[f32; 3],
+        answer: &Self::Answer,
+    ) -> io::Result<()>;
+}
+
+/// Asks `question` about every point of the file.
+pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, mut question: Q) -> Result<(), Failure> {
+    let output = search.output.as_deref();
+    if let Some(output) = output {
+        refuse_same_file(output, &[&input.blob, &input.points])?;
+    }
+    let bytes = blob_file::read(&input.blob)?;
+    let model = blob_file::open(&input.blob, &bytes)?;
+    let tree = served::require_tree(&input.blob, &model, Need::Distances)?;
+    let points = Queries::points(&input.points)?;
+    let output = Output::file_or_stdout(output)?;
+    let stop = search.stop(0.0, 0.0);
+    let mut stack = search.stack(&tree);
+    let mut answers = Vec::with_capacity(points.rows.len());
+    let mut tally = Tally::default();
+    let started = Instant::now();
+    for (index, &point) in points.rows.iter().enumerate() {
+        let answer = question.ask(&tree, point, &stop, &mut stack);
+        answers.push(answer.map_err(|error| points.refused(index, error))?);
+    }
+    let time = started.elapsed();
+    for answer in &answers {
+        let (ended, work) = Q::outcome(answer);
+        tally.count(ended, work);
+    }
+    output.finish(|out| {
+        writeln!(out, "{}", question.header())?;
+        let mut rows = points.rows.iter().zip(&answers).enumerate();
+        rows.try_for_each(|(query, (point, answer))| question.write(out, query, point, answer))
+    })?;
+    search.note(&tally, time);
+    Ok(())
+}

@@ -1,0 +1,100 @@
+//! Which questions a blob answers, and by which of its hierarchies.
+
+use super::failure::Failure;
+use meshsweep_core::{Model, Tree};
+use std::path::Path;
+
+/// Names of the questions that `model` serves, as the commands are called.
+pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
+    let tree = model.tree();
+    let tree = tree.as_ref();
+    let distances = tree.is_some_and(Tree::serves_distances);
+    let hull = model.has_hull();
+    [
+        ("closest", distances || hull),
+        ("within", distances),
+        ("nearest", distances),
+        ("field", distances),
+        ("signed", distances && tree.is_some_and(|tree| tree.header().is_closed())),
+        ("segment", tree.is_some_and(Tree::serves_segments) || hull),
+        ("cull", tree.is_some_and(Tree::serves_culling)),
+        ("hull --level", hull),
+        ("cut", hull),
+    ]
+    .into_iter()
+    .filter_map(|(question, serves)| serves.then_some(question))
+    .collect()
+}
+
+/// What a question needs of a blob.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    Distances,
+    Segments,
+    Culling,
+    Hull,
+}
+
+impl Need {
+    /// The part of the blob.
+    pub fn part(self) -> &'static str {
+        match self {
+            Need::Distances => "box tree for distances",
+            Need::Segments => "box tree for segments",
+            Need::Culling => "box tree with normal cones",
+            Need::Hull => "hull hierarchy",
+        }
+    }
+
+    /// What `build --for` has to be given.
+    pub fn option(self) -> &'static str {
+        match self {
+            Need::Distances => "closest",
+            Need::Segments => "segment",
+            Need::Culling => "cull",
+            Need::Hull => "hull",
+        }
+    }
+}
+
+/// The blob's tree, if it serves `need`.
+pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Tree<'a>> {
+    model.tree().filter(|tree| match need {
+        Need::Distances => tree.serves_distances(),
+        Need::Segments => tree.serves_segments(),
+        Need::Culling => tree.serves_culling(),
+        Need::Hull => false,
+    })
+}
+
+/// The blob's tree for `need`.
+pub fn require_tree<'a>(file: &Path, model: &Model<'a>, need: Need) -> Result<Tree<'a>, Failure> {
+    tree(model, need).ok_or_else(|| Failure::NotServed { file: file.to_owned(), need, other: None })
+}
+
+/// That the blob has a hull hierarchy.
+pub fn require_hull(file: &Path, model: &Model<'_>) -> Result<(), Failure> {
+    if model.has_hull() {
+        Ok(())
+    } else {
+        Err(Failure::NotServed { file: file.to_owned(), need: Need::Hull, other: None })
+    }
+}
+
+/// The tree, or `None` for the hull hierarchy: what `--engine` chooses, else the tree where the blob has one.
+pub fn choose<'a>(
+    file: &Path,
+    model: &Model<'a>,
+    need: Need,
+    tree_chosen: Option<bool>,
+) -> Result<Option<Tree<'a>>, Failure> {
+    let tree = tree(model, need);
+    let refuse = |need, other| Err(Failure::NotServed { file: file.to_owned(), need, other });
+    match (tree_chosen, tree) {
+        (Some(true) | None, Some(tree)) => Ok(Some(tree)),
+        (Some(false) | None, _) if model.has_hull() => Ok(None),
+        (Some(false), tree) => refuse(Need::Hull, tree.map(|_| "tree")),
+        (Some(true), None) => refuse(need, model.has_hull().then_some("cover")),
+        (None, None) => refuse(need, None),
+    }
+}

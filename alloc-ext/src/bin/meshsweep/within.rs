@@ -1,0 +1,114 @@
+//! `meshsweep within`: whether points are within a distance of the surface, or which triangles are.
+
+use super::args::WithinArgs;
+use super::failure::Failure;
+use super::points::{self, Question};
+use meshsweep_core::Tree;
+use meshsweep_core::query::tree::{AllWithin, Near, TreeEntry, Verdict, Within, all_within, is_within};
+use meshsweep_core::query::{Ended, QueryError, Stop, Work};
+use std::io::{self, Write};
+
+/// Triangles that fit at first; a point with more is asked again with as much room as it needs.
+const TRIANGLES: usize = 64;
+
+pub fn run(args: &WithinArgs) -> Result<(), Failure> {
+    let distance = args.distance;
+    if args.all {
+        let found = vec![Near::EMPTY; TRIANGLES];
+        points::run(&args.input, &args.search, All { distance, found })
+    } else {
+        points::run(&args.input, &args.search, Any { distance })
+    }
+}
+
+/// Whether the surface is within the distance.
+struct Any {
+    distance: f32,
+}
+
+impl Question for Any {
+    type Answer = Within;
+
+    fn header(&self) -> &'static str {
+        "x,y,z,within,triangle,work"
+    }
+
+    fn ask(
+        &mut self,
+        tree: &Tree<'_>,
+        point: [f32; 3],
+        stop: &Stop,
+        stack: &mut [TreeEntry],
+    ) -> Result<Within, QueryError> {
+        is_within(tree, point, self.distance, stop, stack)
+    }
+
+    fn outcome(answer: &Within) -> (Ended, Work) {
+        (answer.ended, answer.work)
+    }
+
+    fn write(&self, out: &mut dyn Write, _: usize, [x, y, z]: &[f32; 3], answer: &Within) -> io::Result<()> {
+        write!(out, "{x},{y},{z},")?;
+        match answer.verdict {
+            Verdict::Yes { triangle } => write!(out, "yes,{triangle}")?,
+            Verdict::No => write!(out, "no,")?,
+            Verdict::Unknown => write!(out, "unknown,")?,
+        }
+        writeln!(out, ",{}", answer.work.total())
+    }
+}
+
+/// Which triangles are within the distance.
+struct All {
+    distance: f32,
+    found: Vec<Near>,
+}
+
+impl Question for All {
+    type Answer = (AllWithin, Vec<Near>);
+
+    fn header(&self) -> &'static str {
+        "query,within,lower,upper,px,py,pz,triangle,work"
+    }
+
+    fn ask(
+        &mut self,
+        tree: &Tree<'_>,
+        point: [f32; 3],
+        stop: &Stop,
+        stack: &mut [TreeEntry],
+    ) -> Result<Self::Answer, QueryError> {
+        let mut went = all_within(tree, point, self.distance, stop, &mut self.found, stack)?;
+        if went.dropped > 0 {
+            self.found.resize(went.stored + went.dropped as usize, Near::EMPTY);
+            went = all_within(tree, point, self.distance, stop, &mut self.found, stack)?;
+        }
+        Ok((went, self.found.iter().take(went.stored).copied().collect()))
+    }
+
+    fn outcome((went, _): &Self::Answer) -> (Ended, Work) {
+        (went.ended, went.work)
+    }
+
+    fn write(
+        &self,
+        out: &mut dyn Write,
+        query: usize,
+        _: &[f32; 3],
+        (went, found): &Self::Answer,
+    ) -> io::Result<()> {
+        let work = went.work.total();
+        for (index, near) in found.iter().enumerate() {
+            let verdict = if index < went.certain { "yes" } else { "unknown" };
+            let Near { lower, upper, point: [x, y, z], triangle } = near;
+            writeln!(out, "{query},{verdict},{lower},{upper},{x},{y},{z},{triangle},{work}")?;
+        }
+        if went.ended != Ended::Exact {
+            // Triangles may be missing.
+            writeln!(out, "{query},unknown,,,,,,,{work}")?;
+        } else if found.is_empty() {
+            writeln!(out, "{query},no,,,,,,,{work}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,185 @@
+//! The nearest triangle of a leaf, eight at once where the target has vectors, else one after the other. Same bits.
+
+use crate::blob::Patch;
+use glam::Vec3;
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(super) use narrow::{Lanes, nearest_within};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(super) use wide::{Lanes, nearest_within};
+
+/// The nearest triangle of a patch, wherever it is.
+#[inline(always)]
+pub(super) fn nearest_triangle(patch: &Patch<'_>, p: Vec3) -> Option<NearestOf> {
+    nearest_within(patch, p, f32::INFINITY)
+}
+
+/// The nearest triangle of a patch. One that is proved to be beyond a squared limit may be left out of it.
+#[derive(Clone, Copy)]
+pub(super) struct NearestOf {
+    /// Its squared distance.
+    pub(super) distance_sq: f32,
+    /// Least certified square of all triangles of the patch.
+    pub(super) certified_sq: f32,
+    /// Which triangle it is.
+    pub(super) lanes: Lanes,
+}
+
+impl NearestOf {
+    /// The least lane that is so near, and where on its triangle the closest point lies (see [`Patch::point`]).
+    #[inline(always)]
+    pub(super) fn lane(&self) -> (usize, f32, f32) {
+        self.lanes.at(self.distance_sq)
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod wide {
+    use super::{NearestOf, Patch, Vec3};
+    use crate::fan::{LANES_BELOW, Nearness8, WIDTH, point_patch8};
+
+    /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch can guess it.
+    #[derive(Clone, Copy)]
+    pub(in crate::query::tree) struct Lanes(Nearness8);
+
+    impl Lanes {
+        pub(in crate::query::tree) const NONE: Lanes = Lanes(Nearness8 {
+            distance_sq: [0.0; WIDTH],
+            certified_sq: [0.0; WIDTH],
+            v: [0.0; WIDTH],
+            w: [0.0; WIDTH],
+        });
+
+        #[inline(always)]
+        pub(in crate::query::tree) fn at(&self, distance_sq: f32) -> (usize, f32, f32) {
+            let mut found = (WIDTH - 1, 0.0, 0.0);
+            for i in (0..WIDTH).rev() {
+                let here = self.0.distance_sq[i] == distance_sq;
+                found.0 = if here { i } else { found.0 };
+                found.1 = if here { self.0.v[i] } else { found.1 };
+                found.2 = if here { self.0.w[i] } else { found.2 };
+            }
+            found
+        }
+    }
+
+    /// `limit` is for the scalar kernel; here leaving a lane out would gain nothing.
+    #[inline(always)]
+    pub(in crate::query::tree) fn nearest_within(
+        patch: &Patch<'_>,
+        p: Vec3,
+        _limit: f32,
+    ) -> Option<NearestOf> {
+        let near = if patch.is_single() {
+            single_nearness(patch, p)?
+        } else {
+            point_patch8(&patch.grid_edges8(p)?, LANES_BELOW.get(patch.tag().triangles())?)
+        };
+        let (distance_sq, certified_sq) = (least_of(&near.distance_sq), least_of(&near.certified_sq));
+        Some(NearestOf { distance_sq, certified_sq, lanes: Lanes(near) })
+    }
+
+    /// A call of its own, so that the two ways to read a leaf do not meet in memory.
+    #[inline(never)]
+    fn single_nearness(patch: &Patch<'_>, p: Vec3) -> Option<Nearness8> {
+        Some(point_patch8(&patch.single_edges8(p)?, LANES_BELOW.get(patch.tag().triangles())?))
+    }
+
+    #[inline(always)]
+    fn least_of(values: &[f32; WIDTH]) -> f32 {
+        let less = |a: f32, b: f32| if b < a { b } else { a };
+        let [a, b, c, d, e, f, g, h] = *values;
+        less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
+    }
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod narrow {
+    use super::{NearestOf, Patch, Vec3};
+    use crate::fan::{Nearness, PointFan, SpokeTerms, point_patch};
+
+    /// The nearest triangle of a leaf.
+    #[derive(Clone, Copy)]
+    pub(in crate::query::tree) struct Lanes {
+        lane: usize,
+        v: f32,
+        w: f32,
+    }
+
+    impl Lanes {
+        pub(in crate::query::tree) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0 };
+
+        #[inline(always)]
+        pub(in crate::query::tree) fn at(&self, _: f32) -> (usize, f32, f32) {
+            (self.lane, self.v, self.w)
+        }
+    }
+
+    #[inline(always)]
+    pub(in crate::query::tree) fn nearest_within(
+        patch: &Patch<'_>,
+        p: Vec3,
+        limit: f32,
+    ) -> Option<NearestOf> {
+        let mut nearest = NearestOf { distance_sq: f32::MAX, certified_sq: f32::MAX, lanes: Lanes::NONE };
+        if patch.is_single() {
+            single(patch, p, &mut nearest);
+        } else {
+            on_grid(patch, p, limit, &mut nearest)?;
+        }
+        Some(nearest)
+    }
+
+    impl NearestOf {
+        #[inline(always)]
+        fn take(&mut self, lane: usize, near: &Nearness) {
+            if near.distance_sq < self.distance_sq {
+                self.distance_sq = near.distance_sq;
+                self.lanes = Lanes { lane, v: near.v, w: near.w };
+            }
+            if near.certified_sq < self.certified_sq {
+                self.certified_sq = near.certified_sq;
+            }
+        }
+    }
+
+    /// Every stored number is read once: differences of integers, then one conversion.
+    #[inline(always)]
+    fn on_grid(patch: &Patch<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
+        let ring = patch.grid_ring()?;
+        let turn = patch.tag().turn();
+        let mut centre = ring.centres[0];
+        let mut fan = PointFan::new(p - patch.centre(0));
+        let less = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
+            Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
+        };
+        let mut before = [0i32; 3];
+        let mut a: Option<SpokeTerms> = None;
+        for (i, ((x, y), z)) in ring.x.iter().zip(ring.y).zip(ring.z).enumerate() {
+            let here = [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair)));
+            if let Some(mut first) = a {
+                if i == turn + 1 {
+                    centre = ring.centres[1];
+                    fan = PointFan::new(p - patch.centre(1));
+                    first = fan.spoke(less(before, centre));
+                }
+                let second = fan.spoke(less(here, centre));
+                if !fan.is_beyond(&first, &second, limit) {
+                    nearest.take(i - 1, &fan.triangle(&first, &second));
+                }
+                a = Some(second);
+            } else {
+                a = Some(fan.spoke(less(here, centre)));
+            }
+            before = here;
+        }
+        Some(())
+    }
+
+    #[inline(never)]
+    fn single(patch: &Patch<'_>, p: Vec3, nearest: &mut NearestOf) {
+        let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
+        let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
+        point_patch(count, turn, s, |i, which| patch.spoke(i, which), |lane, near| nearest.take(lane, &near));
+    }
+}

@@ -1,0 +1,222 @@
+//! The nearest triangles so far, in the caller's slice: a heap with the farthest on top (Williams 1964), sorted in place at the end.
+
+use super::interval::{lower_of, witness};
+use super::probe::Probe;
+use super::walk::Visit;
+use crate::blob::{Patch, Tree};
+use crate::query::QueryError;
+
+/// A triangle near a point: `lower ≤ distance to the triangle of the input mesh ≤ upper`, in real arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// Not above the distance, input units.
+    pub lower: f32,
+    /// Not below the distance, input units.
+    pub upper: f32,
+    /// A point of the triangle as stored, at most `upper` away but for its rounding to f32.
+    pub point: [f32; 3],
+    /// The triangle's number in the input file.
+    pub triangle: u32,
+}
+
+impl Near {
+    /// Any value, for filling arrays.
+    pub const EMPTY: Near = Near { lower: 0.0, upper: f32::INFINITY, point: [0.0; 3], triangle: u32::MAX };
+}
+
+/// A triangle that a descent has come to.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate {
+    pub(super) distance_sq: f32,
+    pub(super) certified_sq: f32,
+    /// In the blob.
+    pub(super) number: u32,
+    pub(super) node: u32,
+    pub(super) child: u32,
+    pub(super) lane: u32,
+}
+
+impl Candidate {
+    /// Triangle `lane` of a leaf whose first is `first`.
+    pub(super) fn new(
+        visit: &Visit<'_>,
+        first: u32,
+        lane: usize,
+        distance_sq: f32,
+        certified_sq: f32,
+    ) -> Self {
+        let (node, child, lane) = (visit.node, visit.lane, lane as u32);
+        Candidate { distance_sq, certified_sq, number: first.wrapping_add(lane), node, child, lane }
+    }
+
+    /// While the search runs a slot of the caller holds this instead of an answer; node numbers are below 2^24, so that f32 holds them.
+    fn held(self) -> Near {
+        let place = [self.node as f32, (self.child * 8 + self.lane) as f32, 0.0];
+        Near { lower: self.distance_sq, upper: self.certified_sq, point: place, triangle: self.number }
+    }
+
+    fn of(held: &Near) -> Candidate {
+        let [node, place, _] = held.point;
+        let place = place as u32;
+        Candidate {
+            distance_sq: held.lower,
+            certified_sq: held.upper,
+            number: held.triangle,
+            node: node as u32,
+            child: place / 8,
+            lane: place % 8,
+        }
+    }
+
+    fn patch<'t>(&self, tree: &Tree<'t>) -> Option<Patch<'t>> {
+        tree.leaf(self.node, self.child)
+    }
+
+    /// What the triangle is not nearer than, grid units.
+    pub(super) fn lower(&self, tree: &Tree<'_>, probe: &Probe) -> Option<f32> {
+        let patch = self.patch(tree)?;
+        Some(lower_of(&patch, self.lane as usize, probe.p, self.distance_sq, self.certified_sq))
+    }
+
+    fn answer(&self, tree: &Tree<'_>, probe: &Probe) -> Option<Near> {
+        let patch = self.patch(tree)?;
+        Some(Near {
+            lower: probe.lower(self.lower(tree, probe)?),
+            // A monotone root: bounds rise as distances do.
+            upper: probe.upper(libm::sqrtf(self.distance_sq)),
+            point: probe.units.point(witness(&patch, self.lane as usize, probe.p)),
+            triangle: tree.source(self.number)?,
+        })
+    }
+}
+
+/// Whether `a` comes after `b`: farther, or as far with a greater number.
+fn after(a: &Near, b: &Near) -> bool {
+    a.lower > b.lower || (a.lower == b.lower && a.triangle > b.triangle)
+}
+
+/// The caller's slice and how much of it is used.
+pub(super) struct Ranked<'a> {
+    slots: &'a mut [Near],
+    stored: usize,
+}
+
+impl<'a> Ranked<'a> {
+    pub(super) fn new(slots: &'a mut [Near]) -> Self {
+        Ranked { slots, stored: 0 }
+    }
+
+    pub(super) fn stored(&self) -> usize {
+        self.stored
+    }
+
+    /// The squared distance that a triangle must not exceed to be stored, once there is no room.
+    pub(super) fn farthest_sq(&self) -> Option<f32> {
+        if self.stored < self.slots.len() { None } else { self.slots.first().map(|top| top.lower) }
+    }
+
+    /// Stores a triangle; what there is no room for comes back.
+    pub(super) fn offer(&mut self, candidate: Candidate) -> Option<Candidate> {
+        let held = candidate.held();
+        if self.stored < self.slots.len() {
+            let at = self.stored;
+            self.stored += 1;
+            if let Some(slot) = self.slots.get_mut(at) {
+                *slot = held;
+            }
+            self.rise(at);
+            return None;
+        }
+        match self.slots.first_mut() {
+            Some(top) if after(top, &held) => {
+                let out = Candidate::of(top);
+                *top = held;
+                self.sink(self.stored);
+                Some(out)
+            }
+            _ => Some(candidate),
+        }
+    }
+
+    /// Exchanges two slots if the one at `lower` comes after the one at `upper`.
+    fn exchange(&mut self, upper: usize, lower: usize) -> bool {
+        match self.slots.get_disjoint_mut([upper, lower]) {
+            Ok([a, b]) if after(b, a) => {
+                core::mem::swap(a, b);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    fn rise(&mut self, mut at: usize) {
+        while at > 0 {
+            let parent = (at - 1) / 2;
+            if !self.exchange(parent, at) {
+                return;
+            }
+            at = parent;
+        }
+    }
+
+    /// Mends the heap of the first `end` slots after its top has changed.
+    fn sink(&mut self, end: usize) {
+        let mut at = 0;
+        loop {
+            let left = 2 * at + 1;
+            let right = left + 1;
+            if left >= end {
+                return;
+            }
+            let child = match (self.slots.get(left), self.slots.get(right)) {
+                (Some(l), Some(r)) if right < end && after(r, l) => right,
+                _ => left,
+            };
+            if !self.exchange(at, child) {
+                return;
+            }
+            at = child;
+        }
+    }
+
+    /// Sorts by rising distance and writes the answers; how many there are.
+    pub(super) fn finish(mut self, tree: &Tree<'_>, probe: &Probe) -> Result<usize, QueryError> {
+        for end in (1..self.stored).rev() {
+            if let Ok([top, last]) = self.slots.get_disjoint_mut([0, end]) {
+                core::mem::swap(top, last);
+            }
+            self.sink(end);
+        }
+        for slot in self.slots.iter_mut().take(self.stored) {
+            *slot = Candidate::of(slot).answer(tree, probe).ok_or(QueryError::Model)?;
+        }
+        Ok(self.stored)
+    }
+}
+
+/// The first triangles of the blob, each with the interval of the whole model; how many. For points from which all are alike.
+pub(super) fn first_triangles(
+    tree: &Tree<'_>,
+    probe: &Probe,
+    lower: f32,
+    upper: f32,
+    out: &mut [Near],
+) -> Result<usize, QueryError> {
+    let mut slots = out.iter_mut();
+    let mut stored = 0;
+    for node in 0..tree.header().nodes {
+        let links = tree.links(node).ok_or(QueryError::Model)?;
+        for child in links.inner..links.count {
+            let patch = tree.leaf(node, child).ok_or(QueryError::Model)?;
+            let first = links.triangle(child);
+            for lane in 0..patch.tag().triangles() {
+                let Some(slot) = slots.next() else { return Ok(stored) };
+                let [corner, ..] = patch.corners(lane);
+                let triangle = tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Model)?;
+                *slot = Near { lower, upper, point: probe.units.point(corner), triangle };
+                stored += 1;
+            }
+        }
+    }
+    Ok(stored)
+}

@@ -1,0 +1,170 @@
+//! Is the mesh within a distance? Cheaper than the distance itself: it ends as soon as one triangle is certainly near enough, and looks
+//! at nothing that is certainly too far.
+
+use super::closest::closest_point;
+use super::interval::{each_triangle, limit_within, lower_of};
+use super::leaf::nearest_triangle;
+use super::probe::Probe;
+use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
+use crate::blob::Tree;
+use crate::num::root;
+use crate::query::{Ended, QueryError, Stop, Work};
+
+/// Answer to [`is_within`], about the input mesh in real arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Proved: this triangle (its number in the input file) is not farther. Not always the closest one.
+    Yes {
+        /// Its number.
+        triangle: u32,
+    },
+    /// Proved: the whole mesh is farther.
+    No,
+    /// [`Within::ended`] says why.
+    Unknown,
+}
+
+/// Whether the mesh is within a distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Within {
+    /// The answer.
+    pub verdict: Verdict,
+    /// What it cost.
+    pub work: Work,
+    /// [`Ended::Exact`] with `Yes` and `No`. With `Unknown`: [`Ended::Level`] if the distance is so near to the one asked about that the
+    /// stored surface or rounding leaves it open, [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut short.
+    pub ended: Ended,
+}
+
+impl Within {
+    /// Proved: nothing of the input mesh is within the distance.
+    pub fn is_clear(&self) -> bool {
+        self.verdict == Verdict::No
+    }
+}
+
+/// Is the input mesh at most `distance` (input units) from `point`?
+///
+/// Distance 0 asks whether the point touches the surface: `No` or, as f32 cannot prove that it does, `Unknown`. `Unknown` for want
+/// of precision needs a distance within [`TreeHeader::surface_error`](crate::blob::TreeHeader) and rounding of the one asked about. Farther than a
+/// million model sizes the model's box answers. `stack` as for [`closest_point`]; a shorter one may turn an answer into `Unknown`, never into
+/// a wrong one. Of [`Stop`] only `steps` matters.
+///
+/// Cost: one node if the model's box is out of reach; else what lies within `distance`, and no more than a few leaves where the answer is yes.
+///
+/// # Errors
+/// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative, NaN or infinite; [`QueryError::NoQueue`];
+/// [`QueryError::NotServed`].
+pub fn is_within(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    distance: f32,
+    stop: &Stop,
+    stack: &mut [TreeEntry],
+) -> Result<Within, QueryError> {
+    stop.check()?;
+    if !(distance >= 0.0 && distance.is_finite()) {
+        return Err(QueryError::Tolerance);
+    }
+    if stack.is_empty() {
+        return Err(QueryError::NoQueue);
+    }
+    let probe = Probe::new(tree, point)?;
+    if probe.far {
+        return from_afar(tree, point, distance, stack);
+    }
+    let mut work = Work::default();
+    let limit = limit_within(&probe, distance);
+    let mut seek = Threshold { tree, probe: &probe, distance, limit, near: None, doubtful: false };
+    let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
+    let (verdict, ended) = match descent {
+        _ if seek.near.is_some() => {
+            let triangle = seek.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
+            (Verdict::Yes { triangle }, Ended::Exact)
+        }
+        Descent::Short { steps: true, .. } => (Verdict::Unknown, Ended::Steps),
+        Descent::Short { steps: false, .. } => (Verdict::Unknown, Ended::Capacity),
+        _ if seek.doubtful => (Verdict::Unknown, Ended::Level),
+        _ => (Verdict::No, Ended::Exact),
+    };
+    Ok(Within { verdict, work, ended })
+}
+
+#[cold]
+fn from_afar(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    distance: f32,
+    stack: &mut [TreeEntry],
+) -> Result<Within, QueryError> {
+    let closest = closest_point(tree, point, &Stop::EXACT, stack)?;
+    let verdict = match closest.triangle {
+        Some(triangle) if closest.upper <= distance => Verdict::Yes { triangle },
+        _ if closest.lower > distance => Verdict::No,
+        _ => Verdict::Unknown,
+    };
+    let ended = if verdict == Verdict::Unknown { Ended::Level } else { Ended::Exact };
+    Ok(Within { verdict, work: closest.work, ended })
+}
+
+struct Threshold<'a> {
+    tree: &'a Tree<'a>,
+    probe: &'a Probe,
+    /// Input units.
+    distance: f32,
+    /// Squared bound above which everything is certainly farther.
+    limit: f32,
+    /// A triangle that is certainly within, by its number in the blob.
+    near: Option<u32>,
+    /// A triangle may be within.
+    doubtful: bool,
+}
+
+impl Seek for Threshold<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+        let near = nearest_triangle(&visit.patch, self.probe.p)?;
+        if near.distance_sq <= self.limit && self.probe.upper(root(near.distance_sq)) <= self.distance {
+            self.near = Some(self.number(visit, near.distance_sq)?);
+            return Some(false);
+        }
+        if near.certified_sq <= self.limit && !self.doubtful {
+            self.doubt(visit);
+        }
+        Some(true)
+    }
+}
+
+impl Threshold<'_> {
+    /// Number in the blob of the first triangle at `distance_sq`.
+    #[cold]
+    #[inline(never)]
+    fn number(&self, visit: &Visit<'_>, distance_sq: f32) -> Option<u32> {
+        let first = self.tree.links(visit.node)?.triangle(visit.lane);
+        let mut at = 0;
+        each_triangle(&visit.patch, self.probe.p, |lane, here_sq, _| {
+            at = if here_sq == distance_sq && at == 0 { lane } else { at };
+        });
+        Some(first.wrapping_add(at as u32))
+    }
+
+    /// A leaf near the limit: is one of its triangles not certainly beyond the distance?
+    #[cold]
+    #[inline(never)]
+    fn doubt(&mut self, visit: &Visit<'_>) {
+        let Threshold { probe, limit, distance, .. } = *self;
+        let mut doubtful = false;
+        each_triangle(&visit.patch, probe.p, |lane, distance_sq, certified_sq| {
+            if certified_sq <= limit && !doubtful {
+                let lower = lower_of(&visit.patch, lane, probe.p, distance_sq, certified_sq);
+                doubtful = probe.lower(lower) <= distance;
+            }
+        });
+        self.doubtful = doubtful;
+    }
+}

@@ -1,0 +1,105 @@
+//! The library's box tree: certified answers in f32.
+//!
+//! The blob serves distances and segments alike. Every answer is computed whole, with its interval and triangle, though the race looks at its
+//! point or parameter alone.
+
+use std::hint::black_box;
+
+use meshsweep_alloc::emit;
+use meshsweep_alloc::tree::{TreeOptions, build as build_tree};
+use meshsweep_core::Tree;
+use meshsweep_core::query::Stop;
+use meshsweep_core::query::tree::{Facing, SegmentEntry, TreeEntry, closest_point, first_hit};
+
+use crate::measure::Subject;
+
+use super::engine::{Answer, Engine, try_each};
+use super::{Scope, Workload};
+
+/// One query after the other, each on its own.
+struct Alone<'a> {
+    bytes: usize,
+    tree: Tree<'a>,
+    stack: Vec<TreeEntry>,
+    waiting: Vec<SegmentEntry>,
+    workloads: &'static [Workload],
+}
+
+/// Builds a tree of a mesh, which may be open, and opens it; the blob's bytes.
+fn open<'a>(
+    subject: &Subject,
+    options: &TreeOptions,
+    blob: &'a mut Vec<u8>,
+) -> Result<(usize, Tree<'a>), String> {
+    let (tables, _) = build_tree(&subject.mesh, 0.0, subject.triangles_read, options);
+    *blob = emit::blob(None, Some(&tables));
+    let tree = Tree::open(blob).map_err(|error| error.to_string())?;
+    Ok((blob.len(), tree))
+}
+
+fn alone<'a>(
+    subject: &Subject,
+    options: &TreeOptions,
+    blob: &'a mut Vec<u8>,
+    workloads: &'static [Workload],
+) -> Result<Option<Box<dyn Engine + 'a>>, String> {
+    let (bytes, tree) = open(subject, options, blob)?;
+    let entries = tree.header().stack_entries as usize;
+    Ok(Some(Box::new(Alone {
+        bytes,
+        tree,
+        stack: vec![TreeEntry::EMPTY; entries],
+        waiting: vec![SegmentEntry::EMPTY; entries],
+        workloads,
+    })))
+}
+
+/// On every mesh.
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build<'a>(
+    subject: &Subject,
+    _: &Scope,
+    blob: &'a mut Vec<u8>,
+) -> Result<Option<Box<dyn Engine + 'a>>, String> {
+    alone(subject, &TreeOptions::default(), blob, &Workload::ALL)
+}
+
+/// With vertices as they were, in f32.
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build_single<'a>(
+    subject: &Subject,
+    _: &Scope,
+    blob: &'a mut Vec<u8>,
+) -> Result<Option<Box<dyn Engine + 'a>>, String> {
+    let options = TreeOptions { single: true, ..TreeOptions::default() };
+    alone(subject, &options, blob, &[Workload::Far, Workload::Near, Workload::Segments])
+}
+
+impl Engine for Alone<'_> {
+    fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    fn limit(&self, workload: Workload) -> usize {
+        if self.workloads.contains(&workload) { usize::MAX } else { 0 }
+    }
+
+    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
+        try_each(points, answers, |point| {
+            let found = black_box(closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack));
+            found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
+        })
+    }
+
+    fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
+        try_each(segments, answers, |[a, b]| {
+            let found = black_box(first_hit(&self.tree, a, b, &Facing::Both, &mut self.waiting));
+            let found = found.map_err(|error| error.to_string())?;
+            Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
+        })
+    }
+}

@@ -1,0 +1,174 @@
+//! Questions to the split hierarchy.
+
+use meshsweep_core::blob::Header;
+use meshsweep_core::query::{
+    Hit, Search, Stop, all_hits as core_all_hits, closest_point, first_hit as core_first_hit,
+    outer_hits as core_outer_hits,
+};
+use meshsweep_core::refine::{Face, Front, hull_faces};
+use meshsweep_core::{Model, QueueEntry};
+
+use super::{Refused, timed};
+use crate::Clock;
+use crate::{fold::Fold, place::Bounds};
+
+/// Entries of the queue.
+const QUEUE: usize = 256;
+
+/// Words of each bit set of the front: 2,048 splits.
+const FRONT_WORDS: usize = 64;
+
+/// What the queries need beside the model, 4 KiB in all.
+#[derive(Debug)]
+pub struct Scratch {
+    queue: [QueueEntry; QUEUE],
+    hits: [Hit; 16],
+    performed: [u32; FRONT_WORDS],
+    swept: [u32; FRONT_WORDS],
+    candidates: [Face; 64],
+}
+
+impl Scratch {
+    /// Scratch that no query has used.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            queue: [QueueEntry::EMPTY; QUEUE],
+            hits: [Hit::EMPTY; 16],
+            performed: [0; FRONT_WORDS],
+            swept: [0; FRONT_WORDS],
+            candidates: [Face::EMPTY; 64],
+        }
+    }
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Opens a blob.
+///
+/// # Errors
+/// The core's refusal.
+pub fn open(bytes: &[u8]) -> Result<Model<'_>, Refused> {
+    Model::open(bytes).map_err(Refused::of)
+}
+
+/// The surface's box in input units.
+#[must_use]
+pub fn bounds(model: &Model<'_>) -> Bounds {
+    let Header { surface_box, .. } = *model.header();
+    // A power of two: exact unless the box leaves f32's normal range, and then rounded alike everywhere.
+    let scale = model.scale();
+    [surface_box.min, surface_box.max].map(|corner| corner.as_dvec3().to_array().map(|x| (x * scale) as f32))
+}
+
+/// Whether no query on this model can end early for want of [`Scratch`].
+#[must_use]
+pub fn memory_suffices(model: &Model<'_>) -> bool {
+    let needed = model.capacities();
+    needed.queue <= QUEUE && needed.front_words <= FRONT_WORDS
+}
+
+/// Sections, levels and the faces of every hull.
+pub fn contents(model: &Model<'_>, fold: &mut Fold) {
+    for section in model.sections() {
+        fold.word(section.kind as u32);
+        fold.word(section.crc);
+    }
+    for level in model.levels() {
+        fold.word(level.faces);
+        fold.f32(level.hull_to_surface);
+        for face in hull_faces(model, &level) {
+            fold.f32(face.radius);
+            for corner in face.corners {
+                if let Some(position) = model.position(corner) {
+                    fold.point(position.to_array());
+                }
+            }
+        }
+    }
+}
+
+/// Closest point; returns the witness.
+pub fn closest(
+    model: &Model<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) -> [f32; 3] {
+    match timed(clock, || closest_point(model, point, &Stop::EXACT, &mut scratch.queue)) {
+        Ok(answer) => {
+            super::closest_point(fold, &answer);
+            answer.point
+        }
+        Err(error) => {
+            super::refusal(fold, error);
+            point
+        }
+    }
+}
+
+/// First point of the segment from `a` to `b` on the surface.
+pub fn first_hit(
+    model: &Model<'_>,
+    [a, b]: [[f32; 3]; 2],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    match timed(clock, || core_first_hit(model, a, b, &Stop::EXACT, &mut scratch.queue)) {
+        Ok(answer) => super::segment_hit(fold, &answer),
+        Err(error) => super::refusal(fold, error),
+    }
+}
+
+/// Every point of the segment from `a` to `b` on the surface.
+pub fn all_hits(
+    model: &Model<'_>,
+    [a, b]: [[f32; 3]; 2],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    match timed(clock, || core_all_hits(model, a, b, &mut scratch.queue, &mut scratch.hits)) {
+        Ok(answer) => {
+            super::hits(fold, scratch.hits.get(..answer.stored).unwrap_or_default());
+            fold.word(answer.dropped);
+            super::how(fold, answer.work, answer.ended);
+        }
+        Err(error) => super::refusal(fold, error),
+    }
+}
+
+/// The hits of the segment from `a` to `b` that the refined hull finds from outside.
+pub fn outer_hits(
+    model: &Model<'_>,
+    [a, b]: [[f32; 3]; 2],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { hits: found, performed, swept, candidates, .. } = scratch;
+    let mut ask = |search| {
+        let mut front = Front::new(performed, swept, candidates);
+        match core_outer_hits(model, a, b, search, &mut front, found) {
+            Ok(answer) => {
+                fold.f32(answer.lower);
+                fold.f32(answer.upper);
+                super::hits(fold, found.get(..answer.stored).unwrap_or_default());
+                fold.word(answer.dropped);
+                fold.word(u32::from(answer.starts_inside));
+                super::how(fold, answer.work, answer.ended);
+            }
+            Err(error) => super::refusal(fold, error),
+        }
+    };
+    timed(clock, || {
+        ask(Search::First);
+        ask(Search::Outer);
+    });
+}
