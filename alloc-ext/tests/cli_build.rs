@@ -141,6 +141,17 @@ fn json_parses_and_its_sections_fill_the_blob() {
     assert_eq!(tree["triangles"], 1948);
     let leaves = tree["leaves"].as_f64().unwrap() * tree["triangles_per_leaf"].as_f64().unwrap();
     assert!((leaves - 1948.0).abs() < 1e-6);
+    let sizes = tree["fans_by_size"].as_array().unwrap();
+    let sizes: Vec<u64> = sizes.iter().map(|count| count.as_u64().unwrap()).collect();
+    assert_eq!(sizes.len(), 8);
+    assert_eq!((1..).zip(&sizes).map(|(size, count)| size * count).sum::<u64>(), 1948);
+    let fans: u64 = sizes.iter().sum();
+    assert_eq!((tree["fans"].as_u64(), tree["degenerate_fans"].as_u64()), (Some(fans), Some(sizes[0])));
+    assert!((tree["triangles_per_fan"].as_f64().unwrap() - 1948.0 / fans as f64).abs() < 1e-9);
+    // A leaf is one or two fans.
+    let leaf_count = tree["leaves"].as_u64().unwrap();
+    assert!((leaf_count..=2 * leaf_count).contains(&fans));
+    assert_eq!(tree["triangles_without_area"], 0);
     // Every node but the root is a child, and so is every leaf.
     let nodes = tree["nodes"].as_f64().unwrap();
     let children = nodes - 1.0 + tree["leaves"].as_f64().unwrap();

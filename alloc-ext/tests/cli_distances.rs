@@ -17,6 +17,8 @@ fn to_torus([x, y, z]: Point) -> f64 {
     (x.hypot(y) - 2.0).hypot(z) - 0.75
 }
 
+const SIGNED: &str = "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work";
+
 /// No point of the triangles is farther than this from the torus.
 const SAGITTA: f64 = 0.013;
 
@@ -80,7 +82,7 @@ fn within_all_lists_every_triangle_that_is_near_enough() {
 
 #[test]
 fn nearest_ranks_triangles_with_intervals_that_hold() {
-    const NEAREST: &str = "query,rank,lower,upper,px,py,pz,triangle";
+    const NEAREST: &str = "query,rank,lower,upper,px,py,pz,triangle,work";
     let directory = scratch("nearest");
     let points = directory.join("p.csv");
     let mesh = triangles(&fixture("bracket.stl"));
@@ -107,7 +109,6 @@ fn nearest_ranks_triangles_with_intervals_that_hold() {
 
 #[test]
 fn signed_names_the_side_and_the_interval_holds() {
-    const SIGNED: &str = "x,y,z,side,lower,upper,px,py,pz,triangle,work";
     let directory = scratch("signed");
     let points = directory.join("p.csv");
     let mesh = triangles(&fixture("torus.ply"));
@@ -122,17 +123,37 @@ fn signed_names_the_side_and_the_interval_holds() {
         assert!(answer[3] == side || !is_clear, "{answer:?} {truth}");
         let truth = distance(wide(row), &mesh).copysign(truth);
         let margin = SLACK * truth.abs();
-        let holds = number(&answer[4]) <= truth + margin && truth - margin <= number(&answer[5]);
+        let holds = number(&answer[5]) <= truth + margin && truth - margin <= number(&answer[6]);
         assert!(holds || !is_clear, "{answer:?} {truth}");
     }
     let inside = answers.iter().filter(|answer| answer[3] == "inside").count();
     assert!((10..190).contains(&inside));
-    // Without a closed mesh there are no sides, but distances there are.
-    let path = blob(&directory, "evil/open_box.stl", &[]);
-    let answers = ask("signed", &path, &points, &[], SIGNED);
-    let is_open =
-        |answer: &Vec<String>| answer[3] == "undefined" && number(&answer[4]) == -number(&answer[5]);
-    assert!(answers.iter().all(is_open));
+    assert!(answers.iter().all(|answer| answer[4].is_empty() == (answer[3] != "undefined")));
+}
+
+#[test]
+fn an_undefined_side_has_a_reason_and_an_interval_all_the_same() {
+    let directory = scratch("undefined");
+    let (open, closed) = (blob(&directory, "evil/open_box.stl", &[]), blob(&directory, "torus.ply", &[]));
+    let mesh = triangles(&fixture("torus.ply"));
+    let vertex = mesh[0][0].map(|x| x.to_string()).join(",");
+    for (blob, point, options, reason) in [
+        (&open, "3,3,3", &[][..], "open mesh"),
+        (&closed, &vertex, &[], "at the surface"),
+        (&closed, "0.5,0,0", &["--steps", "1"], "out of steps"),
+        (&closed, "0.5,0,0", &["--queue", "1"], "out of stack"),
+    ] {
+        let output = run([&["signed", arg(blob), point], options].concat());
+        let answers = parse_csv(&String::from_utf8(output.stdout).unwrap(), SIGNED);
+        let answer = &answers[0];
+        assert_eq!(answer[3..5], ["undefined", reason]);
+        assert_eq!(number(&answer[5]), -number(&answer[6]));
+        let note = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(
+            note.contains("open_box.msw: was built from a mesh that is not closed"),
+            reason == "open mesh"
+        );
+    }
 }
 
 /// Numbers of a raw file.

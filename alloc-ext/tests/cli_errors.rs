@@ -41,7 +41,18 @@ fn wrong_usage_is_status_2() {
         &["field", "a.msw", "-o", "f.npy", "--size", "4,4"],
         &["field", "a.msw", "-o", "f.npy", "--margin=-1"],
         &["field", "a.msw", "-o", "f.npy", "--threads", "0"],
-        &["cull", "a.msw", "--eye", "1,2"],
+        &["cull", "a.msw", "1,2"],
+        &["cull", "a.msw"],
+        &["cull", "a.msw", "1,2,3", "--along", "1,2,3"],
+        &["closest", "a.msw"],
+        &["closest", "a.msw", "1,2"],
+        &["closest", "a.msw", "1,2,nan"],
+        &["closest", "a.msw", "1,2,1e39"],
+        &["closest", "a.msw", "1,2,3", "--threads", "0"],
+        &["closest", "a.msw", "1,2,3", "--engine", "fast"],
+        &["segment", "a.msw", "1,2,3"],
+        &["segment", "a.msw", "s.csv", "--engine", "cover", "--facing", "back"],
+        &["segment", "a.msw", "s.csv", "--facing", "left"],
     ] {
         assert_eq!(run(args).status.code(), Some(2), "{args:?}");
     }
@@ -58,7 +69,10 @@ fn files_that_cannot_be_read_are_named() {
     refused(&run(["info", arg(&directory)]), 1, "unreadable");
     refused(&run(["closest", "no/such.msw", "p.csv"]), 1, "no/such.msw");
     let path = blob(&directory, "torus.ply", &[]);
-    refused(&run(["closest", arg(&path), "no/such.csv"]), 1, "no/such.csv");
+    let line = refused(&run(["closest", arg(&path), "no/such.csv"]), 1, "no/such.csv");
+    assert!(line.contains("or write the query with commas (3: x, y, z)"), "{line}");
+    refused(&run(["closest", arg(&path), "no/such.f32"]), 1, "no/such.f32");
+    refused(&run(["closest", arg(&path), "-", "1,2,3", "-"]), 2, "read only once");
     assert!(!out.exists());
 }
 
@@ -143,7 +157,8 @@ fn what_a_blob_was_not_built_for_is_refused_with_what_to_build() {
         (&["nearest", arg(&hull), arg(&points), "-n", "1"], "--for closest"),
         (&["signed", arg(&hull), arg(&points)], "--for closest"),
         (&["field", arg(&hull), "-o", arg(&field)], "--for closest"),
-        (&["cull", arg(&tree), "--eye", "1,2,3"], "--for cull"),
+        (&["cull", arg(&tree), "1,2,3"], "--for cull"),
+        (&["segment", arg(&hull), arg(&segments), "--facing", "front"], "--for segment"),
     ] {
         let line = refused(&run(args), 1, ".msw: has no ");
         assert!(line.contains(wanted), "{args:?} {line}");
@@ -200,6 +215,13 @@ fn malformed_queries_are_named_by_line_and_field() {
     refused(&run(["closest", arg(&path), arg(&binary)]), 1, "p.csv, line 1");
     let far = file(&directory, "s.csv", "0 0 0 1 1 1\n0 0 0 1e38 0 0\n");
     let line = refused(&run(["segment", arg(&path), arg(&far)]), 1, "s.csv, line 2");
+    assert!(line.contains("clip it"), "{line}");
+    // The first one that is refused is named, whichever thread comes first.
+    let many: String =
+        (0..5000).map(|i| format!("0 0 {} 1 1 1\n", if i >= 1200 { "1e38" } else { "0" })).collect();
+    let far = file(&directory, "s.csv", many);
+    refused(&run(["segment", arg(&path), arg(&far), "--threads", "4"]), 1, "s.csv, line 1201:");
+    let line = refused(&run(["segment", arg(&path), "1,2,3,4,5,6", "0,0,0,1e38,0,0"]), 1, "query 0,0,0,1");
     assert!(line.contains("clip it"), "{line}");
 }
 

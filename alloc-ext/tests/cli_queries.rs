@@ -3,7 +3,7 @@
 mod cli_support;
 
 use cli_support::{
-    arg, blob, distance, first_crossing, fixture, hull_blob, meshsweep, number, ok, parse_csv,
+    arg, ascent, blob, distance, first_crossing, fixture, hull_blob, meshsweep, number, ok, parse_csv,
     random_queries, run, scratch, triangles, wide, write_csv, write_raw,
 };
 use std::fs;
@@ -198,6 +198,63 @@ fn on_a_grid_yes_and_no_are_still_those_of_brute_force() {
         }
         assert!(answers.iter().filter(|answer| answer[0] == "unknown").count() < 10, "{name}");
     }
+}
+
+#[test]
+fn facing_culls_the_other_side() {
+    let directory = scratch("facing");
+    let mesh = triangles(&fixture("torus.ply"));
+    let rows = random_queries::<6>(&mesh, 200);
+    let segments = directory.join("s.csv");
+    write_csv(&segments, &rows);
+    let path = blob(&directory, "torus.ply", &["--vertex-bits", "32"]);
+    for (facing, sign) in [("front", -1.0), ("back", 1.0)] {
+        let text = ok(["segment", arg(&path), arg(&segments), "--facing", facing]);
+        let mut hits = 0;
+        for (answer, row) in parse_csv(&text, SEGMENT).iter().zip(&rows) {
+            let (a, b) = (wide(&row[..3]), wide(&row[3..]));
+            let along: Vec<_> = mesh.iter().filter(|&&t| sign * ascent(a, b, t) > 0.0).copied().collect();
+            let truth = first_crossing(a, b, &along);
+            assert_eq!(answer[0] == "yes", truth.is_some(), "{facing} {row:?} {answer:?}");
+            assert!(
+                truth.is_none_or(|t| (number(&answer[1]) - t).abs() < 1e-5),
+                "{facing} {row:?} {answer:?}"
+            );
+            hits += usize::from(truth.is_some());
+        }
+        assert!((20..180).contains(&hits), "{facing}");
+    }
+}
+
+#[test]
+fn every_soup_that_is_built_is_answered_rightly() {
+    let directory = scratch("soups");
+    let (points, segments) = (directory.join("p.csv"), directory.join("s.csv"));
+    let mut built = 0;
+    for entry in fs::read_dir(fixture("evil")).unwrap() {
+        let file = entry.unwrap().path();
+        let path = directory.join("soup.msw");
+        if !run(["build", arg(&file), "-o", arg(&path)]).status.success() {
+            continue;
+        }
+        built += 1;
+        let mesh = triangles(&file);
+        let rows = random_queries::<3>(&mesh, 40);
+        write_csv(&points, &rows);
+        for (answer, point) in closest(&path, &points, &[]).iter().zip(&rows) {
+            let truth = distance(wide(point), &mesh);
+            assert!(contains(answer, truth), "{} {answer:?} {truth}", file.display());
+        }
+        let rows = random_queries::<6>(&mesh, 40);
+        write_csv(&segments, &rows);
+        let answers = parse_csv(&ok(["segment", arg(&path), arg(&segments)]), SEGMENT);
+        for (answer, row) in answers.iter().zip(&rows) {
+            let truth = first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh);
+            let is_right = answer[0] == "unknown" || (answer[0] == "yes") == truth.is_some();
+            assert!(is_right, "{} {row:?} {answer:?} {truth:?}", file.display());
+        }
+    }
+    assert!(built > 10, "{built}");
 }
 
 #[test]

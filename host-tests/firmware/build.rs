@@ -4,7 +4,22 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 /// Images without a runtime: linked by `bare.x`, never started.
-const BARE: [&str; 6] = ["proof", "size_empty", "size_open", "size_closest", "size_segment", "size_outer"];
+const BARE: [&str; 11] = [
+    "proof",
+    "size_empty",
+    "size_open",
+    "size_closest",
+    "size_segment",
+    "size_outer",
+    "size_tree_open",
+    "size_tree_closest",
+    "size_tree_alone",
+    "size_tree_segment",
+    "size_tree_session",
+];
+
+/// Images that run.
+const SUITES: [&str; 2] = ["suite_hull", "suite_tree"];
 
 /// RAM is kept at what such parts have, not at what the emulated board has, so that an image that needs more fails.
 fn memory(target: &str) -> Option<&'static str> {
@@ -52,16 +67,18 @@ fn main() {
         println!("cargo::error=cannot write memory.x: {error}");
     }
     println!("cargo::rustc-link-search={}", out.display());
-    if target.starts_with("riscv") {
-        println!("cargo::rustc-link-arg-bin=suite=-Tmemory.x");
+    for image in SUITES {
+        if target.starts_with("riscv") {
+            println!("cargo::rustc-link-arg-bin={image}=-Tmemory.x");
+        }
+        println!("cargo::rustc-link-arg-bin={image}=-Tlink.x");
     }
-    println!("cargo::rustc-link-arg-bin=suite=-Tlink.x");
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     for image in BARE {
         println!("cargo::rustc-link-arg-bin={image}=-T{}", here.join("bare.x").display());
     }
 
-    // Only the suite image reads it: the others may be built without one.
+    // Only the suite images read it: the others may be built without one.
     if let Some(blob) = env::var_os("MESHSWEEP_BLOB").map(PathBuf::from) {
         println!("cargo::rerun-if-changed={}", blob.display());
         println!("cargo::rustc-env=MESHSWEEP_BLOB={}", blob.display());

@@ -1,6 +1,8 @@
 //! Every input that a fuzzer found to break something, by name, reduced to what mattered.
 
-use meshsweep_host_tests::fuzz_targets::{closest, open, outer, segment};
+use meshsweep_host_tests::fuzz_targets::{
+    closest, open, outer, segment, tree_closest, tree_open, tree_segment, tree_session,
+};
 
 /// Every target on the same bytes.
 fn all_targets(data: &[u8]) {
@@ -8,6 +10,10 @@ fn all_targets(data: &[u8]) {
     closest(data);
     segment(data);
     outer(data);
+    tree_open(data);
+    tree_closest(data);
+    tree_segment(data);
+    tree_session(data);
 }
 
 #[test]
@@ -17,7 +23,7 @@ fn no_bytes_at_all_are_an_input() {
 
 #[test]
 fn an_unchanged_blob_of_every_kind_is_an_input() {
-    for seed in 0..6 {
+    for seed in 0..7 {
         all_targets(&[seed, 0, 200]);
     }
 }

@@ -1,6 +1,8 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
-use meshsweep_host_tests::fuzz_targets::{closest, open, outer, random_input, segment};
+use meshsweep_host_tests::fuzz_targets::{
+    closest, open, outer, random_input, segment, tree_closest, tree_open, tree_segment, tree_session,
+};
 use meshsweep_host_tests::generate::Rng;
 
 const RUNS: u64 = 5_000;
@@ -34,4 +36,24 @@ fn segment_survives_seeded_edits() {
 #[test]
 fn outer_survives_seeded_edits() {
     drive(4, outer);
+}
+
+#[test]
+fn tree_open_survives_seeded_edits() {
+    drive(5, tree_open);
+}
+
+#[test]
+fn tree_closest_survives_seeded_edits() {
+    drive(6, tree_closest);
+}
+
+#[test]
+fn tree_segment_survives_seeded_edits() {
+    drive(7, tree_segment);
+}
+
+#[test]
+fn tree_session_survives_seeded_edits() {
+    drive(8, tree_session);
 }

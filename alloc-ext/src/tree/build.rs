@@ -1,5 +1,6 @@
 //! The stages in order, and what they report.
 
+use super::cones::cones;
 use super::encode::{self, TreeTables};
 use super::fit::{axis_aligned_boxes, shared_frames};
 use super::frame::FrameOptions;
@@ -100,6 +101,9 @@ pub fn build(
         .map(|t| mesh.source[t as usize])
         .collect();
     sections.push((SectionKind::TreeSource, source::pack(&numbers)));
+    if options.cull {
+        sections.push((SectionKind::TreeCones, cones(&topology, &patches, &grid.positions)));
+    }
     let header = header(mesh, &grid, &patches, &bounds, options, topology.stack_entries);
     let header = TreeHeader { nodes: topology.nodes.len() as u32, ..header };
     sections.insert(0, (SectionKind::Tree, header.write().to_vec()));

@@ -6,9 +6,11 @@
 //!
 //! Any triangle soup will do: nothing here asks for a closed or manifold mesh.
 
+mod batch;
 mod boxes;
 mod build;
 mod collapse;
+mod cones;
 mod encode;
 mod extremes;
 mod fit;
@@ -19,6 +21,7 @@ mod sah;
 mod source;
 mod store;
 
+pub use batch::closest_points;
 pub use boxes::{LANES, NodeBoxes, axis_aligned};
 pub use build::{TreeOptions, TreeReport, build};
 pub use encode::TreeTables;

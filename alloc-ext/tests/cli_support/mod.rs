@@ -174,6 +174,11 @@ pub fn first_crossing(a: Point, b: Point, triangles: &[Triangle]) -> Option<f64>
     triangles.iter().filter_map(crossing).min_by(f64::total_cmp)
 }
 
+/// How much a segment runs along a triangle's normal: negative where it meets the front.
+pub fn ascent(a: Point, b: Point, [p, q, r]: Triangle) -> f64 {
+    dot(sub(b, a), cross(sub(q, p), sub(r, p)))
+}
+
 /// Three f32 as f64.
 pub fn wide(p: &[f32]) -> Point {
     [f64::from(p[0]), f64::from(p[1]), f64::from(p[2])]

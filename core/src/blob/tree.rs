@@ -148,6 +148,8 @@ pub struct Patch<'a> {
 /// What a patch on the grid stores: integers without the grid's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct GridRing<'a> {
+    /// What is to be added.
+    pub origin: [i32; 3],
     /// First and second centre; the second means nothing if there is one fan.
     pub centres: [[i32; 3]; 2],
     /// First coordinates of the ring.
@@ -485,15 +487,21 @@ impl<'a> Patch<'a> {
         let (y, rest) = rest.split_at_checked(2 * entries)?;
         let z = rest.get(..2 * entries)?;
         let (x, y, z) = (x.as_chunks().0, y.as_chunks().0, z.as_chunks().0);
-        Some(GridRing { centres: [three(window, 0), three(window, 6)], x, y, z })
+        Some(GridRing { origin: self.origin, centres: [three(window, 0), three(window, 6)], x, y, z })
     }
 
     /// The point `centre + v·e + w·g` of triangle `lane`, grid units.
     #[inline(always)]
     pub fn point(&self, lane: usize, v: f32, w: f32) -> Vec3 {
+        let [centre, e, g] = self.spokes(lane);
+        centre + e * v + g * w
+    }
+
+    /// Centre and both spokes of triangle `lane`. A call, for where triangles are few: reading them is a lot of code.
+    #[inline(never)]
+    pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
         let which = usize::from(lane >= self.tag.turn());
-        let (e, g) = (self.spoke(lane, which), self.spoke(lane + 1, which));
-        self.centre(which) + e * v + g * w
+        [self.centre(which), self.spoke(lane, which), self.spoke(lane + 1, which)]
     }
 
     /// Corners of triangle `lane`, grid units, in the input's winding.

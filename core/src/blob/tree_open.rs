@@ -9,6 +9,7 @@ use super::read::Bytes;
 use super::sections::{place_sections, read_header};
 use super::tree::{GridScale, Patch, Tag, Tree};
 use super::tree_header::TreeHeader;
+use crate::num::tolerance::U32;
 
 /// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate input a few more.
 const MAX_TREE_DEPTH: usize = 64;
@@ -266,11 +267,9 @@ impl<'a> Tree<'a> {
             && (0..=tag.triangles()).all(|i| inside(patch.ring(i)))
             && (0..tag.triangles()).all(|i| {
                 let which = usize::from(i >= tag.turn());
-                let norm = |v: glam::Vec3| {
-                    let [x, y, z] = v.abs().to_array().map(f64::from);
-                    x + y + z
-                };
-                norm(patch.spoke(i, which)) + norm(patch.spoke(i + 1, which)) <= f64::from(h.reach)
+                let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+                // Exact on the grid; with f32 vertices off by a few roundings, which the bounds that `reach` enters have room for.
+                norm(patch.spoke(i, which)) + norm(patch.spoke(i + 1, which)) <= h.reach * (1.0 + 8.0 * U32)
             });
         if sound { Ok(()) } else { Err(bad) }
     }

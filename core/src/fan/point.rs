@@ -123,6 +123,12 @@ impl PointFan {
     }
 }
 
+/// [`PointFan::triangle`] as a call: where triangles are few, the kernel's code is not worth another copy.
+#[inline(never)]
+pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
+    fan.triangle(a, b)
+}
+
 /// The greater of two; not `f32::max`, whose rules for NaN cost instructions.
 #[inline(always)]
 fn above(a: f32, b: f32) -> f32 {
@@ -150,7 +156,7 @@ pub fn point_patch(
             a = fan.spoke(spoke(i, 1));
         }
         let b = fan.spoke(spoke(i + 1, centre));
-        each(i, fan.triangle(&a, &b));
+        each(i, lone_triangle(&fan, &a, &b));
         a = b;
     }
 }
@@ -159,9 +165,10 @@ pub fn point_patch(
 /// the residual and along the residual made orthogonal to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
 /// Holds up to the rounding that `TREE_FAN` covers, whatever the triangle. Cost: five roots, so it is for the few triangles that need it.
+#[inline(never)]
 pub fn certified_distance(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let fan = PointFan::new(s);
-    let near = fan.triangle(&fan.spoke(e), &fan.spoke(g));
+    let near = lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g));
     let r = s - e * near.v - g * near.w;
     let orthogonal = |edge: Vec3| {
         let length_sq = dot(edge, edge);
@@ -169,16 +176,22 @@ pub fn certified_distance(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     };
     let normal = Vec3::new(e.y * g.z - e.z * g.y, e.z * g.x - e.x * g.z, e.x * g.y - e.y * g.x);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
-    let mut best = 0f32;
     // Along `s` too: what `is_beyond` leaves out has to be as far here.
-    for direction in [s, r, orthogonal(e), orthogonal(g), orthogonal(g - e), side] {
-        let largest = direction.abs().max_element();
-        if largest > TREE_TINY {
-            // Of length about 1, so that no square leaves f32's range.
-            let d = direction * (1.0 / largest);
-            let along = dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g));
-            best = above(best, along / root(dot(d, d)));
-        }
+    let seen = [s, e, g];
+    let best = above(supported(s, &seen), supported(r, &seen));
+    let best = above(best, above(supported(orthogonal(e), &seen), supported(orthogonal(g), &seen)));
+    above(best, above(supported(orthogonal(g - e), &seen), supported(side, &seen)))
+}
+
+/// Distance of the supporting plane across `direction`; 0 if that is no direction.
+#[inline(never)]
+fn supported(direction: Vec3, &[s, e, g]: &[Vec3; 3]) -> f32 {
+    let largest = above(above(direction.x.abs(), direction.y.abs()), direction.z.abs());
+    if largest > TREE_TINY {
+        // Of length about 1, so that no square leaves f32's range.
+        let d = direction * (1.0 / largest);
+        (dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g))) / root(dot(d, d))
+    } else {
+        0.0
     }
-    best
 }

@@ -78,7 +78,7 @@ struct Side {
 }
 
 #[inline(always)]
-fn pick(v: [f32; 3], axis: usize) -> f32 {
+fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
     let [x, y, z] = v;
     [x, y, z, z][axis & 3]
 }
@@ -143,13 +143,23 @@ impl FanRay {
         self.doubt
     }
 
+    /// Three values, one for each axis, in the order of [`axes`](Self::axes).
+    #[inline(always)]
+    pub fn in_order<T: Copy>(&self, values: [T; 3]) -> [T; 3] {
+        self.axes.map(|axis| pick(values, axis))
+    }
+
     /// The shadow of a vertex.
     #[inline(always)]
     pub fn shadow(&self, vertex: Vec3) -> Shadow {
-        let v = vertex.to_array();
-        let [u, w, axis] = self.axes;
+        self.shadow_in_order(self.in_order(vertex.to_array()))
+    }
+
+    /// The same of a vertex whose coordinates come in the order of [`axes`](Self::axes).
+    #[inline(always)]
+    pub fn shadow_in_order(&self, [x, y, z]: [f32; 3]) -> Shadow {
         let [ox, oy, oz] = self.origin;
-        let (x, y, z) = (pick(v, u) - ox, pick(v, w) - oy, pick(v, axis) - oz);
+        let (x, y, z) = (x - ox, y - oy, z - oz);
         let [sx, sy] = self.shear;
         Shadow { x: x - sx * z, y: y - sy * z, t: z * self.inverse }
     }
@@ -338,27 +348,24 @@ fn less(a: f32, b: f32) -> f32 {
 
 /// Triangles of a patch that the segment's line may meet: a bit for each, none of them missing. The others are proved clear of it.
 ///
-/// `centres` and `ring(i)` are vertices in grid units, `turn` is where the second fan begins (`count` or more: nowhere). A spoke serves the
+/// `centres` and `ring` are shadows of vertices, `turn` is where the second fan begins (at the ring's end or later: nowhere). A spoke serves the
 /// triangles on both sides, and the outer edge is looked at only if the spokes leave the triangle open.
 #[inline(always)]
 pub fn ray_patch(
     ray: &FanRay,
-    count: usize,
     turn: usize,
-    centres: [Vec3; 2],
-    ring: impl Fn(usize) -> Vec3,
+    centres: [Shadow; 2],
+    mut ring: impl Iterator<Item = Shadow>,
 ) -> u32 {
-    let [first, second] = centres;
-    let mut centre = ray.shadow(first);
-    let mut from = ray.shadow(ring(0));
+    let [mut centre, second] = centres;
+    let Some(mut from) = ring.next() else { return 0 };
     let mut a = ray.side(centre, from);
     let mut lanes = 0;
-    for i in 0..count.min(WIDTH) {
+    for (i, to) in ring.take(WIDTH).enumerate() {
         if i == turn {
-            centre = ray.shadow(second);
+            centre = second;
             a = ray.side(centre, from);
         }
-        let to = ray.shadow(ring(i + 1));
         let b = ray.side(centre, to);
         // The last side runs from the ring to the centre: the spoke's, with the opposite sign.
         let positive = (a.area >= -a.doubt) & (b.area <= b.doubt);

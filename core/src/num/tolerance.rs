@@ -72,6 +72,10 @@ pub const TREE_WEAK: f32 = 1.0 - 1.0 / 262_144.0;
 /// costs the interval 2/D units at distance D and spares nearly every second look. 0 with exact vertices.
 pub const TREE_SHORT: f32 = 4.0;
 
+/// What is added to the sine of a cone of normals before a leaf counts as back-facing, 2^-19. The way to the eye, its product with the axis and the
+/// squares carry less than half of that. Smaller loses the guarantee; larger keeps a few leaves more.
+pub const CONE_SINE: f32 = 1.0 / 524_288.0;
+
 /// Distance in grid units, 1-norm, beyond which the interval of the tree's box is narrower than four units of f32: 2^38, which is
 /// a million times the model's size.
 pub const TREE_FAR: f32 = (1u64 << 38) as f32;

@@ -66,8 +66,23 @@ pub fn box_entries(
     let [x, y, z] = slabs.near;
     let near = [&rows[x & 7], &rows[y & 7], &rows[z & 7]];
     let far = [&rows[(x ^ 1) & 7], &rows[(y ^ 1) & 7], &rows[(z ^ 1) & 7]];
-    let Some(present) = LANES_BELOW.get(count as usize) else { return keys };
     let at = |v: u8, m: f32, c: f32| f32::from(v) * m + c;
+    if !WIDE {
+        // What is entered only grows and what is left only falls: the first axis without an overlap decides, with the same keys.
+        let axes = [(near[0], far[0], mx, nx, fx), (near[1], far[1], my, ny, fy), (near[2], far[2], mz, nz, fz)];
+        for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
+            let (mut enter, mut leave) = (from, limit);
+            let overlaps = axes.iter().all(|&(near, far, m, n, f)| {
+                (enter, leave) = (greater(at(near[lane], m, n), enter), less(at(far[lane], m, f), leave));
+                enter <= leave
+            });
+            if overlaps {
+                *key = f32::from_bits(enter.to_bits() & !LANE_MASK | lane as u32);
+            }
+        }
+        return keys;
+    }
+    let Some(present) = LANES_BELOW.get(count as usize) else { return keys };
     for i in 0..WIDTH {
         let enter_x = at(near[0][i], mx, nx);
         let enter_y = at(near[1][i], my, ny);

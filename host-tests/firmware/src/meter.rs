@@ -69,7 +69,7 @@ impl Recorder for Meter {
 
     fn kind_ends(&mut self, kind: Kind) {
         let Self { queries, min, sum, max, deepest, .. } = *self;
-        // What calls nothing of the core, or folds much more than it asks, has no cost of its own.
+        // What a blob says of itself is not timed.
         if queries > 0 {
             println!("ticks {} {queries} {min} {sum} {max}", kind.name());
             println!("stack {} {deepest}", kind.name());

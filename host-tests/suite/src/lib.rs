@@ -16,5 +16,5 @@ pub mod place;
 pub mod rng;
 pub mod run;
 
-pub use ask::Scratch;
+pub use ask::Subject;
 pub use run::{Clock, Kind, Plan, Recorder, run};

@@ -8,6 +8,61 @@ use crate::rng::Rng;
 /// An axis-aligned box: least corner, greatest corner.
 pub type Bounds = [[f32; 3]; 2];
 
+/// Where the queries of a kind come from.
+#[derive(Clone, Debug)]
+pub struct Placer {
+    /// The stream of numbers.
+    pub rng: Rng,
+    bounds: Bounds,
+    /// Where the path is.
+    here: [f32; 3],
+}
+
+impl Placer {
+    /// A placer around a box.
+    #[must_use]
+    pub fn new(seed: u64, bounds: Bounds) -> Self {
+        let mut rng = Rng::new(seed);
+        let here = far_point(&mut rng, &bounds);
+        Self { rng, bounds, here }
+    }
+
+    /// See [`far_point`].
+    pub fn far(&mut self) -> [f32; 3] {
+        far_point(&mut self.rng, &self.bounds)
+    }
+
+    /// See [`near_point`].
+    pub fn near(&mut self, base: [f32; 3]) -> [f32; 3] {
+        near_point(&mut self.rng, &self.bounds, base)
+    }
+
+    /// The next point of the path: a small step away.
+    pub fn step(&mut self) -> [f32; 3] {
+        self.here = path_point(&mut self.rng, &self.bounds, self.here);
+        self.here
+    }
+
+    /// The next point of the path, one time in 128 anywhere.
+    pub fn step_or_jump(&mut self) -> [f32; 3] {
+        if self.rng.next_u32() & 0x7F == 0 {
+            self.here = self.far();
+            return self.here;
+        }
+        self.step()
+    }
+
+    /// See [`segment`].
+    pub fn segment(&mut self) -> [[f32; 3]; 2] {
+        segment(&mut self.rng, &self.bounds)
+    }
+
+    /// See [`distance`].
+    pub fn distance(&mut self) -> f32 {
+        distance(&mut self.rng, &self.bounds)
+    }
+}
+
 /// A point in the box, inflated to twice its size about its centre: seven eighths of them are outside.
 pub fn far_point(rng: &mut Rng, bounds: &Bounds) -> [f32; 3] {
     core::array::from_fn(|axis| {

@@ -1,10 +1,9 @@
 //! Kinds, blocks and the loop over them.
 
-use crate::ask::{self, Refused, Scratch, Subject};
+use crate::arith;
+use crate::ask::{Refused, Subject};
 use crate::fold::Fold;
-use crate::place::Bounds;
-use crate::rng::Rng;
-use crate::{arith, place};
+use crate::place::Placer;
 
 /// What a block asks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,29 +86,6 @@ impl Kind {
         }
     }
 
-    /// Whether such a blob can be asked this.
-    #[must_use]
-    pub const fn suits(self, subject: &Subject<'_>) -> bool {
-        match self {
-            Self::Arith
-            | Self::Contents
-            | Self::ClosestFar
-            | Self::ClosestNear
-            | Self::ClosestPath
-            | Self::FirstHit
-            | Self::AllHits => true,
-            Self::OuterHits => matches!(subject, Subject::Hull(_)),
-            Self::Stopped
-            | Self::Within
-            | Self::Nearest
-            | Self::AllWithin
-            | Self::Signed
-            | Self::Facing
-            | Self::AnyHit
-            | Self::Session => matches!(subject, Subject::Tree(_)),
-        }
-    }
-
     const fn seed(self) -> u64 {
         0x6d65_7368_7377_6570 ^ ((self as u64) << 56)
     }
@@ -156,28 +132,33 @@ pub trait Recorder: Clock {
 ///
 /// # Errors
 /// The core's refusal of the blob, or [`Refused::MEMORY`] if queries could end for want of scratch. Refused queries are answers: they are folded like any other.
-pub fn run<'t>(
+pub fn run<'t, S: Subject<'t>>(
     blob: &'t [u8],
     plan: Plan,
-    scratch: &mut Scratch<'t>,
+    scratch: &mut S::Scratch,
     recorder: &mut impl Recorder,
 ) -> Result<(), Refused> {
-    let subject = ask::open(blob)?;
+    let subject = S::open(blob)?;
     if !subject.memory_suffices() {
         return Err(Refused::MEMORY);
     }
     recorder.begins(subject.memory());
     let bounds = subject.bounds();
-    for kind in Kind::ALL.into_iter().filter(|kind| kind.suits(&subject)) {
+    for kind in Kind::ALL.into_iter().filter(|kind| S::suits(*kind)) {
         recorder.kind_begins(kind);
-        let mut queries = Queries { rng: Rng::new(kind.seed()), bounds, here: [0.0; 3] };
-        queries.here = place::far_point(&mut queries.rng, &bounds);
+        let mut placer = Placer::new(kind.seed(), bounds);
         // The contents are the same each time they are asked for.
         let plan = if kind == Kind::Contents { Plan { blocks: 1, queries: 1 } } else { plan };
         for index in 0..plan.blocks {
             let mut fold = Fold::new();
             for _ in 0..plan.queries {
-                queries.ask(kind, &subject, scratch, recorder, &mut fold);
+                if kind == Kind::Arith {
+                    recorder.query_begins();
+                    arith::chain(&mut placer.rng, &mut fold);
+                    recorder.query_ends();
+                } else {
+                    subject.ask(kind, &mut placer, scratch, recorder, &mut fold);
+                }
             }
             recorder.block(kind, index, fold.finish());
         }
@@ -186,81 +167,10 @@ pub fn run<'t>(
     Ok(())
 }
 
-/// Where the queries of a kind come from.
-struct Queries {
-    rng: Rng,
-    bounds: Bounds,
-    /// Where the path is.
-    here: [f32; 3],
-}
-
-impl Queries {
-    fn ask<'t>(
-        &mut self,
-        kind: Kind,
-        subject: &Subject<'t>,
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        let Self { rng, bounds, here } = self;
-        match (kind, subject) {
-            (Kind::Arith, _) => {
-                clock.query_begins();
-                arith::chain(rng, fold);
-                clock.query_ends();
-            }
-            (Kind::Contents, _) => subject.contents(fold),
-            (Kind::ClosestFar, _) => {
-                subject.closest(place::far_point(rng, bounds), scratch, clock, fold);
-            }
-            (Kind::ClosestNear, _) => {
-                // The base is an answer: a wrong one shows in this block already, so its consequences mislead nobody.
-                let base = subject.closest(place::far_point(rng, bounds), scratch, &mut (), fold);
-                subject.closest(place::near_point(rng, bounds, base), scratch, clock, fold);
-            }
-            (Kind::ClosestPath, _) => {
-                *here = place::path_point(rng, bounds, *here);
-                subject.follow(*here, scratch, clock, fold);
-            }
-            (Kind::FirstHit, _) => subject.first_hit(place::segment(rng, bounds), scratch, clock, fold),
-            (Kind::AllHits, _) => subject.all_hits(place::segment(rng, bounds), scratch, clock, fold),
-            (Kind::OuterHits, Subject::Hull(model)) => {
-                ask::hull::outer_hits(model, place::segment(rng, bounds), &mut scratch.hull, clock, fold);
-            }
-            (Kind::Facing, Subject::Tree(tree)) => {
-                ask::tree::facing(tree, place::segment(rng, bounds), &mut scratch.tree, clock, fold);
-            }
-            (Kind::AnyHit, Subject::Tree(tree)) => {
-                ask::tree::any_hit(tree, place::segment(rng, bounds), &mut scratch.tree, clock, fold);
-            }
-            (Kind::Session, Subject::Tree(tree)) => {
-                let jumps = rng.next_u32() & 0x7F == 0;
-                *here =
-                    if jumps { place::far_point(rng, bounds) } else { place::path_point(rng, bounds, *here) };
-                ask::tree::session(tree, *here, &mut scratch.tree, clock, fold);
-            }
-            (_, Subject::Tree(tree)) => {
-                let (point, distance) = (place::far_point(rng, bounds), place::distance(rng, bounds));
-                let scratch = &mut scratch.tree;
-                match kind {
-                    Kind::Stopped => ask::tree::stopped(tree, point, distance, scratch, clock, fold),
-                    Kind::Within => ask::tree::is_within(tree, point, distance, scratch, clock, fold),
-                    Kind::AllWithin => ask::tree::all_within(tree, point, distance, scratch, clock, fold),
-                    Kind::Nearest => ask::tree::nearest(tree, point, scratch, clock, fold),
-                    Kind::Signed => ask::tree::signed(tree, point, scratch, clock, fold),
-                    _ => {}
-                }
-            }
-            (_, Subject::Hull(_)) => {}
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::{Clock, Kind, Plan, Recorder, run};
-    use crate::ask::{Refused, Scratch};
+    use crate::ask::{Refused, hull, tree};
 
     struct Count(u32);
 
@@ -274,12 +184,12 @@ mod tests {
 
     #[test]
     fn a_refused_blob_runs_nothing() {
+        const BYTES: &[u8] = b"not a blob at all, but long enough to be read";
         let mut count = Count(0);
         let plan = Plan { blocks: 3, queries: 5 };
-        assert_eq!(
-            run(b"not a blob at all, but long enough to be read", plan, &mut Scratch::new(), &mut count),
-            Err(Refused(3))
-        );
+        let (mut hull, mut tree) = (hull::Scratch::new(), tree::Scratch::new());
+        assert_eq!(run::<hull::Model<'_>>(BYTES, plan, &mut hull, &mut count), Err(Refused(3)));
+        assert_eq!(run::<tree::Tree<'_>>(BYTES, plan, &mut tree, &mut count), Err(Refused(3)));
         assert_eq!(count.0, 0);
     }
 

@@ -7,57 +7,76 @@ use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::served::{self, Need};
 use super::stop::Tally;
-use meshsweep_core::query::{ClosestPoint, QueryError, closest_point, tree};
+use super::threads;
+use meshsweep_core::query::tree::{BatchError, Hint, closest_points};
+use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Work, closest_point};
 use std::io::{self, Write};
-use std::time::Instant;
+
+/// Queries that are sorted at once: enough for neighbours to be near, and for all threads to have some.
+const BATCH: usize = 1 << 14;
+
+const UNANSWERED: ClosestPoint = ClosestPoint {
+    lower: 0.0,
+    upper: f32::INFINITY,
+    point: [0.0; 3],
+    triangle: None,
+    work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
+    ended: Ended::Steps,
+};
 
 const HEADER: &str = "x,y,z,lower,upper,px,py,pz,triangle,work";
 
 pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
-    let (blob, points) = (&args.input.blob, &args.input.points);
+    let blob = &args.input.blob;
     let output = args.search.output.as_deref();
     if let Some(output) = output {
-        refuse_same_file(output, &[blob, points])?;
+        refuse_same_file(output, &args.input.files())?;
     }
     let bytes = blob_file::read(blob)?;
     let model = blob_file::open(blob, &bytes)?;
     let tree_chosen = args.engine.map(|engine| engine == ClosestEngine::Tree);
     let tree = served::choose(blob, &model, Need::Distances, tree_chosen)?;
-    let points = Queries::points(points)?;
+    let points = Queries::points(&args.input.points)?;
     let output = Output::file_or_stdout(output)?;
     let stop = args.search.stop(args.rel, args.abs);
-    let mut answers = Vec::with_capacity(points.rows.len());
-    let started = Instant::now();
-    match tree {
-        Some(tree) => {
+    let asked = match tree {
+        Some(tree) => threads::ask_batches(&points, args.search.threads, BATCH, || {
             let mut stack = args.search.stack(&tree);
-            ask(&points, &mut answers, |point| tree::closest_point(&tree, point, &stop, &mut stack))?;
-        }
-        None => {
+            let mut order = vec![0; 2 * BATCH.min(points.rows.len())];
+            move |first, rows: &[[f32; 3]], answers: &mut Vec<ClosestPoint>, tally: &mut Tally| {
+                answers.resize(rows.len(), UNANSWERED);
+                // From nowhere, so that the work does not depend on which thread took the batch before.
+                let mut hint = Hint::NONE;
+                closest_points(&tree, rows, answers, &stop, &mut stack, &mut order, &mut hint)
+                    .map_err(|error| refused(first, error))?;
+                answers.iter().for_each(|answer| tally.count(answer.ended, answer.work));
+                Ok(())
+            }
+        }),
+        None => threads::ask(&points, args.search.threads, || {
             let mut queue = args.search.queue(&model);
-            ask(&points, &mut answers, |point| closest_point(&model, point, &stop, &mut queue))?;
-        }
-    }
-    let time = started.elapsed();
-    let mut tally = Tally::default();
-    answers.iter().for_each(|answer| tally.count(answer.ended, answer.work));
+            let model = &model;
+            move |_, point, answers: &mut Vec<ClosestPoint>| {
+                let answer = closest_point(model, point, &stop, &mut queue)?;
+                answers.push(answer);
+                Ok((answer.ended, answer.work))
+            }
+        }),
+    }?;
     output.finish(|out| {
         writeln!(out, "{HEADER}")?;
-        points.rows.iter().zip(&answers).try_for_each(|(point, answer)| write_row(out, point, answer))
+        points.rows.iter().zip(&asked.answers).try_for_each(|(point, answer)| write_row(out, point, answer))
     })?;
-    args.search.note(&tally, time);
+    args.search.note(&asked);
     Ok(())
 }
 
-fn ask(
-    points: &Queries<3>,
-    answers: &mut Vec<ClosestPoint>,
-    mut question: impl FnMut([f32; 3]) -> Result<ClosestPoint, QueryError>,
-) -> Result<(), Failure> {
-    for (index, &point) in points.rows.iter().enumerate() {
-        answers.push(question(point).map_err(|error| points.refused(index, error))?);
+fn refused(first: usize, error: BatchError) -> (usize, QueryError) {
+    match error {
+        BatchError::Query { index, error } => (first + index, error),
+        // There is a place for each.
+        BatchError::Length { .. } => (first, QueryError::Model),
     }
-    Ok(())
 }
 
 fn write_row(out: &mut dyn Write, [x, y, z]: &[f32; 3], answer: &ClosestPoint) -> io::Result<()> {

@@ -1,5 +1,6 @@
 //! Queries as text: one on a line, with whatever separator the line uses.
 
+use super::args::number;
 use super::failure::Failure;
 use std::path::Path;
 
@@ -70,15 +71,6 @@ fn row<const N: usize>(
         return Err(Failure::FieldCount { file: file.to_owned(), line, wanted, found });
     }
     Ok(row)
-}
-
-fn number(field: &str) -> Result<f32, &'static str> {
-    let exact: f64 = field.parse().map_err(|_| "is not a number; write it like -1.25 or 3e-4")?;
-    if !exact.is_finite() {
-        return Err("is not finite; remove the query");
-    }
-    // From the text, not from the f64: rounding twice could miss the nearest.
-    field.parse::<f32>().ok().filter(|x| x.is_finite()).ok_or("is beyond f32 (3.4e38); choose a larger unit")
 }
 
 #[cfg(test)]

@@ -2,11 +2,14 @@
 
 use super::failure::{Failure, Place};
 use super::output::Output;
+use super::signed::name;
 use super::{blob_file, describe};
 use meshsweep_alloc::tree::{self, TreeOptions};
 use meshsweep_alloc::{emit, mesh};
-use meshsweep_core::query::Stop;
-use meshsweep_core::query::tree::{Facing, SegmentEntry, TreeEntry, closest_point, first_hit};
+use meshsweep_core::query::tree::{
+    Facing, SegmentEntry, TreeEntry, closest_point, first_hit, signed_distance,
+};
+use meshsweep_core::query::{Ended, Stop};
 use std::path::Path;
 
 /// A copy of `fixtures/bracket.stl`, which a package would not contain.
@@ -24,10 +27,11 @@ pub fn run() -> Result<(), Failure> {
     let entries = tree.header().stack_entries as usize;
     let (mut stack, mut segment_stack) =
         (vec![TreeEntry::EMPTY; entries], vec![SegmentEntry::EMPTY; entries]);
-    let place = |error| Failure::Query { file: file.to_owned(), place: Place::BuiltIn, error };
+    let place = |error| Failure::Query { place: Place::BuiltIn, error };
     let point = [10.0, 4.5, 7.0];
     let closest = closest_point(&tree, point, &Stop::EXACT, &mut stack).map_err(place)?;
-    let (from, to) = ([0.0, 0.0, 90.0], [0.0, 0.0, -90.0]);
+    let side = signed_distance(&tree, point, &Stop::EXACT, &mut stack).map_err(place)?.side;
+    let (from, to) = ([20.0, 10.0, 90.0], [20.0, 10.0, -90.0]);
     let segment = first_hit(&tree, from, to, &Facing::Both, &mut segment_stack).map_err(place)?;
     Output::stdout().finish(|out| {
         writeln!(out, "meshsweep answers questions about triangle meshes: distances, hits, signs, outer hulls.")?;
@@ -42,26 +46,26 @@ pub fn run() -> Result<(), Failure> {
         )?;
         writeln!(
             out,
-            "Closest point to {point:?}: distance {} to {}, at {:?}{}, work {}.",
+            "Closest point to {point:?}, which is {}: distance {} to {}, at {:?}{}.",
+            name(side),
             closest.lower,
             closest.upper,
             closest.point,
-            in_triangle(closest.triangle),
-            closest.work.total()
+            in_triangle(closest.triangle)
         )?;
         match segment.hit {
-            Some(hit) => writeln!(
+            _ if segment.is_clear() => writeln!(out, "From {from:?} to {to:?}: clear.")?,
+            Some(hit) if segment.ended == Ended::Exact => writeln!(
                 out,
-                "First hit from {from:?} to {to:?}: t = {}, at {:?}{}, work {}.",
+                "First hit from {from:?} to {to:?}: t = {}, at {:?}{}.",
                 hit.t,
                 hit.point,
-                in_triangle(hit.triangle),
-                segment.work.total()
+                in_triangle(hit.triangle)
             )?,
-            None => writeln!(out, "From {from:?} to {to:?}: clear, work {}.", segment.work.total())?,
+            _ => writeln!(out, "From {from:?} to {to:?}: clear before t = {}.", segment.lower)?,
         }
         writeln!(out, "Try:  meshsweep build part.stl -o part.msw")?;
-        writeln!(out, "      meshsweep closest part.msw points.csv")?;
+        writeln!(out, "      meshsweep closest part.msw 10,4.5,7")?;
         writeln!(out, "      meshsweep field part.msw -o distances.npy")?;
         writeln!(out, "      meshsweep hull part.stl --faces 200 -o hull.ply")?;
         writeln!(out, "      meshsweep help")

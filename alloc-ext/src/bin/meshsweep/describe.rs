@@ -1,10 +1,12 @@
 //! What a blob costs and guarantees, as tables for people. Lengths are in the mesh's unit.
 
 mod hull;
+mod shape;
 mod tree;
 
 pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
-pub use tree::{Shape, stack_bytes, tree_format_name, tree_surface_error};
+pub use shape::Shape;
+pub use tree::{bounds, stack_bytes, tree_format_name, tree_surface_error};
 
 use super::served;
 use meshsweep_core::Model;

@@ -16,6 +16,8 @@ use std::process::ExitCode;
 pub enum Failure {
     /// A file cannot be read.
     Read { file: PathBuf, error: io::Error },
+    /// A file of queries cannot be read.
+    ReadQueries { file: PathBuf, error: io::Error, wanted: &'static str },
     /// A file cannot be written.
     Write { file: PathBuf, error: io::Error },
     /// The output would replace an input.
@@ -51,7 +53,7 @@ pub enum Failure {
     /// A raw file does not hold whole queries.
     RawLength { file: PathBuf, bytes: usize, record: usize },
     /// A query is refused.
-    Query { file: PathBuf, place: Place, error: QueryError },
+    Query { place: Place, error: QueryError },
     /// A search over many points of the program's own is refused.
     Search { file: PathBuf, error: QueryError },
     /// The arguments do not go together.
@@ -60,13 +62,15 @@ pub enum Failure {
     ClosedPipe,
 }
 
-/// Which query of a file.
-#[derive(Clone, Copy, Debug)]
+/// Which query.
+#[derive(Debug)]
 pub enum Place {
     /// Line of a text, from 1.
-    Line(usize),
+    Line { file: PathBuf, line: usize },
     /// Number of a raw record, from 0, and its first byte.
-    Record { number: usize, byte: usize },
+    Record { file: PathBuf, number: usize, byte: usize },
+    /// One of the command line.
+    Argument { text: String },
     /// One of the demonstration's.
     BuiltIn,
 }
@@ -123,6 +127,13 @@ impl fmt::Display for Failure {
         match self {
             Failure::Read { file, error } => {
                 write!(f, "{}: cannot be read: {}", file.display(), Cause(error))
+            }
+            Failure::ReadQueries { file, error, wanted } => {
+                write!(f, "{}: cannot be read: {}", file.display(), Cause(error))?;
+                if error.kind() == io::ErrorKind::NotFound {
+                    write!(f, ", or write the query with commas ({wanted})")?;
+                }
+                Ok(())
             }
             Failure::Write { file, error } => {
                 write!(f, "{}: cannot be written: {}", file.display(), Cause(error))
@@ -197,12 +208,12 @@ impl fmt::Display for Failure {
                 Counted(*bytes, "byte"),
                 bytes - bytes % record
             ),
-            Failure::Query { file, place, error } => {
+            Failure::Query { place, error } => {
                 let remedy = match error {
                     QueryError::NotFinite => "; remove the query",
                     _ => "",
                 };
-                write!(f, "{}, {place}: {error}{remedy}", file.display())
+                write!(f, "{place}: {error}{remedy}")
             }
             Failure::Search { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Usage { what } => f.write_str(what),
@@ -222,9 +233,12 @@ fn remedy(error: &OpenError) -> &'static str {
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Line(line) => write!(f, "line {line}"),
+            Place::Line { file, line } => write!(f, "{}, line {line}", file.display()),
+            Place::Record { file, number, byte } => {
+                write!(f, "{}, query {number} at byte {byte}", file.display())
+            }
+            Place::Argument { text } => write!(f, "query {text}"),
             Place::BuiltIn => f.write_str("the built-in query"),
-            Place::Record { number, byte } => write!(f, "query {number} at byte {byte}"),
         }
     }
 }

@@ -9,13 +9,12 @@ use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
 use super::served::{self, Need};
-use super::{blob_file, describe};
+use super::{blob_file, describe, threads};
 use lattice::Lattice;
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{Hint, TreeEntry, closest_point_from, signed_distance};
 use meshsweep_core::query::{QueryError, Stop};
 use std::io::{self, Write};
-use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -46,9 +45,8 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
         .ok_or_else(|| Failure::GridTooLarge { file: args.blob.clone() })?;
     let output = Output::file(&args.output)?;
     let sampler = Sampler { tree: &tree, lattice, signed: args.signed, interval: args.interval };
-    let threads =
-        args.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
     let [nx, ny, nz] = lattice.size;
+    let threads = threads::count(args.threads, ny * nz);
     let bar = Bar::new(ny * nz, "sampling", "rows");
     let started = Instant::now();
     let mut refused = None;

@@ -6,7 +6,7 @@
 //! | `failure` | what can go wrong, each in one line, and the exit status |
 //! | `mesh_file` | from a mesh file to a clean mesh, closed if a hull is wanted |
 //! | `blob_file`, `served` | reading and opening a blob; which questions it answers, and by which hierarchy |
-//! | `queries`, `csv` | points and segments from files |
+//! | `queries`, `csv`, `threads` | points and segments of arguments and files; asking many on several threads |
 //! | `stop` | stop rules, working memory, how queries ended |
 //! | `output` | files that are whole or not there, and pipes that close early |
 //! | `describe`, `counted` | tables of sections, levels and memory; numbers with their nouns |
@@ -20,6 +20,7 @@ mod build;
 mod closest;
 mod counted;
 mod csv;
+mod cull;
 mod cut;
 mod demo;
 mod describe;
@@ -37,15 +38,15 @@ mod segment;
 mod served;
 mod signed;
 mod stop;
+mod threads;
 mod within;
 
 use args::{Arguments, Command};
-use clap::Parser;
 use failure::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match run(Arguments::parse()) {
+    match run(Arguments::of_the_program()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
@@ -60,7 +61,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Within(args)) => within::run(&args),
         Some(Command::Nearest(args)) => nearest::run(&args),
         Some(Command::Signed(args)) => signed::run(&args),
-        Some(Command::Cull(_)) => Err(Failure::Usage { what: "not there yet".to_owned() }),
+        Some(Command::Cull(args)) => cull::run(&args),
         Some(Command::Field(args)) => field::run(&args),
         Some(Command::Segment(args)) => segment::run(&args),
         Some(Command::Hull(args)) => hull::run(&args),

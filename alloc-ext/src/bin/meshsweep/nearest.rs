@@ -10,9 +10,10 @@ use std::io::{self, Write};
 
 pub fn run(args: &NearestArgs) -> Result<(), Failure> {
     let found = vec![Near::EMPTY; args.count as usize];
-    points::run(&args.input, &args.search, Ranking { found })
+    points::run(&args.input, &args.search, &Ranking { found })
 }
 
+#[derive(Clone)]
 struct Ranking {
     found: Vec<Near>,
 }
@@ -21,7 +22,7 @@ impl Question for Ranking {
     type Answer = (Nearest, Vec<Near>);
 
     fn header(&self) -> &'static str {
-        "query,rank,lower,upper,px,py,pz,triangle"
+        "query,rank,lower,upper,px,py,pz,triangle,work"
     }
 
     fn ask(
@@ -46,11 +47,16 @@ impl Question for Ranking {
         out: &mut dyn Write,
         query: usize,
         _: &[f32; 3],
-        (_, found): &Self::Answer,
+        (went, found): &Self::Answer,
     ) -> io::Result<()> {
         for (rank, near) in found.iter().enumerate() {
             let Near { lower, upper, point: [x, y, z], triangle } = near;
-            writeln!(out, "{query},{},{lower},{upper},{x},{y},{z},{triangle}", rank + 1)?;
+            writeln!(
+                out,
+                "{query},{},{lower},{upper},{x},{y},{z},{triangle},{}",
+                rank + 1,
+                went.work.total()
+            )?;
         }
         Ok(())
     }

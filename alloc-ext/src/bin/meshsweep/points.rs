@@ -6,16 +6,16 @@ use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::served::{self, Need};
-use super::stop::Tally;
+use super::threads;
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::TreeEntry;
 use meshsweep_core::query::{Ended, QueryError, Stop, Work};
 use std::io::{self, Write};
-use std::time::Instant;
+use std::path::Path;
 
 /// A question about a point.
-pub trait Question {
-    type Answer;
+pub trait Question: Clone + Sync {
+    type Answer: Send;
 
     /// Names of the columns.
     fn header(&self) -> &'static str;
@@ -31,6 +31,9 @@ pub trait Question {
     /// How a search ended, and what it took.
     fn outcome(answer: &Self::Answer) -> (Ended, Work);
 
+    /// Says on the standard error what holds for all answers.
+    fn remark(&self, _blob: &Path, _tree: &Tree<'_>) {}
+
     /// Writes the rows of query number `query`, from 0.
     fn write(
         &self,
@@ -42,10 +45,10 @@ pub trait Question {
 }
 
 /// Asks `question` about every point of the file.
-pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, mut question: Q) -> Result<(), Failure> {
+pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, question: &Q) -> Result<(), Failure> {
     let output = search.output.as_deref();
     if let Some(output) = output {
-        refuse_same_file(output, &[&input.blob, &input.points])?;
+        refuse_same_file(output, &input.files())?;
     }
     let bytes = blob_file::read(&input.blob)?;
     let model = blob_file::open(&input.blob, &bytes)?;
@@ -53,24 +56,22 @@ pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, mut question: Q)
     let points = Queries::points(&input.points)?;
     let output = Output::file_or_stdout(output)?;
     let stop = search.stop(0.0, 0.0);
-    let mut stack = search.stack(&tree);
-    let mut answers = Vec::with_capacity(points.rows.len());
-    let mut tally = Tally::default();
-    let started = Instant::now();
-    for (index, &point) in points.rows.iter().enumerate() {
-        let answer = question.ask(&tree, point, &stop, &mut stack);
-        answers.push(answer.map_err(|error| points.refused(index, error))?);
-    }
-    let time = started.elapsed();
-    for answer in &answers {
-        let (ended, work) = Q::outcome(answer);
-        tally.count(ended, work);
-    }
+    let asked = threads::ask(&points, search.threads, || {
+        let mut question = question.clone();
+        let mut stack = search.stack(&tree);
+        move |_, point, answers: &mut Vec<Q::Answer>| {
+            let answer = question.ask(&tree, point, &stop, &mut stack)?;
+            let outcome = Q::outcome(&answer);
+            answers.push(answer);
+            Ok(outcome)
+        }
+    })?;
     output.finish(|out| {
         writeln!(out, "{}", question.header())?;
-        let mut rows = points.rows.iter().zip(&answers).enumerate();
+        let mut rows = points.rows.iter().zip(&asked.answers).enumerate();
         rows.try_for_each(|(query, (point, answer))| question.write(out, query, point, answer))
     })?;
-    search.note(&tally, time);
+    question.remark(&input.blob, &tree);
+    search.note(&asked);
     Ok(())
 }

@@ -1,5 +1,6 @@
-//! Query files: text, raw f32 by their name, or the standard input.
+//! Queries of the command line, of text files, of raw f32 files and of the standard input, in the order given.
 
+use super::args::Given;
 use super::csv;
 use super::failure::{Failure, Place};
 use meshsweep_core::QueryError;
@@ -8,68 +9,111 @@ use std::path::{Path, PathBuf};
 
 /// Queries of `N` finite numbers, and where each came from.
 pub struct Queries<const N: usize> {
-    file: PathBuf,
-    /// The queries, in the order of the file.
+    /// The queries, in the order given.
     pub rows: Vec<[f32; N]>,
-    /// Line of each; `None` for a raw file.
-    lines: Option<Vec<usize>>,
+    /// Where they came from, each with its first row.
+    origins: Vec<(usize, Origin)>,
+}
+
+enum Origin {
+    Argument,
+    /// Line of each query.
+    Text {
+        file: PathBuf,
+        lines: Vec<usize>,
+    },
+    Raw {
+        file: PathBuf,
+    },
 }
 
 impl Queries<3> {
     /// Points.
-    pub fn points(path: &Path) -> Result<Self, Failure> {
-        Self::read(path, "3: x, y, z")
+    pub fn points(given: &[Given<3>]) -> Result<Self, Failure> {
+        Self::read(given, "3: x, y, z")
     }
 }
 
 impl Queries<6> {
     /// Segments.
-    pub fn segments(path: &Path) -> Result<Self, Failure> {
-        Self::read(path, "6: ax, ay, az, bx, by, bz")
+    pub fn segments(given: &[Given<6>]) -> Result<Self, Failure> {
+        Self::read(given, "6: ax, ay, az, bx, by, bz")
     }
 }
 
 impl<const N: usize> Queries<N> {
-    fn read(path: &Path, wanted: &'static str) -> Result<Self, Failure> {
-        let is_stdin = path.as_os_str() == "-";
-        let file = if is_stdin { PathBuf::from("standard input") } else { path.to_owned() };
-        let bytes = if is_stdin {
-            let mut bytes = Vec::new();
-            std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
-        } else {
-            std::fs::read(path)
-        };
-        let bytes = bytes.map_err(|error| Failure::Read { file: file.clone(), error })?;
-        let is_raw = !is_stdin && path.extension().is_some_and(|e| e.eq_ignore_ascii_case("f32"));
-        if !is_raw {
-            let (rows, lines) = csv::parse(&file, &bytes, wanted)?;
-            return Ok(Queries { file, rows, lines: Some(lines) });
+    fn read(given: &[Given<N>], wanted: &'static str) -> Result<Self, Failure> {
+        let is_stdin = |path: &Path| path.as_os_str() == "-";
+        if given.iter().filter_map(Given::file).filter(|path| is_stdin(path)).count() > 1 {
+            return Err(Failure::Usage { what: "-: the standard input can be read only once".to_owned() });
         }
-        let queries = Queries { rows: raw(&file, &bytes)?, file, lines: None };
-        match queries.rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
-            Some(index) => Err(queries.refused(index, QueryError::NotFinite)),
-            None => Ok(queries),
+        let mut queries = Queries { rows: Vec::new(), origins: Vec::new() };
+        for given in given {
+            match given {
+                Given::Query(query) => {
+                    queries.origins.push((queries.rows.len(), Origin::Argument));
+                    queries.rows.push(*query);
+                }
+                Given::File(path) if is_stdin(path) => {
+                    let mut bytes = Vec::new();
+                    let read = std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes);
+                    queries.text(Path::new("standard input"), read, wanted)?;
+                }
+                Given::File(path) if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("f32")) => {
+                    queries.raw(path)?;
+                }
+                Given::File(path) => queries.text(path, std::fs::read(path), wanted)?,
+            }
+        }
+        Ok(queries)
+    }
+
+    fn text(
+        &mut self,
+        file: &Path,
+        bytes: std::io::Result<Vec<u8>>,
+        wanted: &'static str,
+    ) -> Result<(), Failure> {
+        let bytes = bytes.map_err(|error| Failure::ReadQueries { file: file.to_owned(), error, wanted })?;
+        let (rows, lines) = csv::parse(file, &bytes, wanted)?;
+        self.origins.push((self.rows.len(), Origin::Text { file: file.to_owned(), lines }));
+        self.rows.extend(rows);
+        Ok(())
+    }
+
+    fn raw(&mut self, file: &Path) -> Result<(), Failure> {
+        let bytes = std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
+        let (words, rest) = bytes.as_chunks::<4>();
+        let numbers: Vec<f32> = words.iter().map(|&word| f32::from_le_bytes(word)).collect();
+        let (rows, partial) = numbers.as_chunks::<N>();
+        if !(rest.is_empty() && partial.is_empty()) {
+            return Err(Failure::RawLength { file: file.to_owned(), bytes: bytes.len(), record: 4 * N });
+        }
+        let first = self.rows.len();
+        self.origins.push((first, Origin::Raw { file: file.to_owned() }));
+        self.rows.extend(rows);
+        match rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
+            Some(index) => Err(self.refused(first + index, QueryError::NotFinite)),
+            None => Ok(()),
         }
     }
 
-    /// A query that was refused, by its place in the file.
+    /// A query that was refused, by its place.
     pub fn refused(&self, index: usize, error: QueryError) -> Failure {
-        let line = self.lines.as_ref().and_then(|lines| lines.get(index));
-        let place = match line {
-            Some(&line) => Place::Line(line),
-            None => Place::Record { number: index, byte: index * 4 * N },
+        let after = self.origins.partition_point(|(first, _)| *first <= index);
+        let place = match after.checked_sub(1).and_then(|at| self.origins.get(at)) {
+            Some((first, Origin::Text { file, lines })) => {
+                let line = lines.get(index - first).copied().unwrap_or_default();
+                Place::Line { file: file.clone(), line }
+            }
+            Some((first, Origin::Raw { file })) => {
+                let number = index - first;
+                Place::Record { file: file.clone(), number, byte: number * 4 * N }
+            }
+            Some((_, Origin::Argument)) | None => {
+                Place::Argument { text: self.rows[index].map(|x| x.to_string()).join(",") }
+            }
         };
-        Failure::Query { file: self.file.clone(), place, error }
-    }
-}
-
-fn raw<const N: usize>(file: &Path, bytes: &[u8]) -> Result<Vec<[f32; N]>, Failure> {
-    let (words, rest) = bytes.as_chunks::<4>();
-    let numbers: Vec<f32> = words.iter().map(|&word| f32::from_le_bytes(word)).collect();
-    let (rows, partial) = numbers.as_chunks::<N>();
-    if rest.is_empty() && partial.is_empty() {
-        Ok(rows.to_vec())
-    } else {
-        Err(Failure::RawLength { file: file.to_owned(), bytes: bytes.len(), record: 4 * N })
+        Failure::Query { place, error }
     }
 }

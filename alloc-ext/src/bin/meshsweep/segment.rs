@@ -8,34 +8,32 @@ use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::served::{self, Need};
-use super::stop::Tally;
+use super::threads;
 use caster::{Caster, Row, Verdict, ends};
 use meshsweep_core::Model;
 use meshsweep_core::query::Hit;
 use std::io::{self, Write};
 use std::path::Path;
-use std::time::Instant;
 
 const HEADER: &str = "hit,t,px,py,pz,triangle,work";
 
 pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     let output = args.search.output.as_deref();
     if let Some(output) = output {
-        refuse_same_file(output, &[&args.blob, &args.segments])?;
+        refuse_same_file(output, &args.files())?;
     }
+    let usage = |what: &str| Err(Failure::Usage { what: what.to_owned() });
+    let limits_tree = || usage("--steps is for the cover tree; leave it out, or add --engine cover");
     let by_hull = args.engine == Some(SegmentEngine::Hull);
     let is_limited = args.all || args.search.steps.is_some() || args.search.queue.is_some();
     if by_hull && is_limited {
-        let what =
-            "--engine hull finds first hits to their end; leave out --all, --steps and --queue".to_owned();
-        return Err(Failure::Usage { what });
+        return usage("--engine hull finds first hits to their end; leave out --all, --steps and --queue");
     }
-    let limits_tree = || {
-        let what = "--steps is for the cover tree; leave it out, or add --engine cover".to_owned();
-        Err(Failure::Usage { what })
-    };
     if args.engine == Some(SegmentEngine::Tree) && args.search.steps.is_some() {
         return limits_tree();
+    }
+    if args.engine.is_some_and(|engine| engine != SegmentEngine::Tree) && args.facing.is_some() {
+        return usage("--facing is for the box tree; leave it out, or use --engine tree");
     }
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
@@ -44,39 +42,35 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     if tree.is_some() && args.search.steps.is_some() {
         return limits_tree();
     }
+    if tree.is_none() && args.facing.is_some() {
+        // Only the tree will do.
+        served::require_tree(&args.blob, &model, Need::Segments)?;
+    }
     if by_hull {
         require_exact_surface(&args.blob, &model)?;
     }
     let segments = Queries::segments(&args.segments)?;
     let output = Output::file_or_stdout(output)?;
-    let mut caster = match tree {
-        Some(tree) => Caster::tree(tree, &args.search),
-        None if by_hull => Caster::hull(&model, &args.search),
-        None => Caster::cover(&model, &args.search),
-    };
-    let mut rows = Vec::with_capacity(segments.rows.len());
-    let mut tally = Tally::default();
-    let started = Instant::now();
-    for (index, &segment) in segments.rows.iter().enumerate() {
-        let cast = if args.all {
-            caster.all(index, segment, &mut rows)
-        } else {
-            caster.first(index, segment, &mut rows)
+    let asked = threads::ask(&segments, args.search.threads, || {
+        let mut caster = match tree {
+            Some(tree) => Caster::tree(tree, args.facing(), &args.search),
+            None if by_hull => Caster::hull(&model, &args.search),
+            None => Caster::cover(&model, &args.search),
         };
-        let (ended, work) = cast.map_err(|error| segments.refused(index, error))?;
-        tally.count(ended, work);
-    }
-    let time = started.elapsed();
+        move |index, segment, rows: &mut Vec<Row>| {
+            if args.all { caster.all(index, segment, rows) } else { caster.first(index, segment, rows) }
+        }
+    })?;
     output.finish(|out| {
         writeln!(out, "{}{HEADER}", if args.all { "query," } else { "" })?;
-        rows.iter().try_for_each(|row| {
+        asked.answers.iter().try_for_each(|row| {
             if args.all {
                 write!(out, "{},", row.query)?;
             }
             write_row(out, row, &segments.rows[row.query])
         })
     })?;
-    args.search.note(&tally, time);
+    args.search.note(&asked);
     Ok(())
 }
 

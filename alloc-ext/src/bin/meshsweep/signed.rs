@@ -5,20 +5,44 @@ use super::failure::Failure;
 use super::points::{self, Question};
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{Side, SignedDistance, TreeEntry, signed_distance};
-use meshsweep_core::query::{Ended, QueryError, Stop, Work};
+use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop, Work};
 use std::io::{self, Write};
+use std::path::Path;
 
 pub fn run(args: &SignedArgs) -> Result<(), Failure> {
-    points::run(&args.input, &args.search, Signed)
+    points::run(&args.input, &args.search, &Signed)
 }
 
+/// The side in a word.
+pub fn name(side: Side) -> &'static str {
+    match side {
+        Side::Outside => "outside",
+        Side::Inside => "inside",
+        Side::Undefined => "undefined",
+    }
+}
+
+#[derive(Clone)]
 struct Signed;
 
+/// Why a side is undefined.
+fn reason(tree: &Tree<'_>, answer: &SignedDistance) -> &'static str {
+    let ClosestPoint { lower, ended, .. } = answer.closest;
+    match (answer.side, ended) {
+        (Side::Outside | Side::Inside, _) => "",
+        _ if !tree.header().is_closed() => "open mesh",
+        (_, Ended::Steps) => "out of steps",
+        (_, Ended::Capacity) => "out of stack",
+        _ if lower <= 0.0 => "at the surface",
+        _ => "rounding",
+    }
+}
+
 impl Question for Signed {
-    type Answer = SignedDistance;
+    type Answer = (SignedDistance, &'static str);
 
     fn header(&self) -> &'static str {
-        "x,y,z,side,lower,upper,px,py,pz,triangle,work"
+        "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work"
     }
 
     fn ask(
@@ -27,12 +51,24 @@ impl Question for Signed {
         point: [f32; 3],
         stop: &Stop,
         stack: &mut [TreeEntry],
-    ) -> Result<SignedDistance, QueryError> {
-        signed_distance(tree, point, stop, stack)
+    ) -> Result<Self::Answer, QueryError> {
+        let answer = signed_distance(tree, point, stop, stack)?;
+        Ok((answer, reason(tree, &answer)))
     }
 
-    fn outcome(answer: &SignedDistance) -> (Ended, Work) {
+    fn outcome((answer, _): &Self::Answer) -> (Ended, Work) {
         (answer.closest.ended, answer.closest.work)
+    }
+
+    fn remark(&self, blob: &Path, tree: &Tree<'_>) {
+        if !tree.header().is_closed() {
+            // A standard error that is closed is no reason to withhold the answers.
+            let _ = writeln!(
+                io::stderr(),
+                "{}: was built from a mesh that is not closed, so every side is undefined; distances are not",
+                blob.display()
+            );
+        }
     }
 
     fn write(
@@ -40,16 +76,11 @@ impl Question for Signed {
         out: &mut dyn Write,
         _: usize,
         [x, y, z]: &[f32; 3],
-        answer: &SignedDistance,
+        (answer, reason): &Self::Answer,
     ) -> io::Result<()> {
         let SignedDistance { lower, upper, side, closest } = answer;
-        let side = match side {
-            Side::Outside => "outside",
-            Side::Inside => "inside",
-            Side::Undefined => "undefined",
-        };
         let [px, py, pz] = closest.point;
-        write!(out, "{x},{y},{z},{side},{lower},{upper},{px},{py},{pz},")?;
+        write!(out, "{x},{y},{z},{},{reason},{lower},{upper},{px},{py},{pz},", name(*side))?;
         if let Some(triangle) = closest.triangle {
             write!(out, "{triangle}")?;
         }

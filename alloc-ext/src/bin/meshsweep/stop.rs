@@ -2,12 +2,12 @@
 
 use super::args::SearchArgs;
 use super::counted::Counted;
+use super::threads::Asked;
 use meshsweep_core::query::tree::{SegmentEntry, TreeEntry};
 use meshsweep_core::query::{Ended, Stop, Work};
 use meshsweep_core::{Model, QueueEntry, Tree};
 use std::fmt;
 use std::io::Write;
-use std::time::Duration;
 
 /// Queue entries unless told otherwise: enough to search best first, and small beside a cache.
 const COMFORTABLE_QUEUE: usize = 4096;
@@ -36,18 +36,20 @@ impl SearchArgs {
     }
 
     /// Says on the standard error how queries ended if any ended early, and what they took if asked.
-    pub fn note(&self, tally: &Tally, time: Duration) {
+    pub fn note<A>(&self, asked: &Asked<A>) {
+        let Asked { tally, time, threads, .. } = asked;
         // A standard error that is closed is no reason to withhold the answers.
         let mut stderr = std::io::stderr();
         if self.time {
             let queries = tally.queries().max(1) as f64;
             let _ = writeln!(
                 stderr,
-                "{:.1} ns and {:.1} steps of work per query; {} in {:.3} s",
+                "{:.1} ns and {:.1} steps of work per query; {} in {:.3} s on {}",
                 time.as_nanos() as f64 / queries,
                 tally.work as f64 / queries,
                 Counted(tally.queries(), "query"),
-                time.as_secs_f64()
+                time.as_secs_f64(),
+                Counted(*threads, "thread")
             );
         }
         if self.time || tally.ended_early() {
@@ -79,6 +81,15 @@ impl Tally {
         } += 1;
     }
 
+    pub fn add(&mut self, other: &Tally) {
+        self.exact += other.exact;
+        self.tolerance += other.tolerance;
+        self.steps += other.steps;
+        self.capacity += other.capacity;
+        self.level += other.level;
+        self.work += other.work;
+    }
+
     fn queries(&self) -> usize {
         self.exact + self.tolerance + self.steps + self.capacity + self.level
     }
@@ -95,7 +106,7 @@ impl fmt::Display for Tally {
             (self.tolerance, "within tolerance"),
             (self.steps, "out of steps"),
             (self.capacity, "out of stack or queue"),
-            (self.level, "left open by the blob (cut, or vertices moved to a grid)"),
+            (self.level, "left open by rounding or the blob (cut, or vertices moved to a grid)"),
         ] {
             if count > 0 {
                 write!(f, ", {count} {reason}")?;

@@ -15,13 +15,14 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let distance = args.distance;
     if args.all {
         let found = vec![Near::EMPTY; TRIANGLES];
-        points::run(&args.input, &args.search, All { distance, found })
+        points::run(&args.input, &args.search, &All { distance, found })
     } else {
-        points::run(&args.input, &args.search, Any { distance })
+        points::run(&args.input, &args.search, &Any { distance })
     }
 }
 
 /// Whether the surface is within the distance.
+#[derive(Clone)]
 struct Any {
     distance: f32,
 }
@@ -59,6 +60,7 @@ impl Question for Any {
 }
 
 /// Which triangles are within the distance.
+#[derive(Clone)]
 struct All {
     distance: f32,
     found: Vec<Near>,

@@ -4,7 +4,7 @@ use super::leaf::{Lanes, NearestOf, nearest_triangle, nearest_within};
 use super::probe::{Probe, bounds};
 use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
 use crate::blob::{Patch, Tree};
-use crate::fan::{certified_distance, point_patch};
+use crate::fan::{PointFan, certified_distance, lone_triangle};
 use crate::num::root;
 use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
 use glam::Vec3;
@@ -158,32 +158,18 @@ impl<'a> Closest<'a> {
     #[cold]
     #[inline(never)]
     fn certify(&mut self, visit: &Visit<'_>) {
-        let patch = &visit.patch;
-        let weak = self.weak;
-        let p = self.probe.p;
-        let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
-        let turn = patch.tag().turn();
-        let mut certified = self.certified;
-        point_patch(
-            patch.tag().triangles(),
-            turn,
-            s,
-            |i, which| patch.spoke(i, which),
-            |lane, near| {
-                if near.certified_sq >= weak {
-                    return;
-                }
-                let which = usize::from(lane >= turn);
-                let from = if which == 0 { s[0] } else { s[1] };
-                let lower = certified_distance(from, patch.spoke(lane, which), patch.spoke(lane + 1, which));
+        for lane in 0..visit.patch.tag().triangles() {
+            let [centre, e, g] = visit.patch.spokes(lane);
+            let fan = PointFan::new(self.probe.p - centre);
+            if lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g)).certified_sq < self.weak {
+                let lower = certified_distance(self.probe.p - centre, e, g);
                 let lower_sq = lower * lower;
                 let lower_sq = if lower_sq > visit.key { lower_sq } else { visit.key };
-                if lower_sq < certified {
-                    certified = lower_sq;
+                if lower_sq < self.certified {
+                    self.certified = lower_sq;
                 }
-            },
-        );
-        self.certified = certified;
+            }
+        }
     }
 
     #[inline(always)]

@@ -2,6 +2,7 @@
 
 use super::front::{Child, Front, Known};
 use super::leaf::nearest_triangle;
+use super::plane::{Planes, middle};
 use super::probe::Probe;
 use super::shape::{SHORTFALL, is_sound};
 use crate::blob::layout::WIDTH;
@@ -11,6 +12,7 @@ use crate::num::root;
 use crate::num::tolerance::{TREE_FAN, U32};
 use crate::query::Work;
 use crate::tree::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
+use glam::Vec3;
 
 /// More than what a root and a few products may be rounded by.
 const ROUNDING: f32 = 1.0 / 1_048_576.0;
@@ -50,6 +52,9 @@ pub(super) struct Follow<'a, 't> {
     pub(super) tree: &'a Tree<'t>,
     pub(super) probe: &'a Probe,
     pub(super) front: Front<'a>,
+    planes: &'a mut Planes,
+    /// To the query from where planes are measured from.
+    way: Vec3,
     pub(super) work: Work,
     /// How far beyond the answer entries stay active: a few steps.
     ahead: f32,
@@ -61,10 +66,10 @@ pub(super) struct Follow<'a, 't> {
     /// Least certified square of a triangle whose own distance says too little.
     certified: f32,
     /// What a box's bound may be off by.
-    off: f32,
+    pub(super) off: f32,
     /// What a triangle's may, beside [`SHORTFALL`] of itself.
     shortfall: f32,
-    /// Nodes opened, and twice the leaves looked at.
+    /// What was done, in half leaves.
     pub(super) looks: u32,
     /// Nodes that may be opened.
     steps: u32,
@@ -76,6 +81,7 @@ impl<'a, 't> Follow<'a, 't> {
         tree: &'a Tree<'t>,
         probe: &'a Probe,
         front: Front<'a>,
+        planes: &'a mut Planes,
         ahead: f32,
         steps: u32,
     ) -> Self {
@@ -86,6 +92,8 @@ impl<'a, 't> Follow<'a, 't> {
             tree,
             probe,
             front,
+            planes,
+            way: probe.p - middle(tree),
             work: Work::default(),
             ahead,
             best: Nearest::NONE,
@@ -104,10 +112,6 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(never)]
     pub(super) fn begin(&mut self, budget: u32) -> Result<Nearest, Gap> {
         self.front.clear();
-        self.best.at = usize::MAX;
-        if self.best.distance_sq < f32::INFINITY {
-            self.bound = self.horizon(self.best.distance_sq);
-        }
         self.open(0, None)?;
         self.nearest(false, budget)
     }
@@ -138,6 +142,7 @@ impl<'a, 't> Follow<'a, 't> {
                 break;
             }
             self.front.rouse(self.bound + self.ahead);
+            self.looks += self.front.extent.count as u32 / 16;
         }
         if self.bound >= self.front.extent.dropped || self.best.at == usize::MAX {
             return Err(Gap::Lost);
@@ -154,7 +159,14 @@ impl<'a, 't> Follow<'a, 't> {
     fn visit(&mut self, i: usize, mut child: Child) -> Result<(), Gap> {
         loop {
             match child.known() {
-                Known::Triangles => return self.look(i, child),
+                Known::Triangles => {
+                    let key = self.front.key(self.planes.bound(child, self.way) - self.off);
+                    if key > self.bound {
+                        self.front.set(i, key, child);
+                        return Ok(());
+                    }
+                    return self.look(i, child);
+                }
                 Known::Sliver => {
                     let key = self.box_key(child)?;
                     self.front.set(i, key, child);
@@ -165,7 +177,9 @@ impl<'a, 't> Follow<'a, 't> {
             let found = self.tree.child(child.node(), child.lane()).ok_or(Gap::Model)?;
             if found.is_leaf() {
                 let patch = self.tree.patch(found.at, found.tag).ok_or(Gap::Model)?;
-                let known = if is_sound(&patch) { Known::Triangles } else { Known::Sliver };
+                self.looks += 1;
+                let known =
+                    if is_sound(&patch).ok_or(Gap::Model)? { Known::Triangles } else { Known::Sliver };
                 return self.look(i, child.with(known));
             }
             self.open(found.at, Some(i))?;
@@ -188,7 +202,7 @@ impl<'a, 't> Follow<'a, 't> {
         let keys = box_distances(record, &NodeFrame::of(record, self.probe.p), links.count, 0.0);
         self.work.splits += 1;
         self.work.nodes += links.count;
-        self.looks += 1;
+        self.looks += 2;
         let nearest = nearest_lane(&keys);
         let horizon = self.bound + self.ahead;
         if !self.front.has_room(WIDTH) {
@@ -245,6 +259,10 @@ impl<'a, 't> Follow<'a, 't> {
         if child.known() == Known::Triangles {
             let key = self.key_of_triangles(near.certified_sq);
             self.front.set(i, key, child);
+            if key > self.bound {
+                let (p, margin) = (self.probe.p, self.shortfall + self.off);
+                self.planes.put(child, &patch, p, self.way, near.lane(), margin);
+            }
         } else if let Some((key, _)) = self.front.get(i) {
             self.front.set(i, key, child);
         }

@@ -5,7 +5,7 @@
 //! (Guéziec 2001, 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the others the least key is known,
 //! so that most queries never look at them.
 
-/// A child of a node, and what is known of it, in 32 bits: 24 of node, 5 that are not used or say what it is, 3 of lane.
+/// A child of a node, and what is known of it, in 32 bits: 24 of node (a blob has no more), 5 of which two say what is known, 3 of lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Child(u32);
 
@@ -36,6 +36,12 @@ impl Child {
     #[inline(always)]
     pub(super) fn lane(self) -> u32 {
         self.0 & 7
+    }
+
+    /// Which child it is, without what is known of it.
+    #[inline(always)]
+    pub(super) fn leaf(self) -> u32 {
+        self.0 & 0xFFFF_FF07
     }
 
     #[inline(always)]
@@ -93,6 +99,16 @@ impl Front<'_> {
     #[inline(always)]
     pub(super) fn advance(&mut self, step: f32) {
         self.extent.path = (self.extent.path + step) * (1.0 + ROUNDING);
+    }
+
+    /// Counts the path from here on: it has become so long that the rounding of keys would show.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn rebase(&mut self) {
+        let Extent { count, rest, dropped, path, .. } = *self.extent;
+        let less = |key: f32| if key > path { (key - path) * (1.0 - ROUNDING) } else { 0.0 };
+        self.keys.iter_mut().take(count).for_each(|key| *key = less(*key));
+        (self.extent.rest, self.extent.dropped, self.extent.path) = (less(rest), less(dropped), 0.0);
     }
 
     /// Key of a bound at the present place; a negative one counts as 0.

@@ -2,12 +2,15 @@
 
 mod aim;
 mod all_within;
+mod batch;
 mod closest;
+mod cull;
 mod follow;
 mod front;
 mod interval;
 mod leaf;
 mod nearest;
+mod plane;
 mod probe;
 mod pseudonormal;
 mod ranked;
@@ -19,11 +22,14 @@ mod walk;
 mod within;
 
 pub use all_within::{AllWithin, all_within};
+pub use batch::{BatchError, closest_points};
 pub use closest::{Hint, closest_point, closest_point_from};
+pub use cull::{FrontFacing, Sight, front_facing};
 pub use nearest::{Nearest, nearest};
 pub use ranked::Near;
-pub use segment::{AnyHit, Facing, SegmentEntry, all_hits, any_hit, first_hit};
+pub use segment::{AnyHit, Facing, all_hits, any_hit, first_hit};
 pub use session::{Followed, Session};
 pub use signed::{Side, SignedDistance, signed_distance};
 pub use walk::TreeEntry;
+pub use walk::TreeEntry as SegmentEntry;
 pub use within::{Verdict, Within, is_within};

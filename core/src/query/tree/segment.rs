@@ -4,9 +4,10 @@
 //! triangles that may be met; only these are settled one by one, with the interval of parameters in which the *input's* triangle can be met.
 
 use super::aim::Aim;
+use super::walk::{TreeEntry, wait};
 use crate::blob::layout::WIDTH;
 use crate::blob::{Patch, Tree};
-use crate::fan::{Crossing, LANES_BELOW, ray_patch, ray_patch8};
+use crate::fan::{Crossing, FanRay, LANES_BELOW, ray_patch, ray_patch8};
 use crate::query::segment::insert;
 use crate::query::{AllHits, Ended, Hit, QueryError, SegmentHit, Work};
 use crate::tree::{LANE_MASK, WIDE, box_entries, nearest_lane};
@@ -34,20 +35,6 @@ pub enum AnyHit {
     Unknown,
 }
 
-/// A child that waits: 8 bytes of the caller's stack.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SegmentEntry {
-    /// Parameter at which the segment enters it; the lane in the low bits.
-    key: f32,
-    /// Its parent.
-    node: u32,
-}
-
-impl SegmentEntry {
-    /// Any value, for filling arrays.
-    pub const EMPTY: SegmentEntry = SegmentEntry { key: 0.0, node: 0 };
-}
-
 /// First common point of the closed segment `a b` (input units) and the surface.
 ///
 /// Never a wrong "clear": if [`SegmentHit::is_clear`], no point of the segment lies on the input mesh. With [`Ended::Exact`] and a hit the segment is
@@ -70,7 +57,7 @@ pub fn first_hit(
     a: [f32; 3],
     b: [f32; 3],
     facing: &Facing,
-    stack: &mut [SegmentEntry],
+    stack: &mut [TreeEntry],
 ) -> Result<SegmentHit, QueryError> {
     let mut work = Work::default();
     let Some(aim) = begin(tree, a, b, stack)? else {
@@ -105,7 +92,7 @@ pub fn any_hit(
     a: [f32; 3],
     b: [f32; 3],
     facing: &Facing,
-    stack: &mut [SegmentEntry],
+    stack: &mut [TreeEntry],
 ) -> Result<AnyHit, QueryError> {
     let Some(aim) = begin(tree, a, b, stack)? else { return Ok(AnyHit::Clear) };
     let mut any = Any { end: aim.ray.end(), open: false, certain: false };
@@ -131,7 +118,7 @@ pub fn all_hits(
     b: [f32; 3],
     facing: &Facing,
     hits: &mut [Hit],
-    stack: &mut [SegmentEntry],
+    stack: &mut [TreeEntry],
 ) -> Result<AllHits, QueryError> {
     let mut work = Work::default();
     let Some(aim) = begin(tree, a, b, stack)? else {
@@ -156,7 +143,7 @@ fn begin(
     tree: &Tree<'_>,
     a: [f32; 3],
     b: [f32; 3],
-    stack: &[SegmentEntry],
+    stack: &[TreeEntry],
 ) -> Result<Option<Aim>, QueryError> {
     if !tree.serves_segments() {
         return Err(QueryError::NotServed);
@@ -339,8 +326,31 @@ fn flagged(patch: &Patch<'_>, aim: &Aim) -> Option<u32> {
         let (first, used) = (LANES_BELOW.get(tag.turn())?, LANES_BELOW.get(tag.triangles())?);
         return Some(ray_patch8(&aim.ray, &patch.ring8(aim.ray.axes())?, first, used));
     }
-    let centres = [patch.centre(0), patch.centre(tag.centres() - 1)];
-    Some(ray_patch(&aim.ray, tag.triangles(), tag.turn(), centres, |i| patch.ring(i)))
+    if patch.is_single() {
+        return Some(flagged_single(patch, &aim.ray));
+    }
+    let ray = &aim.ray;
+    let ring = patch.grid_ring()?;
+    let origin = ray.in_order(ring.origin);
+    let shadow = |vertex: [i32; 3]| {
+        let mut at = [0f32; 3];
+        for (at, (x, origin)) in at.iter_mut().zip(vertex.into_iter().zip(origin)) {
+            *at = x.wrapping_add(origin) as f32;
+        }
+        ray.shadow_in_order(at)
+    };
+    let centres = ring.centres.map(|centre| shadow(ray.in_order(centre)));
+    let [x, y, z] = ray.in_order([ring.x, ring.y, ring.z]);
+    let vertices = x.iter().zip(y).zip(z);
+    let vertices = vertices.map(|((x, y), z)| [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))));
+    Some(ray_patch(ray, tag.turn(), centres, vertices.map(shadow)))
+}
+
+#[inline(never)]
+fn flagged_single(patch: &Patch<'_>, ray: &FanRay) -> u32 {
+    let tag = patch.tag();
+    let centres = [0, tag.centres() - 1].map(|which| ray.shadow(patch.centre(which)));
+    ray_patch(ray, tag.turn(), centres, (0..=tag.triangles()).map(|i| ray.shadow(patch.ring(i))))
 }
 
 /// Settles the flagged triangles of a patch.
@@ -407,7 +417,7 @@ fn descend<C: Collect>(
     tree: &Tree<'_>,
     aim: &Aim,
     facing: Facing,
-    stack: &mut [SegmentEntry],
+    stack: &mut [TreeEntry],
     collect: &mut C,
     work: &mut Work,
 ) -> Result<f32, QueryError> {
@@ -425,30 +435,11 @@ fn descend<C: Collect>(
         let nearest = nearest_lane(&keys);
         let mut found = nearest <= limit;
         if found {
-            if let Some(slots) = stack.get_mut(waiting..).and_then(|rest| rest.first_chunk_mut::<WIDTH>()) {
-                let mut next = 0usize;
-                for key in keys {
-                    slots[next & (WIDTH - 1)] = SegmentEntry { key, node };
-                    next += usize::from((key <= limit) & (key != nearest));
-                }
-                waiting += next;
-            } else {
-                for key in keys {
-                    if key <= limit && key != nearest {
-                        match stack.get_mut(waiting) {
-                            Some(slot) => {
-                                *slot = SegmentEntry { key, node };
-                                waiting += 1;
-                            }
-                            None => dropped = if key < dropped { key } else { dropped },
-                        }
-                    }
-                }
-            }
+            wait(stack, &mut waiting, &mut dropped, node, &keys, links.count, nearest, limit);
         }
         // The nearest child's links are at hand; what comes off the stack has to look its parent's up.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);
-        let mut entry = SegmentEntry { key: nearest, node };
+        let mut entry = TreeEntry { key: nearest, node };
         loop {
             if found {
                 bound = f32::from_bits(entry.key.to_bits() & !LANE_MASK);

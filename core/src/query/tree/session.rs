@@ -5,6 +5,7 @@
 use super::closest::{Hint, closest_point, closest_point_from};
 use super::follow::{Follow, Gap, Nearest};
 use super::front::{Child, Extent, Front, Known};
+use super::plane::Planes;
 use super::probe::Probe;
 use super::walk::TreeEntry;
 use crate::blob::Tree;
@@ -28,7 +29,7 @@ pub struct Followed {
 ///
 /// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface, each with a lower bound of its distance. A bound
 /// stays true after a motion if the path length is taken off it. So a query looks only at what may have come near enough since. `N`
-/// = 128 is enough for steps of a thousandth of the model; RAM is 8·`N` bytes and about 120.
+/// = 128 is enough for steps of a thousandth of the model; RAM is 8·`N` bytes and about 800: 32 planes that part it from the leaves around.
 ///
 /// Where steps are so long that nothing is won, the session notices and asks [`closest_point_from`] for a while.
 ///
@@ -61,7 +62,7 @@ impl<'t, const N: usize> Session<'t, N> {
     /// As [`closest_point`], with the same bits in `lower`, `upper`, `point` and `triangle`, and the less work the less the query moved.
     ///
     /// With a tolerance in `stop` it is that function. A step budget bounds what the session does and, where that was not
-    /// enough, the plain query after it: at most twice as many nodes.
+    /// enough, the plain query after it: at most twice as many nodes. The session's answer then may be exact where the plain query's is not.
     ///
     /// Cost: within [`Followed::safe_radius`] of the last answer one triangle; for steps of 3e-4 of the model's diagonal one to three leaves and now and
     /// then a node; for jumps that of [`closest_point_from`].
@@ -82,11 +83,17 @@ impl<'t, const N: usize> Session<'t, N> {
 /// Entries stay active while their keys are within so many steps of the answer: so often the rest of the front is looked through.
 const AHEAD: f32 = 8.0;
 /// Cost of any query, beside nodes and leaves.
-const BASE: u32 = 3;
+const BASE: u32 = 4;
 /// Plain queries' worth of debt that a session makes before it rests.
 const CREDIT: u32 = 3;
 /// Plain queries that it then asks, the first time and at most.
 const REST: (u32, u32) = (8, 256);
+/// A path so many times as long as what a box's bound may be off by is counted from new: keys, which are as long, are rounded by no more than that.
+const LONG_PATH: f32 = 2_097_152.0;
+/// A rest ends early after this many steps in a row, each this many times shorter than the one at which it began.
+const WAKE: u32 = 3;
+/// See [`WAKE`].
+const SHORTER: f32 = 8.0;
 /// Queries followed without debt after which the past is forgiven.
 const RELIABLE: u32 = 64;
 /// More than what a root and a few products may be rounded by.
@@ -103,18 +110,23 @@ struct Pace {
     resting: u32,
     /// How many the next time.
     rest: u32,
+    /// Length of the step at which following was given up, and how many much shorter ones have come one after the other since.
+    too_long: f32,
+    short: u32,
     /// Queries that were followed without debt since.
     good: u32,
 }
 
 impl Pace {
-    const EMPTY: Pace = Pace { plain: 0, debt: 0, resting: 0, rest: REST.0, good: 0 };
+    const EMPTY: Pace =
+        Pace { plain: 0, debt: 0, resting: 0, rest: REST.0, too_long: 0.0, short: 0, good: 0 };
 
     /// Whether to follow.
     #[inline(always)]
-    fn follows(&mut self) -> bool {
+    fn follows(&mut self, step: f32) -> bool {
         if self.resting > 0 {
-            self.resting -= 1;
+            self.short = if step * SHORTER < self.too_long { self.short + 1 } else { 0 };
+            self.resting = if self.short < WAKE { self.resting - 1 } else { 0 };
             return false;
         }
         self.plain > 0
@@ -122,11 +134,12 @@ impl Pace {
 
     /// A query was followed.
     #[inline(always)]
-    fn spend(&mut self, cost: u32) {
+    fn spend(&mut self, cost: u32, step: f32) {
         self.debt = (self.debt + cost).saturating_sub(self.plain);
         self.good = if self.debt == 0 { self.good + 1 } else { 0 };
         if self.debt > CREDIT * self.plain {
             (self.debt, self.good) = (0, 0);
+            (self.too_long, self.short) = (step, 0);
             self.resting = self.rest;
             self.rest = (2 * self.rest).min(REST.1);
         } else if self.good == RELIABLE {
@@ -148,6 +161,7 @@ struct Memory {
     /// Where the tree's nodes lie, and how many: which tree it is.
     of: (usize, u32),
     extent: Extent,
+    planes: Planes,
     last: Last,
     /// Where the last plain query found its answer.
     hint: Hint,
@@ -163,6 +177,7 @@ struct Last {
     known: bool,
     /// Its triangle's place in the leaf, and number in the input file.
     lane: usize,
+    child: Child,
     triangle: Option<u32>,
     /// No other triangle has a lesser key; 0 if that was not found out.
     second: f32,
@@ -172,7 +187,8 @@ impl Memory {
     const EMPTY: Memory = Memory {
         of: (0, 0),
         extent: Extent::EMPTY,
-        last: Last { p: Vec3::ZERO, known: false, lane: 0, triangle: None, second: 0.0 },
+        planes: Planes::EMPTY,
+        last: Last { p: Vec3::ZERO, known: false, lane: 0, child: Child::NONE, triangle: None, second: 0.0 },
         hint: Hint::NONE,
         pace: Pace::EMPTY,
     };
@@ -202,8 +218,11 @@ impl Memory {
             *self = Memory { of, ..Memory::EMPTY };
         }
         let mut spent = Work::default();
-        if self.pace.follows() {
-            match self.follow(keys, children, tree, &probe, stop.steps, &mut spent) {
+        let d = probe.p - self.last.p;
+        let step = root(d.x * d.x + d.y * d.y + d.z * d.z) * (1.0 + ROUNDING) + TREE_TINY;
+        self.last.p = probe.p;
+        if self.pace.follows(step) {
+            match self.follow(keys, children, tree, &probe, (step, stop.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
                 Err(Gap::Model) => return Err(QueryError::Model),
                 Err(Gap::Undecided) => {}
@@ -228,17 +247,19 @@ impl Memory {
         children: &mut [Child],
         tree: &Tree<'_>,
         probe: &Probe,
-        steps: u32,
+        (step, steps): (f32, u32),
         spent: &mut Work,
     ) -> Result<Followed, Gap> {
-        let Memory { extent, last, pace, .. } = self;
-        let d = probe.p - last.p;
-        let step = root(d.x * d.x + d.y * d.y + d.z * d.z) * (1.0 + ROUNDING) + TREE_TINY;
-        last.p = probe.p;
+        let Memory { extent, planes, last, pace, .. } = self;
         let fresh = extent.count == 0;
         let mut front = Front { keys, children, extent };
         front.advance(if fresh { 0.0 } else { step });
-        let mut follow = Follow::new(tree, probe, front, AHEAD * step, steps);
+        let mut follow = Follow::new(tree, probe, front, planes, AHEAD * step, steps);
+        let path = follow.front.extent.path;
+        if path > follow.off * LONG_PATH {
+            last.second = if last.second > path { (last.second - path) * (1.0 - ROUNDING) } else { 0.0 };
+            follow.front.rebase();
+        }
         let same = if last.second > follow.horizon(0.0) { follow.same(last.lane, last.second) } else { None };
         let nearest = match same {
             Some(nearest) => nearest,
@@ -248,13 +269,15 @@ impl Memory {
                 } else {
                     follow.nearest(last.known, 2 * pace.plain)
                 };
-                pace.spend(BASE + follow.front.extent.active as u32 / 4 + follow.looks);
+                pace.spend(BASE + follow.front.extent.active as u32 / 4 + follow.looks, step);
                 *spent = follow.work;
                 (last.known, last.second) = (false, 0.0);
                 let nearest = found?;
                 last.known = true;
-                last.lane = nearest.lane;
-                last.triangle = number(tree, &nearest);
+                if (last.child, last.lane) != (nearest.child, nearest.lane) || last.triangle.is_none() {
+                    (last.child, last.lane) = (nearest.child, nearest.lane);
+                    last.triangle = number(tree, &nearest);
+                }
                 nearest
             }
         };

@@ -13,10 +13,10 @@ use glam::Vec3;
 /// A child that waits: 8 bytes of the caller's stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TreeEntry {
-    /// Squared lower bound; the lane in the low bits.
-    key: f32,
+    /// Squared lower bound of its distance, or the parameter at which a segment enters it; the lane in the low bits.
+    pub(super) key: f32,
     /// Its parent.
-    node: u32,
+    pub(super) node: u32,
 }
 
 impl TreeEntry {
@@ -53,6 +53,44 @@ pub(super) enum Descent {
     Short { least: f32, steps: bool },
 }
 
+/// Puts the children of `node` within the limit on the stack, but for the nearest.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "the state of both descents, inlined")]
+pub(super) fn wait(
+    stack: &mut [TreeEntry],
+    waiting: &mut usize,
+    dropped: &mut f32,
+    node: u32,
+    keys: &[f32; WIDTH],
+    count: u32,
+    nearest: f32,
+    limit: f32,
+) {
+    let room = stack.get_mut(*waiting..).and_then(|rest| rest.first_chunk_mut::<WIDTH>());
+    if WIDE && let Some(slots) = room {
+        let mut next = 0usize;
+        for &key in keys {
+            slots[next & (WIDTH - 1)] = TreeEntry { key, node };
+            next += usize::from((key <= limit) & (key != nearest));
+        }
+        *waiting += next;
+        return;
+    }
+    // Bits of numbers that are not negative compare as the numbers do.
+    let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
+    for &key in keys.iter().take(count as usize) {
+        if key.to_bits() <= limit && key.to_bits() != nearest {
+            match stack.get_mut(*waiting) {
+                Some(slot) => {
+                    *slot = TreeEntry { key, node };
+                    *waiting += 1;
+                }
+                None => *dropped = if key < *dropped { key } else { *dropped },
+            }
+        }
+    }
+}
+
 /// Visits every leaf within `seek`'s limit.
 #[inline(always)]
 pub(super) fn descend(
@@ -83,29 +121,7 @@ pub(super) fn descend(
         let limit = seek.limit();
         let mut found = nearest <= limit;
         if found {
-            let room = stack.get_mut(waiting..).and_then(|rest| rest.first_chunk_mut::<WIDTH>());
-            if WIDE && let Some(slots) = room {
-                let mut next = 0usize;
-                for key in keys {
-                    slots[next & (WIDTH - 1)] = TreeEntry { key, node };
-                    next += usize::from((key <= limit) & (key != nearest));
-                }
-                waiting += next;
-            } else {
-                // Bits of numbers that are not negative compare as the numbers do.
-                let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
-                for key in keys.into_iter().take(links.count as usize) {
-                    if key.to_bits() <= limit && key.to_bits() != nearest {
-                        match stack.get_mut(waiting) {
-                            Some(slot) => {
-                                *slot = TreeEntry { key, node };
-                                waiting += 1;
-                            }
-                            None => dropped = dropped.min(key),
-                        }
-                    }
-                }
-            }
+            wait(stack, &mut waiting, &mut dropped, node, &keys, links.count, nearest, limit);
         }
         // The nearest child's links are at hand; what comes off the stack has to look its parent's up.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);

@@ -6,46 +6,141 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::{self, Scratch};
+use meshsweep_suite::ask::{hull, tree};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_open(input: &Input<'_>, fold: &mut Fold) {
-    match ask::open(input.blob) {
-        Ok(subject) => {
-            fold.point(ask::bounds(&subject)[0]);
-            ask::contents(&subject, fold);
+extern "C" fn ask_hull_open(input: &Input<'_>, fold: &mut Fold) {
+    match hull::open(input.blob) {
+        Ok(model) => {
+            fold.point(hull::bounds(&model)[0]);
+            hull::contents(&model, fold);
         }
         Err(refused) => fold.word(refused.0),
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_closest(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
+extern "C" fn ask_hull_closest(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
     #[cfg(feature = "inject_panic")]
     fold.byte([1, 2, 3][input.any]);
-    if let Ok(subject) = ask::open(input.blob) {
-        ask::closest(&subject, input.a, scratch, fold);
+    if let Ok(model) = hull::open(input.blob) {
+        hull::closest(&model, input.a, scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_first_hit(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(subject) = ask::open(input.blob) {
-        ask::first_hit(&subject, input.a, input.b, scratch, fold);
+extern "C" fn ask_tree_open(input: &Input<'_>, fold: &mut Fold) {
+    match tree::open(input.blob) {
+        Ok(tree) => {
+            fold.point(tree::bounds(&tree)[0]);
+            tree::contents(&tree, fold);
+        }
+        Err(refused) => fold.word(refused.0),
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_all_hits(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(subject) = ask::open(input.blob) {
-        ask::all_hits(&subject, input.a, input.b, scratch, fold);
+extern "C" fn ask_hull_first_hit(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
+    if let Ok(model) = hull::open(input.blob) {
+        hull::first_hit(&model, [input.a, input.b], scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_outer_hits(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(subject) = ask::open(input.blob) {
-        ask::outer_hits(&subject, input.a, input.b, scratch, fold);
+extern "C" fn ask_hull_all_hits(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
+    if let Ok(model) = hull::open(input.blob) {
+        hull::all_hits(&model, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_hull_outer_hits(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
+    if let Ok(model) = hull::open(input.blob) {
+        hull::outer_hits(&model, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_closest(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::closest(&tree, input.a, scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_follow(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::follow(&tree, input.a, scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_stopped(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::stopped(&tree, input.a, input.b[0], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_is_within(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::is_within(&tree, input.a, input.b[0], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_nearest(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::nearest(&tree, input.a, scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_all_within(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::all_within(&tree, input.a, input.b[0], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_signed(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::signed(&tree, input.a, scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_first_hit(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::first_hit(&tree, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_facing(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::facing(&tree, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_any_hit(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::any_hit(&tree, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_all_hits(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::all_hits(&tree, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_session<'t>(input: &Input<'t>, scratch: &mut tree::Scratch<'t>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::session(&tree, input.a, scratch, &mut (), fold);
     }
 }

@@ -1,4 +1,4 @@
-//! The size of an image that opens a blob and asks nothing of it.
+//! The size of an image that opens a split hierarchy and asks nothing of it.
 #![no_std]
 #![no_main]
 
@@ -6,12 +6,12 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask;
+use meshsweep_suite::ask::hull;
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
 extern "C" fn ask_open(input: &Input<'_>, fold: &mut Fold) {
-    if let Ok(subject) = ask::open(input.blob) {
-        fold.point(ask::bounds(&subject)[0]);
+    if let Ok(model) = hull::open(input.blob) {
+        fold.point(hull::bounds(&model)[0]);
     }
 }

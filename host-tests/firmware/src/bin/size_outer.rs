@@ -6,12 +6,12 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::{self, Scratch};
+use meshsweep_suite::ask::hull::{self, Scratch};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
 extern "C" fn ask_outer_hits(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(subject) = ask::open(input.blob) {
-        ask::outer_hits(&subject, input.a, input.b, scratch, fold);
+    if let Ok(model) = hull::open(input.blob) {
+        hull::outer_hits(&model, [input.a, input.b], scratch, &mut (), fold);
     }
 }

@@ -1,12 +1,13 @@
-//! The blobs that the images carry: the builder's, in every coordinate format, whole and cut.
+//! The blobs that the images carry: split hierarchies in every coordinate format, whole and cut, and box trees.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use meshsweep_alloc::emit::cut;
+use meshsweep_alloc::emit::{self, cut};
 use meshsweep_alloc::hull::{BuildOptions, build};
 use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::precision::VertexBits;
+use meshsweep_alloc::tree::{self, TreeOptions};
 use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{Triangles, bracket, torus};
 
@@ -26,19 +27,27 @@ pub enum Blob {
     Grid24,
     /// The torus, cut after the level that follows the base hull.
     Cut,
+    /// The torus's box tree, vertices on a grid.
+    TorusTree,
+    /// The bracket's box tree.
+    BracketTree,
+    /// The torus's box tree, vertices as f32.
+    SingleTree,
+    /// The box tree of a torus with holes, beside needles and triangles without area, with normal cones.
+    SoupTree,
 }
 
 impl Blob {
-    /// The blob whose costs are reported for a part with so much flash.
-    pub const fn standard(flash: Flash) -> Self {
+    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box tree of one mesh.
+    pub const fn standard(flash: Flash) -> [Self; 2] {
         match flash {
-            Flash::Small => Self::Torus,
-            Flash::Large => Self::Bracket,
+            Flash::Small => [Self::Torus, Self::TorusTree],
+            Flash::Large => [Self::Bracket, Self::BracketTree],
         }
     }
 
     /// Blobs whose bits are compared beside the standard ones.
-    pub const VARIANTS: [Self; 3] = [Self::Grid16, Self::Grid24, Self::Cut];
+    pub const VARIANTS: [Self; 5] = [Self::Grid16, Self::Grid24, Self::Cut, Self::SingleTree, Self::SoupTree];
 
     pub const fn name(self) -> &'static str {
         match self {
@@ -47,6 +56,18 @@ impl Blob {
             Self::Grid16 => "grid16",
             Self::Grid24 => "grid24",
             Self::Cut => "cut",
+            Self::TorusTree => "torus_tree",
+            Self::BracketTree => "bracket_tree",
+            Self::SingleTree => "single_tree",
+            Self::SoupTree => "soup_tree",
+        }
+    }
+
+    /// The image that asks it.
+    pub const fn image(self) -> &'static str {
+        match self {
+            Self::Torus | Self::Bracket | Self::Grid16 | Self::Grid24 | Self::Cut => "suite_hull",
+            Self::TorusTree | Self::BracketTree | Self::SingleTree | Self::SoupTree => "suite_tree",
         }
     }
 
@@ -61,7 +82,8 @@ impl Blob {
 
     fn bytes(self) -> Result<Vec<u8>, String> {
         // 50 faces: the levels below the surface are few enough to be cut, and the splits are many.
-        let small = |vertex_bits| whole(torus(2.0, 0.75, 20, 12), 50, vertex_bits);
+        let small = |vertex_bits| whole(small_torus(), 50, vertex_bits);
+        let default = TreeOptions::default();
         match self {
             Self::Torus => small(VertexBits::Auto),
             Self::Bracket => whole(bracket(), BuildOptions::default().base_faces, VertexBits::Auto),
@@ -72,8 +94,31 @@ impl Blob {
                 let model = Model::open(&bytes).map_err(|error| error.to_string())?;
                 Ok(cut(&model, 1).map_err(|error| error.to_string())?.to_bytes())
             }
+            Self::TorusTree => Ok(box_tree(small_torus(), &default)),
+            Self::BracketTree => Ok(box_tree(bracket(), &default)),
+            Self::SingleTree => Ok(box_tree(small_torus(), &TreeOptions { single: true, ..default })),
+            Self::SoupTree => Ok(box_tree(soup(), &TreeOptions { cull: true, ..default })),
         }
     }
+}
+
+fn small_torus() -> Triangles {
+    torus(2.0, 0.75, 20, 12)
+}
+
+fn soup() -> Triangles {
+    let (positions, mut triangles) = small_torus();
+    let mut number = 0u32..;
+    triangles.retain(|_| number.next().is_some_and(|n| n % 5 != 3));
+    // Twice the same, wound either way, without area, and so long that it crosses the hole.
+    triangles.extend([[0, 1, 13], [13, 1, 0], [7, 7, 8], [9, 9, 9], [0, 1, 120], [30, 150, 31]]);
+    (positions, triangles)
+}
+
+fn box_tree((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
+    let mesh = Mesh::new(positions, triangles);
+    let (tables, _) = tree::build(&mesh, 0.0, mesh.triangles.len(), options);
+    emit::blob(None, Some(&tables))
 }
 
 fn whole(
@@ -99,18 +144,22 @@ fn write_if_changed(path: &Path, content: &[u8]) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::Blob;
-    use meshsweep_core::Model;
     use meshsweep_core::blob::layout::VertexFormat;
-    use meshsweep_suite::ask;
+    use meshsweep_core::{Model, Tree};
+    use meshsweep_suite::Subject;
 
-    const ALL: [Blob; 5] = [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut];
+    const HULLS: [Blob; 5] = [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut];
+    const TREES: [Blob; 4] = [Blob::TorusTree, Blob::BracketTree, Blob::SingleTree, Blob::SoupTree];
 
     #[test]
     fn every_blob_opens_and_the_suite_has_memory_for_it() {
-        for blob in ALL {
+        for blob in HULLS {
             let bytes = blob.bytes().expect("a blob");
-            let model = Model::open(&bytes).expect("opens");
-            assert!(ask::Subject::Hull(model).memory_suffices(), "{blob:?}: {:?}", model.capacities());
+            assert!(Model::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
+        }
+        for blob in TREES {
+            let bytes = blob.bytes().expect("a blob");
+            assert!(Tree::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
         }
     }
 
@@ -124,5 +173,19 @@ mod tests {
         assert_eq!(header(Blob::Bracket).surface_triangles, 1948);
         let cut = header(Blob::Cut);
         assert!(cut.surface_triangles == 0 && cut.splits > 0);
+    }
+
+    #[test]
+    fn trees_differ_in_format_and_in_what_they_hold() {
+        for blob in TREES {
+            let bytes = blob.bytes().expect("a blob");
+            let tree = Tree::open(&bytes).expect("opens");
+            let header = tree.header();
+            assert!(tree.serves_distances() && tree.serves_segments(), "{blob:?}");
+            assert_eq!(header.is_single(), blob == Blob::SingleTree, "{blob:?}");
+            assert_eq!(header.is_closed(), blob != Blob::SoupTree, "{blob:?}");
+            let triangles = if blob == Blob::BracketTree { 1948 } else { 480 };
+            assert_eq!(header.triangles, if blob == Blob::SoupTree { 390 } else { triangles }, "{blob:?}");
+        }
     }
 }

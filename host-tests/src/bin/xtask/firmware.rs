@@ -40,13 +40,18 @@ fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
     let Tools { cross, qemu } = tools;
     let step = |what: &str| format!("{}: {what}", board.cpu);
     let standard = Blob::standard(board.flash);
-    let reading = steps.run(&step("the host's bits"), || compared(cross, qemu, board, standard));
+    let mut readings = Vec::new();
+    for blob in standard {
+        let name = step(&format!("the host's bits, {}", blob.name()));
+        let reading = steps.run(&name, || compared(cross, qemu, board, blob));
+        readings.extend(reading.map(|reading| (blob.name(), reading)));
+    }
     for variant in Blob::VARIANTS {
         let name = format!("the host's bits, {}", variant.name());
         steps.run(&step(&name), || compared(cross, qemu, board, variant).map(drop));
     }
     if cross.has_clippy() {
-        steps.run(&step("lints"), || images::lint(cross, board.target, &standard.file()?));
+        steps.run(&step("lints"), || images::lint(cross, board.target, &standard[0].file()?));
     }
     for profile in Profile::ALL {
         steps.run(&step(&format!("no panic, {}", profile.name())), || {
@@ -55,21 +60,31 @@ fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
     }
     steps.run(&step("a panic is noticed"), || proof::notices_a_panic(cross, board.target, Profile::Release));
     let added = steps.run(&step("sizes"), || sizes(cross, board)).unwrap_or_default();
-    Row { board: *board, reading, added }
+    Row { board: *board, readings, added }
 }
 
 /// Runs the suite on a board; its answers are the host's bit by bit, or it is an error.
 fn compared(cross: &Cross, qemu: &Qemu, board: &Board, blob: Blob) -> Result<Reading, String> {
     let file = blob.file()?;
     let bytes = fs::read(&file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
-    let image = images::suite(cross, board.target, &file)?;
+    let image = images::suite(cross, board.target, blob.image(), &file)?;
     let reading = Reading::parse(&qemu.run(board.machine, &image)?, board)?;
     reading.compare(&Reading::of_host(&bytes)?)?;
     Ok(reading)
 }
 
 fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
-    const QUESTIONS: [&str; 4] = ["open", "closest", "segment", "outer"];
+    const QUESTIONS: [&str; 9] = [
+        "open",
+        "closest",
+        "segment",
+        "outer",
+        "tree_open",
+        "tree_closest",
+        "tree_alone",
+        "tree_segment",
+        "tree_session",
+    ];
     let mut added = Vec::new();
     for profile in Profile::ALL {
         let names = QUESTIONS.map(|question| format!("size_{question}"));

@@ -27,11 +27,11 @@ impl Profile {
     }
 }
 
-/// Builds the suite image that carries `blob`; its path.
-pub fn suite(cross: &Cross, target: &str, blob: &Path) -> Result<PathBuf, String> {
+/// Builds the image `name` of the suite, carrying `blob`; its path.
+pub fn suite(cross: &Cross, target: &str, name: &str, blob: &Path) -> Result<PathBuf, String> {
     let mut command = cargo(cross, "build", target, Profile::Release);
-    process::capture(command.args(["--bin", "suite"]).env("MESHSWEEP_BLOB", blob))?;
-    Ok(image(cross, target, Profile::Release, "suite"))
+    process::capture(command.args(["--bin", name]).env("MESHSWEEP_BLOB", blob))?;
+    Ok(image(cross, target, Profile::Release, name))
 }
 
 /// Lints the images.

@@ -9,7 +9,26 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 5] = ["ask_open", "ask_closest", "ask_first_hit", "ask_all_hits", "ask_outer_hits"];
+const QUESTIONS: [&str; 18] = [
+    "ask_hull_open",
+    "ask_hull_closest",
+    "ask_hull_first_hit",
+    "ask_hull_all_hits",
+    "ask_hull_outer_hits",
+    "ask_tree_open",
+    "ask_tree_closest",
+    "ask_tree_follow",
+    "ask_tree_stopped",
+    "ask_tree_is_within",
+    "ask_tree_nearest",
+    "ask_tree_all_within",
+    "ask_tree_signed",
+    "ask_tree_first_hit",
+    "ask_tree_facing",
+    "ask_tree_any_hit",
+    "ask_tree_all_hits",
+    "ask_tree_session",
+];
 
 /// Links the proof image.
 pub fn holds(cross: &Cross, target: &str, profile: Profile) -> Result<(), String> {

@@ -1,7 +1,8 @@
 //! What the suite yields: on a board as printed lines, on the host by running it.
 
+use meshsweep_suite::ask::{Refused, hull, tree};
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Clock, Kind, Plan, Recorder, Scratch};
+use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
 use crate::boards::Board;
 
@@ -80,11 +81,17 @@ impl Reading {
         if done { Ok(reading) } else { Err(format!("the image stopped before it was done:\n{printed}")) }
     }
 
-    /// Runs the suite here.
+    /// Runs the suite here: on the blob's box tree if it has one, else on its split hierarchy.
     pub fn of_host(blob: &[u8]) -> Result<Self, String> {
         let mut here = Here { blocks: Vec::new() };
-        meshsweep_suite::run(blob, Plan::STANDARD, &mut Scratch::new(), &mut here)
-            .map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
+        let plan = Plan::STANDARD;
+        let ran = match run::<tree::Tree<'_>>(blob, plan, &mut tree::Scratch::new(), &mut here) {
+            Err(Refused::NO_SECTION) => {
+                run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut here)
+            }
+            ran => ran,
+        };
+        ran.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
         let blob = format!("{} {:016x}", blob.len(), Fold::of_bytes(blob));
         Ok(Self { blob, blocks: here.blocks, costs: Vec::new(), scratch: 0 })
     }

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::boards::Board;
 use crate::elf::Size;
 use crate::images::Profile;
-use crate::reading::Reading;
+use crate::reading::{Cost, Reading};
 
 /// What one image adds to the empty one.
 #[derive(Clone, Debug)]
@@ -23,7 +23,8 @@ pub struct Added {
 #[derive(Clone, Debug)]
 pub struct Row {
     pub board: Board,
-    pub reading: Option<Reading>,
+    /// With the names of their blobs.
+    pub readings: Vec<(&'static str, Reading)>,
     pub added: Vec<Added>,
 }
 
@@ -32,7 +33,7 @@ pub fn text(rows: &[Row]) -> String {
     let mut table = String::from("\nflash and static RAM in bytes, beyond an image that asks nothing\n");
     let _ = writeln!(
         table,
-        "{:<12}{:<10}{:<9}{:>8}{:>8}{:>8}",
+        "{:<12}{:<14}{:<9}{:>8}{:>8}{:>8}",
         "cpu", "question", "profile", "text", "rodata", "RAM"
     );
     for row in rows {
@@ -40,7 +41,7 @@ pub fn text(rows: &[Row]) -> String {
             let (cpu, profile, ram) = (row.board.cpu, profile.name(), size.ram());
             let _ = writeln!(
                 table,
-                "{cpu:<12}{question:<10}{profile:<9}{:>8}{:>8}{ram:>8}",
+                "{cpu:<12}{question:<14}{profile:<9}{:>8}{:>8}{ram:>8}",
                 size.text, size.rodata
             );
         }
@@ -50,24 +51,18 @@ pub fn text(rows: &[Row]) -> String {
     );
     let _ = writeln!(
         table,
-        "{:<12}{:<14}{:>9}{:>10}{:>10}{:>10}{:>8}{:>9}",
-        "cpu", "query", "count", "min", "mean", "max", "stack", "scratch"
+        "{:<12}{:<14}{:<14}{:>7}{:>10}{:>10}{:>10}{:>8}{:>9}",
+        "cpu", "blob", "query", "count", "min", "mean", "max", "stack", "scratch"
     );
     for row in rows {
-        let Some(reading) = &row.reading else { continue };
-        for cost in &reading.costs {
-            let _ = writeln!(
-                table,
-                "{:<12}{:<14}{:>9}{:>10.0}{:>10.0}{:>10.0}{:>8}{:>9}",
-                row.board.cpu,
-                cost.kind,
-                cost.queries,
-                cost.min,
-                cost.mean,
-                cost.max,
-                cost.stack,
-                reading.scratch
-            );
+        for (blob, reading) in &row.readings {
+            for Cost { kind, queries, min, mean, max, stack } in &reading.costs {
+                let (cpu, scratch) = (row.board.cpu, reading.scratch);
+                let _ = writeln!(
+                    table,
+                    "{cpu:<12}{blob:<14}{kind:<14}{queries:>7}{min:>10.0}{mean:>10.0}{max:>10.0}{stack:>8}{scratch:>9}",
+                );
+            }
         }
     }
     table
@@ -92,21 +87,25 @@ fn row(row: &Row) -> Value {
             })
         })
         .collect();
-    let costs: Vec<_> = row
-        .reading
+    let blobs: Vec<_> = row
+        .readings
         .iter()
-        .flat_map(|reading| &reading.costs)
-        .map(|cost| {
+        .map(|(name, reading)| {
+            let costs: Vec<_> = reading.costs.iter().map(cost).collect();
             json!({
-                "query": cost.kind, "count": cost.queries, "stack_bytes": cost.stack,
-                "instructions_min": cost.min, "instructions_mean": cost.mean, "instructions_max": cost.max,
+                "name": name, "blob": reading.blob, "scratch_bytes": reading.scratch, "costs": costs,
             })
         })
         .collect();
     json!({
         "cpu": row.board.cpu, "target": row.board.target, "machine": row.board.machine.name(),
-        "scratch_bytes": row.reading.as_ref().map(|reading| reading.scratch),
-        "blob": row.reading.as_ref().map(|reading| reading.blob.as_str()),
-        "added": added, "costs": costs,
+        "added": added, "blobs": blobs,
+    })
+}
+
+fn cost(cost: &Cost) -> Value {
+    json!({
+        "query": cost.kind, "count": cost.queries, "stack_bytes": cost.stack,
+        "instructions_min": cost.min, "instructions_mean": cost.mean, "instructions_max": cost.max,
     })
 }

@@ -1,16 +1,18 @@
 //! Questions to the split hierarchy.
 
+pub use meshsweep_core::Model;
+use meshsweep_core::QueueEntry;
 use meshsweep_core::blob::Header;
 use meshsweep_core::query::{
     Hit, Search, Stop, all_hits as core_all_hits, closest_point, first_hit as core_first_hit,
     outer_hits as core_outer_hits,
 };
 use meshsweep_core::refine::{Face, Front, hull_faces};
-use meshsweep_core::{Model, QueueEntry};
 
-use super::{Refused, timed};
-use crate::Clock;
-use crate::{fold::Fold, place::Bounds};
+use super::{Refused, Subject, timed};
+use crate::fold::Fold;
+use crate::place::{Bounds, Placer};
+use crate::{Clock, Kind};
 
 /// Entries of the queue.
 const QUEUE: usize = 256;
@@ -48,6 +50,69 @@ impl Default for Scratch {
     }
 }
 
+impl<'t> Subject<'t> for Model<'t> {
+    type Scratch = Scratch;
+
+    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
+        open(bytes)
+    }
+
+    fn bounds(&self) -> Bounds {
+        bounds(self)
+    }
+
+    fn memory_suffices(&self) -> bool {
+        let needed = self.capacities();
+        needed.queue <= QUEUE && needed.front_words <= FRONT_WORDS
+    }
+
+    fn memory(&self) -> usize {
+        size_of::<Scratch>()
+    }
+
+    fn suits(kind: Kind) -> bool {
+        matches!(
+            kind,
+            Kind::Arith
+                | Kind::Contents
+                | Kind::ClosestFar
+                | Kind::ClosestNear
+                | Kind::ClosestPath
+                | Kind::FirstHit
+                | Kind::AllHits
+                | Kind::OuterHits
+        )
+    }
+
+    fn ask(
+        &self,
+        kind: Kind,
+        place: &mut Placer,
+        scratch: &mut Scratch,
+        clock: &mut impl Clock,
+        fold: &mut Fold,
+    ) {
+        match kind {
+            Kind::Contents => contents(self, fold),
+            Kind::ClosestFar => {
+                closest(self, place.far(), scratch, clock, fold);
+            }
+            Kind::ClosestNear => {
+                // The base is an answer: a wrong one shows in this block already, so its consequences mislead nobody.
+                let base = closest(self, place.far(), scratch, &mut (), fold);
+                closest(self, place.near(base), scratch, clock, fold);
+            }
+            Kind::ClosestPath => {
+                closest(self, place.step(), scratch, clock, fold);
+            }
+            Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
+            Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
+            Kind::OuterHits => outer_hits(self, place.segment(), scratch, clock, fold),
+            _ => {}
+        }
+    }
+}
+
 /// Opens a blob.
 ///
 /// # Errors
@@ -63,13 +128,6 @@ pub fn bounds(model: &Model<'_>) -> Bounds {
     // A power of two: exact unless the box leaves f32's normal range, and then rounded alike everywhere.
     let scale = model.scale();
     [surface_box.min, surface_box.max].map(|corner| corner.as_dvec3().to_array().map(|x| (x * scale) as f32))
-}
-
-/// Whether no query on this model can end early for want of [`Scratch`].
-#[must_use]
-pub fn memory_suffices(model: &Model<'_>) -> bool {
-    let needed = model.capacities();
-    needed.queue <= QUEUE && needed.front_words <= FRONT_WORDS
 }
 
 /// Sections, levels and the faces of every hull.

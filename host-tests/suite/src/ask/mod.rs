@@ -6,37 +6,45 @@
 pub mod hull;
 pub mod tree;
 
+use meshsweep_core::OpenError;
 use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, SegmentHit, Work};
-use meshsweep_core::{Model, OpenError, Tree};
 
-use crate::Clock;
 use crate::fold::Fold;
-use crate::place::Bounds;
+use crate::place::{Bounds, Placer};
+use crate::{Clock, Kind};
 
-/// What the queries need beside a blob of lifetime `'t`: it must fit in the smallest part's RAM beside the stack.
-#[derive(Debug, Default)]
-pub struct Scratch<'t> {
-    /// For the split hierarchy.
-    pub hull: hull::Scratch,
-    /// For the box tree.
-    pub tree: tree::Scratch<'t>,
-}
+/// What is asked: a blob's split hierarchy or its box tree. A trait and not an enum, so that an image links only what it asks.
+pub trait Subject<'t>: Sized {
+    /// What the queries need beside the blob: it must fit in the smallest part's RAM beside the stack.
+    type Scratch;
 
-impl Scratch<'_> {
-    /// Scratch that no query has used. `const`, so that it can be static.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self { hull: hull::Scratch::new(), tree: tree::Scratch::new() }
-    }
-}
+    /// Opens the blob.
+    ///
+    /// # Errors
+    /// The core's refusal.
+    fn open(bytes: &'t [u8]) -> Result<Self, Refused>;
 
-/// A blob that was opened: its box tree if it has one, else its split hierarchy.
-#[derive(Clone, Copy, Debug)]
-pub enum Subject<'a> {
-    /// The split hierarchy.
-    Hull(Model<'a>),
-    /// The box tree.
-    Tree(Tree<'a>),
+    /// The surface's box in input units, which the queries are placed around.
+    fn bounds(&self) -> Bounds;
+
+    /// Whether no query can end early for want of scratch: else blocks of such answers would prove little.
+    fn memory_suffices(&self) -> bool;
+
+    /// Bytes of RAM that queries need beside the stack.
+    fn memory(&self) -> usize;
+
+    /// Whether it can be asked this.
+    fn suits(kind: Kind) -> bool;
+
+    /// Asks one query of a kind, placed by `place`.
+    fn ask(
+        &self,
+        kind: Kind,
+        place: &mut Placer,
+        scratch: &mut Self::Scratch,
+        clock: &mut impl Clock,
+        fold: &mut Fold,
+    );
 }
 
 /// Why a blob was not opened, as the number of the core's error, or why it was not asked.
@@ -46,8 +54,8 @@ pub struct Refused(pub u32);
 impl Refused {
     /// The suite's memory is too short for what the blob asks for.
     pub const MEMORY: Self = Self(100);
-    /// The blob has no box tree.
-    const NO_SECTION: Self = Self(11);
+    /// The blob lacks a section: it has no box tree, for one.
+    pub const NO_SECTION: Self = Self(11);
 
     const fn of(error: OpenError) -> Self {
         Self(match error {
@@ -64,113 +72,6 @@ impl Refused {
             OpenError::MissingSection { .. } => Self::NO_SECTION.0,
             OpenError::Record { .. } => 12,
         })
-    }
-}
-
-/// Opens a blob.
-///
-/// # Errors
-/// The core's refusal.
-pub fn open(bytes: &[u8]) -> Result<Subject<'_>, Refused> {
-    match tree::open(bytes) {
-        Ok(tree) => Ok(Subject::Tree(tree)),
-        Err(Refused::NO_SECTION) => hull::open(bytes).map(Subject::Hull),
-        Err(refused) => Err(refused),
-    }
-}
-
-impl<'t> Subject<'t> {
-    /// The surface's box in input units, which the queries are placed around.
-    #[must_use]
-    pub fn bounds(&self) -> Bounds {
-        match self {
-            Self::Hull(model) => hull::bounds(model),
-            Self::Tree(tree) => tree::bounds(tree),
-        }
-    }
-
-    /// Whether no query can end early for want of [`Scratch`]: else blocks of such answers would prove little.
-    #[must_use]
-    pub fn memory_suffices(&self) -> bool {
-        match self {
-            Self::Hull(model) => hull::memory_suffices(model),
-            Self::Tree(tree) => tree::memory_suffices(tree),
-        }
-    }
-
-    /// Bytes of RAM that queries need beside the stack.
-    #[must_use]
-    pub fn memory(&self) -> usize {
-        match self {
-            Self::Hull(_) => size_of::<hull::Scratch>(),
-            Self::Tree(tree) => tree::memory(tree),
-        }
-    }
-
-    /// What the blob says of itself.
-    pub fn contents(&self, fold: &mut Fold) {
-        match self {
-            Self::Hull(model) => hull::contents(model, fold),
-            Self::Tree(tree) => tree::contents(tree, fold),
-        }
-    }
-
-    /// Closest point; returns the witness, which near queries start from.
-    pub fn closest(
-        &self,
-        point: [f32; 3],
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) -> [f32; 3] {
-        match self {
-            Self::Hull(model) => hull::closest(model, point, &mut scratch.hull, clock, fold),
-            Self::Tree(tree) => tree::closest(tree, point, &mut scratch.tree, clock, fold),
-        }
-    }
-
-    /// Closest point to the next point of a path.
-    pub fn follow(
-        &self,
-        point: [f32; 3],
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        match self {
-            Self::Hull(model) => {
-                hull::closest(model, point, &mut scratch.hull, clock, fold);
-            }
-            Self::Tree(tree) => tree::follow(tree, point, &mut scratch.tree, clock, fold),
-        }
-    }
-
-    /// First point of the segment from `a` to `b` on the surface.
-    pub fn first_hit(
-        &self,
-        ends: [[f32; 3]; 2],
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        match self {
-            Self::Hull(model) => hull::first_hit(model, ends, &mut scratch.hull, clock, fold),
-            Self::Tree(tree) => tree::first_hit(tree, ends, &mut scratch.tree, clock, fold),
-        }
-    }
-
-    /// Every point of the segment from `a` to `b` on the surface.
-    pub fn all_hits(
-        &self,
-        ends: [[f32; 3]; 2],
-        scratch: &mut Scratch<'t>,
-        clock: &mut impl Clock,
-        fold: &mut Fold,
-    ) {
-        match self {
-            Self::Hull(model) => hull::all_hits(model, ends, &mut scratch.hull, clock, fold),
-            Self::Tree(tree) => tree::all_hits(tree, ends, &mut scratch.tree, clock, fold),
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Questions to the box tree.
 
-use meshsweep_core::Tree;
+pub use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{
     AnyHit, Facing, Hint, Near, SegmentEntry, Session, Side, TreeEntry, Verdict, all_hits as core_all_hits,
     all_within as core_all_within, any_hit as core_any_hit, closest_point, closest_point_from,
@@ -8,9 +8,10 @@ use meshsweep_core::query::tree::{
 };
 use meshsweep_core::query::{Hit, Stop};
 
-use super::{Refused, timed};
-use crate::Clock;
-use crate::{fold::Fold, place::Bounds};
+use super::{Refused, Subject, timed};
+use crate::fold::Fold;
+use crate::place::{Bounds, Placer};
+use crate::{Clock, Kind};
 
 /// Entries of each stack.
 const STACK: usize = 64;
@@ -47,6 +48,65 @@ impl Default for Scratch<'_> {
     }
 }
 
+impl<'t> Subject<'t> for Tree<'t> {
+    type Scratch = Scratch<'t>;
+
+    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
+        open(bytes)
+    }
+
+    fn bounds(&self) -> Bounds {
+        bounds(self)
+    }
+
+    fn memory_suffices(&self) -> bool {
+        self.header().stack_entries as usize <= STACK
+    }
+
+    /// The opened tree, and the entries that it asks for.
+    fn memory(&self) -> usize {
+        let entries = self.header().stack_entries as usize;
+        size_of::<Tree<'_>>() + entries.saturating_mul(size_of::<TreeEntry>())
+    }
+
+    fn suits(kind: Kind) -> bool {
+        kind != Kind::OuterHits
+    }
+
+    fn ask(
+        &self,
+        kind: Kind,
+        place: &mut Placer,
+        scratch: &mut Scratch<'t>,
+        clock: &mut impl Clock,
+        fold: &mut Fold,
+    ) {
+        match kind {
+            Kind::Arith | Kind::OuterHits => {}
+            Kind::Contents => contents(self, fold),
+            Kind::ClosestFar => {
+                closest(self, place.far(), scratch, clock, fold);
+            }
+            Kind::ClosestNear => {
+                // The base is an answer: a wrong one shows in this block already, so its consequences mislead nobody.
+                let base = closest(self, place.far(), scratch, &mut (), fold);
+                closest(self, place.near(base), scratch, clock, fold);
+            }
+            Kind::ClosestPath => follow(self, place.step(), scratch, clock, fold),
+            Kind::Session => session(self, place.step_or_jump(), scratch, clock, fold),
+            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, clock, fold),
+            Kind::Within => is_within(self, place.far(), place.distance(), scratch, clock, fold),
+            Kind::AllWithin => all_within(self, place.far(), place.distance(), scratch, clock, fold),
+            Kind::Nearest => nearest(self, place.far(), scratch, clock, fold),
+            Kind::Signed => signed(self, place.far(), scratch, clock, fold),
+            Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
+            Kind::Facing => facing(self, place.segment(), scratch, clock, fold),
+            Kind::AnyHit => any_hit(self, place.segment(), scratch, clock, fold),
+            Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
+        }
+    }
+}
+
 /// Opens the tree of a blob.
 ///
 /// # Errors
@@ -68,18 +128,6 @@ pub fn bounds(tree: &Tree<'_>) -> Bounds {
 
 fn power_of_two(exponent: i32) -> f32 {
     f32::from_bits(((127 + exponent.clamp(-126, 127)) as u32) << 23)
-}
-
-/// Whether no query on this tree can end early for want of [`Scratch`].
-#[must_use]
-pub fn memory_suffices(tree: &Tree<'_>) -> bool {
-    tree.header().stack_entries as usize <= STACK
-}
-
-/// Bytes of RAM that a query needs beside the processor's stack: the opened tree, and the entries that it asks for.
-#[must_use]
-pub fn memory(tree: &Tree<'_>) -> usize {
-    size_of::<Tree<'_>>() + (tree.header().stack_entries as usize).saturating_mul(size_of::<TreeEntry>())
 }
 
 /// Nodes with their boxes, leaves with their triangles.

@@ -1,9 +1,11 @@
 //! Arguments of the commands that ask a blob.
 
-use super::values::{Margin, margin, point, size, tolerance};
+use super::given::{self, Given};
+use super::values::{Margin, direction, margin, point, size, tolerance};
 use clap::{Args, ValueEnum};
+use meshsweep_core::query::tree::{Facing, Sight};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where answers go, and what limits a search.
 #[derive(Debug, Args)]
@@ -17,7 +19,10 @@ pub struct SearchArgs {
     /// Stack or queue entries to search with; the default is what the blob needs (cover tree: and no less than 4096)
     #[arg(long, value_name = "ENTRIES", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     pub queue: Option<u32>,
-    /// Print nanoseconds per query to the standard error
+    /// Threads [default: as many as the machine has processors for]; answers do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Print nanoseconds per query, and how queries ended, to the standard error
     #[arg(long)]
     pub time: bool,
 }
@@ -27,8 +32,17 @@ pub struct SearchArgs {
 pub struct PointArgs {
     /// Blob file
     pub blob: PathBuf,
-    /// Query points: x, y, z
-    pub points: PathBuf,
+    /// Query points: x,y,z each, or files of them
+    #[arg(required = true, value_parser = given::points())]
+    pub points: Vec<Given<3>>,
+}
+
+impl PointArgs {
+    /// Files that are read.
+    pub fn files(&self) -> Vec<&Path> {
+        let points = self.points.iter().filter_map(Given::file);
+        std::iter::once(self.blob.as_path()).chain(points).collect()
+    }
 }
 
 #[derive(Debug, Args)]
@@ -41,7 +55,7 @@ pub struct ClosestArgs {
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
     #[arg(long, value_name = "ABS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
     pub abs: f32,
-    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has one]
+    /// tree, the box tree; or cover (hull does as well), the hull hierarchy's cover tree [default: tree if the blob has one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<ClosestEngine>,
     #[command(flatten)]
@@ -120,11 +134,16 @@ pub type Size = [usize; 3];
 pub struct SegmentArgs {
     /// Blob file
     pub blob: PathBuf,
-    /// Query segments: ax, ay, az, bx, by, bz
-    pub segments: PathBuf,
+    /// Query segments: ax,ay,az,bx,by,bz each, or files of them
+    #[arg(required = true, value_parser = given::segments())]
+    pub segments: Vec<Given<6>>,
     /// All hits, one on a line, with the number of the query (from 0) in front
     #[arg(long, conflicts_with = "steps")]
     pub all: bool,
+    /// Only hits of fronts or of backs, on the box tree; the front of a triangle is where its corners run counter-clockwise
+    /// [default: both]
+    #[arg(long, value_enum)]
+    pub facing: Option<FacingName>,
     /// tree, the box tree; cover, the hull hierarchy's cover tree; or hull, the selectively refined hull, for first hits of
     /// segments that start outside (others use the cover tree), without --all, --steps and --queue [default: tree if the
     /// blob has one, else cover]
@@ -132,6 +151,30 @@ pub struct SegmentArgs {
     pub engine: Option<SegmentEngine>,
     #[command(flatten)]
     pub search: SearchArgs,
+}
+
+impl SegmentArgs {
+    /// Files that are read.
+    pub fn files(&self) -> Vec<&Path> {
+        let segments = self.segments.iter().filter_map(Given::file);
+        std::iter::once(self.blob.as_path()).chain(segments).collect()
+    }
+
+    /// Which sides of triangles count.
+    pub fn facing(&self) -> Facing {
+        match self.facing {
+            None | Some(FacingName::Both) => Facing::Both,
+            Some(FacingName::Front) => Facing::Front,
+            Some(FacingName::Back) => Facing::Back,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FacingName {
+    Both,
+    Front,
+    Back,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -145,10 +188,23 @@ pub enum SegmentEngine {
 pub struct CullArgs {
     /// Blob file, built --for cull
     pub blob: PathBuf,
-    /// The eye point: x,y,z
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point)]
-    pub eye: [f32; 3],
-    /// File to write the numbers of the triangles that may face the eye to, one on a line; '-' for the standard output
-    #[arg(short, long, value_name = "FILE")]
+    /// Where the eye is: x,y,z
+    #[arg(required_unless_present = "along", conflicts_with = "along", value_parser = point)]
+    pub viewpoint: Option<[f32; 3]>,
+    /// Instead of a viewpoint the direction of parallel lines of sight, from the eye into the scene: x,y,z
+    #[arg(long, value_name = "DIRECTION", value_parser = direction)]
+    pub along: Option<[f32; 3]>,
+    /// CSV file to write instead of the standard output
+    #[arg(short, long, value_name = "CSV")]
     pub output: Option<PathBuf>,
+}
+
+impl CullArgs {
+    /// Where the eye is, or which way it looks.
+    pub fn sight(&self) -> Sight {
+        match (self.viewpoint, self.along) {
+            (Some(viewpoint), _) => Sight::From(viewpoint),
+            (None, along) => Sight::Along(along.unwrap_or_default()),
+        }
+    }
 }

@@ -44,6 +44,12 @@ pub fn point(text: &str) -> Result<[f32; 3], String> {
     coordinates.and_then(|p| <[f32; 3]>::try_from(p).ok()).ok_or_else(|| wanted.to_owned())
 }
 
+/// A direction: three finite numbers, not all 0.
+pub fn direction(text: &str) -> Result<[f32; 3], String> {
+    let along = point(text)?;
+    if along == [0.0; 3] { Err("a direction is not 0,0,0".to_owned()) } else { Ok(along) }
+}
+
 pub fn tolerance(text: &str) -> Result<f32, String> {
     let wanted = "a number from 0 to 3.4e38 is wanted";
     text.parse().ok().filter(|x: &f32| *x >= 0.0 && x.is_finite()).ok_or_else(|| wanted.to_owned())
@@ -86,10 +92,12 @@ mod tests {
     }
 
     #[test]
-    fn points_are_three_finite_numbers() {
+    fn points_are_three_finite_numbers_and_directions_not_all_zero() {
         assert_eq!(point("1,-2.5,3e2"), Ok([1.0, -2.5, 300.0]));
         for wrong in ["", "1,2", "1,2,3,4", "1,2,nan", "1,2,1e39"] {
             assert!(point(wrong).is_err(), "{wrong}");
         }
+        assert_eq!(direction("0,-1,0"), Ok([0.0, -1.0, 0.0]));
+        assert!(direction("0,0,-0").is_err());
     }
 }

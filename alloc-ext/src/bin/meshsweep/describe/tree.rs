@@ -1,41 +1,12 @@
 //! The box tree: shape, memory, surface error, whether sides are defined.
 
 use super::Length;
+use super::shape::Shape;
 use crate::counted::Counted;
 use meshsweep_core::Tree;
 use meshsweep_core::num::{exp2, up_to_f32};
 use meshsweep_core::query::tree::TreeEntry;
 use std::io::{self, Write};
-
-/// How full a tree is.
-#[derive(Clone, Copy, Debug)]
-pub struct Shape {
-    pub triangles_per_leaf: f64,
-    pub children_per_node: f64,
-    /// Nodes on the longest path from the root.
-    pub depth: u32,
-}
-
-impl Shape {
-    pub fn of(tree: &Tree<'_>) -> Shape {
-        let h = tree.header();
-        let mut depth = vec![1u32; h.nodes as usize];
-        let mut children = 0u64;
-        // A node's number is less than its children's.
-        for node in 0..h.nodes {
-            let Some(links) = tree.links(node) else { break };
-            children += u64::from(links.count);
-            let below = depth[node as usize] + 1;
-            let first = links.first_node as usize;
-            depth.iter_mut().skip(first).take(links.inner as usize).for_each(|d| *d = below);
-        }
-        Shape {
-            triangles_per_leaf: f64::from(h.triangles) / f64::from(h.leaves.max(1)),
-            children_per_node: children as f64 / f64::from(h.nodes.max(1)),
-            depth: depth.into_iter().max().unwrap_or(0),
-        }
-    }
-}
 
 /// Bytes of a stack with which no query overflows.
 pub fn stack_bytes(tree: &Tree<'_>) -> usize {
@@ -50,6 +21,18 @@ pub fn tree_surface_error(tree: &Tree<'_>) -> f32 {
 /// How coordinates are stored.
 pub fn tree_format_name(tree: &Tree<'_>) -> &'static str {
     if tree.header().is_single() { "f32" } else { "16-bit grid" }
+}
+
+/// What bounds the children of nodes, and the normals of leaves.
+pub fn bounds(tree: &Tree<'_>) -> Vec<&'static str> {
+    [
+        (tree.serves_distances(), "boxes in shared frames"),
+        (tree.serves_segments(), "axis-aligned boxes"),
+        (tree.serves_culling(), "normal cones"),
+    ]
+    .into_iter()
+    .filter_map(|(is_there, name)| is_there.then_some(name))
+    .collect()
 }
 
 pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>) -> io::Result<()> {
@@ -70,13 +53,28 @@ pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>) -> io::Result<()> {
     writeln!(out, "  {closed}")?;
     writeln!(
         out,
-        "  {} in {} ({:.2} each), {} ({:.2} children each), depth {}",
+        "  {} in {}: {:.2} each, {} of a single triangle (degenerate)",
         Counted(h.triangles, "triangle"),
+        Counted(shape.fans(), "fan"),
+        shape.triangles_per_fan(),
+        shape.degenerate_fans()
+    )?;
+    if shape.flat > 0 {
+        writeln!(out, "  {} without area as stored", Counted(shape.flat, "triangle"))?;
+    }
+    writeln!(
+        out,
+        "  {} of one or two fans: {:.2} triangles each",
         Counted(h.leaves, "leaf"),
-        shape.triangles_per_leaf,
+        shape.triangles_per_leaf
+    )?;
+    writeln!(
+        out,
+        "  {}: {:.2} children each, depth {}; {}",
         Counted(h.nodes, "node"),
         shape.children_per_node,
-        shape.depth
+        shape.depth,
+        bounds(tree).join(", ")
     )?;
     writeln!(
         out,

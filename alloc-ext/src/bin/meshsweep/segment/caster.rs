@@ -35,7 +35,7 @@ pub struct Row {
 
 /// An engine with its working memory.
 enum Engine<'a> {
-    Tree { tree: Tree<'a>, stack: Vec<SegmentEntry> },
+    Tree { tree: Tree<'a>, facing: Facing, stack: Vec<SegmentEntry> },
     Cover { model: &'a Model<'a>, queue: Vec<QueueEntry> },
     Hull { model: &'a Model<'a>, queue: Vec<QueueEntry>, front: Memory },
 }
@@ -55,8 +55,8 @@ pub struct Caster<'a> {
 
 impl<'a> Caster<'a> {
     /// By the box tree.
-    pub fn tree(tree: Tree<'a>, search: &SearchArgs) -> Self {
-        Self::new(Engine::Tree { tree, stack: search.segment_stack(&tree) }, search)
+    pub fn tree(tree: Tree<'a>, facing: Facing, search: &SearchArgs) -> Self {
+        Self::new(Engine::Tree { tree, facing, stack: search.segment_stack(&tree) }, search)
     }
 
     /// By the cover tree.
@@ -88,7 +88,7 @@ impl<'a> Caster<'a> {
     ) -> Result<(Ended, Work), QueryError> {
         let [a, b] = ends(segment);
         let answer = match &mut self.engine {
-            Engine::Tree { tree, stack } => tree::first_hit(tree, a, b, &Facing::Both, stack)?,
+            Engine::Tree { tree, facing, stack } => tree::first_hit(tree, a, b, facing, stack)?,
             Engine::Cover { model, queue } => first_hit(model, a, b, &self.stop, queue)?,
             Engine::Hull { model, queue, front } => match on_hull(model, a, b, front, &mut self.hits)? {
                 Some(answer) => answer,
@@ -138,7 +138,7 @@ impl<'a> Caster<'a> {
     fn collect(&mut self, segment: [f32; 6]) -> Result<AllHits, QueryError> {
         let [a, b] = ends(segment);
         match &mut self.engine {
-            Engine::Tree { tree, stack } => tree::all_hits(tree, a, b, &Facing::Both, &mut self.hits, stack),
+            Engine::Tree { tree, facing, stack } => tree::all_hits(tree, a, b, facing, &mut self.hits, stack),
             Engine::Cover { model, queue } | Engine::Hull { model, queue, .. } => {
                 all_hits(model, a, b, queue, &mut self.hits)
             }

@@ -1,10 +1,7 @@
-//! What the fuzzers run, as plain functions: a driver test calls the same bodies with seeded bytes.
-//!
-//! Input bytes are edits of a valid blob, whose CRCs are then computed again, followed by the queries' floats. A blob that
-//! opens must be safe to ask anything: no panic, and no more work than its tables have records.
+//! Targets for the split hierarchy.
 
-use crate::corrupt::seal;
-use crate::generate::{Rng, Triangles, cube, groove_block, icosphere, torus};
+use super::input::Input;
+use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
 use meshsweep_alloc::hull::{BuildOptions, build};
 use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::precision::VertexBits;
@@ -42,70 +39,12 @@ fn blob((positions, triangles): &Triangles, vertex_bits: VertexBits, base_faces:
     build(&mesh, 0.0, mesh.triangles.len(), &options, |_| ()).expect("generated meshes build").bytes
 }
 
-/// Reads numbers off the fuzzer's bytes; zeros when they are used up.
-struct Input<'a>(&'a [u8]);
-
-impl Input<'_> {
-    fn byte(&mut self) -> u8 {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
-        first
-    }
-
-    fn u32(&mut self) -> u32 {
-        u32::from_le_bytes(std::array::from_fn(|_| self.byte()))
-    }
-
-    fn float(&mut self) -> f32 {
-        match self.byte() % 8 {
-            // Any bits, NaN and infinity among them.
-            0 => f32::from_bits(self.u32()),
-            1 => 0.0,
-            2 => (f32::from(self.byte()) - 128.0) * 1e30,
-            _ => (f32::from(self.byte()) - 128.0) / 32.0,
-        }
-    }
-
-    fn point(&mut self) -> [f32; 3] {
-        std::array::from_fn(|_| self.float())
-    }
-
-    /// A blob with up to fifteen edits, with right CRCs.
-    fn blob(&mut self) -> Vec<u8> {
-        let seeds = seeds();
-        let mut blob = seeds[usize::from(self.byte()) % seeds.len()].clone();
-        for _ in 0..self.byte() % 16 {
-            let kind = self.byte();
-            let at =
-                if kind & 0x80 == 0 { self.u32() as usize % blob.len() } else { self.u32() as usize % 400 };
-            let at = at.min(blob.len() - 1);
-            match kind % 6 {
-                0 => blob[at] ^= 1 << (self.byte() % 8),
-                1 => blob[at] = self.byte(),
-                2 => blob[at] = blob[at].wrapping_add(1),
-                3 => blob[at] = 0xFF,
-                4 => {
-                    let from = self.u32() as usize % blob.len();
-                    blob[at] = blob[from];
-                }
-                _ => {
-                    let word =
-                        [0, 1, 0x7F80_0000, 0x7FC0_0000, 0x7FFF_FFFF, u32::MAX][usize::from(self.byte()) % 6];
-                    crate::corrupt::put_u32(&mut blob, at & !3, word);
-                }
-            }
-        }
-        seal(&mut blob);
-        blob
-    }
-}
-
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened model gives out.
 pub fn open(data: &[u8]) {
     if let Ok(model) = Model::open(data) {
         look(&model);
     }
-    let blob = Input(data).blob();
+    let blob = Input(data).blob(seeds());
     if let Ok(model) = Model::open(&blob) {
         look(&model);
     }
@@ -134,7 +73,7 @@ fn bound(model: &Model<'_>) -> u32 {
 /// Closest point on an edited blob.
 pub fn closest(data: &[u8]) {
     let mut input = Input(data);
-    let blob = input.blob();
+    let blob = input.blob(seeds());
     let Ok(model) = Model::open(&blob) else { return };
     let mut queue = queue(&mut input);
     let stop = Stop { relative: input.float(), absolute: input.float(), steps: input.u32() };
@@ -154,7 +93,7 @@ fn sound(answer: &ClosestPoint) {
 /// First hit and all hits on an edited blob.
 pub fn segment(data: &[u8]) {
     let mut input = Input(data);
-    let blob = input.blob();
+    let blob = input.blob(seeds());
     let Ok(model) = Model::open(&blob) else { return };
     let mut queue = queue(&mut input);
     let (a, b) = (input.point(), input.point());
@@ -175,7 +114,7 @@ pub fn segment(data: &[u8]) {
 /// Outer hits on an edited blob. The candidate list is long enough for every face, so that nothing is searched twice.
 pub fn outer(data: &[u8]) {
     let mut input = Input(data);
-    let blob = input.blob();
+    let blob = input.blob(seeds());
     let Ok(model) = Model::open(&blob) else { return };
     let words = usize::from(input.byte() % 8);
     let (mut performed, mut swept) = (vec![u32::MAX; words], vec![u32::MAX; words]);
@@ -193,16 +132,4 @@ pub fn outer(data: &[u8]) {
             Err(error) => assert_ne!(error, QueryError::Model),
         }
     }
-}
-
-/// Seeded bytes for a driver that has no fuzzer.
-#[must_use]
-pub fn random_input(rng: &mut Rng) -> Vec<u8> {
-    let length = 8 + rng.below(120);
-    let mut data: Vec<u8> = (0..length).map(|_| rng.next_u64() as u8).collect();
-    // Few edits leave more blobs that open.
-    if rng.below(4) > 0 {
-        data[1] %= 3;
-    }
-    data
 }

@@ -1,4 +1,4 @@
-//! Runs the suite on the board and prints what the host compares: hashes, ticks and stack depths.
+//! What the suite images share: the blob, the caller's memory, and the lines that the host reads.
 //!
 //! One line a fact, words separated by one space, so that the reader on the host needs no grammar:
 //! ```text
@@ -10,14 +10,12 @@
 //! stack KIND BYTES
 //! done
 //! ```
-#![no_std]
-#![no_main]
 
 use core::cell::UnsafeCell;
 
 use meshsweep_firmware::{board, meter::Meter};
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::{Plan, Scratch, run};
+use meshsweep_suite::{Plan, Subject, run};
 use semihosting::{println, process};
 
 /// In flash, where the core reads it in place. Aligned as a linker script would align a section for it.
@@ -28,21 +26,29 @@ struct Flash<T: ?Sized>(T);
 static BLOB: &Flash<[u8]> = &Flash(*include_bytes!(env!("MESHSWEEP_BLOB")));
 
 /// The caller's memory, outside of the stack so that the two are measured apart.
-struct Shared(UnsafeCell<Scratch<'static>>);
+pub struct Shared<T>(UnsafeCell<T>);
 // SAFETY: one core, no interrupt handler touches it.
-unsafe impl Sync for Shared {}
-static SCRATCH: Shared = Shared(UnsafeCell::new(Scratch::new()));
+unsafe impl<T> Sync for Shared<T> {}
 
-#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
-#[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
-fn main() -> ! {
+impl<T> Shared<T> {
+    /// Memory with a value in it.
+    pub const fn new(value: T) -> Self {
+        Self(UnsafeCell::new(value))
+    }
+}
+
+/// Runs the suite on the board and prints what the host compares: hashes, ticks and stack depths.
+///
+/// # Safety
+/// To be called once.
+pub unsafe fn main<S: Subject<'static>>(scratch: &'static Shared<S::Scratch>) -> ! {
     board::start_counter();
     println!("blob {} {:016x}", BLOB.0.len(), Fold::of_bytes(&BLOB.0));
     let (instructions, ticks) = board::calibrate();
     println!("calibration {instructions} {ticks}");
-    // SAFETY: the entry runs once, so this is the only reference.
-    let scratch = unsafe { &mut *SCRATCH.0.get() };
-    if let Err(refused) = run(&BLOB.0, Plan::STANDARD, scratch, &mut Meter::new()) {
+    // SAFETY: called once, so this is the only reference.
+    let scratch = unsafe { &mut *scratch.0.get() };
+    if let Err(refused) = run::<S>(&BLOB.0, Plan::STANDARD, scratch, &mut Meter::new()) {
         println!("refused {}", refused.0);
         process::exit(1)
     }

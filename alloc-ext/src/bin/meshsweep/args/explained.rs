@@ -1,0 +1,123 @@
+//! What `meshsweep help COMMAND` says below the options.
+
+pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable, 2 wrong usage.";
+
+const QUERIES: &str = "Queries are written as arguments, or in files, or both: as many as wanted, answered in the order given. \
+    A file holds decimal numbers separated by commas, semicolons or blanks, one query on a line; a header line, blank lines and \
+    comments from # on are skipped. '-' reads this from the standard input. A file named *.f32 holds raw little-endian f32 numbers.";
+
+pub const BUILD: &str = "What --for takes, and what it costs:\n  \
+    closest   closest, within, nearest, field; signed too if the mesh is closed: 13 to 14 bytes a triangle\n  \
+    segment   segment: 12 bytes a triangle; with closest 15\n  \
+    cull      cull: half a byte a triangle more\n  \
+    hull      hull --level, cut, and closest and segment with --engine cover or hull: 35 to 50 bytes a triangle more\n\
+    The first three share a box tree, which any mesh will do for, open or not, manifold or not, and which takes a second for a \
+    hundred thousand triangles. hull is the progressive hull with its split tables; it needs a closed manifold mesh and takes far \
+    longer.\n\n\
+    What --vertex-bits means:\n  \
+    auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
+    16     vertices move to a grid of 16 bits an axis\n  \
+    24     hull: a grid of 24 bits an axis; box tree: 32\n  \
+    32     single precision; box tree: 8 bytes a triangle more, and no hit is left open for the vertices' sake\n\
+    Whatever moves is in every answer's interval; the report says how far.\n\n\
+    Examples:\n  \
+    meshsweep build part.stl -o part.msw\n  \
+    meshsweep build scan.ply -o scan.msw --for closest\n  \
+    meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500";
+
+pub const INFO: &str = "Examples:\n  \
+    meshsweep info part.msw\n  \
+    meshsweep info part.msw --json";
+
+pub fn closest() -> String {
+    format!(
+        "lower and upper enclose the distance to the mesh as it was read, in real arithmetic; px, py, pz are a point of its surface at \
+         most upper away; triangle counts as in the mesh file, from 0; work counts boxes and triangles that were looked at, \
+         and depends on the queries beside it: without --rel, --abs, --steps and --queue the box tree takes thousands at once, in an \
+         order in which each begins where a neighbour ended.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep closest part.msw 10,4.5,7 -1,2,3\n  \
+         meshsweep closest part.msw points.csv -o answers.csv\n  \
+         meshsweep closest part.msw points.f32 --rel 0.01 --time\n  \
+         generate-points | meshsweep closest part.msw -"
+    )
+}
+
+pub fn within() -> String {
+    format!(
+        "The column 'within' says yes or no, which is proved; or unknown, if the distance differs from D by less than rounding and the \
+         surface error of the blob, or the query ended early. 'triangle' is one that is near enough. With --all a last row of unknown \
+         without a triangle says that the query ended early, and triangles may be missing.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep within part.msw 10,4.5,7 --distance 2\n  \
+         meshsweep within part.msw points.csv --distance 2 --all"
+    )
+}
+
+pub fn nearest() -> String {
+    format!(
+        "Queries count from 0, ranks from 1. Each triangle has its own interval and closest point; two whose intervals overlap may stand \
+         in either order. A mesh of fewer than N triangles gives them all.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep nearest part.msw 10,4.5,7 -n 5\n  \
+         meshsweep nearest part.msw points.csv -n 5 -o nearest.csv"
+    )
+}
+
+pub fn signed() -> String {
+    format!(
+        "The column 'side' says outside or inside, which is proved; or undefined, and then 'reason' says why: open mesh, if the mesh does \
+         not bound a solid; at the surface, if the point cannot be told from a point of it; rounding, if single precision leaves the \
+         side open; out of steps, out of stack, if the query ended early. lower and upper are the bounds of the signed distance, \
+         negative inside; if the side is undefined, they are -upper and upper of the distance.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep signed part.msw 10,4.5,7\n  \
+         meshsweep signed part.msw points.csv -o sides.csv"
+    )
+}
+
+pub const FIELD: &str = "FILE is raw little-endian f32 if it is named *.f32 or *.raw, and NumPy's format if it is named *.npy: shape \
+    (NZ, NY, NX), so that x runs fastest. Sample (k, j, i) is at origin + (i, j, k) * step, rounded to f32; origin and step are \
+    printed. A value is the middle of the interval that contains the distance. With --interval there are two values a sample, lower \
+    and upper, as a last axis of length 2. With --signed, distances inside are negative; where the side is not proved the interval \
+    reaches from -upper to upper, and the value is 0. The bytes do not depend on the number of threads.\n\n\
+    Examples:\n  \
+    meshsweep field part.msw -o field.npy\n  \
+    meshsweep field part.msw -o field.f32 --size 128,128,64 --margin 2.5 --signed";
+
+pub fn segment() -> String {
+    format!(
+        "The column 'hit' says yes, with the first hit; no, which is proved; or unknown, if the query ended early, the blob is cut, or \
+         rounding and the surface error of the blob leave it open: then the segment is proved clear before t, which px, py, pz belong \
+         to. With --all an unknown hit is a place where the stored surface is met and the mesh's may be. t runs from 0 to 1 along the \
+         segment, rounded to f32.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep segment part.msw 20,10,90,20,10,-90\n  \
+         meshsweep segment part.msw segments.csv --all -o hits.csv\n  \
+         meshsweep segment part.msw segments.csv --facing front"
+    )
+}
+
+pub const CULL: &str = "Leaves of up to eight triangles are kept or left out whole, by cones that contain their normals, so some of \
+    the triangles that are listed face away. What is not listed certainly does, as it is stored: with vertices on a grid a triangle \
+    seen edge-on may differ from the mesh file's. The front of a triangle is where its corners run \
+    counter-clockwise; any mesh will do, open or not.\n\n\
+    Examples:\n  \
+    meshsweep build part.stl -o part.msw --for closest,cull\n  \
+    meshsweep cull part.msw 100,-50,30\n  \
+    meshsweep cull part.msw --along 0,0,-1 -o facing.csv";
+
+pub const HULL: &str = "The hull encloses the mesh: proved by exact arithmetic on the vertices that are written. --faces wants a mesh \
+    that is closed and manifold.\n\n\
+    Examples:\n  \
+    meshsweep hull part.stl --faces 200 -o hull.ply\n  \
+    meshsweep hull part.msw --level 0 -o coarsest.ply";
+
+pub const CUT: &str = "meshsweep info lists the levels. A box tree is left out: it knows the whole surface or none of it.\n\n\
+    Example:\n  \
+    meshsweep cut part.msw --level 2 -o small.msw";

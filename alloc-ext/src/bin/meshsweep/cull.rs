@@ -1,0 +1,40 @@
+//! `meshsweep cull`: which triangles may face the eye.
+
+use super::args::CullArgs;
+use super::blob_file;
+use super::counted::Counted;
+use super::failure::Failure;
+use super::output::{Output, refuse_same_file};
+use super::served::{self, Need};
+use meshsweep_core::query::tree::front_facing;
+use std::io::Write;
+
+pub fn run(args: &CullArgs) -> Result<(), Failure> {
+    let output = args.output.as_deref();
+    if let Some(output) = output {
+        refuse_same_file(output, &[&args.blob])?;
+    }
+    let bytes = blob_file::read(&args.blob)?;
+    let model = blob_file::open(&args.blob, &bytes)?;
+    let tree = served::require_tree(&args.blob, &model, Need::Culling)?;
+    let output = Output::file_or_stdout(output)?;
+    let mut triangles = vec![0; tree.header().triangles as usize];
+    let found = front_facing(&tree, &args.sight(), &mut triangles)
+        .map_err(|error| Failure::Search { file: args.blob.clone(), error })?;
+    triangles.truncate(found.stored);
+    triangles.sort_unstable();
+    output.finish(|out| {
+        writeln!(out, "triangle")?;
+        triangles.iter().try_for_each(|triangle| writeln!(out, "{triangle}"))
+    })?;
+    // A standard error that is closed is no reason to withhold the answers.
+    let _ = writeln!(
+        std::io::stderr(),
+        "{} of {} certainly show their backs, {} of {} whole; the others are listed",
+        found.culled,
+        Counted(tree.header().triangles, "triangle"),
+        found.culled_leaves,
+        Counted(found.leaves, "leaf")
+    );
+    Ok(())
+}

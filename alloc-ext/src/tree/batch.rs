@@ -1,0 +1,64 @@
+//! Batches of queries on several threads.
+
+use meshsweep_core::Tree;
+use meshsweep_core::query::tree::{self as questions, BatchError, Hint, TreeEntry};
+use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work};
+use std::num::NonZeroUsize;
+
+/// Queries that are sorted at once: 4 MiB of order, and long enough for neighbours to be near.
+const PIECE: usize = 1 << 18;
+
+/// Closest points of all `points`, in their order: the bits of [`closest_point`](questions::closest_point) but for `work`, which depends on where the
+/// query before ended, and so on the number of threads.
+///
+/// Each thread takes a run of neighbouring queries and asks them in Morton order (see [`closest_points`](questions::closest_points)); points in order
+/// already, as those of a grid, should come in runs of rows. Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
+///
+/// # Errors
+/// [`BatchError::Query`], with the least index that is refused.
+pub fn closest_points(
+    tree: &Tree<'_>,
+    points: &[[f32; 3]],
+    stop: &Stop,
+    threads: NonZeroUsize,
+) -> Result<Vec<ClosestPoint>, BatchError> {
+    let unanswered = ClosestPoint {
+        lower: 0.0,
+        upper: f32::INFINITY,
+        point: [0.0; 3],
+        triangle: None,
+        work: Work::default(),
+        ended: Ended::Steps,
+    };
+    let mut answers = vec![unanswered; points.len()];
+    let run = points.len().div_ceil(threads.get()).max(1);
+    let ask = |number: usize, points: &[[f32; 3]], answers: &mut [ClosestPoint]| {
+        let mut stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+        let mut order = vec![0; 2 * points.len().min(PIECE)];
+        let mut hint = Hint::NONE;
+        let asked = questions::closest_points(tree, points, answers, stop, &mut stack, &mut order, &mut hint);
+        asked.map_err(|error| match error {
+            BatchError::Query { index, error } => BatchError::Query { index: number * run + index, error },
+            length @ BatchError::Length { .. } => length,
+        })
+    };
+    let ask = &ask;
+    let runs = points.chunks(run).zip(answers.chunks_mut(run)).enumerate();
+    let first_error = std::thread::scope(|scope| {
+        if threads.get() == 1 {
+            return runs
+                .map(|(number, (points, answers))| ask(number, points, answers))
+                .find_map(Result::err);
+        }
+        let running: Vec<_> = runs
+            .map(|(number, (points, answers))| scope.spawn(move || ask(number, points, answers)))
+            .collect();
+        running.into_iter().map(join).find_map(Result::err)
+    });
+    first_error.map_or(Ok(answers), Err)
+}
+
+/// A thread's panic is the caller's.
+fn join<T>(thread: std::thread::ScopedJoinHandle<'_, T>) -> T {
+    thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}

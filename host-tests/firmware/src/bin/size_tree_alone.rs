@@ -1,0 +1,15 @@
+//! The size of closest points on a box tree that somebody else has opened.
+#![no_std]
+#![no_main]
+
+#[path = "../bare.rs"]
+mod bare;
+
+use bare::Input;
+use meshsweep_suite::ask::tree::{self, Scratch, Tree};
+use meshsweep_suite::fold::Fold;
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_closest(tree: &Tree<'_>, input: &Input<'_>, scratch: &mut Scratch<'_>, fold: &mut Fold) {
+    tree::closest(tree, input.a, scratch, &mut (), fold);
+}

@@ -1,0 +1,158 @@
+//! Asks an opened box tree everything, and holds the answers to what has to be true whatever the bytes say.
+//!
+//! A blob that was changed on purpose may open: then its boxes may leave something out and its answers may be wrong. But every question ends,
+//! within work that the tree's counts bound, without a panic, and what it gives is in range.
+
+use meshsweep_core::Tree;
+use meshsweep_core::query::tree::{
+    Facing, Hint, Near, SegmentEntry, Session, Side, TreeEntry, Verdict, all_hits, all_within, any_hit,
+    closest_point, closest_point_from, first_hit, is_within, nearest, signed_distance,
+};
+use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, Stop, Work};
+
+/// The caller's memory, of any length.
+#[derive(Debug)]
+pub struct Asker {
+    stack: Vec<TreeEntry>,
+    segments: Vec<SegmentEntry>,
+    near: Vec<Near>,
+    hits: Vec<Hit>,
+    hint: Hint,
+}
+
+impl Asker {
+    /// So many entries for each stack, so many places for each list of answers.
+    #[must_use]
+    pub fn new(entries: usize, places: usize) -> Self {
+        Self {
+            stack: vec![TreeEntry::EMPTY; entries],
+            segments: vec![SegmentEntry::EMPTY; entries],
+            near: vec![Near::EMPTY; places],
+            hits: vec![Hit::EMPTY; places],
+            hint: Hint::NONE,
+        }
+    }
+
+    /// Every question about a point. The hint is left from the tree that was asked before, whichever that was.
+    ///
+    /// # Panics
+    /// If an answer is out of range or took too long.
+    pub fn point(&mut self, tree: &Tree<'_>, point: [f32; 3], distance: f32, stop: &Stop) {
+        let Self { stack, near, hint, .. } = self;
+        let once = descent(tree);
+        for stop in [stop, &Stop::EXACT] {
+            if let Some(answer) = answered(closest_point(tree, point, stop, stack)) {
+                closest(tree, &answer, once);
+            }
+            if let Some(answer) = answered(closest_point_from(tree, point, stop, stack, hint)) {
+                closest(tree, &answer, once + 16);
+            }
+            if let Some(answer) = answered(is_within(tree, point, distance, stop, stack)) {
+                ends(answer.work, once);
+                if let Verdict::Yes { triangle } = answer.verdict {
+                    assert!(triangle < tree.input_triangles(), "{answer:?}");
+                }
+                let certain = answer.verdict != Verdict::Unknown;
+                assert_eq!(certain, answer.ended == Ended::Exact, "{answer:?}");
+            }
+            if let Some(answer) = answered(nearest(tree, point, stop, near, stack)) {
+                ends(answer.work, once);
+                assert!(answer.rest_lower >= 0.0, "{answer:?}");
+                found(tree, &near[..answer.stored]);
+            }
+            if let Some(answer) = answered(all_within(tree, point, distance, stop, near, stack)) {
+                ends(answer.work, once);
+                assert!(answer.certain <= answer.stored, "{answer:?}");
+                assert!(
+                    answer.stored as u64 + u64::from(answer.dropped) <= u64::from(tree.header().triangles)
+                );
+                found(tree, &near[..answer.stored]);
+            }
+            if let Some(answer) = answered(signed_distance(tree, point, stop, stack)) {
+                closest(tree, &ClosestPoint { work: Work::default(), ..answer.closest }, 0);
+                ends(answer.closest.work, 8 * once);
+                assert!(answer.lower <= answer.upper, "{answer:?}");
+                assert!(tree.header().is_closed() || answer.side == Side::Undefined, "{answer:?}");
+            }
+        }
+    }
+
+    /// Every question about a segment.
+    ///
+    /// # Panics
+    /// If an answer is out of range or took too long.
+    pub fn segment(&mut self, tree: &Tree<'_>, a: [f32; 3], b: [f32; 3]) {
+        let Self { segments, hits, .. } = self;
+        let once = descent(tree);
+        for facing in [Facing::Both, Facing::Front, Facing::Back] {
+            if let Some(answer) = answered(first_hit(tree, a, b, &facing, segments)) {
+                ends(answer.work, once);
+                assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
+                answer.hit.iter().for_each(|hit| met(tree, hit));
+            }
+            answered(any_hit(tree, a, b, &facing, segments));
+            if let Some(answer) = answered(all_hits(tree, a, b, &facing, hits, segments)) {
+                ends(answer.work, once);
+                let hits = &hits[..answer.stored];
+                hits.iter().for_each(|hit| met(tree, hit));
+                assert!(hits.is_sorted_by(|x, y| x.t <= y.t), "{hits:?}");
+            }
+        }
+    }
+
+    /// A session of `N` entries along a path; its answers are those of the plain query unless that was cut short.
+    ///
+    /// # Panics
+    /// If an answer is out of range or took too long.
+    pub fn path<'t, const N: usize>(
+        &mut self,
+        session: &mut Session<'t, N>,
+        tree: &Tree<'t>,
+        path: impl IntoIterator<Item = [f32; 3]>,
+        stop: &Stop,
+    ) {
+        for point in path {
+            if let Some(answer) = answered(session.closest_point(tree, point, stop, &mut self.stack)) {
+                closest(tree, &answer.closest, 4 * descent(tree));
+                assert!(answer.safe_radius >= 0.0, "{answer:?}");
+            }
+        }
+    }
+}
+
+/// More than one descent can cost: every node opened, every box tested, every triangle looked at.
+fn descent(tree: &Tree<'_>) -> u32 {
+    let header = tree.header();
+    9 * header.nodes + header.triangles + 16
+}
+
+/// The answer. A query is refused for what is wrong with it, never for what is wrong with an opened tree.
+fn answered<T>(result: Result<T, QueryError>) -> Option<T> {
+    if let Err(error) = &result {
+        assert_ne!(*error, QueryError::Model);
+    }
+    result.ok()
+}
+
+fn ends(work: Work, most: u32) {
+    assert!(work.total() <= most, "{work:?}, where {most} are enough");
+}
+
+fn closest(tree: &Tree<'_>, answer: &ClosestPoint, most: u32) {
+    ends(answer.work, most);
+    assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
+    assert!(answer.point.iter().all(|x| !x.is_nan()), "{answer:?}");
+    assert!(answer.triangle.is_none_or(|triangle| triangle < tree.input_triangles()), "{answer:?}");
+}
+
+fn found(tree: &Tree<'_>, near: &[Near]) {
+    for one in near {
+        assert!(one.lower >= 0.0 && one.lower <= one.upper, "{one:?}");
+        assert!(one.triangle < tree.input_triangles(), "{one:?}");
+    }
+}
+
+fn met(tree: &Tree<'_>, hit: &Hit) {
+    assert!((0.0..=1.0).contains(&hit.t), "{hit:?}");
+    assert!(hit.triangle.is_none_or(|triangle| triangle < tree.input_triangles()), "{hit:?}");
+}

@@ -1,0 +1,12 @@
+//! What the fuzzers run, as plain functions: a driver test calls the same bodies with seeded bytes.
+//!
+//! Input bytes are edits of a valid blob, whose CRCs are then computed again, followed by the queries' floats. A blob that
+//! opens must be safe to ask anything: no panic, and no more work than its tables have records.
+
+mod hull;
+mod input;
+mod tree;
+
+pub use hull::{closest, open, outer, seeds, segment};
+pub use input::random_input;
+pub use tree::{tree_closest, tree_open, tree_seeds, tree_segment, tree_session};

@@ -1,0 +1,156 @@
+//! Targets for the box tree.
+
+use super::input::Input;
+use crate::corrupt::Asker;
+use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
+use meshsweep_alloc::emit;
+use meshsweep_alloc::hull::{self, BuildOptions};
+use meshsweep_alloc::mesh::Mesh;
+use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep_core::query::Stop;
+use meshsweep_core::query::tree::Session;
+use meshsweep_core::{Model, Tree};
+use std::sync::OnceLock;
+
+/// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone, closed and open, one that holds a split
+/// hierarchy too.
+///
+/// # Panics
+/// If one of them cannot be built.
+pub fn tree_seeds() -> &'static [Vec<u8>] {
+    static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
+    SEEDS.get_or_init(|| {
+        let all = TreeOptions { cull: true, ..TreeOptions::default() };
+        let mut open = rough_sphere(2, 0.4, 5);
+        open.1.truncate(200);
+        open.1.extend([[0, 1, 2], [2, 1, 0], [3, 3, 4], [5, 5, 5]]);
+        vec![
+            blob(&cube(1), &all),
+            blob(&torus(2.0, 0.75, 10, 6), &TreeOptions { single: true, ..all }),
+            blob(&icosphere(2), &TreeOptions { segments: false, ..all }),
+            blob(&icosphere(1), &TreeOptions { closest: false, cull: false, ..all }),
+            blob(&open, &all),
+            blob(&(vec![[0.25, -1.0, 0.5]], vec![[0, 0, 0]]), &all),
+            with_hull(&icosphere(1), &all),
+        ]
+    })
+}
+
+fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
+    let mesh = Mesh::new(positions.clone(), triangles.clone());
+    emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+}
+
+fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
+    let mesh = Mesh::new(positions.clone(), triangles.clone());
+    let coarse = BuildOptions { base_faces: 8, ..BuildOptions::default() };
+    let built = hull::build(&mesh, 0.0, mesh.triangles.len(), &coarse, |_| ()).expect("a sphere has hulls");
+    emit::blob(Some(&built.tables), Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+}
+
+/// Opens raw bytes, then edits of a blob; looks at everything that the opened tree gives out.
+pub fn tree_open(data: &[u8]) {
+    if let Ok(tree) = Tree::open(data) {
+        look(&tree);
+    }
+    let blob = Input(data).blob(tree_seeds());
+    let tree = Tree::open(&blob);
+    if let Ok(tree) = &tree {
+        look(tree);
+    }
+    // The same bytes as a model: all of them are checked, the tree's among them.
+    if Model::open(&blob).is_ok() {
+        assert!(tree.is_ok(), "{tree:?}");
+    }
+}
+
+/// Every node, leaf and number is in range.
+fn look(tree: &Tree<'_>) {
+    let header = tree.header();
+    let (mut leaves, mut triangles) = (0, 0);
+    for node in 0..header.nodes {
+        let links = tree.links(node).expect("a node");
+        assert!((1..=8).contains(&links.count));
+        for lane in 0..links.count {
+            let child = tree.child(node, lane).expect("a child");
+            if child.is_leaf() {
+                let patch = tree.leaf(node, lane).expect("a leaf");
+                for triangle in 0..child.tag.triangles() {
+                    assert!(patch.corners(triangle).iter().all(|corner| corner.is_finite()));
+                }
+                assert_eq!(links.triangle(lane), triangles);
+                triangles += child.tag.triangles() as u32;
+                leaves += 1;
+            } else {
+                assert!(child.at > node && child.at < header.nodes);
+            }
+        }
+    }
+    assert_eq!((leaves, triangles), (header.leaves, header.triangles));
+    assert!((0..triangles).all(|t| tree.source(t).is_some_and(|s| s < tree.input_triangles())));
+    assert!(tree.source(triangles).is_none());
+}
+
+fn stop(input: &mut Input<'_>) -> Stop {
+    Stop { relative: input.float(), absolute: input.float(), steps: input.u32() }
+}
+
+/// Every question about points on an edited blob.
+pub fn tree_closest(data: &[u8]) {
+    let mut input = Input(data);
+    let blob = input.blob(tree_seeds());
+    let Ok(tree) = Tree::open(&blob) else { return };
+    let mut asker = Asker::new(usize::from(input.byte()), usize::from(input.byte() % 16));
+    let stop = stop(&mut input);
+    // A hint of another tree is as good as any.
+    let other = &tree_seeds()[usize::from(input.byte()) % tree_seeds().len()];
+    if let Ok(other) = Tree::open(other) {
+        asker.point(&other, input.point(), input.float(), &stop);
+    }
+    for _ in 0..3 {
+        asker.point(&tree, input.point(), input.float(), &stop);
+    }
+}
+
+/// Every question about segments on an edited blob, one of them of no length.
+pub fn tree_segment(data: &[u8]) {
+    let mut input = Input(data);
+    let blob = input.blob(tree_seeds());
+    let Ok(tree) = Tree::open(&blob) else { return };
+    let mut asker = Asker::new(usize::from(input.byte()), usize::from(input.byte() % 16));
+    let [a, b, c] = [input.point(), input.point(), input.point()];
+    for [from, to] in [[a, b], [b, c], [c, c]] {
+        asker.segment(&tree, from, to);
+    }
+}
+
+/// A session on an edited blob: small steps, jumps, another tree in between.
+pub fn tree_session(data: &[u8]) {
+    let mut input = Input(data);
+    let blob = input.blob(tree_seeds());
+    let Ok(tree) = Tree::open(&blob) else { return };
+    let other = Tree::open(&tree_seeds()[0]).expect("a seed");
+    let mut asker = Asker::new(usize::from(input.byte()), 0);
+    let stop = stop(&mut input);
+    let mut path = Vec::new();
+    for _ in 0..4 {
+        let (mut here, step) = (input.point(), input.point());
+        let scale = [0.0, 1e-6, 1e-4, 1e-2][usize::from(input.byte()) % 4];
+        for _ in 0..12 {
+            path.push(here);
+            here = std::array::from_fn(|axis| here[axis] + scale * step[axis]);
+        }
+    }
+    fn follow<const N: usize>(asker: &mut Asker, trees: [&Tree<'_>; 2], path: &[[f32; 3]], stop: &Stop) {
+        let [tree, other] = trees;
+        let mut session = Session::<N>::new();
+        for stop in [&Stop::EXACT, stop] {
+            asker.path(&mut session, tree, path.iter().copied(), stop);
+            asker.path(&mut session, other, path.iter().copied().take(4), stop);
+        }
+    }
+    let trees = [&tree, &other];
+    follow::<0>(&mut asker, trees, &path, &stop);
+    follow::<5>(&mut asker, trees, &path, &stop);
+    follow::<128>(&mut asker, trees, &path, &stop);
+}
