@@ -145,7 +145,9 @@ fn help_names_every_option_with_a_sentence() {
         ["build", "info", "closest", "within", "nearest", "signed", "field", "segment", "cull", "hull", "cut"]
     {
         let help = ok(["help", command]);
-        let options: Vec<&str> = help.lines().filter(|line| line.trim_start().starts_with('-')).collect();
+        // Options are indented; a line of prose may begin with one, too.
+        let is_option = |line: &&str| line.starts_with("  ") && line.trim_start().starts_with('-');
+        let options: Vec<&str> = help.lines().filter(is_option).collect();
         assert!(options.iter().all(|line| line.trim().split("  ").count() > 1), "{command}: {help}");
         // No line is wider than a terminal shows.
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{command}");

@@ -420,7 +420,10 @@ fn blend(mask: u32, first: f32, second: f32) -> f32 {
 /// Three u16 at a byte offset that the compiler knows.
 #[inline(always)]
 fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
-    [0, 2, 4].map(|k| i32::from(u16::from_le_bytes([window[at + k], window[at + k + 1]])))
+    match window.get(at..).and_then(|b| b.first_chunk::<6>()) {
+        Some(&[a, b, c, d, e, f]) => [[a, b], [c, d], [e, f]].map(|pair| i32::from(u16::from_le_bytes(pair))),
+        None => [0; 3],
+    }
 }
 
 impl<'a> Patch<'a> {

@@ -110,11 +110,7 @@ impl PointFan {
         }
         let inverse = 1.0 / den;
         let (v, w) = (nv * inverse, nw * inverse);
-        let r = Vec3::new(
-            s.x - v * a.edge.x - w * b.edge.x,
-            s.y - v * a.edge.y - w * b.edge.y,
-            s.z - v * a.edge.z - w * b.edge.z,
-        );
+        let r = residual(s, a.edge, b.edge, v, w);
         let distance_sq = dot(r, r);
         let (ra, rb) = (dot(r, a.edge), dot(r, b.edge));
         let support = above(above(0.0, ra), rb);
@@ -127,6 +123,51 @@ impl PointFan {
 #[inline(never)]
 pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
     fan.triangle(a, b)
+}
+
+/// A sliver again, whose certificate falls far short of its distance: there the kernel's weights are differences of numbers that are nearly equal. The
+/// projection into the plane starts from the residual, so that its rounding is that of the way left; and the edges, each by itself, are always
+/// well-conditioned. The nearest of these points; `certified_sq` stays.
+#[inline(never)]
+pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
+    let mut best = *near;
+    let mut offer = |v: f32, w: f32| {
+        let r = residual(s, e, g, v, w);
+        let distance_sq = dot(r, r);
+        if distance_sq < best.distance_sq {
+            (best.distance_sq, best.v, best.w) = (distance_sq, v, w);
+        }
+    };
+    let normal = cross(e, g);
+    let area_sq = dot(normal, normal);
+    if area_sq > TREE_TINY {
+        let r = residual(s, e, g, near.v, near.w);
+        let v = near.v + dot(cross(r, g), normal) / area_sq;
+        let w = near.w + dot(cross(e, r), normal) / area_sq;
+        if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
+            offer(v, w);
+        }
+    }
+    let share = |along: f32, length_sq: f32| {
+        let share = above(0.0, along) / above(TREE_TINY, length_sq);
+        if share < 1.0 { share } else { 1.0 }
+    };
+    offer(share(dot(s, e), dot(e, e)), 0.0);
+    offer(0.0, share(dot(s, g), dot(g, g)));
+    let rim = g - e;
+    let w = share(dot(s - e, rim), dot(rim, rim));
+    offer(1.0 - w, w);
+    best
+}
+
+#[inline(always)]
+fn residual(s: Vec3, e: Vec3, g: Vec3, v: f32, w: f32) -> Vec3 {
+    Vec3::new(s.x - v * e.x - w * g.x, s.y - v * e.y - w * g.y, s.z - v * e.z - w * g.z)
+}
+
+#[inline(always)]
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
 /// The greater of two; not `f32::max`, whose rules for NaN cost instructions.
@@ -165,20 +206,21 @@ pub fn point_patch(
 /// the residual and along the residual made orthogonal to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
 /// Holds up to the rounding that `TREE_FAN` covers, whatever the triangle. Cost: five roots, so it is for the few triangles that need it.
-#[inline(never)]
+#[inline]
 pub fn certified_distance(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let fan = PointFan::new(s);
     let near = lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g));
-    let r = s - e * near.v - g * near.w;
+    let near = refined(&[s, e, g], &near);
+    let r = residual(s, e, g, near.v, near.w);
     let orthogonal = |edge: Vec3| {
         let length_sq = dot(edge, edge);
         if length_sq > TREE_TINY { r - edge * (dot(r, edge) / length_sq) } else { r }
     };
-    let normal = Vec3::new(e.y * g.z - e.z * g.y, e.z * g.x - e.x * g.z, e.x * g.y - e.y * g.x);
+    let normal = cross(e, g);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
     // Along `s` too: what `is_beyond` leaves out has to be as far here.
     let seen = [s, e, g];
-    let best = above(supported(s, &seen), supported(r, &seen));
+    let best = above(0.0, above(supported(s, &seen), supported(r, &seen)));
     let best = above(best, above(supported(orthogonal(e), &seen), supported(orthogonal(g), &seen)));
     above(best, above(supported(orthogonal(g - e), &seen), supported(side, &seen)))
 }

@@ -15,11 +15,12 @@ use crate::num::tolerance::{TREE_TINY, U32};
 use glam::Vec3;
 
 /// Half the width of the strip along an edge in which a kernel decides nothing, in units of [`U32`] times the 1-norm of the way to the
-/// farthest corner. Proved: 18 (§9). Smaller loses the guarantee, larger leaves more segments undecided.
-const SHEAR: f32 = 24.0;
+/// farthest corner. Proved: 12.9 (§9). Smaller loses the guarantee, larger leaves more segments undecided.
+const SHEAR: f32 = 16.0;
 
-/// Rounding of a parameter, in units of [`U32`] times the greatest parameter of the triangle's corners. Proved: 10 (§9).
-const PARAMETER: f32 = 16.0;
+/// Rounding of a parameter, in units of [`U32`] times the greatest parameter of the triangle's corners, and of the segment's far end. Proved:
+/// 21 (§9).
+const PARAMETER: f32 = 24.0;
 
 /// What underflow may take from a cross product: nothing that is computed there loses more than 2^-147.
 const UNDERFLOW: f32 = f32::MIN_POSITIVE;
@@ -107,7 +108,7 @@ impl FanRay {
             shear: [pick(direction, u) * along, pick(direction, v) * along],
             inverse: along,
             // √3, rounded up: what the shear may stretch a length by.
-            doubt: 1.732_051 * surface + (SHEAR * U32 * size + TREE_TINY),
+            doubt: 1.7321 * surface + (SHEAR * U32 * size + TREE_TINY),
             slack: (surface + (4.0 * U32 * size + TREE_TINY)) * along.abs(),
             end,
         }
@@ -205,7 +206,7 @@ impl FanRay {
             // Not so thin and not so steep that the plane says nothing of where the line meets it.
             let share = 1.0 / total;
             let flat = (p.area * share) * a.t + (q.area * share) * b.t + (r.area * share) * c.t;
-            let spread = 2.0 * ((last - first) * (doubt / (total.abs() - doubt))) + rounding;
+            let spread = 0.75 * ((last - first) * (doubt / (total.abs() - doubt))) + rounding;
             lower = greater(lower, flat - spread);
             upper = less(upper, flat + spread);
             if upper < 0.0 || lower > self.end {

@@ -70,7 +70,7 @@ pub const TREE_WEAK: f32 = 1.0 - 1.0 / 262_144.0;
 
 /// What a certified square may moreover fall short by on a u16 grid, where vertices moved by up to 0.87 units anyway: 4 square units. It
 /// costs the interval 2/D units at distance D and spares nearly every second look. 0 with exact vertices.
-pub const TREE_SHORT: f32 = 4.0;
+pub const TREE_SHORT: f32 = 1.0;
 
 /// What is added to the sine of a cone of normals before a leaf counts as back-facing, 2^-19. The way to the eye, its product with the axis and the
 /// squares carry less than half of that. Smaller loses the guarantee; larger keeps a few leaves more.

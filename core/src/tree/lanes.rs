@@ -45,7 +45,7 @@ pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
 pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
 #[inline(always)]
-fn wide(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+pub(super) fn wide(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
     let mut keys = [0f32; WIDTH];
     let (rows, _) = record.as_chunks::<WIDTH>();
     let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };
@@ -77,7 +77,7 @@ fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
 }
 
 #[inline(always)]
-fn narrow(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+pub(super) fn narrow(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     let (rows, _) = record.as_chunks::<WIDTH>();
     let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };

@@ -6,6 +6,8 @@
 mod frame;
 mod lanes;
 mod slab;
+#[cfg(test)]
+mod tests;
 
 pub use frame::NodeFrame;
 pub use lanes::{LANE_MASK, NO_CHILD, WIDE, box_distances, in_memory, nearest_lane};

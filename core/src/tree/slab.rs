@@ -54,48 +54,75 @@ pub fn box_entries(
     from: f32,
     limit: f32,
 ) -> [f32; WIDTH] {
-    let mut keys = [NO_CHILD; WIDTH];
-    let (rows, _) = record.as_chunks::<WIDTH>();
-    let Some(rows) = rows.first_chunk::<8>() else { return keys };
-    let (words, _) = record.as_chunks::<4>();
-    let Some(words) = words.get(12..).and_then(|words| words.first_chunk::<6>()) else { return keys };
-    let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
-    let (nx, fx, mx) = slabs.axis(0, ox, ux);
-    let (ny, fy, my) = slabs.axis(1, oy, uy);
-    let (nz, fz, mz) = slabs.axis(2, oz, uz);
-    let [x, y, z] = slabs.near;
-    let near = [&rows[x & 7], &rows[y & 7], &rows[z & 7]];
-    let far = [&rows[(x ^ 1) & 7], &rows[(y ^ 1) & 7], &rows[(z ^ 1) & 7]];
-    let at = |v: u8, m: f32, c: f32| f32::from(v) * m + c;
-    if !WIDE {
-        // What is entered only grows and what is left only falls: the first axis without an overlap decides, with the same keys.
-        let axes = [(near[0], far[0], mx, nx, fx), (near[1], far[1], my, ny, fy), (near[2], far[2], mz, nz, fz)];
-        for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
-            let (mut enter, mut leave) = (from, limit);
-            let overlaps = axes.iter().all(|&(near, far, m, n, f)| {
-                (enter, leave) = (greater(at(near[lane], m, n), enter), less(at(far[lane], m, f), leave));
-                enter <= leave
-            });
-            if overlaps {
-                *key = f32::from_bits(enter.to_bits() & !LANE_MASK | lane as u32);
-            }
-        }
-        return keys;
+    let Some(sides) = Sides::of(record, slabs) else { return [NO_CHILD; WIDTH] };
+    if WIDE { wide(&sides, count, from, limit) } else { narrow(&sides, count, from, limit) }
+}
+
+/// Planes of the boxes along one axis, in the order in which the segment meets them.
+struct Axis<'a> {
+    near: &'a [u8; WIDTH],
+    far: &'a [u8; WIDTH],
+    /// Parameters of byte 0, and of a step.
+    enter: f32,
+    leave: f32,
+    step: f32,
+}
+
+pub(super) struct Sides<'a>([Axis<'a>; 3]);
+
+impl<'a> Sides<'a> {
+    #[inline(always)]
+    pub(super) fn of(record: &'a [u8; BOXES_BYTES], slabs: &Slabs) -> Option<Self> {
+        let rows = record.as_chunks::<WIDTH>().0.first_chunk::<8>()?;
+        let words = record.as_chunks::<4>().0.get(12..)?.first_chunk::<6>()?;
+        let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
+        let side = |axis: usize, origin: f32, unit: f32| {
+            let (enter, leave, step) = slabs.axis(axis, origin, unit);
+            let row = slabs.near[axis];
+            Axis { near: &rows[row & 7], far: &rows[(row ^ 1) & 7], enter, leave, step }
+        };
+        Some(Sides([side(0, ox, ux), side(1, oy, uy), side(2, oz, uz)]))
     }
+}
+
+#[inline(always)]
+pub(super) fn wide(Sides([x, y, z]): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
+    let mut keys = [NO_CHILD; WIDTH];
     let Some(present) = LANES_BELOW.get(count as usize) else { return keys };
+    let at = |v: u8, step: f32, start: f32| f32::from(v) * step + start;
     for i in 0..WIDTH {
-        let enter_x = at(near[0][i], mx, nx);
-        let enter_y = at(near[1][i], my, ny);
-        let enter_z = at(near[2][i], mz, nz);
-        let leave_x = at(far[0][i], mx, fx);
-        let leave_y = at(far[1][i], my, fy);
-        let leave_z = at(far[2][i], mz, fz);
+        let enter_x = at(x.near[i], x.step, x.enter);
+        let enter_y = at(y.near[i], y.step, y.enter);
+        let enter_z = at(z.near[i], z.step, z.enter);
+        let leave_x = at(x.far[i], x.step, x.leave);
+        let leave_y = at(y.far[i], y.step, y.leave);
+        let leave_z = at(z.far[i], z.step, z.leave);
         let enter = greater(greater(enter_x, enter_y), greater(enter_z, from));
         let leave = less(less(leave_x, leave_y), less(leave_z, limit));
         let key = if enter <= leave { enter } else { NO_CHILD };
-        keys[i] = f32::from_bits(key.to_bits() & !LANE_MASK | i as u32 | !present[i] & NO_CHILD.to_bits());
+        // An absent lane may hold any box: nothing of its key may stay.
+        let bits = key.to_bits() & !LANE_MASK & present[i] | NO_CHILD.to_bits() & !present[i];
+        keys[i] = f32::from_bits(bits | i as u32);
     }
-    if WIDE { in_memory(keys) } else { keys }
+    in_memory(keys)
+}
+
+/// What is entered only grows and what is left only falls: the first axis without an overlap decides, with the same keys.
+#[inline(always)]
+pub(super) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
+    let mut keys = [NO_CHILD; WIDTH];
+    for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
+        let (mut enter, mut leave) = (from, limit);
+        let overlaps = axes.iter().all(|axis| {
+            enter = greater(f32::from(axis.near[lane]) * axis.step + axis.enter, enter);
+            leave = less(f32::from(axis.far[lane]) * axis.step + axis.leave, leave);
+            enter <= leave
+        });
+        if overlaps {
+            *key = f32::from_bits(enter.to_bits() & !LANE_MASK | lane as u32);
+        }
+    }
+    keys
 }
 
 #[inline(always)]

@@ -5,8 +5,9 @@
 
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{
-    Facing, Hint, Near, SegmentEntry, Session, Side, TreeEntry, Verdict, all_hits, all_within, any_hit,
-    closest_point, closest_point_from, first_hit, is_within, nearest, signed_distance,
+    BatchError, Facing, Hint, Near, SegmentEntry, Session, Side, Sight, TreeEntry, Verdict, all_hits,
+    all_within, any_hit, closest_point, closest_point_from, closest_points, first_hit, front_facing,
+    is_within, nearest, signed_distance,
 };
 use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, Stop, Work};
 
@@ -115,6 +116,47 @@ impl Asker {
             if let Some(answer) = answered(session.closest_point(tree, point, stop, &mut self.stack)) {
                 closest(tree, &answer.closest, 4 * descent(tree));
                 assert!(answer.safe_radius >= 0.0, "{answer:?}");
+            }
+        }
+    }
+}
+
+impl Asker {
+    /// Closest points of a batch, in pieces of `piece` queries.
+    ///
+    /// # Panics
+    /// If an answer is out of range or took too long.
+    pub fn batch(&mut self, tree: &Tree<'_>, points: &[[f32; 3]], piece: usize, stop: &Stop) {
+        let Self { stack, hint, .. } = self;
+        let none = ClosestPoint {
+            lower: 0.0,
+            upper: 0.0,
+            point: [0.0; 3],
+            triangle: None,
+            work: Work::default(),
+            ended: Ended::Exact,
+        };
+        let (mut answers, mut order) = (vec![none; points.len()], vec![0; 2 * piece]);
+        match closest_points(tree, points, &mut answers, stop, stack, &mut order, hint) {
+            Ok(()) => answers.iter().for_each(|answer| closest(tree, answer, 2 * descent(tree))),
+            Err(BatchError::Query { index, error }) => {
+                assert!(index < points.len() && error != QueryError::Model, "{index}: {error}");
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    /// What faces an eye.
+    ///
+    /// # Panics
+    /// If an answer is out of range.
+    pub fn sight(&self, tree: &Tree<'_>, eye: [f32; 3]) {
+        for sight in [Sight::From(eye), Sight::Along(eye)] {
+            let mut triangles = vec![u32::MAX; self.near.len()];
+            if let Some(seen) = answered(front_facing(tree, &sight, &mut triangles)) {
+                assert!(triangles[..seen.stored].iter().all(|&t| t < tree.input_triangles()), "{seen:?}");
+                let all = seen.stored as u32 + seen.dropped + seen.culled;
+                assert_eq!((seen.leaves, all), (tree.header().leaves, tree.header().triangles), "{seen:?}");
             }
         }
     }

@@ -95,7 +95,7 @@ fn stop(input: &mut Input<'_>) -> Stop {
     Stop { relative: input.float(), absolute: input.float(), steps: input.u32() }
 }
 
-/// Every question about points on an edited blob.
+/// Every question about points on an edited blob, one by one and all at once.
 pub fn tree_closest(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
@@ -107,12 +107,19 @@ pub fn tree_closest(data: &[u8]) {
     if let Ok(other) = Tree::open(other) {
         asker.point(&other, input.point(), input.float(), &stop);
     }
+    let mut points = Vec::new();
     for _ in 0..3 {
-        asker.point(&tree, input.point(), input.float(), &stop);
+        points.push(input.point());
+        asker.point(&tree, points[points.len() - 1], input.float(), &stop);
     }
+    let piece = usize::from(input.byte() % 4);
+    asker.batch(&tree, &points, piece, &stop);
+    // A refused query would leave nothing to sort.
+    points.retain(|point| point.iter().all(|x| x.is_finite()));
+    asker.batch(&tree, &points, piece, &Stop::EXACT);
 }
 
-/// Every question about segments on an edited blob, one of them of no length.
+/// Every question about segments on an edited blob, one of them of no length, and what faces their ends.
 pub fn tree_segment(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
@@ -121,6 +128,7 @@ pub fn tree_segment(data: &[u8]) {
     let [a, b, c] = [input.point(), input.point(), input.point()];
     for [from, to] in [[a, b], [b, c], [c, c]] {
         asker.segment(&tree, from, to);
+        asker.sight(&tree, from);
     }
 }
 

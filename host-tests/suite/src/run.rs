@@ -40,11 +40,15 @@ pub enum Kind {
     AnyHit,
     /// Closest point along a path of small steps and few jumps, by a session.
     Session,
+    /// Closest points of eight points from the doubled box.
+    Batch,
+    /// Triangles that may face an eye.
+    Cull,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -61,6 +65,8 @@ impl Kind {
         Self::Facing,
         Self::AnyHit,
         Self::Session,
+        Self::Batch,
+        Self::Cull,
     ];
 
     /// The name in reports: one word.
@@ -83,6 +89,8 @@ impl Kind {
             Self::Facing => "facing",
             Self::AnyHit => "any_hit",
             Self::Session => "session",
+            Self::Batch => "batch_of_8",
+            Self::Cull => "cull",
         }
     }
 

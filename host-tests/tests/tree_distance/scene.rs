@@ -87,7 +87,11 @@ impl Scene {
         let tree = self.tree();
         let unit = 2f64.powi(tree.scale_exponent() + tree.header().grid_exponent);
         let roundings = 64.0 * distance + 96.0 * f64::from(tree.header().reach) * unit;
-        2.0 * self.surface_error() + roundings * f64::from(f32::EPSILON)
+        // On the grid a certified square may fall short by one square unit before it is looked at again.
+        let rounding = roundings * f64::from(f32::EPSILON);
+        let units = ((distance - self.surface_error() - rounding) / unit).max(1.0);
+        let short = if tree.header().is_single() { 0.0 } else { units - (units * units - 1.0).sqrt() };
+        2.0 * self.surface_error() + rounding + short * unit
     }
 
     fn on_triangle(&self, t: u32, rng: &mut Rng) -> [f32; 3] {

@@ -9,7 +9,7 @@ use crate::tree::Slabs;
 use glam::Vec3;
 
 /// Rounding of the parameter at which a segment enters a box, in units of [`U32`] times the way to the farthest corner along that axis.
-/// Proved: 28 (`core/docs/rounding.md` §9). Larger visits more.
+/// Proved: 27.5 (`core/docs/rounding.md` §9). Larger visits more.
 const SLAB: f32 = 32.0;
 
 /// How many extents of the model its farthest corner may be away from a segment's start before the start is moved nearer. There the strip along
@@ -65,7 +65,8 @@ impl Aim {
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
-        let margin = |far: f32| surface + (SLAB * U32 * far + TREE_TINY);
+        // The way and a unit more: a node that is flat, or thinner than a grid unit, has an origin that is an integer.
+        let margin = |far: f32| surface + (SLAB * U32 * far + SLAB * U32);
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
         let (from, along) = (origin.to_array(), direction.to_array());
@@ -169,7 +170,7 @@ fn approach(units: Units, [a, b]: [Vec3; 2], [low, high]: [Vec3; 2], size: f32) 
         return None;
     }
     let start = enter * (1.0 - 16.0 * U32);
-    let origin = Vec3::from_array([0, 1, 2].map(|axis| along(a.to_array()[axis], b.to_array()[axis], start)));
+    let origin = Vec3::new(along(a.x, b.x, start), along(a.y, b.y, start), along(a.z, b.z, start));
     let far = farthest(origin, low, high);
     let off = 2.0 * U32 * norm_1(origin) + (64.0 * U32 * U32) * (size + norm_1(direction));
     Some(Aim::at(units, origin, direction, far, start, off))

@@ -121,7 +121,7 @@ impl Collect<'_> {
     #[inline(never)]
     fn collect(&mut self, visit: &Visit<'_>) -> Option<()> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        each_triangle(&visit.patch, self.probe.p, |lane, distance_sq, certified_sq| {
+        each_triangle(self.probe, &visit.patch, |lane, distance_sq, certified_sq| {
             if certified_sq > self.limit {
                 return;
             }

@@ -1,11 +1,13 @@
 //! Closest point on the box tree.
 
+use super::interval::{nearness, seen_from, settled};
 use super::leaf::{Lanes, NearestOf, nearest_triangle, nearest_within};
-use super::probe::{Probe, bounds};
+use super::probe::{Probe, at_least, at_most, bounds};
 use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
 use crate::blob::{Patch, Tree};
-use crate::fan::{PointFan, certified_distance, lone_triangle};
+use crate::fan::certified_distance;
 use crate::num::root;
+use crate::num::tolerance::{TREE_RELATIVE, U32};
 use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
 use glam::Vec3;
 
@@ -55,10 +57,10 @@ pub fn closest_point_from(
     }
     let probe = Probe::new(tree, point)?;
     if probe.far {
-        return from_afar(tree, &probe);
+        return from_afar(tree, point, &probe);
     }
     let mut work = Work::default();
-    let mut seek = Closest::new(tree, &probe, stop);
+    let mut seek = Closest::new(tree, point, &probe, stop);
     if *hint != Hint::NONE
         && let Some(patch) = tree.leaf(hint.0 >> 3, hint.0 & 7)
     {
@@ -82,6 +84,8 @@ const NOTHING_YET: f32 = f32::from_bits(0x7E80_0000);
 
 struct Closest<'a> {
     tree: &'a Tree<'a>,
+    /// As it was asked.
+    point: [f32; 3],
     probe: &'a Probe,
     stop: &'a Stop,
     /// Squared bound above which nothing matters.
@@ -98,9 +102,10 @@ struct Closest<'a> {
 
 impl<'a> Closest<'a> {
     #[inline(always)]
-    fn new(tree: &'a Tree<'a>, probe: &'a Probe, stop: &'a Stop) -> Self {
+    fn new(tree: &'a Tree<'a>, point: [f32; 3], probe: &'a Probe, stop: &'a Stop) -> Self {
         Closest {
             tree,
+            point,
             probe,
             stop,
             limit: NOTHING_YET,
@@ -158,16 +163,30 @@ impl<'a> Closest<'a> {
     #[cold]
     #[inline(never)]
     fn certify(&mut self, visit: &Visit<'_>) {
+        let probe = self.probe;
         for lane in 0..visit.patch.tag().triangles() {
-            let [centre, e, g] = visit.patch.spokes(lane);
-            let fan = PointFan::new(self.probe.p - centre);
-            if lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g)).certified_sq < self.weak {
-                let lower = certified_distance(self.probe.p - centre, e, g);
-                let lower_sq = lower * lower;
-                let lower_sq = if lower_sq > visit.key { lower_sq } else { visit.key };
-                if lower_sq < self.certified {
-                    self.certified = lower_sq;
-                }
+            let seen = seen_from(&visit.patch, lane, probe.p);
+            let near = nearness(&seen);
+            if near.certified_sq >= self.weak {
+                continue;
+            }
+            let better = settled(probe, &seen, near);
+            let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
+            let here = visit.node == self.best.node && visit.lane == self.best.child;
+            let first = !here || lane < lanes.at(best_sq).0;
+            let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
+            if better.distance_sq < near.distance_sq && nearer {
+                let lanes = Lanes::one(lane, &better);
+                let near =
+                    NearestOf { distance_sq: better.distance_sq, certified_sq: near.certified_sq, lanes };
+                self.improve(&near, visit);
+            }
+            let [s, e, g] = seen;
+            let lower = certified_distance(s, e, g);
+            let lower_sq = lower * lower;
+            let lower_sq = if lower_sq > visit.key { lower_sq } else { visit.key };
+            if lower_sq < self.certified {
+                self.certified = lower_sq;
             }
         }
     }
@@ -186,7 +205,7 @@ impl<'a> Closest<'a> {
             least_sq = least_sq.min(least);
         }
         if node == u32::MAX {
-            let mut answer = from_afar(self.tree, self.probe)?;
+            let mut answer = from_afar(self.tree, self.point, self.probe)?;
             answer.lower = answer.lower.max(self.probe.lower(root(least_sq))).min(answer.upper);
             return Ok(ClosestPoint { work, ended, ..answer });
         }
@@ -224,26 +243,35 @@ impl Seek for Closest<'_> {
         if near.distance_sq <= self.best.distance_sq {
             self.improve(&near, visit);
         }
-        let certified_sq = near.certified_sq;
-        let certified_sq = if certified_sq > visit.key { certified_sq } else { visit.key };
-        if certified_sq < self.weak {
+        if near.certified_sq < self.weak {
             self.certify(visit);
         }
         Some(true)
     }
 }
 
-/// From far enough away every point is the closest, within a rounding of f32: the interval of the box, and a point of the surface.
+/// The interval of the model's box, and a point of the surface: from far enough away every point is the closest, within a rounding of f32. In input
+/// units, scaled by a power of two so that no square leaves f32's range.
 #[cold]
-fn from_afar(tree: &Tree<'_>, probe: &Probe) -> Result<ClosestPoint, QueryError> {
+#[inline(never)]
+fn from_afar(tree: &Tree<'_>, point: [f32; 3], probe: &Probe) -> Result<ClosestPoint, QueryError> {
     let (low, high) = bounds(tree);
-    // Scaled down by a power of two, so that no square overflows.
-    let down = 1.0 / (1u64 << 60) as f32;
-    let outside = (low - probe.p).max(probe.p - high).max(Vec3::ZERO) * down;
-    let farthest = (low - probe.p).abs().max((probe.p - high).abs()) * down;
-    let up = 1.0 / down;
-    let near = root(outside.dot(outside)) * up;
-    let far = root(farthest.dot(farthest)) * up;
+    let point = Vec3::from_array(point);
+    let corners = [low, high].map(|corner| Vec3::from_array(probe.units.point(corner)).abs());
+    let size = point.abs().max(corners[0]).max(corners[1]).max_element();
+    let (up, down) = match size {
+        size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
+        size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
+        _ => (1.0, 1.0),
+    };
+    let scaled = |x: f32| probe.units.outward(x, up);
+    let [low, high] =
+        [low, high].map(|corner| Vec3::new(scaled(corner.x), scaled(corner.y), scaled(corner.z)));
+    let p = point * up;
+    let outside = (low - p).max(p - high).max(Vec3::ZERO);
+    let farthest = (low - p).abs().max((p - high).abs());
+    let (near, far) = (root(outside.dot(outside)), root(farthest.dot(farthest)));
+    let margin = |distance: f32| distance * (2.0 * TREE_RELATIVE * U32) + scaled(probe.margin());
     let mut node = 0;
     let (links, patch) = loop {
         let links = tree.links(node).ok_or(QueryError::Model)?;
@@ -254,11 +282,14 @@ fn from_afar(tree: &Tree<'_>, probe: &Probe) -> Result<ClosestPoint, QueryError>
         node = child.at;
     };
     Ok(ClosestPoint {
-        lower: probe.lower(near),
-        upper: probe.upper(far),
+        lower: at_least((near - margin(near)) * down),
+        upper: at_most((far + margin(far)) * down),
         point: probe.units.point(patch.centre(0)),
         triangle: tree.source(links.triangle(0)),
         work: Work::default(),
         ended: Ended::Exact,
     })
 }
+
+const POWER_40: f32 = (1u64 << 40) as f32;
+const POWER_70: f32 = (1u128 << 70) as f32;

@@ -7,7 +7,7 @@ use super::probe::Probe;
 use super::shape::{SHORTFALL, is_sound};
 use crate::blob::layout::WIDTH;
 use crate::blob::{Patch, Tree};
-use crate::fan::{Nearness, PointFan, certified_distance, point_patch};
+use crate::fan::{Nearness, PointFan, point_patch};
 use crate::num::root;
 use crate::num::tolerance::{TREE_FAN, U32};
 use crate::query::Work;
@@ -138,7 +138,7 @@ impl<'a, 't> Follow<'a, 't> {
                 }
                 next += 1;
             }
-            if self.bound < self.front.extent.rest {
+            if self.bound < self.front.extent.rest || !self.front.is_waiting() {
                 break;
             }
             self.front.rouse(self.bound + self.ahead);
@@ -202,11 +202,12 @@ impl<'a, 't> Follow<'a, 't> {
         let keys = box_distances(record, &NodeFrame::of(record, self.probe.p), links.count, 0.0);
         self.work.splits += 1;
         self.work.nodes += links.count;
-        self.looks += 2;
+        self.looks += 3;
         let nearest = nearest_lane(&keys);
         let horizon = self.bound + self.ahead;
         if !self.front.has_room(WIDTH) {
             self.front.thin_out(entry.map_or(0, |i| i + 1), horizon);
+            self.looks += self.front.extent.count as u32 / 16;
         }
         if let Some(i) = entry {
             let lane = nearest.to_bits() & LANE_MASK;
@@ -253,8 +254,9 @@ impl<'a, 't> Follow<'a, 't> {
             self.bound = self.horizon(distance_sq);
             self.weak = self.probe.weak(distance_sq);
         }
+        // The plain query looks at slivers again, and may find them nearer.
         if near.certified_sq < self.weak {
-            self.certify(&patch);
+            self.certified = least(self.certified, near.certified_sq);
         }
         if child.known() == Known::Triangles {
             let key = self.key_of_triangles(near.certified_sq);
@@ -274,21 +276,6 @@ impl<'a, 't> Follow<'a, 't> {
     fn comes_first(&self, child: Child) -> bool {
         let first = |child: Child| Some(self.tree.links(child.node())?.triangle(child.lane()));
         first(child) <= first(self.best.child)
-    }
-
-    /// See the plain query's.
-    #[cold]
-    #[inline(never)]
-    fn certify(&mut self, patch: &Patch<'_>) {
-        let weak = self.weak;
-        self.each(patch, |this, lane, near| {
-            if near.certified_sq < weak {
-                let which = usize::from(lane >= patch.tag().turn());
-                let s = this.probe.p - patch.centre(which);
-                let lower = certified_distance(s, patch.spoke(lane, which), patch.spoke(lane + 1, which));
-                this.certified = least(this.certified, lower * lower);
-            }
-        });
     }
 
     #[inline(always)]

@@ -177,6 +177,12 @@ impl Front<'_> {
         self.extent.rest = least(self.extent.rest, key);
     }
 
+    /// Whether there are entries that are not active.
+    #[inline(always)]
+    pub(super) fn is_waiting(&self) -> bool {
+        self.extent.active < self.extent.count
+    }
+
     /// Makes those of the rest active that are within `horizon`.
     pub(super) fn rouse(&mut self, horizon: f32) {
         let (mut active, mut rest) = (self.extent.active, f32::INFINITY);

@@ -2,13 +2,10 @@
 
 use super::probe::Probe;
 use crate::blob::Patch;
-use crate::fan::{PointFan, certified_distance, point_patch};
+use crate::fan::{Nearness, PointFan, certified_distance, lone_triangle, refined};
 use crate::num::root;
+use crate::num::tolerance::TREE_WEAK;
 use glam::Vec3;
-
-/// Part of the squared residual that a supporting plane along it has to reach for its square to be taken as it is: 15/16. Below that the
-/// rounding of the square would grow by the ratio of the two when the root is taken; then [`certified_distance`] is asked.
-const STRONG: f32 = 0.9375;
 
 /// Squared limit that every stored box is within, below the key of a lane without a child.
 pub(super) const EVERYTHING: f32 = f32::from_bits(0x7E80_0000);
@@ -16,40 +13,59 @@ pub(super) const EVERYTHING: f32 = f32::from_bits(0x7E80_0000);
 /// Least distance, grid units, that a limit is made for: its square is far above underflow.
 const LEAST: f32 = 1.0 / (1u64 << 40) as f32;
 
-/// All triangles of a patch, in order: lane, squared distance and its supporting plane's bound, as the wide kernel computes them.
+/// What is known of a triangle: as computed, or, where its certificate says that this may be far off and it is, refined. Depends on the triangle alone,
+/// so that all questions agree.
+#[inline(always)]
+pub(super) fn settled(probe: &Probe, seen: &[Vec3; 3], near: Nearness) -> Nearness {
+    if near.certified_sq >= probe.weak(near.distance_sq) {
+        return near;
+    }
+    let better = refined(seen, &near);
+    if near.certified_sq < probe.weak(better.distance_sq) { better } else { near }
+}
+
+/// Triangle `lane` from `p`: the way from its centre, and its spokes.
+#[inline(always)]
+pub(super) fn seen_from(patch: &Patch<'_>, lane: usize, p: Vec3) -> [Vec3; 3] {
+    let [centre, e, g] = patch.spokes(lane);
+    [p - centre, e, g]
+}
+
+#[inline(always)]
+pub(super) fn nearness(seen: &[Vec3; 3]) -> Nearness {
+    let &[s, e, g] = seen;
+    let fan = PointFan::new(s);
+    lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
+}
+
+/// All triangles of a patch, in order: lane, squared distance and its supporting plane's bound.
 #[inline]
-pub(super) fn each_triangle(patch: &Patch<'_>, p: Vec3, mut each: impl FnMut(usize, f32, f32)) {
-    let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
-    point_patch(
-        patch.tag().triangles(),
-        patch.tag().turn(),
-        s,
-        |i, which| patch.spoke(i, which),
-        |lane, near| each(lane, near.distance_sq, near.certified_sq),
-    );
+pub(super) fn each_triangle(probe: &Probe, patch: &Patch<'_>, mut each: impl FnMut(usize, f32, f32)) {
+    for lane in 0..patch.tag().triangles() {
+        let seen = seen_from(patch, lane, probe.p);
+        let near = settled(probe, &seen, nearness(&seen));
+        each(lane, near.distance_sq, near.certified_sq);
+    }
 }
 
 /// The closest point of one triangle, grid units.
-pub(super) fn witness(patch: &Patch<'_>, lane: usize, p: Vec3) -> Vec3 {
-    let which = usize::from(lane >= patch.tag().turn());
-    let centre = patch.centre(which);
-    let fan = PointFan::new(p - centre);
-    let (a, b) = (fan.spoke(patch.spoke(lane, which)), fan.spoke(patch.spoke(lane + 1, which)));
-    let near = fan.triangle(&a, &b);
-    centre + a.edge * near.v + b.edge * near.w
+pub(super) fn witness(probe: &Probe, patch: &Patch<'_>, lane: usize) -> Vec3 {
+    let seen = seen_from(patch, lane, probe.p);
+    let near = settled(probe, &seen, nearness(&seen));
+    patch.point(lane, near.v, near.w)
 }
 
 /// Distance, grid units, that a triangle is not nearer than, but for the rounding that [`Probe::lower`] takes off.
 #[inline]
 pub(super) fn lower_of(patch: &Patch<'_>, lane: usize, p: Vec3, distance_sq: f32, certified_sq: f32) -> f32 {
-    if certified_sq >= distance_sq * STRONG { root(certified_sq) } else { certified(patch, lane, p) }
+    if certified_sq >= distance_sq * TREE_WEAK { root(certified_sq) } else { certified(patch, lane, p) }
 }
 
 #[cold]
 #[inline(never)]
 fn certified(patch: &Patch<'_>, lane: usize, p: Vec3) -> f32 {
-    let which = usize::from(lane >= patch.tag().turn());
-    certified_distance(p - patch.centre(which), patch.spoke(lane, which), patch.spoke(lane + 1, which))
+    let [s, e, g] = seen_from(patch, lane, p);
+    certified_distance(s, e, g)
 }
 
 /// Squared bound above which nothing is within `distance` (input units) of the input mesh.

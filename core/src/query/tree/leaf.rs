@@ -36,7 +36,7 @@ impl NearestOf {
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
     use super::{NearestOf, Patch, Vec3};
-    use crate::fan::{LANES_BELOW, Nearness8, WIDTH, point_patch8};
+    use crate::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_patch8};
 
     /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch can guess it.
     #[derive(Clone, Copy)]
@@ -49,6 +49,17 @@ mod wide {
             v: [0.0; WIDTH],
             w: [0.0; WIDTH],
         });
+
+        /// One triangle alone.
+        pub(in crate::query::tree) fn one(lane: usize, near: &Nearness) -> Lanes {
+            let mut lanes = Lanes::NONE;
+            for i in 0..WIDTH {
+                lanes.0.distance_sq[i] = if i == lane { near.distance_sq } else { f32::INFINITY };
+                lanes.0.v[i] = near.v;
+                lanes.0.w[i] = near.w;
+            }
+            lanes
+        }
 
         #[inline(always)]
         pub(in crate::query::tree) fn at(&self, distance_sq: f32) -> (usize, f32, f32) {
@@ -108,6 +119,11 @@ mod narrow {
 
     impl Lanes {
         pub(in crate::query::tree) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0 };
+
+        /// One triangle alone.
+        pub(in crate::query::tree) fn one(lane: usize, near: &Nearness) -> Lanes {
+            Lanes { lane, v: near.v, w: near.w }
+        }
 
         #[inline(always)]
         pub(in crate::query::tree) fn at(&self, _: f32) -> (usize, f32, f32) {

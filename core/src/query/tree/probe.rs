@@ -38,16 +38,32 @@ impl Units {
     /// A lower bound in input units: at least 0, and below f32's normal range 0.
     #[inline(always)]
     pub(crate) fn lower(&self, x: f32) -> f32 {
-        let y = x * self.outward[0] * self.outward[1];
-        if y >= f32::MIN_POSITIVE { y.min(f32::MAX) } else { 0.0 }
+        at_least(x * self.outward[0] * self.outward[1])
     }
 
     /// An upper bound in input units; infinite where f32 ends.
     #[inline(always)]
     pub(crate) fn upper(&self, x: f32) -> f32 {
-        let y = x * self.outward[0] * self.outward[1];
-        if y >= f32::MIN_POSITIVE || x == 0.0 { y } else { f32::MIN_POSITIVE }
+        if x == 0.0 { 0.0 } else { at_most(x * self.outward[0] * self.outward[1]) }
     }
+
+    /// A length or coordinate in input units times a power of two.
+    #[inline(always)]
+    pub(crate) fn outward(&self, x: f32, power: f32) -> f32 {
+        x * self.outward[0] * power * self.outward[1]
+    }
+}
+
+/// A lower bound that is kept in f32's normal range, or 0.
+#[inline(always)]
+pub(crate) fn at_least(x: f32) -> f32 {
+    if x >= f32::MIN_POSITIVE { x.min(f32::MAX) } else { 0.0 }
+}
+
+/// An upper bound that is kept in f32's normal range, or infinite.
+#[inline(always)]
+pub(crate) fn at_most(x: f32) -> f32 {
+    if x >= f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE }
 }
 
 /// A query point.
@@ -104,6 +120,11 @@ impl Probe {
     pub(crate) fn upper(&self, distance: f32) -> f32 {
         self.units
             .upper(distance + (distance * (TREE_RELATIVE * U32) + (self.margin + self.units.surface_error)))
+    }
+
+    /// What a distance in grid units may be off by whatever its size.
+    pub(crate) fn margin(&self) -> f32 {
+        self.margin + self.units.surface_error
     }
 
     /// A computed distance as a lower bound.

@@ -141,7 +141,7 @@ impl Seek for Shared<'_> {
 
     fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
         let (patch, p) = (&visit.patch, self.candidates.probe.p);
-        each_triangle(patch, p, |lane, distance_sq, certified_sq| {
+        each_triangle(self.candidates.probe, patch, |lane, distance_sq, certified_sq| {
             if certified_sq > self.limit
                 || lower_of(patch, lane, p, distance_sq, certified_sq) > self.candidates.band
                 || facing(patch, lane, p) == Facing::Flat

@@ -4,6 +4,7 @@ use super::interval::{lower_of, witness};
 use super::probe::Probe;
 use super::walk::Visit;
 use crate::blob::{Patch, Tree};
+use crate::num::root;
 use crate::query::QueryError;
 
 /// A triangle near a point: `lower ≤ distance to the triangle of the input mesh ≤ upper`, in real arithmetic.
@@ -82,9 +83,8 @@ impl Candidate {
         let patch = self.patch(tree)?;
         Some(Near {
             lower: probe.lower(self.lower(tree, probe)?),
-            // A monotone root: bounds rise as distances do.
-            upper: probe.upper(libm::sqrtf(self.distance_sq)),
-            point: probe.units.point(witness(&patch, self.lane as usize, probe.p)),
+            upper: probe.upper(root(self.distance_sq)),
+            point: probe.units.point(witness(probe, &patch, self.lane as usize)),
             triangle: tree.source(self.number)?,
         })
     }
@@ -187,8 +187,15 @@ impl<'a> Ranked<'a> {
             }
             self.sink(end);
         }
+        // Squares rise; roots that are rounded may not.
+        let mut farthest = 0f32;
         for slot in self.slots.iter_mut().take(self.stored) {
-            *slot = Candidate::of(slot).answer(tree, probe).ok_or(QueryError::Model)?;
+            let mut near = Candidate::of(slot).answer(tree, probe).ok_or(QueryError::Model)?;
+            if near.upper < farthest {
+                near.upper = farthest;
+            }
+            farthest = near.upper;
+            *slot = near;
         }
         Ok(self.stored)
     }

@@ -139,12 +139,7 @@ pub fn all_hits(
 
 /// What has to be so before a descent; `None` if the segment is far from the model.
 #[inline(always)]
-fn begin(
-    tree: &Tree<'_>,
-    a: [f32; 3],
-    b: [f32; 3],
-    stack: &[TreeEntry],
-) -> Result<Option<Aim>, QueryError> {
+fn begin(tree: &Tree<'_>, a: [f32; 3], b: [f32; 3], stack: &[TreeEntry]) -> Result<Option<Aim>, QueryError> {
     if !tree.serves_segments() {
         return Err(QueryError::NotServed);
     }
@@ -360,6 +355,7 @@ fn settle<C: Collect>(
     aim: &Aim,
     facing: Facing,
     flagged: u32,
+    bound: f32,
     [node, child]: [u32; 2],
     collect: &mut C,
 ) {
@@ -381,7 +377,12 @@ fn settle<C: Collect>(
         let second = lane as usize >= tag.turn();
         let fan = usize::from(second);
         let corners = [patch.centre(fan), patch.ring(lane as usize), patch.ring(lane as usize + 1)];
-        let Some(crossing) = ray.crossing(corners.map(|v| ray.shadow(v)), wanted(second)) else { continue };
+        let found = ray.crossing(corners.map(|v| ray.shadow(v)), wanted(second));
+        let Some(mut crossing) = found else { continue };
+        // All of the leaf lies in its box; and so the answer does not depend on which leaves beyond it were looked at.
+        if crossing.lower < bound {
+            crossing.lower = bound;
+        }
         collect.meet(&crossing, node, child, lane);
         if crossing.certain {
             settled = true;
@@ -452,7 +453,7 @@ fn descend<C: Collect>(
                 let lanes = flagged(&patch, aim).ok_or(QueryError::Model)?;
                 if lanes != 0 {
                     let lane = entry.key.to_bits() & LANE_MASK;
-                    settle(&patch, aim, facing, lanes, [entry.node, lane], collect);
+                    settle(&patch, aim, facing, lanes, bound, [entry.node, lane], collect);
                     if collect.is_answered() {
                         return Ok(dropped);
                     }

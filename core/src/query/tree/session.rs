@@ -85,7 +85,7 @@ const AHEAD: f32 = 8.0;
 /// Cost of any query, beside nodes and leaves.
 const BASE: u32 = 4;
 /// Plain queries' worth of debt that a session makes before it rests.
-const CREDIT: u32 = 3;
+const CREDIT: u32 = 4;
 /// Plain queries that it then asks, the first time and at most.
 const REST: (u32, u32) = (8, 256);
 /// A path so many times as long as what a box's bound may be off by is counted from new: keys, which are as long, are rounded by no more than that.
@@ -229,7 +229,9 @@ impl Memory {
                 Err(Gap::Lost) => self.extent = Extent::EMPTY,
             }
         } else {
+            // Keys are worth nothing without the path that they were found on.
             self.extent = Extent::EMPTY;
+            (self.last.known, self.last.second) = (false, 0.0);
         }
         let mut closest = closest_point_from(tree, point, stop, stack, &mut self.hint)?;
         self.pace.plain_query(&closest.work);
@@ -269,7 +271,7 @@ impl Memory {
                 } else {
                     follow.nearest(last.known, 2 * pace.plain)
                 };
-                pace.spend(BASE + follow.front.extent.active as u32 / 4 + follow.looks, step);
+                pace.spend(BASE + follow.front.extent.active as u32 / 3 + follow.looks, step);
                 *spent = follow.work;
                 (last.known, last.second) = (false, 0.0);
                 let nearest = found?;

@@ -273,7 +273,7 @@ impl Survey<'_> {
         Ok(ClosestPoint {
             lower,
             upper: probe.upper(distance),
-            point: probe.units.point(witness(&patch, best.lane, probe.p)),
+            point: probe.units.point(witness(probe, &patch, best.lane)),
             triangle: tree.source(number),
             work: search.work,
             ended,
@@ -312,7 +312,7 @@ impl Sides<'_, '_> {
     #[inline(never)]
     fn look(&mut self, visit: &Visit<'_>) {
         let (patch, p) = (&visit.patch, self.probe.p);
-        each_triangle(patch, p, |lane, distance_sq, certified_sq| {
+        each_triangle(self.probe, patch, |lane, distance_sq, certified_sq| {
             if certified_sq > self.limit {
                 return;
             }

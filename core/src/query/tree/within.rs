@@ -2,7 +2,7 @@
 //! at nothing that is certainly too far.
 
 use super::closest::closest_point;
-use super::interval::{each_triangle, limit_within, lower_of};
+use super::interval::{each_triangle, limit_within, lower_of, nearness, seen_from};
 use super::leaf::nearest_triangle;
 use super::probe::Probe;
 use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
@@ -134,9 +134,9 @@ impl Seek for Threshold<'_> {
             return Some(false);
         }
         if near.certified_sq <= self.limit && !self.doubtful {
-            self.doubt(visit);
+            self.doubt(visit)?;
         }
-        Some(true)
+        Some(self.near.is_none())
     }
 }
 
@@ -146,25 +146,34 @@ impl Threshold<'_> {
     #[inline(never)]
     fn number(&self, visit: &Visit<'_>, distance_sq: f32) -> Option<u32> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        let mut at = 0;
-        each_triangle(&visit.patch, self.probe.p, |lane, here_sq, _| {
-            at = if here_sq == distance_sq && at == 0 { lane } else { at };
-        });
-        Some(first.wrapping_add(at as u32))
+        let here =
+            |lane: &usize| nearness(&seen_from(&visit.patch, *lane, self.probe.p)).distance_sq == distance_sq;
+        let lane = (0..visit.patch.tag().triangles()).find(here)?;
+        Some(first.wrapping_add(lane as u32))
     }
 
-    /// A leaf near the limit: is one of its triangles not certainly beyond the distance?
+    /// A leaf near the limit: is one of its triangles not certainly beyond the distance? It may be a sliver that is certainly within.
     #[cold]
     #[inline(never)]
-    fn doubt(&mut self, visit: &Visit<'_>) {
+    fn doubt(&mut self, visit: &Visit<'_>) -> Option<()> {
         let Threshold { probe, limit, distance, .. } = *self;
-        let mut doubtful = false;
-        each_triangle(&visit.patch, probe.p, |lane, distance_sq, certified_sq| {
-            if certified_sq <= limit && !doubtful {
+        let (mut doubtful, mut within) = (false, None);
+        each_triangle(probe, &visit.patch, |lane, distance_sq, certified_sq| {
+            if certified_sq > limit {
+                return;
+            }
+            if within.is_none() && probe.upper(root(distance_sq)) <= distance {
+                within = Some(lane);
+            }
+            if !doubtful {
                 let lower = lower_of(&visit.patch, lane, probe.p, distance_sq, certified_sq);
                 doubtful = probe.lower(lower) <= distance;
             }
         });
         self.doubtful = doubtful;
+        if let Some(lane) = within {
+            self.near = Some(self.tree.links(visit.node)?.triangle(visit.lane).wrapping_add(lane as u32));
+        }
+        Some(())
     }
 }

@@ -144,3 +144,18 @@ extern "C" fn ask_tree_session<'t>(input: &Input<'t>, scratch: &mut tree::Scratc
         tree::session(&tree, input.a, scratch, &mut (), fold);
     }
 }
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_batch<'t>(input: &Input<'t>, scratch: &mut tree::Scratch<'t>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        let [a, b] = [input.a, input.b];
+        tree::batch(&tree, &[a, b, a, b, a, b, a, b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_cull(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        tree::cull(&tree, input.a, scratch, &mut (), fold);
+    }
+}

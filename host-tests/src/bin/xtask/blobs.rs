@@ -12,6 +12,7 @@ use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{Triangles, bracket, torus};
 
 use crate::boards::Flash;
+use crate::images::Profile;
 use crate::workspace;
 
 /// A blob of the images.
@@ -68,6 +69,17 @@ impl Blob {
         match self {
             Self::Torus | Self::Bracket | Self::Grid16 | Self::Grid24 | Self::Cut => "suite_hull",
             Self::TorusTree | Self::BracketTree | Self::SingleTree | Self::SoupTree => "suite_tree",
+        }
+    }
+
+    /// How the image that asks it is optimised for a part with so much flash: all questions to a box tree, the fastest way, are
+    /// more than 256 KiB.
+    pub const fn profile(self, flash: Flash) -> Profile {
+        match (self, flash) {
+            (Self::TorusTree | Self::BracketTree | Self::SingleTree | Self::SoupTree, Flash::Small) => {
+                Profile::Small
+            }
+            _ => Profile::Release,
         }
     }
 
@@ -184,6 +196,7 @@ mod tests {
             assert!(tree.serves_distances() && tree.serves_segments(), "{blob:?}");
             assert_eq!(header.is_single(), blob == Blob::SingleTree, "{blob:?}");
             assert_eq!(header.is_closed(), blob != Blob::SoupTree, "{blob:?}");
+            assert_eq!(tree.serves_culling(), blob == Blob::SoupTree, "{blob:?}");
             let triangles = if blob == Blob::BracketTree { 1948 } else { 480 };
             assert_eq!(header.triangles, if blob == Blob::SoupTree { 390 } else { triangles }, "{blob:?}");
         }

@@ -42,6 +42,7 @@ pub fn run(steps: &mut Steps) {
     table.note("far, near, path: closest point; all with the memory that the model's capacities name");
     table.note("tree: to the box tree, the others to the hull hierarchy");
     println!("{}", table.text());
+    check_lanes(steps);
 }
 
 /// Instructions of one query.

@@ -10,7 +10,7 @@ use crate::images::{self, Profile};
 use crate::qemu::Qemu;
 use crate::reading::Reading;
 use crate::steps::Steps;
-use crate::table::{self, Added, Row};
+use crate::table::{self, Added, Measured, Row};
 use crate::{elf, proof};
 
 /// What the firmware's part needs beside cargo.
@@ -44,7 +44,11 @@ fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
     for blob in standard {
         let name = step(&format!("the host's bits, {}", blob.name()));
         let reading = steps.run(&name, || compared(cross, qemu, board, blob));
-        readings.extend(reading.map(|reading| (blob.name(), reading)));
+        readings.extend(reading.map(|reading| Measured {
+            blob: blob.name(),
+            profile: blob.profile(board.flash),
+            reading,
+        }));
     }
     for variant in Blob::VARIANTS {
         let name = format!("the host's bits, {}", variant.name());
@@ -67,7 +71,8 @@ fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
 fn compared(cross: &Cross, qemu: &Qemu, board: &Board, blob: Blob) -> Result<Reading, String> {
     let file = blob.file()?;
     let bytes = fs::read(&file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
-    let image = images::suite(cross, board.target, blob.image(), &file)?;
+    let profile = blob.profile(board.flash);
+    let image = images::suite(cross, board.target, profile, blob.image(), &file)?;
     let reading = Reading::parse(&qemu.run(board.machine, &image)?, board)?;
     reading.compare(&Reading::of_host(&bytes)?)?;
     Ok(reading)

@@ -3,6 +3,7 @@
 use std::fs;
 
 use meshsweep_host_tests::generate::fixtures::write_fixtures;
+use meshsweep_host_tests::golden::{groove_tree, hull_answers, tree_answers};
 use meshsweep_host_tests::measure::Subject;
 
 use meshsweep_alloc::hull::BuildOptions;
@@ -10,17 +11,33 @@ use meshsweep_alloc::hull::BuildOptions;
 use crate::steps::Steps;
 use crate::workspace;
 
-/// Meshes by their generators, then the blob by the builder.
+/// Meshes by their generators, then blobs by the builder, then their answers.
 pub fn write(steps: &mut Steps) {
     let folder = workspace::root().join("fixtures");
+    let put = |name: &str, bytes: &[u8]| {
+        let file = folder.join(name);
+        fs::write(&file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
+    };
     let meshes = steps.run("mesh fixtures", || {
         write_fixtures(&folder).map_err(|error| format!("cannot write {}: {error}", folder.display()))
     });
-    if meshes.is_some() {
+    let hull = meshes.and_then(|()| {
         steps.run("fixtures/bracket.msw", || {
-            let built = Subject::load(&folder.join("bracket.stl"))?.build_with(&BuildOptions::default())?;
-            let blob = folder.join("bracket.msw");
-            fs::write(&blob, built.bytes).map_err(|error| format!("cannot write {}: {error}", blob.display()))
+            let bytes =
+                Subject::load(&folder.join("bracket.stl"))?.build_with(&BuildOptions::default())?.bytes;
+            put("bracket.msw", &bytes).map(|()| bytes)
+        })
+    });
+    let tree = steps.run("fixtures/groove.msw", || {
+        let bytes = groove_tree();
+        put("groove.msw", &bytes).map(|()| bytes)
+    });
+    if let (Some(hull), Some(tree)) = (hull, tree) {
+        steps.run("fixtures/answers.txt", || {
+            let refused = |refused| format!("the core refuses the blob: {refused:?}");
+            let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
+                + &tree_answers("groove.msw", &tree).map_err(refused)?;
+            put("answers.txt", answers.as_bytes())
         });
     }
 }

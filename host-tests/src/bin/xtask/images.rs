@@ -28,10 +28,16 @@ impl Profile {
 }
 
 /// Builds the image `name` of the suite, carrying `blob`; its path.
-pub fn suite(cross: &Cross, target: &str, name: &str, blob: &Path) -> Result<PathBuf, String> {
-    let mut command = cargo(cross, "build", target, Profile::Release);
+pub fn suite(
+    cross: &Cross,
+    target: &str,
+    profile: Profile,
+    name: &str,
+    blob: &Path,
+) -> Result<PathBuf, String> {
+    let mut command = cargo(cross, "build", target, profile);
     process::capture(command.args(["--bin", name]).env("MESHSWEEP_BLOB", blob))?;
-    Ok(image(cross, target, Profile::Release, name))
+    Ok(image(cross, target, profile, name))
 }
 
 /// Lints the images.

@@ -39,15 +39,16 @@ mod workspace;
 use std::process::ExitCode;
 
 use steps::Steps;
+use valgrind::Valgrind;
 
 const USAGE: &str = "\
-cargo xtask setup                   makes sure of the cross targets and of QEMU
+cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask measure [--firmware] [--json FILE] [MESH...]
                                     work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
-cargo xtask count                   instructions a query, by callgrind
+cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask race [--count] [--quick] [--hull] [--json FILE] [MESH...]
                                     this library, parry3d, obvhs and a plain loop on the same queries: times or, with
                                     --count, instructions; --hull: the hull engine on large meshes too
@@ -66,11 +67,14 @@ fn main() -> ExitCode {
     match words.as_slice() {
         ["setup"] => {
             firmware::setup(&mut steps);
+            println!("── setup: valgrind");
+            Valgrind::find();
         }
         ["test"] => {
             // First, because it is what fails on a new machine, and it tells the remedy.
             let tools = firmware::setup(&mut steps);
             checks::run(&mut steps);
+            count::check_lanes(&mut steps);
             if let Some(tools) = tools {
                 firmware::run(&mut steps, &tools, None);
             }

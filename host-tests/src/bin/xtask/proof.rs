@@ -9,7 +9,7 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 18] = [
+const QUESTIONS: [&str; 20] = [
     "ask_hull_open",
     "ask_hull_closest",
     "ask_hull_first_hit",
@@ -28,6 +28,8 @@ const QUESTIONS: [&str; 18] = [
     "ask_tree_any_hit",
     "ask_tree_all_hits",
     "ask_tree_session",
+    "ask_tree_batch",
+    "ask_tree_cull",
 ];
 
 /// Links the proof image.

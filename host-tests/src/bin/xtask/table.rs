@@ -19,12 +19,19 @@ pub struct Added {
     pub size: Size,
 }
 
+/// What one blob's image told.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    pub blob: &'static str,
+    pub profile: Profile,
+    pub reading: Reading,
+}
+
 /// All that was measured on one board.
 #[derive(Clone, Debug)]
 pub struct Row {
     pub board: Board,
-    /// With the names of their blobs.
-    pub readings: Vec<(&'static str, Reading)>,
+    pub readings: Vec<Measured>,
     pub added: Vec<Added>,
 }
 
@@ -51,16 +58,16 @@ pub fn text(rows: &[Row]) -> String {
     );
     let _ = writeln!(
         table,
-        "{:<12}{:<14}{:<14}{:>7}{:>10}{:>10}{:>10}{:>8}{:>9}",
-        "cpu", "blob", "query", "count", "min", "mean", "max", "stack", "scratch"
+        "{:<12}{:<14}{:<9}{:<14}{:>7}{:>10}{:>10}{:>10}{:>8}{:>9}",
+        "cpu", "blob", "profile", "query", "count", "min", "mean", "max", "stack", "scratch"
     );
     for row in rows {
-        for (blob, reading) in &row.readings {
+        for Measured { blob, profile, reading } in &row.readings {
             for Cost { kind, queries, min, mean, max, stack } in &reading.costs {
-                let (cpu, scratch) = (row.board.cpu, reading.scratch);
+                let (cpu, profile, scratch) = (row.board.cpu, profile.name(), reading.scratch);
                 let _ = writeln!(
                     table,
-                    "{cpu:<12}{blob:<14}{kind:<14}{queries:>7}{min:>10.0}{mean:>10.0}{max:>10.0}{stack:>8}{scratch:>9}",
+                    "{cpu:<12}{blob:<14}{profile:<9}{kind:<14}{queries:>7}{min:>10.0}{mean:>10.0}{max:>10.0}{stack:>8}{scratch:>9}",
                 );
             }
         }
@@ -90,10 +97,11 @@ fn row(row: &Row) -> Value {
     let blobs: Vec<_> = row
         .readings
         .iter()
-        .map(|(name, reading)| {
+        .map(|Measured { blob, profile, reading }| {
             let costs: Vec<_> = reading.costs.iter().map(cost).collect();
             json!({
-                "name": name, "blob": reading.blob, "scratch_bytes": reading.scratch, "costs": costs,
+                "name": blob, "profile": profile.name(), "bytes_and_hash": reading.blob,
+                "scratch_bytes": reading.scratch, "costs": costs,
             })
         })
         .collect();

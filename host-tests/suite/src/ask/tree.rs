@@ -1,17 +1,19 @@
 //! Questions to the box tree.
 
-pub use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{
-    AnyHit, Facing, Hint, Near, SegmentEntry, Session, Side, TreeEntry, Verdict, all_hits as core_all_hits,
-    all_within as core_all_within, any_hit as core_any_hit, closest_point, closest_point_from,
-    first_hit as core_first_hit, is_within as core_is_within, nearest as core_nearest, signed_distance,
-};
-use meshsweep_core::query::{Hit, Stop};
+mod distance;
+mod sight;
 
-use super::{Refused, Subject, timed};
+pub use meshsweep_core::Tree;
+use meshsweep_core::query::Hit;
+use meshsweep_core::query::tree::{Hint, Near, SegmentEntry, Session, TreeEntry};
+
+use super::{Refused, Subject};
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
+
+pub use distance::{all_within, batch, closest, follow, is_within, nearest, session, signed, stopped};
+pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
 /// Entries of each stack.
 const STACK: usize = 64;
@@ -25,6 +27,7 @@ pub struct Scratch<'t> {
     near: [Near; 8],
     hint: Hint,
     session: Session<'t>,
+    facing: [u32; 64],
 }
 
 impl Scratch<'_> {
@@ -38,6 +41,7 @@ impl Scratch<'_> {
             near: [Near::EMPTY; 8],
             hint: Hint::NONE,
             session: Session::new(),
+            facing: [0; 64],
         }
     }
 }
@@ -103,6 +107,8 @@ impl<'t> Subject<'t> for Tree<'t> {
             Kind::Facing => facing(self, place.segment(), scratch, clock, fold),
             Kind::AnyHit => any_hit(self, place.segment(), scratch, clock, fold),
             Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
+            Kind::Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, clock, fold),
+            Kind::Cull => cull(self, place.far(), scratch, clock, fold),
         }
     }
 }
@@ -162,251 +168,5 @@ pub fn contents(tree: &Tree<'_>, fold: &mut Fold) {
             }
             leaf += 1;
         }
-    }
-}
-
-/// Closest point; returns the witness.
-pub fn closest(
-    tree: &Tree<'_>,
-    point: [f32; 3],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) -> [f32; 3] {
-    match timed(clock, || closest_point(tree, point, &Stop::EXACT, &mut scratch.stack)) {
-        Ok(answer) => {
-            super::closest_point(fold, &answer);
-            answer.point
-        }
-        Err(error) => {
-            super::refusal(fold, error);
-            point
-        }
-    }
-}
-
-/// Closest point, from where the last one was found.
-pub fn follow(
-    tree: &Tree<'_>,
-    point: [f32; 3],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let Scratch { stack, hint, .. } = scratch;
-    match timed(clock, || closest_point_from(tree, point, &Stop::EXACT, stack, hint)) {
-        Ok(answer) => super::closest_point(fold, &answer),
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// Closest point, by a session that remembers what the last answers ruled out.
-pub fn session<'t>(
-    tree: &Tree<'t>,
-    point: [f32; 3],
-    scratch: &mut Scratch<'t>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let Scratch { stack, session, .. } = scratch;
-    match timed(clock, || session.closest_point(tree, point, &Stop::EXACT, stack)) {
-        Ok(answer) => {
-            super::closest_point(fold, &answer.closest);
-            fold.f32(answer.safe_radius);
-        }
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// Closest point with a tolerance of a tenth, with one of `distance`, and with three nodes to open.
-pub fn stopped(
-    tree: &Tree<'_>,
-    point: [f32; 3],
-    distance: f32,
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let stops = [
-        Stop { relative: 0.1, ..Stop::EXACT },
-        Stop { absolute: distance, ..Stop::EXACT },
-        Stop { steps: 3, ..Stop::EXACT },
-    ];
-    for stop in &stops {
-        match timed(clock, || closest_point(tree, point, stop, &mut scratch.stack)) {
-            Ok(answer) => super::closest_point(fold, &answer),
-            Err(error) => super::refusal(fold, error),
-        }
-    }
-}
-
-/// Whether the surface is within a distance.
-pub fn is_within(
-    tree: &Tree<'_>,
-    point: [f32; 3],
-    distance: f32,
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    match timed(clock, || core_is_within(tree, point, distance, &Stop::EXACT, &mut scratch.stack)) {
-        Ok(answer) => {
-            let [kind, triangle] = match answer.verdict {
-                Verdict::Yes { triangle } => [1, triangle],
-                Verdict::No => [2, 0],
-                Verdict::Unknown => [3, 0],
-            };
-            fold.word(kind);
-            fold.word(triangle);
-            super::how(fold, answer.work, answer.ended);
-        }
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// The eight closest triangles.
-pub fn nearest(
-    tree: &Tree<'_>,
-    point: [f32; 3],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let Scratch { stack, near, .. } = scratch;
-    match timed(clock, || core_nearest(tree, point, &Stop::EXACT, near, stack)) {
-        Ok(answer) => {
-            found(fold, near.get(..answer.stored).unwrap_or_default());
-            fold.f32(answer.rest_lower);
-            super::how(fold, answer.work, answer.ended);
-        }
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// All triangles within a distance, as far as eight places hold them.
-pub fn all_within(
-    tree: &Tree<'_>,
-    point: [f32; 3],
-    distance: f32,
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let Scratch { stack, near, .. } = scratch;
-    match timed(clock, || core_all_within(tree, point, distance, &Stop::EXACT, near, stack)) {
-        Ok(answer) => {
-            found(fold, near.get(..answer.stored).unwrap_or_default());
-            fold.word(answer.certain as u32);
-            fold.word(answer.dropped);
-            super::how(fold, answer.work, answer.ended);
-        }
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// Distance with the sign of the side.
-pub fn signed(
-    tree: &Tree<'_>,
-    point: [f32; 3],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    match timed(clock, || signed_distance(tree, point, &Stop::EXACT, &mut scratch.stack)) {
-        Ok(answer) => {
-            fold.f32(answer.lower);
-            fold.f32(answer.upper);
-            fold.word(match answer.side {
-                Side::Outside => 1,
-                Side::Inside => 2,
-                Side::Undefined => 3,
-            });
-            super::closest_point(fold, &answer.closest);
-        }
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// First point of the segment from `a` to `b` on the surface.
-pub fn first_hit(
-    tree: &Tree<'_>,
-    ends: [[f32; 3]; 2],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    hit_of(tree, ends, Facing::Both, scratch, clock, fold);
-}
-
-/// First point of the segment from `a` to `b` on a triangle's front, then on a back.
-pub fn facing(
-    tree: &Tree<'_>,
-    ends: [[f32; 3]; 2],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    for facing in [Facing::Front, Facing::Back] {
-        hit_of(tree, ends, facing, scratch, clock, fold);
-    }
-}
-
-fn hit_of(
-    tree: &Tree<'_>,
-    [a, b]: [[f32; 3]; 2],
-    facing: Facing,
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    match timed(clock, || core_first_hit(tree, a, b, &facing, &mut scratch.segments)) {
-        Ok(answer) => super::segment_hit(fold, &answer),
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// Whether the segment from `a` to `b` meets the surface.
-pub fn any_hit(
-    tree: &Tree<'_>,
-    [a, b]: [[f32; 3]; 2],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    match timed(clock, || core_any_hit(tree, a, b, &Facing::Both, &mut scratch.segments)) {
-        Ok(answer) => fold.word(match answer {
-            AnyHit::Hit => 1,
-            AnyHit::Clear => 2,
-            AnyHit::Unknown => 3,
-        }),
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-/// Every point of the segment from `a` to `b` on the surface.
-pub fn all_hits(
-    tree: &Tree<'_>,
-    [a, b]: [[f32; 3]; 2],
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let Scratch { segments, hits, .. } = scratch;
-    match timed(clock, || core_all_hits(tree, a, b, &Facing::Both, hits, segments)) {
-        Ok(answer) => {
-            super::hits(fold, hits.get(..answer.stored).unwrap_or_default());
-            fold.word(answer.dropped);
-            super::how(fold, answer.work, answer.ended);
-        }
-        Err(error) => super::refusal(fold, error),
-    }
-}
-
-fn found(fold: &mut Fold, triangles: &[Near]) {
-    for near in triangles {
-        fold.f32(near.lower);
-        fold.f32(near.upper);
-        fold.point(near.point);
-        fold.word(near.triangle);
     }
 }

@@ -1,0 +1,69 @@
+//! Blobs and answers that are committed: whoever computes other bits, another machine or a later version, is noticed.
+
+use meshsweep_alloc::emit;
+use meshsweep_alloc::mesh::Mesh;
+use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep_suite::ask::{Refused, Subject, hull, tree};
+use meshsweep_suite::fold::Fold;
+use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
+
+use crate::generate::groove_block;
+
+/// The box tree of `groove_block()`, with every section that a tree can have.
+#[must_use]
+pub fn groove_tree() -> Vec<u8> {
+    let (positions, triangles) = groove_block();
+    let mesh = Mesh::new(positions, triangles);
+    let options = TreeOptions { cull: true, ..TreeOptions::default() };
+    let (tables, _) = build(&mesh, 0.0, mesh.triangles.len(), &options);
+    emit::blob(None, Some(&tables))
+}
+
+/// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash of all answers' bits.
+///
+/// # Errors
+/// The core's refusal of the blob.
+pub fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    answers::<hull::Model<'_>>(name, blob, &mut hull::Scratch::new())
+}
+
+/// The same for a blob's box tree.
+///
+/// # Errors
+/// The core's refusal of the blob.
+pub fn tree_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    answers::<tree::Tree<'_>>(name, blob, &mut tree::Scratch::new())
+}
+
+fn answers<'t, S: Subject<'t>>(
+    name: &str,
+    blob: &'t [u8],
+    scratch: &mut S::Scratch,
+) -> Result<String, Refused> {
+    let mut lines = Lines { name: name.to_owned(), fold: Fold::new(), text: String::new() };
+    run::<S>(blob, Plan::STANDARD, scratch, &mut lines)?;
+    Ok(lines.text)
+}
+
+struct Lines {
+    name: String,
+    fold: Fold,
+    text: String,
+}
+
+impl Clock for Lines {}
+
+impl Recorder for Lines {
+    fn kind_begins(&mut self, _kind: Kind) {
+        self.fold = Fold::new();
+    }
+
+    fn block(&mut self, _kind: Kind, _index: u32, hash: u64) {
+        hash.to_le_bytes().into_iter().for_each(|byte| self.fold.byte(byte));
+    }
+
+    fn kind_ends(&mut self, kind: Kind) {
+        let Self { name, fold, text } = self;
+        text.push_str(&format!("{name} {} {:016x}\n", kind.name(), fold.finish()));
+    }
+}

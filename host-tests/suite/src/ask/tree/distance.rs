@@ -1,0 +1,214 @@
+//! Distances: closest points, one and many, with a tolerance and with a sign.
+
+use meshsweep_core::query::tree::{
+    BatchError, Near, Side, Verdict, all_within as core_all_within, closest_point, closest_point_from,
+    closest_points, is_within as core_is_within, nearest as core_nearest, signed_distance,
+};
+use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work};
+
+use super::{Scratch, Tree};
+use crate::Clock;
+use crate::ask::{self, timed};
+use crate::fold::Fold;
+
+/// Closest point; returns the witness.
+pub fn closest(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) -> [f32; 3] {
+    match timed(clock, || closest_point(tree, point, &Stop::EXACT, &mut scratch.stack)) {
+        Ok(answer) => {
+            ask::closest_point(fold, &answer);
+            answer.point
+        }
+        Err(error) => {
+            ask::refusal(fold, error);
+            point
+        }
+    }
+}
+
+/// Closest point, from where the last one was found.
+pub fn follow(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { stack, hint, .. } = scratch;
+    match timed(clock, || closest_point_from(tree, point, &Stop::EXACT, stack, hint)) {
+        Ok(answer) => ask::closest_point(fold, &answer),
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Closest point, by a session that remembers what the last answers ruled out.
+pub fn session<'t>(
+    tree: &Tree<'t>,
+    point: [f32; 3],
+    scratch: &mut Scratch<'t>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { stack, session, .. } = scratch;
+    match timed(clock, || session.closest_point(tree, point, &Stop::EXACT, stack)) {
+        Ok(answer) => {
+            ask::closest_point(fold, &answer.closest);
+            fold.f32(answer.safe_radius);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Closest point with a tolerance of a tenth, with one of `distance`, and with three nodes to open.
+pub fn stopped(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    distance: f32,
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let stops = [
+        Stop { relative: 0.1, ..Stop::EXACT },
+        Stop { absolute: distance, ..Stop::EXACT },
+        Stop { steps: 3, ..Stop::EXACT },
+    ];
+    for stop in &stops {
+        match timed(clock, || closest_point(tree, point, stop, &mut scratch.stack)) {
+            Ok(answer) => ask::closest_point(fold, &answer),
+            Err(error) => ask::refusal(fold, error),
+        }
+    }
+}
+
+/// Whether the surface is within a distance.
+pub fn is_within(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    distance: f32,
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    match timed(clock, || core_is_within(tree, point, distance, &Stop::EXACT, &mut scratch.stack)) {
+        Ok(answer) => {
+            let [kind, triangle] = match answer.verdict {
+                Verdict::Yes { triangle } => [1, triangle],
+                Verdict::No => [2, 0],
+                Verdict::Unknown => [3, 0],
+            };
+            fold.word(kind);
+            fold.word(triangle);
+            ask::how(fold, answer.work, answer.ended);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// The eight closest triangles.
+pub fn nearest(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { stack, near, .. } = scratch;
+    match timed(clock, || core_nearest(tree, point, &Stop::EXACT, near, stack)) {
+        Ok(answer) => {
+            found(fold, near.get(..answer.stored).unwrap_or_default());
+            fold.f32(answer.rest_lower);
+            ask::how(fold, answer.work, answer.ended);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// All triangles within a distance, as far as eight places hold them.
+pub fn all_within(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    distance: f32,
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { stack, near, .. } = scratch;
+    match timed(clock, || core_all_within(tree, point, distance, &Stop::EXACT, near, stack)) {
+        Ok(answer) => {
+            found(fold, near.get(..answer.stored).unwrap_or_default());
+            fold.word(answer.certain as u32);
+            fold.word(answer.dropped);
+            ask::how(fold, answer.work, answer.ended);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Distance with the sign of the side.
+pub fn signed(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    match timed(clock, || signed_distance(tree, point, &Stop::EXACT, &mut scratch.stack)) {
+        Ok(answer) => {
+            fold.f32(answer.lower);
+            fold.f32(answer.upper);
+            fold.word(match answer.side {
+                Side::Outside => 1,
+                Side::Inside => 2,
+                Side::Undefined => 3,
+            });
+            ask::closest_point(fold, &answer.closest);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Queries of a batch.
+const BATCH: usize = 8;
+
+/// Closest points of eight points, in an order of the core's own.
+pub fn batch<'t>(
+    tree: &Tree<'t>,
+    points: &[[f32; 3]; BATCH],
+    scratch: &mut Scratch<'t>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    const NONE: ClosestPoint = ClosestPoint {
+        lower: 0.0,
+        upper: 0.0,
+        point: [0.0; 3],
+        triangle: None,
+        work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
+        ended: Ended::Exact,
+    };
+    let Scratch { stack, hint, .. } = scratch;
+    let (mut answers, mut order) = ([NONE; BATCH], [0u64; 2 * BATCH]);
+    match timed(clock, || closest_points(tree, points, &mut answers, &Stop::EXACT, stack, &mut order, hint)) {
+        Ok(()) => answers.iter().for_each(|answer| ask::closest_point(fold, answer)),
+        Err(BatchError::Query { index, error }) => {
+            fold.word(index as u32);
+            ask::refusal(fold, error);
+        }
+        Err(BatchError::Length { .. }) => fold.word(u32::MAX),
+    }
+}
+
+fn found(fold: &mut Fold, triangles: &[Near]) {
+    for near in triangles {
+        fold.f32(near.lower);
+        fold.f32(near.upper);
+        fold.point(near.point);
+        fold.word(near.triangle);
+    }
+}

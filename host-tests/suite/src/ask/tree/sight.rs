@@ -1,0 +1,106 @@
+//! Segments, and what faces an eye.
+
+use meshsweep_core::query::tree::{
+    AnyHit, Facing, FrontFacing, Sight, all_hits as core_all_hits, any_hit as core_any_hit,
+    first_hit as core_first_hit, front_facing,
+};
+
+use super::{Scratch, Tree};
+use crate::Clock;
+use crate::ask::{self, timed};
+use crate::fold::Fold;
+
+/// First point of the segment from `a` to `b` on the surface.
+pub fn first_hit(
+    tree: &Tree<'_>,
+    ends: [[f32; 3]; 2],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    hit_of(tree, ends, Facing::Both, scratch, clock, fold);
+}
+
+/// First point of the segment from `a` to `b` on a triangle's front, then on a back.
+pub fn facing(
+    tree: &Tree<'_>,
+    ends: [[f32; 3]; 2],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    for facing in [Facing::Front, Facing::Back] {
+        hit_of(tree, ends, facing, scratch, clock, fold);
+    }
+}
+
+fn hit_of(
+    tree: &Tree<'_>,
+    [a, b]: [[f32; 3]; 2],
+    facing: Facing,
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    match timed(clock, || core_first_hit(tree, a, b, &facing, &mut scratch.segments)) {
+        Ok(answer) => ask::segment_hit(fold, &answer),
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Whether the segment from `a` to `b` meets the surface.
+pub fn any_hit(
+    tree: &Tree<'_>,
+    [a, b]: [[f32; 3]; 2],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    match timed(clock, || core_any_hit(tree, a, b, &Facing::Both, &mut scratch.segments)) {
+        Ok(answer) => fold.word(match answer {
+            AnyHit::Hit => 1,
+            AnyHit::Clear => 2,
+            AnyHit::Unknown => 3,
+        }),
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Every point of the segment from `a` to `b` on the surface.
+pub fn all_hits(
+    tree: &Tree<'_>,
+    [a, b]: [[f32; 3]; 2],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { segments, hits, .. } = scratch;
+    match timed(clock, || core_all_hits(tree, a, b, &Facing::Both, hits, segments)) {
+        Ok(answer) => {
+            ask::hits(fold, hits.get(..answer.stored).unwrap_or_default());
+            fold.word(answer.dropped);
+            ask::how(fold, answer.work, answer.ended);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Triangles that may face an eye at `point`, then along the way to there from the origin.
+pub fn cull(
+    tree: &Tree<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    for sight in [Sight::From(point), Sight::Along(point)] {
+        match timed(clock, || front_facing(tree, &sight, &mut scratch.facing)) {
+            Ok(answer) => {
+                scratch.facing.iter().take(answer.stored).for_each(|&triangle| fold.word(triangle));
+                let FrontFacing { dropped, leaves, culled_leaves, culled, .. } = answer;
+                [dropped, leaves, culled_leaves, culled].into_iter().for_each(|count| fold.word(count));
+            }
+            Err(error) => ask::refusal(fold, error),
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The committed box tree and the committed answers: what the builder makes, and what this machine computes.
+
+use std::path::{Path, PathBuf};
+
+use meshsweep_core::Tree;
+use meshsweep_host_tests::golden::{groove_tree, hull_answers, tree_answers};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
+}
+
+fn read(name: &str) -> Vec<u8> {
+    std::fs::read(folder().join(name)).expect("the fixture is there")
+}
+
+#[test]
+fn committed_tree_is_what_the_builder_makes() {
+    assert!(
+        read("groove.msw") == groove_tree(),
+        "fixtures/groove.msw is out of date: run `cargo xtask fixtures`"
+    );
+}
+
+#[test]
+fn committed_tree_opens_with_every_triangle_and_every_section() {
+    let bytes = read("groove.msw");
+    let tree = Tree::open(&bytes).expect("opens");
+    assert_eq!(tree.header().triangles, tree.input_triangles());
+    assert!(tree.serves_distances() && tree.serves_segments() && tree.serves_culling());
+    assert!(tree.header().is_closed());
+}
+
+#[test]
+fn answers_have_the_committed_bits() {
+    let here = hull_answers("bracket.msw", &read("bracket.msw")).expect("opens")
+        + &tree_answers("groove.msw", &read("groove.msw")).expect("opens");
+    let committed = String::from_utf8(read("answers.txt")).expect("text");
+    for (here, committed) in here.lines().zip(committed.lines()) {
+        assert_eq!(here, committed, "other bits; if they are meant to be, run `cargo xtask fixtures`");
+    }
+    assert_eq!(here.lines().count(), committed.lines().count());
+}
