@@ -104,10 +104,9 @@ fn points_get_the_same_bits_from_eight_lanes() {
             let mut edges = Edges8 { e: anything, g: anything, s: anything };
             for lane in 0..patch.count() {
                 let which = patch.centre(lane);
-                for axis in 0..3 {
-                    edges.e[axis][lane] = spoke(lane, which)[axis];
-                    edges.g[axis][lane] = spoke(lane + 1, which)[axis];
-                    edges.s[axis][lane] = s[which][axis];
+                let sides = [spoke(lane, which), spoke(lane + 1, which), s[which]].map(|v| v.to_array());
+                for (rows, side) in [&mut edges.e, &mut edges.g, &mut edges.s].into_iter().zip(sides) {
+                    rows.iter_mut().zip(side).for_each(|(row, x)| row[lane] = x);
                 }
             }
             let wide = point_patch8(&edges, &LANES_BELOW[patch.count()]);

@@ -1,32 +1,27 @@
 //! The box tree as a program would use it: the blob read where it lies, stacks that the caller owns.
 
-use meshsweep_core::query::tree::{
-    Facing, Hint, SegmentEntry, TreeEntry, closest_point, closest_point_from, first_hit,
-};
+use meshsweep_core::query::tree::{Facing, Session, TreeEntry, closest_point, first_hit};
 use meshsweep_core::query::{ClosestPoint, SegmentHit, Stop};
 use meshsweep_core::{OpenError, Tree};
 
-/// Entries of each stack: what trees of so many triangles ask for, and some more.
+/// Entries of the stack: what trees of so many triangles ask for, and some more.
 const STACK: usize = 64;
+
+/// Entries of the session's front.
+const FRONT: usize = 64;
 
 /// An opened tree, and memory for its queries.
 pub struct BoxTree {
     tree: Tree<'static>,
     stack: [TreeEntry; STACK],
-    segments: [SegmentEntry; STACK],
-    hint: Hint,
+    session: Session<'static, FRONT>,
 }
 
 impl BoxTree {
     /// Opens a blob; all of it is checked.
     #[inline(never)]
     pub fn open(blob: &'static [u8]) -> Result<Self, OpenError> {
-        Ok(Self {
-            tree: Tree::open(blob)?,
-            stack: [TreeEntry::EMPTY; STACK],
-            segments: [SegmentEntry::EMPTY; STACK],
-            hint: Hint::NONE,
-        })
+        Ok(Self { tree: Tree::open(blob)?, stack: [TreeEntry::EMPTY; STACK], session: Session::new() })
     }
 
     /// Bytes that a query needs beside the processor's stack: the opened tree and the entries that the blob asks for. `None` if these
@@ -48,13 +43,13 @@ impl BoxTree {
     #[allow(dead_code, reason = "each image asks its own questions")]
     #[inline(never)]
     pub fn follow(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
-        closest_point_from(&self.tree, point, &Stop::EXACT, &mut self.stack, &mut self.hint).ok()
+        Some(self.session.closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack).ok()?.closest)
     }
 
     /// First hit of a segment.
     #[allow(dead_code, reason = "each image asks its own questions")]
     #[inline(never)]
     pub fn first_hit(&mut self, a: [f32; 3], b: [f32; 3]) -> Option<SegmentHit> {
-        first_hit(&self.tree, a, b, &Facing::Both, &mut self.segments).ok()
+        first_hit(&self.tree, a, b, &Facing::Both, &mut self.stack).ok()
     }
 }

@@ -142,7 +142,7 @@ impl<'a, 't> Follow<'a, 't> {
                 break;
             }
             self.front.rouse(self.bound + self.ahead);
-            self.looks += self.front.extent.count as u32 / 16;
+            self.looks += self.front.extent.count as u32 / 24;
         }
         if self.bound >= self.front.extent.dropped || self.best.at == usize::MAX {
             return Err(Gap::Lost);
@@ -207,7 +207,7 @@ impl<'a, 't> Follow<'a, 't> {
         let horizon = self.bound + self.ahead;
         if !self.front.has_room(WIDTH) {
             self.front.thin_out(entry.map_or(0, |i| i + 1), horizon);
-            self.looks += self.front.extent.count as u32 / 16;
+            self.looks += self.front.extent.count as u32 / 12;
         }
         if let Some(i) = entry {
             let lane = nearest.to_bits() & LANE_MASK;
@@ -262,6 +262,7 @@ impl<'a, 't> Follow<'a, 't> {
             let key = self.key_of_triangles(near.certified_sq);
             self.front.set(i, key, child);
             if key > self.bound {
+                self.looks += 1;
                 let (p, margin) = (self.probe.p, self.shortfall + self.off);
                 self.planes.put(child, &patch, p, self.way, near.lane(), margin);
             }

@@ -99,7 +99,7 @@ const RELIABLE: u32 = 64;
 /// More than what a root and a few products may be rounded by.
 const ROUNDING: f32 = 1.0 / 1_048_576.0;
 
-/// Whether the front pays. Cost is counted in half leaves, about 500 instructions, the same on every target.
+/// Whether the front pays. Cost is counted in half leaves, about 180 instructions with vectors and 250 without.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
     /// What a plain query costs here; 0 if none was asked yet.
@@ -150,7 +150,7 @@ impl Pace {
     /// A plain query was asked.
     #[inline(always)]
     fn plain_query(&mut self, work: &Work) {
-        let cost = BASE + work.splits + work.triangles / 3;
+        let cost = BASE + work.splits + work.splits / 3 + work.triangles * 2 / 7;
         self.plain = if self.plain == 0 { cost } else { (3 * self.plain + cost).div_ceil(4) };
     }
 }
@@ -271,7 +271,7 @@ impl Memory {
                 } else {
                     follow.nearest(last.known, 2 * pace.plain)
                 };
-                pace.spend(BASE + follow.front.extent.active as u32 / 3 + follow.looks, step);
+                pace.spend(BASE + follow.front.extent.active as u32 / 8 + follow.looks, step);
                 *spent = follow.work;
                 (last.known, last.second) = (false, 0.0);
                 let nearest = found?;

@@ -84,7 +84,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
             let answers = steps.run(&format!("{what}: {engine}"), || {
                 let image = race(&cross, engine, &course)?;
                 let answers = Answers::parse(&qemu.run(BOARD.machine, &image)?, &BOARD)?;
-                agree(&answers, &expected)?;
+                agree(&answers, &expected, grid(&course))?;
                 Ok(answers)
             });
             if let Some(answers) = answers {
@@ -92,6 +92,17 @@ pub fn run(steps: &mut Steps, options: &Options) {
             }
         }
     }
+}
+
+/// A unit of the finest grid of 16 bits that spans the mesh, or a little more.
+fn grid(course: &Course) -> f64 {
+    let positions = &course.subject.mesh.positions;
+    let extent = |axis: usize| {
+        let values = || positions.iter().map(|p| f64::from(p[axis]));
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    // Units are powers of two.
+    (0..3).map(extent).fold(0.0, f64::max) * 2.0 / f64::from(u16::MAX)
 }
 
 fn table(engine: &str, course: &Course, answers: &Answers) -> Table {
