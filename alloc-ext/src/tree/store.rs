@@ -43,7 +43,8 @@ pub(super) fn store(mesh: &Mesh, moved: f64, single: bool) -> OnGrid {
     let exponent = if extent > 0.0 { fitting.clamp(FINEST, 0) } else { FINEST };
     let step = exp2(exponent);
     let floor = (low / step).floor();
-    let origin = [floor.x as i32, floor.y as i32, floor.z as i32];
+    // Coordinates are below 2^24: the last u16 of that range begins here.
+    let origin = [floor.x, floor.y, floor.z].map(|low| (low as i32).min((1 << 24) - 0xFFFF));
     let mut error = 0f64;
     let positions = local
         .iter()
@@ -60,6 +61,7 @@ pub(super) fn store(mesh: &Mesh, moved: f64, single: bool) -> OnGrid {
         exponent,
         origin,
         positions,
-        surface_error: (error + before) * (1.0 + 1e-15),
+        // Room for what f32 does to it in a query (`core/docs/rounding.md` §9).
+        surface_error: (error + before) * (1.0 + 1e-6),
     }
 }

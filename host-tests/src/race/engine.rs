@@ -60,7 +60,7 @@ pub struct Entrant {
 pub const REFERENCE: &str = "parry3d";
 
 /// All engines, in the order of the tables.
-pub const ENTRANTS: [Entrant; 6] = [
+pub const ENTRANTS: [Entrant; 8] = [
     Entrant {
         name: REFERENCE,
         remark: "TriMesh: project_local_point, cast_local_ray",
@@ -78,6 +78,18 @@ pub const ENTRANTS: [Entrant; 6] = [
         remark: "closest_point, first_hit on the box tree, 16-bit grid",
         counted: true,
         build: tree::build,
+    },
+    Entrant {
+        name: "session",
+        remark: "Session of 128 entries on the same tree, along paths",
+        counted: true,
+        build: tree::build_session,
+    },
+    Entrant {
+        name: "batch",
+        remark: "closest_points on the same tree, Morton order included",
+        counted: true,
+        build: tree::build_batch,
     },
     Entrant {
         name: "tree single",

@@ -8,8 +8,10 @@ use std::hint::black_box;
 use meshsweep_alloc::emit;
 use meshsweep_alloc::tree::{TreeOptions, build as build_tree};
 use meshsweep_core::Tree;
-use meshsweep_core::query::Stop;
-use meshsweep_core::query::tree::{Facing, SegmentEntry, TreeEntry, closest_point, first_hit};
+use meshsweep_core::query::tree::{
+    Facing, Hint, Session, TreeEntry, closest_point, closest_points, first_hit,
+};
+use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work};
 
 use crate::measure::Subject;
 
@@ -21,7 +23,6 @@ struct Alone<'a> {
     bytes: usize,
     tree: Tree<'a>,
     stack: Vec<TreeEntry>,
-    waiting: Vec<SegmentEntry>,
     workloads: &'static [Workload],
 }
 
@@ -45,13 +46,7 @@ fn alone<'a>(
 ) -> Result<Option<Box<dyn Engine + 'a>>, String> {
     let (bytes, tree) = open(subject, options, blob)?;
     let entries = tree.header().stack_entries as usize;
-    Ok(Some(Box::new(Alone {
-        bytes,
-        tree,
-        stack: vec![TreeEntry::EMPTY; entries],
-        waiting: vec![SegmentEntry::EMPTY; entries],
-        workloads,
-    })))
+    Ok(Some(Box::new(Alone { bytes, tree, stack: vec![TreeEntry::EMPTY; entries], workloads })))
 }
 
 /// On every mesh.
@@ -97,9 +92,108 @@ impl Engine for Alone<'_> {
 
     fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
-            let found = black_box(first_hit(&self.tree, a, b, &Facing::Both, &mut self.waiting));
+            let found = black_box(first_hit(&self.tree, a, b, &Facing::Both, &mut self.stack));
             let found = found.map_err(|error| error.to_string())?;
             Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
         })
+    }
+}
+
+/// On paths, each query from where the one before ended.
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build_session<'a>(
+    subject: &Subject,
+    _: &Scope,
+    blob: &'a mut Vec<u8>,
+) -> Result<Option<Box<dyn Engine + 'a>>, String> {
+    let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
+    let stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+    Ok(Some(Box::new(Following { bytes, tree, stack })))
+}
+
+struct Following<'a> {
+    bytes: usize,
+    tree: Tree<'a>,
+    stack: Vec<TreeEntry>,
+}
+
+impl Engine for Following<'_> {
+    fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    fn limit(&self, workload: Workload) -> usize {
+        if matches!(workload, Workload::Path | Workload::Orbit) { usize::MAX } else { 0 }
+    }
+
+    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
+        let mut session = Session::<128>::new();
+        try_each(points, answers, |point| {
+            let found = black_box(session.closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack));
+            found.map(|found| Answer::Point(found.closest.point)).map_err(|error| error.to_string())
+        })
+    }
+
+    fn first_hits(&mut self, _: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
+        answers.clear();
+        Ok(())
+    }
+}
+
+/// All queries of a list at once, in Morton order where they come in none.
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build_batch<'a>(
+    subject: &Subject,
+    _: &Scope,
+    blob: &'a mut Vec<u8>,
+) -> Result<Option<Box<dyn Engine + 'a>>, String> {
+    let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
+    let stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+    Ok(Some(Box::new(Batched { bytes, tree, stack, order: Vec::new(), found: Vec::new() })))
+}
+
+struct Batched<'a> {
+    bytes: usize,
+    tree: Tree<'a>,
+    stack: Vec<TreeEntry>,
+    order: Vec<u64>,
+    found: Vec<ClosestPoint>,
+}
+
+impl Engine for Batched<'_> {
+    fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    fn limit(&self, workload: Workload) -> usize {
+        if matches!(workload, Workload::Far | Workload::Near | Workload::Field) { usize::MAX } else { 0 }
+    }
+
+    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
+        const NONE: ClosestPoint = ClosestPoint {
+            lower: 0.0,
+            upper: f32::INFINITY,
+            point: [0.0; 3],
+            triangle: None,
+            work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
+            ended: Ended::Steps,
+        };
+        self.found.resize(points.len(), NONE);
+        self.order.resize(2 * points.len(), 0);
+        let Self { tree, stack, order, found, .. } = self;
+        closest_points(tree, points, found, &Stop::EXACT, stack, order, &mut Hint::NONE.clone())
+            .map_err(|error| error.to_string())?;
+        answers.clear();
+        answers.extend(self.found.iter().map(|found| Answer::Point(found.point)));
+        Ok(())
+    }
+
+    fn first_hits(&mut self, _: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
+        answers.clear();
+        Ok(())
     }
 }

@@ -156,7 +156,8 @@ fn approach(units: Units, [a, b]: [Vec3; 2], [low, high]: [Vec3; 2], size: f32) 
     let (mut enter, mut leave) = (0f32, 1f32);
     for axis in 0..3 {
         let (a, d) = (a.to_array()[axis], direction.to_array()[axis]);
-        let (low, high) = (low.to_array()[axis] - pad - a, high.to_array()[axis] + pad - a);
+        // In this order the rounding is that of the way, wherever the model lies.
+        let (low, high) = (low.to_array()[axis] - a - pad, high.to_array()[axis] - a + pad);
         if d.abs() > STILL {
             let (low, high) = (low / d, high / d);
             let (near, far) = if low < high { (low, high) } else { (high, low) };

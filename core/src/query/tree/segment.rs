@@ -383,6 +383,9 @@ fn settle<C: Collect>(
         if crossing.lower < bound {
             crossing.lower = bound;
         }
+        if crossing.t < bound {
+            crossing.t = bound;
+        }
         collect.meet(&crossing, node, child, lane);
         if crossing.certain {
             settled = true;
