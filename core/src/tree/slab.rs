@@ -112,6 +112,7 @@ pub(super) fn wide(Sides([x, y, z]): &Sides<'_>, count: u32, from: f32, limit: f
 pub(super) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
+        let lane = lane & (WIDTH - 1);
         let (mut enter, mut leave) = (from, limit);
         let overlaps = axes.iter().all(|axis| {
             enter = greater(f32::from(axis.near[lane]) * axis.step + axis.enter, enter);

@@ -88,14 +88,20 @@ pub fn closest_points(
         }
         return Ok(());
     }
-    for (number, (points, answers)) in points.chunks(piece).zip(answers.chunks_mut(piece)).enumerate() {
-        let (codes, spare) = order.split_at_mut(piece);
-        for entry in in_morton_order(points, codes, spare) {
+    let (mut points, mut answers, mut done) = (points, answers, 0);
+    // Not `chunks`, which divides by a length that only we know is not 0.
+    while !points.is_empty() {
+        let here = piece.min(points.len());
+        let split = (points.split_at_checked(here), answers.split_at_mut_checked(here));
+        let (Some((now, later)), Some((slots, rest))) = split else { break };
+        let Some((codes, spare)) = order.split_at_mut_checked(piece) else { break };
+        for entry in in_morton_order(now, codes, spare) {
             let index = *entry as u32 as usize;
-            if let (Some(point), Some(answer)) = (points.get(index), answers.get_mut(index)) {
-                *answer = ask(*point).map_err(|error| refused(number * piece + index, error))?;
+            if let (Some(point), Some(answer)) = (now.get(index), slots.get_mut(index)) {
+                *answer = ask(*point).map_err(|error| refused(done + index, error))?;
             }
         }
+        (points, answers, done) = (later, rest, done + here);
     }
     Ok(())
 }
