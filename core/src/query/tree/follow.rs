@@ -107,13 +107,18 @@ impl<'a, 't> Follow<'a, 't> {
         }
     }
 
-    /// The nearest triangle, from the root.
+    /// The nearest triangle, from the root. There is one within `reach`, as far as an answer's interval can tell.
     #[cold]
     #[inline(never)]
-    pub(super) fn begin(&mut self, budget: u32) -> Result<Nearest, Gap> {
+    pub(super) fn begin(&mut self, reach: f32, budget: u32) -> Result<Nearest, Gap> {
         self.front.clear();
+        let reach = reach * (1.0 + 1.0 / 1024.0) + self.off;
+        let bound = self.horizon(reach * reach);
+        self.bound = bound;
         self.open(0, None)?;
-        self.nearest(false, budget)
+        let nearest = self.nearest(false, budget)?;
+        // What was passed over lies beyond the first bound.
+        if self.bound <= bound { Ok(nearest) } else { Err(Gap::Lost) }
     }
 
     /// The nearest triangle, first of all among those of the first entry if `first`. At most `budget` nodes and leaves.

@@ -2,7 +2,7 @@
 //!
 //! An entry's key is its bound plus the path length at the time when it was found. A query that has moved on since can have come nearer
 //! by no more than the path that it has travelled since, so that *key − path* stays a lower bound and nothing needs to be touched or sorted
-//! (Guéziec 2001, 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the others the least key is known,
+//! (Guéziec 2000, 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the others the least key is known,
 //! so that most queries never look at them.
 
 /// A child of a node, and what is known of it, in 32 bits: 24 of node (a blob has no more), 5 of which two say what is known, 3 of lane.

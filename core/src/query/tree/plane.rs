@@ -2,7 +2,7 @@
 //!
 //! That a leaf lies beyond a plane does not depend on where the query is. So a plane across the way to a leaf bounds the leaf's distance
 //! wherever the query goes, and as the query moves by a step it loses only a part of the order of the step's square, where path length
-//! (Guéziec 2001, 5.1) loses the whole step. One plane costs as much as half a leaf, asking it six products.
+//! (Guéziec 2000, 5.1) loses the whole step. One plane costs as much as half a leaf, asking it six products.
 
 use super::front::Child;
 use super::shape::SHORTFALL;

@@ -1,6 +1,6 @@
 //! Closest points of a query that moves little from one time to the next.
 //!
-//! After Guéziec, *"Meshsweeper": From Closest Point to Hausdorff Distances Between Meshes* (2001), sections 3.3 and 5.1, on the box tree.
+//! After Guéziec, *"Meshsweeper": From Closest Point to Hausdorff Distances Between Meshes* (2000), sections 3.3 and 5.1, on the box tree.
 
 use super::closest::{Hint, closest_point, closest_point_from};
 use super::follow::{Follow, Gap, Nearest};
@@ -179,6 +179,8 @@ struct Last {
     lane: usize,
     child: Child,
     triangle: Option<u32>,
+    /// If it was the plain query's: the surface is not farther than this, grid units.
+    reach: f32,
     /// No other triangle has a lesser key; 0 if that was not found out.
     second: f32,
 }
@@ -188,7 +190,15 @@ impl Memory {
         of: (0, 0),
         extent: Extent::EMPTY,
         planes: Planes::EMPTY,
-        last: Last { p: Vec3::ZERO, known: false, lane: 0, child: Child::NONE, triangle: None, second: 0.0 },
+        last: Last {
+            p: Vec3::ZERO,
+            known: false,
+            lane: 0,
+            child: Child::NONE,
+            triangle: None,
+            reach: f32::INFINITY,
+            second: 0.0,
+        },
         hint: Hint::NONE,
         pace: Pace::EMPTY,
     };
@@ -235,6 +245,7 @@ impl Memory {
         }
         let mut closest = closest_point_from(tree, point, stop, stack, &mut self.hint)?;
         self.pace.plain_query(&closest.work);
+        self.last.reach = probe.units.inward(closest.upper) + probe.units.surface_error;
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
         closest.work.triangles = closest.work.triangles.saturating_add(spent.triangles);
         closest.work.splits = closest.work.splits.saturating_add(spent.splits);
@@ -267,7 +278,7 @@ impl Memory {
             Some(nearest) => nearest,
             None => {
                 let found = if fresh {
-                    follow.begin(4 * pace.plain)
+                    follow.begin(last.reach + step, 4 * pace.plain)
                 } else {
                     follow.nearest(last.known, 2 * pace.plain)
                 };
