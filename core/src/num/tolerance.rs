@@ -61,15 +61,15 @@ pub const TREE_FAN: f32 = 32.0;
 pub const TREE_RELATIVE: f32 = 16.0;
 
 /// Rounding of a box bound of the tree, in units of [`U32`] times the 1-norm of the way to the farthest corner of the model's box.
-/// Proved: 10 (§8). Larger visits more.
+/// Proved: 11.3 (§8). Larger visits more.
 pub const TREE_BOX: f32 = 16.0;
 
 /// A certified square less than the best square by more than this part, 2^-18, counts as weak and is looked at again. The lower end of an
 /// interval is lower by half of that part.
 pub const TREE_WEAK: f32 = 1.0 - 1.0 / 262_144.0;
 
-/// What a certified square may moreover fall short by on a u16 grid, where vertices moved by up to 0.87 units anyway: 4 square units. It
-/// costs the interval 2/D units at distance D and spares nearly every second look. 0 with exact vertices.
+/// What a certified square may moreover fall short by on a u16 grid, where vertices moved by up to 0.87 units anyway: 1 square unit. It
+/// costs the interval 1/(2D) units at distance D and spares nearly every second look. 0 with exact vertices.
 pub const TREE_SHORT: f32 = 1.0;
 
 /// What is added to the sine of a cone of normals before a leaf counts as back-facing, 2^-19. The way to the eye, its product with the axis and the

@@ -1,6 +1,6 @@
 //! Closest point on the box tree.
 
-use super::interval::{nearness, seen_from, settled};
+use super::interval::{distance_of_box, nearness, seen_from, settled};
 use super::leaf::{Lanes, NearestOf, nearest_triangle, nearest_within};
 use super::probe::{Probe, at_least, at_most, bounds};
 use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
@@ -110,7 +110,7 @@ impl<'a> Closest<'a> {
             stop,
             limit: NOTHING_YET,
             beyond: NOTHING_YET,
-            best: Best { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lanes: Lanes::NONE },
+            best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
             weak: f32::NEG_INFINITY,
             certified: f32::INFINITY,
             tolerant: stop.relative > 0.0 || stop.absolute > 0.0,
@@ -123,6 +123,9 @@ impl<'a> Closest<'a> {
         let near = nearest_triangle(patch, self.probe.p)?;
         self.beyond = self.probe.limit(near.distance_sq);
         self.limit = self.beyond;
+        // Farther leaves do not count, on whichever target they are told to be beyond the limit before they are computed.
+        self.best.distance_sq = near.distance_sq;
+        self.weak = self.probe.weak(near.distance_sq);
         Some(())
     }
 
@@ -138,7 +141,8 @@ impl<'a> Closest<'a> {
     #[inline(always)]
     fn improve(&mut self, near: &NearestOf, visit: &Visit<'_>) {
         let distance_sq = near.distance_sq;
-        if distance_sq == self.best.distance_sq && self.comes_later(visit) {
+        let known = self.best.node != u32::MAX;
+        if distance_sq == self.best.distance_sq && known && self.comes_later(visit) {
             return;
         }
         self.best = Best { distance_sq, node: visit.node, child: visit.lane, lanes: near.lanes };
@@ -164,6 +168,7 @@ impl<'a> Closest<'a> {
     #[inline(never)]
     fn certify(&mut self, visit: &Visit<'_>) {
         let probe = self.probe;
+        let box_sq = square(distance_of_box(probe, visit.key));
         for lane in 0..visit.patch.tag().triangles() {
             let seen = seen_from(&visit.patch, lane, probe.p);
             let near = nearness(&seen);
@@ -183,8 +188,8 @@ impl<'a> Closest<'a> {
             }
             let [s, e, g] = seen;
             let lower = certified_distance(s, e, g);
-            let lower_sq = lower * lower;
-            let lower_sq = if lower_sq > visit.key { lower_sq } else { visit.key };
+            let lower_sq = square(lower);
+            let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
             if lower_sq < self.certified {
                 self.certified = lower_sq;
             }
@@ -202,7 +207,7 @@ impl<'a> Closest<'a> {
         let mut ended = Ended::Exact;
         if let Descent::Short { least, steps } = descent {
             ended = if steps { Ended::Steps } else { Ended::Capacity };
-            least_sq = least_sq.min(least);
+            least_sq = least_sq.min(square(distance_of_box(self.probe, least)));
         }
         if node == u32::MAX {
             let mut answer = from_afar(self.tree, self.point, self.probe)?;
@@ -289,6 +294,10 @@ fn from_afar(tree: &Tree<'_>, point: [f32; 3], probe: &Probe) -> Result<ClosestP
         work: Work::default(),
         ended: Ended::Exact,
     })
+}
+
+fn square(x: f32) -> f32 {
+    x * x
 }
 
 const POWER_40: f32 = (1u64 << 40) as f32;

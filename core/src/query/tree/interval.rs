@@ -81,9 +81,14 @@ pub(super) fn limit_of(probe: &Probe, distance: f32) -> f32 {
     if limit < EVERYTHING { limit } else { EVERYTHING }
 }
 
-/// What a box's squared bound says of the distance to the input mesh, input units. Unlike a triangle's distance it carries the rounding of
-/// boxes, whose 2100-fold square is the limit's allowance.
+/// Distance, grid units, that a box's squared bound stands for, but for the rounding that [`Probe::lower`] takes off. Unlike a triangle's it carries the
+/// rounding of boxes, whose 2100-fold square is the limit's allowance.
+pub(super) fn distance_of_box(probe: &Probe, key: f32) -> f32 {
+    let distance = root(key) - root(probe.limit(0.0)) * (1.0 / 45.0);
+    if distance > 0.0 { distance } else { 0.0 }
+}
+
+/// What it says of the distance to the input mesh, input units.
 pub(super) fn lower_of_box(probe: &Probe, key: f32) -> f32 {
-    let rounding = root(probe.limit(0.0)) * (1.0 / 45.0);
-    probe.lower(root(key) - rounding)
+    probe.lower(distance_of_box(probe, key))
 }

@@ -137,7 +137,8 @@ mod narrow {
         p: Vec3,
         limit: f32,
     ) -> Option<NearestOf> {
-        let mut nearest = NearestOf { distance_sq: f32::MAX, certified_sq: f32::MAX, lanes: Lanes::NONE };
+        let mut nearest =
+            NearestOf { distance_sq: f32::INFINITY, certified_sq: f32::INFINITY, lanes: Lanes::NONE };
         if patch.is_single() {
             single(patch, p, &mut nearest);
         } else {
