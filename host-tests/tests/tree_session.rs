@@ -184,7 +184,6 @@ fn a_walk_around_is_followed_with_little_work() {
     let plain: u32 =
         points.iter().map(|&p| closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap().work.splits).sum();
     assert!(opened < plain / 10, "{opened} nodes against {plain}");
-    assert!(followed.iter().any(|f| f.safe_radius > 0.0));
 }
 
 #[test]

@@ -11,8 +11,8 @@ const PIECE: usize = 1 << 18;
 /// Closest points of all `points`, in their order: the bits of [`closest_point`](questions::closest_point) but for `work`, which depends on where the
 /// query before ended, and so on the number of threads.
 ///
-/// Each thread takes a run of neighbouring queries and asks them in Morton order (see [`closest_points`](questions::closest_points)); points in order
-/// already, as those of a grid, should come in runs of rows. Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
+/// Each thread takes a run of successive queries. If they are a path, or a grid row by row, it asks them as they come, else in Morton order (see
+/// [`closest_points`](questions::closest_points)). Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
 ///
 /// # Errors
 /// [`BatchError::Query`], with the least index that is refused.
@@ -34,7 +34,8 @@ pub fn closest_points(
     let run = points.len().div_ceil(threads.get()).max(1);
     let ask = |number: usize, points: &[[f32; 3]], answers: &mut [ClosestPoint]| {
         let mut stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
-        let mut order = vec![0; 2 * points.len().min(PIECE)];
+        let sorted = if is_coherent(points) { 0 } else { points.len().min(PIECE) };
+        let mut order = vec![0; 2 * sorted];
         let mut hint = Hint::NONE;
         let asked = questions::closest_points(tree, points, answers, stop, &mut stack, &mut order, &mut hint);
         asked.map_err(|error| match error {
@@ -56,6 +57,20 @@ pub fn closest_points(
         running.into_iter().map(join).find_map(Result::err)
     });
     first_error.map_or(Ok(answers), Err)
+}
+
+/// Whether each query is near the one before: a sixteenth of the box of all, on average, in 1-norms.
+fn is_coherent(points: &[[f32; 3]]) -> bool {
+    let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
+    let wide = |p: &[f32; 3]| p.map(f64::from);
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for point in points {
+        for (k, x) in wide(point).into_iter().enumerate() {
+            (low[k], high[k]) = (low[k].min(x), high[k].max(x));
+        }
+    }
+    let path: f64 = points.windows(2).map(|pair| apart(wide(&pair[0]), wide(&pair[1]))).sum();
+    path * 16.0 <= apart(low, high) * points.len() as f64
 }
 
 /// A thread's panic is the caller's.

@@ -65,16 +65,23 @@ pub struct TreeReport {
     pub time: Duration,
 }
 
+/// Most triangles of a tree: with more, node numbers and the offsets of source numbers could outgrow the format.
+pub const MAX_TRIANGLES: usize = 1 << 24;
+
 /// Builds the box tree of any triangle soup.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were.
 /// Every triangle is kept, also one that the grid makes degenerate. Cost: O(n log n), about a microsecond a triangle and step.
+///
+/// # Panics
+/// On a mesh of more than [`MAX_TRIANGLES`].
 pub fn build(
     mesh: &Mesh,
     moved: f64,
     input_triangles: usize,
     options: &TreeOptions,
 ) -> (TreeTables, TreeReport) {
+    assert!(mesh.triangles.len() <= MAX_TRIANGLES, "more than 2^24 triangles");
     let started = Instant::now();
     let grid = store(mesh, moved, options.single);
     let patches = fan::pack(&mesh.triangles, &grid.positions);

@@ -23,7 +23,7 @@ mod store;
 
 pub use batch::closest_points;
 pub use boxes::{LANES, NodeBoxes, axis_aligned};
-pub use build::{TreeOptions, TreeReport, build};
+pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
 pub use encode::TreeTables;
 pub use fit::{axis_aligned_boxes, shared_frames};
 pub use frame::{FrameOptions, shared_frame, shared_frame_with};

@@ -235,7 +235,14 @@ impl<'a> Tree<'a> {
                     _ => (0.0..=MAX_WEIGHT).contains(&x),
                 }
             });
-            if !sound {
+            // A step is worth no more than its length: squares of distances then stay in f32's range.
+            let mut f = [0f32; 15];
+            f.iter_mut().zip(words.iter().skip(12)).for_each(|(x, word)| *x = f32::from_le_bytes(*word));
+            let [a, b, c, d, e, g, h, i, j, _, _, _, u, v, w] = f;
+            let short = |x: f32, y: f32, z: f32, weight: f32| {
+                (x * x) * weight + (y * y) * weight + (z * z) * weight <= 1.0 + 16.0 * U32
+            };
+            if !(sound && short(a, b, c, u) && short(d, e, g, v) && short(h, i, j, w)) {
                 return Err(OpenError::Record { section: SectionKind::TreeFrames, index });
             }
         }

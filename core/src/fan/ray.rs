@@ -19,11 +19,11 @@ use glam::Vec3;
 const SHEAR: f32 = 16.0;
 
 /// Rounding of a parameter, in units of [`U32`] times the greatest parameter of the triangle's corners, and of the segment's far end. Proved:
-/// 21 (§9).
+/// 21.6 (§9).
 const PARAMETER: f32 = 24.0;
 
 /// What underflow may take from a cross product: nothing that is computed there loses more than 2^-147.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE;
+pub(super) const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 /// A component of a direction, grid units, that counts as 0: the way along it is lost in any rounding (2^-80).
 pub const STILL: f32 = TREE_TINY / (1u32 << 20) as f32;

@@ -4,7 +4,7 @@
 //! are flagged, so what decides about them is scalar.
 
 use super::WIDTH;
-use super::ray::FanRay;
+use super::ray::{FanRay, UNDERFLOW};
 
 /// Ring vertices of the triangles of a patch, grid units, in the order of [`FanRay::axes`]. `[axis][lane]`.
 #[derive(Clone, Copy, Debug)]
@@ -16,9 +16,6 @@ pub struct Ring8 {
     /// Both centres, alike if there is one fan.
     pub centres: [[f32; 3]; 2],
 }
-
-/// What underflow may take from a cross product.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 #[inline(always)]
 fn blend(mask: u32, first: f32, second: f32) -> f32 {

@@ -1,4 +1,4 @@
-//! Every tolerance of the crate, in one place. Derivations: `core/docs/rounding.md`, whose section each constant names.
+//! The tolerances that guarantees rest on, in one place. Derivations: `core/docs/rounding.md`, whose section each constant names.
 //!
 //! All of them are relative: multiplied by lengths of the model and the query at hand, or in the local frame, where the
 //! model's largest coordinate lies in [½, 1).

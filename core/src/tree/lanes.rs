@@ -73,7 +73,8 @@ fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
     let beyond = q - f32::from(high);
     let far = if below > beyond { below } else { beyond };
     let far = if far > 0.0 { far } else { 0.0 };
-    far * far * weight
+    // In this order no product leaves f32's range: a flat node's steps are tiny, and far away there are many.
+    far * (far * weight)
 }
 
 #[inline(always)]
@@ -105,22 +106,22 @@ fn along(low: &[u8; WIDTH], high: &[u8; WIDTH], q: f32, weight: f32, count: usiz
         // Outside of all boxes on this axis: one side alone counts.
         for (sum, &low) in sum.zip(low) {
             let out = f32::from(low) - q;
-            *sum += out * out * weight;
+            *sum += out * (out * weight);
         }
     } else if q >= 255.0 {
         for (sum, &high) in sum.zip(high) {
             let out = q - f32::from(high);
-            *sum += out * out * weight;
+            *sum += out * (out * weight);
         }
     } else {
         let whole = q as i32;
         for ((sum, &low), &high) in sum.zip(low).zip(high) {
             if i32::from(low) > whole {
                 let out = f32::from(low) - q;
-                *sum += out * out * weight;
+                *sum += out * (out * weight);
             } else if i32::from(high) <= whole {
                 let out = q - f32::from(high);
-                *sum += out * out * weight;
+                *sum += out * (out * weight);
             }
         }
     }

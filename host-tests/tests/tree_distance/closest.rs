@@ -2,9 +2,9 @@
 
 use super::scene::{STACK, Scene, all, stack};
 use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Hint, closest_point, closest_point_from};
+use meshsweep_core::query::tree::{Hint, Verdict, closest_point, closest_point_from, is_within};
 use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop};
-use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere, scaled, torus};
+use meshsweep_host_tests::generate::{Rng, Triangles, cube, icosphere, rough_sphere, scaled, torus};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_triangle};
 use proptest::prelude::*;
 
@@ -123,6 +123,10 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
     for scene in all() {
         let tree = scene.tree();
         let size = scene.size();
+        // What is pruned at a tolerance is pruned by its box, whose rounding counts in model sizes.
+        let boxes = |answer: &ClosestPoint| {
+            64.0 * f64::from(f32::EPSILON) * (f64::from(answer.upper) + 3.0 * f64::from(size))
+        };
         for p in scene.points(POINTS / 3, 16) {
             let truth = scene.truth(p);
             for entries in [1, 2, 3, 8, 16, STACK] {
@@ -138,8 +142,9 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
             for relative in [1e-6, 0.01, 0.5, 100.0] {
                 let answer = ask(&tree, p, &Stop { relative, ..Stop::EXACT }, STACK);
                 contains(&scene, p, &answer, truth);
+                let boxes = boxes(&answer);
                 let allowed = f64::from(answer.lower) * f64::from(relative)
-                    + scene.width(f64::from(answer.upper)) * (1.0 + f64::from(relative));
+                    + (scene.width(f64::from(answer.upper)) + boxes) * (1.0 + f64::from(relative));
                 assert!(
                     f64::from(answer.upper) - f64::from(answer.lower) <= allowed * 1.001,
                     "{}: {p:?} {relative}: {answer:?}",
@@ -149,7 +154,7 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
             for absolute in [size * 1e-6, size * 0.01, size] {
                 let answer = ask(&tree, p, &Stop { absolute, ..Stop::EXACT }, STACK);
                 contains(&scene, p, &answer, truth);
-                let allowed = f64::from(absolute) + scene.width(f64::from(answer.upper));
+                let allowed = f64::from(absolute) + scene.width(f64::from(answer.upper)) + boxes(&answer);
                 assert!(
                     f64::from(answer.upper) - f64::from(answer.lower) <= allowed,
                     "{}: {p:?} {absolute:e}: {answer:?}",
@@ -248,4 +253,45 @@ proptest! {
             contains(&scene, p, &ask(&scene.tree(), p, &Stop::EXACT, STACK), scene.truth(p));
         }
     }
+}
+
+/// Nodes that are flat in their frame have steps of 2^-36 units: their number from far away, squared, is beyond f32.
+#[test]
+fn flat_parts_are_right_from_any_distance() {
+    for single in [false, true] {
+        for (name, mesh) in [("cube", cube(6)), ("plate", plate(12))] {
+            let scene = Scene::new(name, mesh, single);
+            let tree = scene.tree();
+            let mut rng = Rng::new(90);
+            for power in 4..24 {
+                for _ in 0..6 {
+                    let far = scene.size() * 2f32.powi(power);
+                    let p = rng.direction().map(|x| x * far);
+                    let truth = scene.truth(p);
+                    let answer = ask(&tree, p, &Stop::EXACT, STACK);
+                    contains(&scene, p, &answer, truth);
+                    let twice = (2.0 * truth.upper) as f32;
+                    let within =
+                        is_within(&tree, p, twice, &Stop::EXACT, &mut stack(STACK)).expect("finite").verdict;
+                    assert!(matches!(within, Verdict::Yes { .. }), "{}: {p:?}: {within:?}", scene.name);
+                    let half = (0.5 * truth.lower) as f32;
+                    let within = is_within(&tree, p, half, &Stop::EXACT, &mut stack(STACK)).expect("finite");
+                    assert_eq!(within.verdict, Verdict::No, "{}: {p:?}", scene.name);
+                }
+            }
+        }
+    }
+}
+
+/// A square of `n`² cells in the plane z = 0.
+fn plate(n: u32) -> Triangles {
+    let at = |i: u32| 2.0 * i as f32 / n as f32 - 1.0;
+    let positions = (0..=n).flat_map(|j| (0..=n).map(move |i| [at(i), at(j), 0.0])).collect();
+    let corner = |i: u32, j: u32| j * (n + 1) + i;
+    let cell = |i: u32, j: u32| {
+        let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let triangles = (0..n).flat_map(|j| (0..n).flat_map(move |i| cell(i, j))).collect();
+    (positions, triangles)
 }

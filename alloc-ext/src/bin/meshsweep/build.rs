@@ -42,6 +42,10 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         single: args.vertex_bits.is_single(),
         ..TreeOptions::default()
     };
+    let triangles = loaded.mesh.triangles.len();
+    if wanted.tree() && triangles > tree::MAX_TRIANGLES {
+        return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
+    }
     let tree =
         wanted.tree().then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
     let bytes = emit::blob(hull.as_ref().map(|hull| &hull.tables), tree.as_ref().map(|(tables, _)| tables));

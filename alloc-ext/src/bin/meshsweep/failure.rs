@@ -44,6 +44,8 @@ pub enum Failure {
     HullEngine { file: PathBuf, reason: &'static str },
     /// Sides are asked of a mesh that bounds no solid.
     NotClosed { file: PathBuf },
+    /// The mesh has more triangles than a blob can hold.
+    TooLarge { file: PathBuf, triangles: usize },
     /// A grid reaches beyond f32.
     GridTooLarge { file: PathBuf },
     /// A query line has too few or too many fields.
@@ -182,6 +184,12 @@ impl fmt::Display for Failure {
                 f,
                 "{}: was built from a mesh that is not closed, so inside and outside are not defined; leave out --signed",
                 file.display()
+            ),
+            Failure::TooLarge { file, triangles } => write!(
+                f,
+                "{}: {triangles} triangles are more than the {} that a box tree holds; split the mesh",
+                file.display(),
+                meshsweep_alloc::tree::MAX_TRIANGLES
             ),
             Failure::GridTooLarge { file } => write!(
                 f,

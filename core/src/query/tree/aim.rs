@@ -9,7 +9,7 @@ use crate::tree::Slabs;
 use glam::Vec3;
 
 /// Rounding of the parameter at which a segment enters a box, in units of [`U32`] times the way to the farthest corner along that axis.
-/// Proved: 27.5 (`core/docs/rounding.md` §9). Larger visits more.
+/// Proved: 28 (`core/docs/rounding.md` §9). Larger visits more.
 const SLAB: f32 = 32.0;
 
 /// How many extents of the model its farthest corner may be away from a segment's start before the start is moved nearer. There the strip along

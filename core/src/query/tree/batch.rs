@@ -46,7 +46,8 @@ impl core::error::Error for BatchError {}
 ///
 /// A query with a tolerance or a step budget, or a stack on which not everything fits, is answered on its own: where it stops depends on where it begins.
 ///
-/// Cost: that of the queries; random ones around a model take about a third less than one at a time, sorting included.
+/// Cost: that of the queries. Measured, sorting included: random ones around a model of 270,000 triangles take a fifth less than one at a time, next to
+/// its surface a tenth less; where the tree fits the cache sorting gains nothing. A grid row by row, as it comes, takes a tenth less.
 ///
 /// # Errors
 /// [`BatchError`].

@@ -190,6 +190,8 @@ impl<'a> Closest<'a> {
             let lower = certified_distance(s, e, g);
             let lower_sq = square(lower);
             let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
+            // Not less than what it counts for beside a farther best, where it is not weak.
+            let lower_sq = if lower_sq > near.certified_sq { lower_sq } else { near.certified_sq };
             if lower_sq < self.certified {
                 self.certified = lower_sq;
             }
@@ -200,7 +202,12 @@ impl<'a> Closest<'a> {
     fn answer(&self, descent: Descent, work: Work, hint: &mut Hint) -> Result<ClosestPoint, QueryError> {
         let Best { distance_sq, node, child, lanes } = self.best;
         // What is not weak is certified to this part of the best square, and no more.
-        let mut least_sq = if self.weak > 0.0 { self.weak } else { 0.0 };
+        let mut least_sq = match self.weak {
+            weak if weak > 0.0 => weak,
+            // No leaf was looked at.
+            f32::NEG_INFINITY => f32::MAX,
+            _ => 0.0,
+        };
         if self.certified < least_sq {
             least_sq = self.certified;
         }
@@ -219,7 +226,8 @@ impl<'a> Closest<'a> {
         let mut least = root(least_sq);
         if self.tolerant {
             let absolute = self.probe.units.inward(self.stop.absolute);
-            least = least.min((distance / (1.0 + self.stop.relative)).min(distance - absolute).max(0.0));
+            let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute).max(0.0);
+            least = least.min(distance_of_box(self.probe, wanted * wanted));
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
         let (lane, v, w) = lanes.at(distance_sq);

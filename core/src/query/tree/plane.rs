@@ -13,7 +13,7 @@ use crate::num::root;
 use crate::tree::{WIDE, in_memory};
 use glam::Vec3;
 
-/// Planes that a session holds: a power of two. A sixth of them would do for a point next to a surface.
+/// Planes that a session holds: a power of two.
 const PLANES: usize = 32;
 
 /// More than what the length of a scaled normal may be rounded by.
