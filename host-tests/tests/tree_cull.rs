@@ -1,4 +1,4 @@
-//! No triangle that faces the eye is ever culled: against every triangle, in exact integers.
+//! No triangle that faces the eye is ever culled: against every triangle, in f64, but for triangles within 1e-15 of edge-on.
 
 use meshsweep_alloc::emit;
 use meshsweep_alloc::mesh::Mesh;

@@ -386,6 +386,10 @@ fn settle<C: Collect>(
         if crossing.t < bound {
             crossing.t = bound;
         }
+        // Only in a tree whose boxes do not hold their triangles, which `open` cannot see: the interval stays one.
+        if crossing.upper < bound {
+            crossing.upper = bound;
+        }
         collect.meet(&crossing, node, child, lane);
         if crossing.certain {
             settled = true;
