@@ -433,7 +433,7 @@ impl<'a> Patch<'a> {
         self.tag
     }
 
-    /// Centre 0 or 1, grid units, exactly.
+    /// Centre 0 or 1, grid units, exactly. What is asked beyond a patch's centres, ring or triangles, here and below, reads as some number.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> Vec3 {
         if self.single {

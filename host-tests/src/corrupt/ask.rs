@@ -5,9 +5,9 @@
 
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{
-    BatchError, Facing, Hint, Near, SegmentEntry, Session, Side, Sight, TreeEntry, Verdict, all_hits,
-    all_within, any_hit, closest_point, closest_point_from, closest_points, first_hit, front_facing,
-    is_within, nearest, signed_distance,
+    BatchError, Facing, Hint, Near, Session, Side, Sight, TreeEntry, Verdict, all_hits, all_within, any_hit,
+    closest_point, closest_point_from, closest_points, first_hit, front_facing, is_within, nearest,
+    signed_distance,
 };
 use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, Stop, Work};
 
@@ -15,7 +15,6 @@ use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, Stop, Work};
 #[derive(Debug)]
 pub struct Asker {
     stack: Vec<TreeEntry>,
-    segments: Vec<SegmentEntry>,
     near: Vec<Near>,
     hits: Vec<Hit>,
     hint: Hint,
@@ -27,7 +26,6 @@ impl Asker {
     pub fn new(entries: usize, places: usize) -> Self {
         Self {
             stack: vec![TreeEntry::EMPTY; entries],
-            segments: vec![SegmentEntry::EMPTY; entries],
             near: vec![Near::EMPTY; places],
             hits: vec![Hit::EMPTY; places],
             hint: Hint::NONE,
@@ -83,16 +81,16 @@ impl Asker {
     /// # Panics
     /// If an answer is out of range or took too long.
     pub fn segment(&mut self, tree: &Tree<'_>, a: [f32; 3], b: [f32; 3]) {
-        let Self { segments, hits, .. } = self;
+        let Self { stack, hits, .. } = self;
         let once = descent(tree);
         for facing in [Facing::Both, Facing::Front, Facing::Back] {
-            if let Some(answer) = answered(first_hit(tree, a, b, &facing, segments)) {
+            if let Some(answer) = answered(first_hit(tree, a, b, &facing, stack)) {
                 ends(answer.work, once);
                 assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
                 answer.hit.iter().for_each(|hit| met(tree, hit));
             }
-            answered(any_hit(tree, a, b, &facing, segments));
-            if let Some(answer) = answered(all_hits(tree, a, b, &facing, hits, segments)) {
+            answered(any_hit(tree, a, b, &facing, stack));
+            if let Some(answer) = answered(all_hits(tree, a, b, &facing, hits, stack)) {
                 ends(answer.work, once);
                 let hits = &hits[..answer.stored];
                 hits.iter().for_each(|hit| met(tree, hit));

@@ -3,7 +3,7 @@
 use super::args::SearchArgs;
 use super::counted::Counted;
 use super::threads::Asked;
-use meshsweep_core::query::tree::{SegmentEntry, TreeEntry};
+use meshsweep_core::query::tree::TreeEntry;
 use meshsweep_core::query::{Ended, Stop, Work};
 use meshsweep_core::{Model, QueueEntry, Tree};
 use std::fmt;
@@ -21,11 +21,6 @@ impl SearchArgs {
     /// The stack to search the box tree with.
     pub fn stack(&self, tree: &Tree<'_>) -> Vec<TreeEntry> {
         vec![TreeEntry::EMPTY; self.queue.unwrap_or(tree.header().stack_entries) as usize]
-    }
-
-    /// The stack to cast segments into the box tree with.
-    pub fn segment_stack(&self, tree: &Tree<'_>) -> Vec<SegmentEntry> {
-        vec![SegmentEntry::EMPTY; self.queue.unwrap_or(tree.header().stack_entries) as usize]
     }
 
     /// The queue to search the cover tree with.

@@ -31,5 +31,4 @@ pub use segment::{AnyHit, Facing, all_hits, any_hit, first_hit};
 pub use session::{Followed, Session};
 pub use signed::{Side, SignedDistance, signed_distance};
 pub use walk::TreeEntry;
-pub use walk::TreeEntry as SegmentEntry;
 pub use within::{Verdict, Within, is_within};

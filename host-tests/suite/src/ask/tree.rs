@@ -5,7 +5,7 @@ mod sight;
 
 pub use meshsweep_core::Tree;
 use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{Hint, Near, SegmentEntry, Session, TreeEntry};
+use meshsweep_core::query::tree::{Hint, Near, Session, TreeEntry};
 
 use super::{Refused, Subject};
 use crate::fold::Fold;
@@ -15,14 +15,13 @@ use crate::{Clock, Kind};
 pub use distance::{all_within, batch, closest, follow, is_within, nearest, session, signed, stopped};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
-/// Entries of each stack.
+/// Entries of the stack.
 const STACK: usize = 64;
 
 /// What the queries need beside the tree.
 #[derive(Debug)]
 pub struct Scratch<'t> {
     stack: [TreeEntry; STACK],
-    segments: [SegmentEntry; STACK],
     hits: [Hit; 8],
     near: [Near; 8],
     hint: Hint,
@@ -36,7 +35,6 @@ impl Scratch<'_> {
     pub const fn new() -> Self {
         Self {
             stack: [TreeEntry::EMPTY; STACK],
-            segments: [SegmentEntry::EMPTY; STACK],
             hits: [Hit::EMPTY; 8],
             near: [Near::EMPTY; 8],
             hint: Hint::NONE,

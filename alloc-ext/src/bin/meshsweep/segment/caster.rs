@@ -4,7 +4,7 @@
 //! certain. Of all hits, it is a place where the stored surface is met and the mesh's may be.
 
 use crate::args::SearchArgs;
-use meshsweep_core::query::tree::{self, Facing, SegmentEntry};
+use meshsweep_core::query::tree::{self, Facing, TreeEntry};
 use meshsweep_core::query::{
     AllHits, Ended, Hit, Search, SegmentHit, Stop, Work, all_hits, first_hit, outer_hits,
 };
@@ -35,7 +35,7 @@ pub struct Row {
 
 /// An engine with its working memory.
 enum Engine<'a> {
-    Tree { tree: Tree<'a>, facing: Facing, stack: Vec<SegmentEntry> },
+    Tree { tree: Tree<'a>, facing: Facing, stack: Vec<TreeEntry> },
     Cover { model: &'a Model<'a>, queue: Vec<QueueEntry> },
     Hull { model: &'a Model<'a>, queue: Vec<QueueEntry>, front: Memory },
 }
@@ -56,7 +56,7 @@ pub struct Caster<'a> {
 impl<'a> Caster<'a> {
     /// By the box tree.
     pub fn tree(tree: Tree<'a>, facing: Facing, search: &SearchArgs) -> Self {
-        Self::new(Engine::Tree { tree, facing, stack: search.segment_stack(&tree) }, search)
+        Self::new(Engine::Tree { tree, facing, stack: search.stack(&tree) }, search)
     }
 
     /// By the cover tree.

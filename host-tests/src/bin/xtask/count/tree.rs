@@ -5,7 +5,7 @@ use std::hint::black_box;
 use meshsweep_alloc::emit;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Facing, SegmentEntry, TreeEntry, closest_point, first_hit, is_within};
+use meshsweep_core::query::tree::{Facing, TreeEntry, closest_point, first_hit, is_within};
 use meshsweep_core::query::{Stop, Work};
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::table::{Cell, Table, fixed};
@@ -70,7 +70,7 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
             add(black_box(is_within(&tree, point, distance, &Stop::EXACT, &mut stack)).map_err(failed)?.work);
         }
     } else {
-        let mut stack = vec![SegmentEntry::EMPTY; entries];
+        let mut stack = vec![TreeEntry::EMPTY; entries];
         for [a, b] in segments(&subject, QUERIES[1]).into_iter().take(queries) {
             add(black_box(first_hit(&tree, a, b, &Facing::Both, &mut stack)).map_err(failed)?.work);
         }

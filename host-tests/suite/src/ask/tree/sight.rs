@@ -42,7 +42,7 @@ fn hit_of(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_first_hit(tree, a, b, &facing, &mut scratch.segments)) {
+    match timed(clock, || core_first_hit(tree, a, b, &facing, &mut scratch.stack)) {
         Ok(answer) => ask::segment_hit(fold, &answer),
         Err(error) => ask::refusal(fold, error),
     }
@@ -56,7 +56,7 @@ pub fn any_hit(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_any_hit(tree, a, b, &Facing::Both, &mut scratch.segments)) {
+    match timed(clock, || core_any_hit(tree, a, b, &Facing::Both, &mut scratch.stack)) {
         Ok(answer) => fold.word(match answer {
             AnyHit::Hit => 1,
             AnyHit::Clear => 2,
@@ -74,8 +74,8 @@ pub fn all_hits(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    let Scratch { segments, hits, .. } = scratch;
-    match timed(clock, || core_all_hits(tree, a, b, &Facing::Both, hits, segments)) {
+    let Scratch { stack, hits, .. } = scratch;
+    match timed(clock, || core_all_hits(tree, a, b, &Facing::Both, hits, stack)) {
         Ok(answer) => {
             ask::hits(fold, hits.get(..answer.stored).unwrap_or_default());
             fold.word(answer.dropped);
