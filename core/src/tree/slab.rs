@@ -112,11 +112,12 @@ pub(super) fn wide(Sides([x, y, z]): &Sides<'_>, count: u32, from: f32, limit: f
 pub(super) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
-        let lane = lane & (WIDTH - 1);
         let (mut enter, mut leave) = (from, limit);
         let overlaps = axes.iter().all(|axis| {
-            enter = greater(f32::from(axis.near[lane]) * axis.step + axis.enter, enter);
-            leave = less(f32::from(axis.far[lane]) * axis.step + axis.leave, leave);
+            // Lanes are below 8, but not all of LLVM's targets see it.
+            let (Some(&near), Some(&far)) = (axis.near.get(lane), axis.far.get(lane)) else { return false };
+            enter = greater(f32::from(near) * axis.step + axis.enter, enter);
+            leave = less(f32::from(far) * axis.step + axis.leave, leave);
             enter <= leave
         });
         if overlaps {

@@ -1,8 +1,8 @@
 //! One query of a session: the front is brought up to date as far as the answer depends on it.
 
 use super::front::{Child, Front, Known};
-use super::leaf::nearest_triangle;
-use super::plane::{Planes, middle};
+use super::leaf::seen;
+use super::plane::{Looked, Planes, middle};
 use super::probe::Probe;
 use super::shape::{SHORTFALL, is_sound};
 use crate::blob::layout::WIDTH;
@@ -247,7 +247,7 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(always)]
     fn look(&mut self, i: usize, child: Child) -> Result<(), Gap> {
         let patch = self.tree.leaf(child.node(), child.lane()).ok_or(Gap::Model)?;
-        let near = nearest_triangle(&patch, self.probe.p).ok_or(Gap::Model)?;
+        let (near, edges) = seen(&patch, self.probe.p).ok_or(Gap::Model)?;
         self.work.triangles += patch.tag().triangles() as u32;
         self.looks += 2;
         let distance_sq = near.distance_sq;
@@ -268,8 +268,8 @@ impl<'a, 't> Follow<'a, 't> {
             self.front.set(i, key, child);
             if key > self.bound {
                 self.looks += 1;
-                let (p, margin) = (self.probe.p, self.shortfall + self.off);
-                self.planes.put(child, &patch, p, self.way, near.lane(), margin);
+                let looked = Looked { patch: &patch, p: self.probe.p, edges: edges.as_ref() };
+                self.planes.put(child, &looked, self.way, near.lane(), self.shortfall + self.off);
             }
         } else if let Some((key, _)) = self.front.get(i) {
             self.front.set(i, key, child);

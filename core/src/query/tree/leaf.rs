@@ -1,18 +1,22 @@
 //! The nearest triangle of a leaf, eight at once where the target has vectors, else one after the other. Same bits.
 
 use crate::blob::Patch;
+use crate::fan::Edges8;
 use glam::Vec3;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-pub(super) use narrow::{Lanes, nearest_within};
+pub(super) use narrow::{Lanes, nearest_within, seen};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub(super) use wide::{Lanes, nearest_within};
+pub(super) use wide::{Lanes, nearest_within, seen};
 
 /// The nearest triangle of a patch, wherever it is.
 #[inline(always)]
 pub(super) fn nearest_triangle(patch: &Patch<'_>, p: Vec3) -> Option<NearestOf> {
     nearest_within(patch, p, f32::INFINITY)
 }
+
+/// The nearest triangle of a patch, and its triangles as seen from the query where all are read at once.
+pub(super) type Seen = (NearestOf, Option<Edges8>);
 
 /// The nearest triangle of a patch. One that is proved to be beyond a squared limit may be left out of it.
 #[derive(Clone, Copy)]
@@ -35,7 +39,7 @@ impl NearestOf {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{NearestOf, Patch, Vec3};
+    use super::{Edges8, NearestOf, Patch, Seen, Vec3};
     use crate::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_patch8};
 
     /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch can guess it.
@@ -63,14 +67,11 @@ mod wide {
 
         #[inline(always)]
         pub(in crate::query::tree) fn at(&self, distance_sq: f32) -> (usize, f32, f32) {
-            let mut found = (WIDTH - 1, 0.0, 0.0);
+            let mut lane = WIDTH - 1;
             for i in (0..WIDTH).rev() {
-                let here = self.0.distance_sq[i] == distance_sq;
-                found.0 = if here { i } else { found.0 };
-                found.1 = if here { self.0.v[i] } else { found.1 };
-                found.2 = if here { self.0.w[i] } else { found.2 };
+                lane = if self.0.distance_sq[i] == distance_sq { i } else { lane };
             }
-            found
+            (lane, self.0.v[lane % WIDTH], self.0.w[lane % WIDTH])
         }
     }
 
@@ -86,8 +87,25 @@ mod wide {
         } else {
             point_patch8(&patch.grid_edges8(p)?, LANES_BELOW.get(patch.tag().triangles())?)
         };
+        Some(nearest_of(near))
+    }
+
+    #[inline(always)]
+    pub(in crate::query::tree) fn seen(patch: &Patch<'_>, p: Vec3) -> Option<Seen> {
+        let edges = if patch.is_single() { single_edges(patch, p)? } else { patch.grid_edges8(p)? };
+        let near = point_patch8(&edges, LANES_BELOW.get(patch.tag().triangles())?);
+        Some((nearest_of(near), Some(edges)))
+    }
+
+    #[inline(always)]
+    fn nearest_of(near: Nearness8) -> NearestOf {
         let (distance_sq, certified_sq) = (least_of(&near.distance_sq), least_of(&near.certified_sq));
-        Some(NearestOf { distance_sq, certified_sq, lanes: Lanes(near) })
+        NearestOf { distance_sq, certified_sq, lanes: Lanes(near) }
+    }
+
+    #[inline(never)]
+    fn single_edges(patch: &Patch<'_>, p: Vec3) -> Option<Edges8> {
+        patch.single_edges8(p)
     }
 
     /// A call of its own, so that the two ways to read a leaf do not meet in memory.
@@ -106,7 +124,7 @@ mod wide {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{NearestOf, Patch, Vec3};
+    use super::{NearestOf, Patch, Seen, Vec3};
     use crate::fan::{Nearness, PointFan, SpokeTerms, point_patch};
 
     /// The nearest triangle of a leaf.
@@ -145,6 +163,11 @@ mod narrow {
             on_grid(patch, p, limit, &mut nearest)?;
         }
         Some(nearest)
+    }
+
+    #[inline(always)]
+    pub(in crate::query::tree) fn seen(patch: &Patch<'_>, p: Vec3) -> Option<Seen> {
+        Some((nearest_within(patch, p, f32::INFINITY)?, None))
     }
 
     impl NearestOf {

@@ -10,7 +10,7 @@ use crate::blob::layout::WIDTH;
 use crate::blob::{Patch, Tree};
 use crate::fan::{Edges8, LANES_BELOW};
 use crate::num::root;
-use crate::tree::{WIDE, in_memory};
+use crate::tree::in_memory;
 use glam::Vec3;
 
 /// Planes that a session holds: a power of two.
@@ -48,14 +48,24 @@ impl Planes {
     /// Puts a plane between a leaf without slivers and the query: across the way from its closest point, on triangle `lane`. `way` as above;
     /// `margin` is what triangles' bounds may be off by, beside [`SHORTFALL`] of themselves.
     #[inline(always)]
-    pub(super) fn put(&mut self, child: Child, patch: &Patch<'_>, p: Vec3, way: Vec3, near: At, margin: f32) {
-        let found = if WIDE { separate_wide(patch, p, near) } else { separate_narrow(patch, p, near) };
+    pub(super) fn put(&mut self, child: Child, leaf: &Looked<'_>, way: Vec3, near: At, margin: f32) {
+        let found = match leaf.edges {
+            Some(edges) => separate_wide(edges, leaf.patch.tag().triangles(), near),
+            None => separate_narrow(leaf.patch, leaf.p, near),
+        };
         if let Some((normal, distance)) = found
             && let Some(plane) = self.0.get_mut(place(child))
         {
             *plane = Plane { normal, offset: dot(normal, way) - distance + margin, of: child.leaf() };
         }
     }
+}
+
+/// A leaf as it was looked at from `p`, and its triangles side by side where all were read at once.
+pub(super) struct Looked<'a> {
+    pub(super) patch: &'a Patch<'a>,
+    pub(super) p: Vec3,
+    pub(super) edges: Option<&'a Edges8>,
 }
 
 /// A point of a triangle of a leaf: its lane, and coordinates along its spokes.
@@ -74,14 +84,13 @@ fn normal(residual: Vec3) -> Option<Vec3> {
 
 /// The direction from a leaf's point to `p`, and how far `p` is along it from all of the leaf.
 #[inline(always)]
-fn separate_wide(patch: &Patch<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3, f32)> {
-    let edges = if patch.is_single() { patch.single_edges8(p)? } else { patch.grid_edges8(p)? };
-    let Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] } = &edges;
+fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(Vec3, f32)> {
+    let Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] } = edges;
     let at = |x: &[f32; WIDTH], y: &[f32; WIDTH], z: &[f32; WIDTH]| {
         Some(Vec3::new(*x.get(lane)?, *y.get(lane)?, *z.get(lane)?))
     };
     let n = normal(at(sx, sy, sz)? - at(ex, ey, ez)? * v - at(gx, gy, gz)? * w)?;
-    let used = LANES_BELOW.get(patch.tag().triangles())?;
+    let used = LANES_BELOW.get(triangles)?;
     let mut along = [0f32; WIDTH];
     for i in 0..WIDTH {
         let first = n.x * ex[i] + n.y * ey[i] + n.z * ez[i];
