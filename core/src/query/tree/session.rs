@@ -12,7 +12,6 @@ use crate::blob::Tree;
 use crate::num::root;
 use crate::num::tolerance::{TREE_FAN, TREE_TINY, U32};
 use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
-use crate::tree::WIDE;
 use core::marker::PhantomData;
 use glam::Vec3;
 
@@ -100,8 +99,9 @@ const RELIABLE: u32 = 64;
 /// More than what a root and a few products may be rounded by.
 const ROUNDING: f32 = 1.0 / 1_048_576.0;
 
-/// Whether the front pays. Cost is counted in half leaves: about 250 instructions without vectors, 30 ns with them. There a session's take half as
-/// long again: what it does next hangs on the leaf before, where a descent guesses.
+/// Whether the front pays. Cost is counted in half leaves: about 250 instructions without vectors, 30 ns with them. A session's count half as much
+/// again, for with vectors they take as long: what it does next hangs on the leaf before, where a descent guesses. The rule is the same on every target, so that
+/// what is answered is.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
     /// What a plain query costs here; 0 if none was asked yet.
@@ -137,7 +137,7 @@ impl Pace {
     /// A query was followed.
     #[inline(always)]
     fn spend(&mut self, cost: u32, step: f32) {
-        let cost = if WIDE { cost + cost / 2 } else { cost };
+        let cost = cost + cost / 2;
         self.debt = (self.debt + cost).saturating_sub(self.plain);
         self.good = if self.debt == 0 { self.good + 1 } else { 0 };
         if self.debt > CREDIT * self.plain {
