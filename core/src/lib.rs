@@ -41,6 +41,7 @@ pub mod num;
 pub mod query;
 pub mod refine;
 pub mod tree;
+pub mod tribox;
 
 pub use blob::{Model, OpenError, Tree};
 pub use query::{QueryError, QueueEntry};

@@ -7,4 +7,4 @@ pub mod tolerance;
 
 pub use radius::{Radius8, Radius16};
 pub use root::root;
-pub use round::{down_to_f32, exp2, up_to_f32};
+pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};

@@ -20,6 +20,28 @@ pub fn exp2(exponent: i32) -> f64 {
     f64::from_bits(u64::from((clamped + 1023).unsigned_abs()) << 52)
 }
 
+/// `a + b`, and what it was rounded by, exactly (Knuth, TAOCP 4.2.2). Both finite, the sum too.
+#[inline(always)]
+pub fn two_sum(a: f32, b: f32) -> (f32, f32) {
+    let sum = a + b;
+    let b_part = sum - a;
+    (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+/// The greatest f32 that is not above `a + b`.
+#[inline(always)]
+pub fn sum_down(a: f32, b: f32) -> f32 {
+    let (sum, rest) = two_sum(a, b);
+    if rest < 0.0 { sum.next_down() } else { sum }
+}
+
+/// The least f32 that is not below `a + b`.
+#[inline(always)]
+pub fn sum_up(a: f32, b: f32) -> f32 {
+    let (sum, rest) = two_sum(a, b);
+    if rest > 0.0 { sum.next_up() } else { sum }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -32,6 +54,24 @@ mod tests {
         assert_eq!(down_to_f32(1e39), f32::MAX);
         assert_eq!(up_to_f32(1e39), f32::INFINITY);
         assert_eq!(down_to_f32(0.5).to_bits(), 0.5f32.to_bits());
+    }
+
+    #[test]
+    fn sums_are_rounded_to_the_neighbours_of_the_exact_sum() {
+        for (a, b) in [
+            (1.0, 1e-9),
+            (1.0, -1e-9),
+            (16_777_216.0, 1.0),
+            (0.1, 0.2),
+            (-1e30, 1e-30),
+            (0.5, 0.25),
+            (1e-45, 1e-45),
+        ] {
+            let exact = f64::from(a) + f64::from(b);
+            let (down, up) = (sum_down(a, b), sum_up(a, b));
+            assert!(f64::from(down) <= exact && exact <= f64::from(up), "{a} + {b}");
+            assert!(up == down || up == down.next_up(), "{a} + {b}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Kinds, blocks and the loop over them.
 
 use crate::arith;
-use crate::ask::{Refused, Subject};
+use crate::ask::{Refused, Subject, tribox};
 use crate::fold::Fold;
 use crate::place::Placer;
 
@@ -44,11 +44,21 @@ pub enum Kind {
     Batch,
     /// Triangles that may face an eye.
     Cull,
+    /// The tribox of eight points.
+    TriboxBounds,
+    /// The boundary of a tribox.
+    TriboxFaces,
+    /// Whether two triboxes overlap.
+    TriboxOverlap,
+    /// Whether two boxes do, for comparison.
+    BoxOverlap,
+    /// All else that triboxes answer.
+    TriboxRest,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 23] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -67,6 +77,11 @@ impl Kind {
         Self::Session,
         Self::Batch,
         Self::Cull,
+        Self::TriboxBounds,
+        Self::TriboxFaces,
+        Self::TriboxOverlap,
+        Self::BoxOverlap,
+        Self::TriboxRest,
     ];
 
     /// The name in reports: one word.
@@ -91,7 +106,24 @@ impl Kind {
             Self::Session => "session",
             Self::Batch => "batch_of_8",
             Self::Cull => "cull",
+            Self::TriboxBounds => "tribox_bounds",
+            Self::TriboxFaces => "tribox_faces",
+            Self::TriboxOverlap => "tribox_overlap",
+            Self::BoxOverlap => "box_overlap",
+            Self::TriboxRest => "tribox_rest",
         }
+    }
+
+    /// Whether it is about triboxes: no blob is asked.
+    const fn is_tribox(self) -> bool {
+        matches!(
+            self,
+            Self::TriboxBounds
+                | Self::TriboxFaces
+                | Self::TriboxOverlap
+                | Self::BoxOverlap
+                | Self::TriboxRest
+        )
     }
 
     const fn seed(self) -> u64 {
@@ -164,6 +196,8 @@ pub fn run<'t, S: Subject<'t>>(
                     recorder.query_begins();
                     arith::chain(&mut placer.rng, &mut fold);
                     recorder.query_ends();
+                } else if kind.is_tribox() {
+                    tribox::ask(kind, &mut placer, recorder, &mut fold);
                 } else {
                     subject.ask(kind, &mut placer, scratch, recorder, &mut fold);
                 }

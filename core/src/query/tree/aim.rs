@@ -4,6 +4,7 @@ use super::probe::{Units, bounds};
 use crate::blob::Tree;
 use crate::fan::{FanRay, STILL};
 use crate::num::tolerance::{TREE_FAR, TREE_TINY, U32};
+use crate::num::two_sum;
 use crate::query::{Hit, QueryError};
 use crate::tree::Slabs;
 use glam::Vec3;
@@ -183,12 +184,6 @@ fn along(a: f32, b: f32, t: f32) -> f32 {
     let (p, p_rest) = two_product(t, d);
     let (s, s_rest) = two_sum(a, p);
     s + (s_rest + (p_rest + t * d_rest))
-}
-
-fn two_sum(a: f32, b: f32) -> (f32, f32) {
-    let sum = a + b;
-    let b_part = sum - a;
-    (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
 fn two_product(a: f32, b: f32) -> (f32, f32) {

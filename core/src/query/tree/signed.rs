@@ -19,7 +19,9 @@
 //!
 //! *Rounding.* Which triangle is the closest is not certain in f32. So all are considered that may be: if every one of them clearly has its front to
 //! p, all terms of the sum at the true q are positive, wherever it is; likewise for backs. That decides faces, smooth edges and vertices, and ties. Else
-//! [`pseudonormal`](super::pseudonormal) sums about the feature that they all share, and where rounding leaves that open, too, the side is undefined.
+//! [`pseudonormal`](super::pseudonormal) sums about the feature that they all share. Where rounding leaves that open, too, the question is asked from a place nearer
+//! the surface, within the ball about p that it does not enter: far above a face and next to its edge the face beyond the edge is as near as rounding can tell,
+//! and from a sixteenth of the distance it is not. If that does not help either, the side is undefined.
 //! A point outside of the model's box is asked about from a place nearer by: all points outside of the box are on one side.
 
 use super::closest::closest_point;
@@ -73,13 +75,14 @@ impl SignedDistance {
 /// Signed distance of `point` (input units), negative inside.
 ///
 /// The side is undefined if the mesh is not closed and consistently wound ([`TreeHeader::is_closed`](crate::blob::TreeHeader::is_closed)), if the distance is not
-/// clear of the stored surface's error and of rounding, in front of walls thinner than 1e-5 of their distance, next to slivers so flat that they have no certain
+/// clear of the stored surface's error and of rounding, next to walls and gaps thinner than these, next to slivers so flat that they have no certain
 /// normal, and where triangles without area alone are near. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps` too
 /// few, the side is undefined, too. The tolerances of [`Stop`] do not apply: a side needs the closest point itself.
 ///
 /// Triangle and point are those of [`closest_point`]; equidistant ones: the least in blob order.
 ///
-/// Cost: about that of the closest point; twice to three times that next to sharp edges and vertices, and for points far outside.
+/// Cost: about that of the closest point; twice to three times that next to sharp edges and vertices, and for points far outside; up to four
+/// times more where the side has to be found from nearer by, above a face and next to its edge.
 ///
 /// # Errors
 /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`], [`QueryError::NotServed`].
@@ -103,7 +106,7 @@ pub fn signed_distance(
         let survey = search.survey(&probe)?;
         let closest = survey.closest(&search, point)?;
         let clear = closed && closest.lower > 0.0;
-        (closest, if clear { search.side(&survey)? } else { Side::Undefined })
+        (closest, if clear { search.side_from_nearer(survey)? } else { Side::Undefined })
     };
     if side == Side::Undefined
         && closed
@@ -122,6 +125,9 @@ pub fn signed_distance(
     }
     Ok(SignedDistance::new(closest, side))
 }
+
+/// How often a side is asked about from nearer by: each time the distance falls to a sixteenth.
+const NEARER: usize = 3;
 
 /// For a point outside of the model's box another one, a quarter of the model's size off it.
 fn outside_of_box(tree: &Tree<'_>, probe: &Probe) -> Option<Probe> {
@@ -191,6 +197,24 @@ impl Search<'_, '_> {
         Ok(Survey { probe, margin, best, solid, least, missed })
     }
 
+    /// The side of the surveyed point, which is known to be clear of the surface; if rounding leaves it open, that of points on the way to the surface:
+    /// there is none in the ball about the point that touches it, so all of the ball is on one side. What two features' distances differ by grows as
+    /// the inverse of the distance.
+    fn side_from_nearer(&mut self, survey: Survey<'_>) -> Result<Side, QueryError> {
+        let mut side = self.side(&survey)?;
+        let mut nearer = survey.nearer(self.tree);
+        for _ in 0..NEARER {
+            let Some(probe) = nearer else { break };
+            if side != Side::Undefined || self.cut.is_some() {
+                break;
+            }
+            let survey = self.survey(&probe)?;
+            side = self.side(&survey)?;
+            nearer = survey.nearer(self.tree);
+        }
+        Ok(side)
+    }
+
     /// The side of the surveyed point, which is known to be clear of the surface.
     fn side(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
         let Survey { probe, margin, solid, least, .. } = *survey;
@@ -251,6 +275,23 @@ struct Survey<'p> {
 }
 
 impl Survey<'_> {
+    /// Not above the distance to the input mesh, input units; what was missed is not counted.
+    fn lower(&self) -> f32 {
+        let distance = root(self.best.distance_sq);
+        self.probe.lower(self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }))
+    }
+
+    /// A point on the way to the closest one, a sixteenth of the distance off it and within the ball about this one that is proved to be empty.
+    fn nearer(&self, tree: &Tree<'_>) -> Option<Probe> {
+        let Survey { probe, best, .. } = *self;
+        let patch = tree.leaf(best.node, best.child)?;
+        let place = probe.p + (witness(probe, &patch, best.lane) - probe.p) * 0.9375;
+        let nearer = Probe::new(tree, probe.units.point(place)).ok()?;
+        let way = nearer.p - probe.p;
+        let empty = probe.units.inward(self.lower());
+        (way.dot(way) < empty * empty * (1.0 - 64.0 * U32)).then_some(nearer)
+    }
+
     fn closest(&self, search: &Search<'_, '_>, point: [f32; 3]) -> Result<ClosestPoint, QueryError> {
         let Survey { probe, best, .. } = *self;
         let tree = search.tree;
@@ -262,8 +303,7 @@ impl Survey<'_> {
             return Ok(ClosestPoint { ended, ..closest });
         }
         let distance = root(best.distance_sq);
-        let nearest = self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least });
-        let mut lower = probe.lower(nearest);
+        let mut lower = self.lower();
         if self.missed < f32::INFINITY {
             let missed = lower_of_box(probe, self.missed);
             lower = if missed < lower { missed } else { lower };

@@ -6,7 +6,7 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::{hull, tree};
+use meshsweep_suite::ask::{hull, tree, tribox};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
@@ -151,6 +151,26 @@ extern "C" fn ask_tree_batch<'t>(input: &Input<'t>, scratch: &mut tree::Scratch<
         let [a, b] = [input.a, input.b];
         tree::batch(&tree, &[a, b, a, b, a, b, a, b], scratch, &mut (), fold);
     }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tribox_bounds(points: &tribox::Points, fold: &mut Fold) {
+    tribox::bounds(points, &mut (), fold);
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tribox_faces(tribox: &tribox::Tribox, fold: &mut Fold) {
+    tribox::faces(tribox, &mut (), fold);
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tribox_overlap(pairs: &([[f32; 3]; 2], [[f32; 3]; 2]), fold: &mut Fold) {
+    tribox::overlap(pairs, &mut (), fold);
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tribox_rest(points: &tribox::Points, input: &Input<'_>, fold: &mut Fold) {
+    tribox::rest(points, input.a[0], input.any != 0, &mut (), fold);
 }
 
 #[unsafe(no_mangle)]

@@ -9,7 +9,7 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 20] = [
+const QUESTIONS: [&str; 24] = [
     "ask_hull_open",
     "ask_hull_closest",
     "ask_hull_first_hit",
@@ -30,6 +30,10 @@ const QUESTIONS: [&str; 20] = [
     "ask_tree_session",
     "ask_tree_batch",
     "ask_tree_cull",
+    "ask_tribox_bounds",
+    "ask_tribox_faces",
+    "ask_tribox_overlap",
+    "ask_tribox_rest",
 ];
 
 /// Links the proof image.

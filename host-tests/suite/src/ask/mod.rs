@@ -5,6 +5,7 @@
 
 pub mod hull;
 pub mod tree;
+pub mod tribox;
 
 use meshsweep_core::OpenError;
 use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, SegmentHit, Work};

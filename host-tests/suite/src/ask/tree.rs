@@ -84,7 +84,13 @@ impl<'t> Subject<'t> for Tree<'t> {
         fold: &mut Fold,
     ) {
         match kind {
-            Kind::Arith | Kind::OuterHits => {}
+            Kind::Arith
+            | Kind::OuterHits
+            | Kind::TriboxBounds
+            | Kind::TriboxFaces
+            | Kind::TriboxOverlap
+            | Kind::BoxOverlap
+            | Kind::TriboxRest => {}
             Kind::Contents => contents(self, fold),
             Kind::ClosestFar => {
                 closest(self, place.far(), scratch, clock, fold);

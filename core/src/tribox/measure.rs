@@ -1,0 +1,85 @@
+//! Distance to a tribox, and the part of a segment that is in it.
+
+use super::Tribox;
+use super::bounds::projections;
+use crate::num::tolerance::U32;
+use crate::num::{root, sum_down, sum_up};
+
+/// Four frames of orthogonal slabs: the axes', and one turned by 45° about each axis. A slab's number, and the square of its direction's length, twice
+/// three times.
+const FRAMES: [[usize; 3]; 4] = [[0, 1, 2], [3, 4, 2], [5, 6, 0], [7, 8, 1]];
+
+impl Tribox {
+    /// A lower bound, in the unit of the parameters, of the distance from a point to all that is inside; infinity if that is nothing, NaN for none.
+    ///
+    /// The greatest distance to the four boxes of which the tribox is the intersection, rounded down: exact where the closest point lies on a face, short beside
+    /// some edges and vertices. 0 does not say that the point is inside.
+    #[must_use]
+    pub fn distance(&self, point: [f32; 3]) -> f32 {
+        let (low, high) = projections(point);
+        let mut gaps = [0f32; super::SLABS];
+        let slabs = self.slabs().zip(low.into_iter().zip(high));
+        for (gap, ((from, to), (low, high))) in gaps.iter_mut().zip(slabs) {
+            let (below, above) = (sum_down(from, -high), sum_down(low, -to));
+            let most = if below > above { below } else { above };
+            *gap = if most > 0.0 { most } else { 0.0 };
+        }
+        let most = gaps.iter().fold(0f32, |most, &gap| if gap > most { gap } else { most });
+        // So that no square leaves f32's range.
+        let scale = if most > (1u64 << 60) as f32 {
+            1.0 / 18_446_744_073_709_551_616.0
+        } else if most < 1.0 / (1u64 << 40) as f32 {
+            18_446_744_073_709_551_616.0
+        } else {
+            1.0
+        };
+        let square = |slab: usize| {
+            let gap = gaps.get(slab).copied().unwrap_or(0.0) * scale;
+            if slab < 3 { gap * gap } else { 0.5 * (gap * gap) }
+        };
+        let greatest = FRAMES.iter().fold(0f32, |greatest, &[a, b, c]| {
+            let here = square(a) + square(b) + square(c);
+            if here > greatest { here } else { greatest }
+        });
+        root(greatest) * (1.0 - 16.0 * U32) / scale
+    }
+
+    /// Parameters between which the segment from `a` (0) to `b` (1) may be inside, rounded outward; `None` is a proof that it nowhere is.
+    ///
+    /// A segment of no length gives `(0, 1)` or nothing. Neither end may be NaN or infinite. Cost: 9 slabs.
+    #[must_use]
+    pub fn clip(&self, a: [f32; 3], b: [f32; 3]) -> Option<(f32, f32)> {
+        let along = |[x, y, z]: [f32; 3]| [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x];
+        let size = |[x, y, z]: [f32; 3]| {
+            let [x, y, z] = [x.abs(), y.abs(), z.abs()];
+            [0.0, 0.0, 0.0, x + y, x + y, y + z, y + z, z + x, z + x]
+        };
+        let ends = along(a).into_iter().zip(along(b)).zip(size(a).into_iter().zip(size(b)));
+        let (mut enter, mut leave) = (0f32, 1f32);
+        for ((low, high), ((from, to), (size_a, size_b))) in self.slabs().zip(ends) {
+            // What either end is rounded by; the parameter's own rounding is relative.
+            let doubt = (4.0 * U32) * (size_a + size_b);
+            let (low, high) = (sum_down(low, -doubt), sum_up(high, doubt));
+            let way = to - from;
+            if way == 0.0 {
+                if from < low || from > high {
+                    return None;
+                }
+                continue;
+            }
+            let (near, far) = if way > 0.0 { (low, high) } else { (high, low) };
+            let (near, far) = (outward(near, from, way, false), outward(far, from, way, true));
+            enter = if near > enter { near } else { enter };
+            leave = if far < leave { far } else { leave };
+        }
+        if enter <= leave { Some((enter, leave)) } else { None }
+    }
+}
+
+/// `(plane − from)/way`, rounded down or up.
+#[inline(always)]
+fn outward(plane: f32, from: f32, way: f32, up: bool) -> f32 {
+    let t = (plane - from) / way;
+    let grows = (t > 0.0) == up;
+    if grows { t * (1.0 + 8.0 * U32) } else { t * (1.0 - 8.0 * U32) }
+}

@@ -1,0 +1,99 @@
+//! Bounds of what was moved (Crosnier & Rossignac 1999, section 3: from a hull's vertices, or from the vertices of the tribox).
+
+use super::bounds::{TriboxError, checked, projections};
+use super::{SLABS, Tribox};
+use crate::num::tolerance::U32;
+use crate::num::{sum_down, sum_up};
+
+/// A motion: `rotation · p + translation`, each row of the matrix gives a coordinate.
+///
+/// It is taken as it is, in real arithmetic: if the matrix is a rotation up to rounding only, then so is the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Rows of the matrix; entries of at most 1, up to rounding.
+    pub rotation: [[f32; 3]; 3],
+    /// Added to the rotated point.
+    pub translation: [f32; 3],
+}
+
+/// What rounding may do to a coordinate, in units of [`U32`] times the sum of the sizes of its terms. Proved: 5, of the product 1, of sums 3, of this product 1.
+const COORDINATE: f32 = 8.0;
+
+/// More than what products lose below f32's range.
+const UNDERFLOW: f32 = f32::MIN_POSITIVE;
+
+impl Pose {
+    /// No motion.
+    pub const IDENTITY: Pose =
+        Pose { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
+
+    fn check(&self) -> Result<(), TriboxError> {
+        checked(self.translation)?;
+        for row in self.rotation {
+            if checked(row)?.iter().any(|entry| entry.abs() > 2.0) {
+                return Err(TriboxError::OutOfDomain);
+            }
+        }
+        Ok(())
+    }
+
+    /// Where a point goes, and what each coordinate may be off by if each of the point's is off by `doubt`.
+    #[inline(always)]
+    fn apply(&self, [x, y, z]: [f32; 3], doubt: f32) -> ([f32; 3], [f32; 3]) {
+        let (mut place, mut margin) = ([0f32; 3], [0f32; 3]);
+        let rows = self.rotation.iter().zip(self.translation);
+        for ((place, margin), (&[a, b, c], t)) in place.iter_mut().zip(&mut margin).zip(rows) {
+            *place = (a * x + b * y) + (c * z + t);
+            let size = ((a * x).abs() + (b * y).abs()) + ((c * z).abs() + t.abs());
+            let spread = (a.abs() + b.abs() + c.abs()) * doubt;
+            *margin = size * (COORDINATE * U32) + spread * (1.0 + COORDINATE * U32) + UNDERFLOW;
+        }
+        (place, margin)
+    }
+
+    /// A tribox of all points after the motion: tight but for rounding.
+    ///
+    /// # Errors
+    /// If a number is not finite, a coordinate beyond [`Tribox::DOMAIN`] before or after the motion, or an entry of the matrix beyond 2.
+    pub fn bound(&self, points: impl IntoIterator<Item = [f32; 3]>) -> Result<Tribox, TriboxError> {
+        self.check()?;
+        points.into_iter().try_fold(Tribox::EMPTY, |all, point| Ok(all.union(&self.around(point, 0.0)?)))
+    }
+
+    /// The tribox of one point that is known up to `doubt` per coordinate.
+    fn around(&self, point: [f32; 3], doubt: f32) -> Result<Tribox, TriboxError> {
+        let (place, [x, y, z]) = self.apply(checked(point)?, doubt);
+        let (low, high) = projections(checked(place)?);
+        let sums =
+            [x, y, z, sum_up(x, y), sum_up(x, y), sum_up(y, z), sum_up(y, z), sum_up(z, x), sum_up(z, x)];
+        let mut around = Tribox { low, high };
+        let planes = around.low.iter_mut().zip(around.high.iter_mut()).zip(sums);
+        planes.for_each(|((low, high), by)| (*low, *high) = (sum_down(*low, -by), sum_up(*high, by)));
+        Ok(around)
+    }
+}
+
+impl Tribox {
+    /// A tribox of everything that may be inside, after a motion: that of its own vertices, which is larger than that of what it bounds, the
+    /// more so the rounder that is. To have that, keep the vertices of its convex hull for [`Pose::bound`].
+    ///
+    /// # Errors
+    /// As [`Pose::bound`].
+    pub fn moved(&self, pose: &Pose) -> Result<Tribox, TriboxError> {
+        pose.check()?;
+        if self.is_empty() {
+            return Ok(Tribox::EMPTY);
+        }
+        let largest = |most: f32, x: f32| if x.abs() > most { x.abs() } else { most };
+        let size = (0..SLABS).fold(0f32, |most, slab| {
+            let at = |of: &[f32; SLABS]| of.get(slab).copied().unwrap_or(0.0);
+            largest(largest(most, at(&self.low)), at(&self.high))
+        });
+        // Vertices as computed are that close to the real ones.
+        let doubt = (8.0 * U32) * size;
+        self.boundary()
+            .vertices
+            .into_iter()
+            .try_fold(Tribox::EMPTY, |all, vertex| Ok(all.union(&pose.around(vertex, doubt)?)))
+    }
+}

@@ -1,0 +1,125 @@
+//! Questions to triboxes. They need no blob: points are placed around its box.
+
+pub use meshsweep_core::tribox::Tribox;
+use meshsweep_core::tribox::{FACES, Pose, TriboxError};
+
+use super::timed;
+use crate::fold::Fold;
+use crate::place::Placer;
+use crate::{Clock, Kind};
+
+/// Points of a tribox.
+pub type Points = [[f32; 3]; 8];
+
+/// Asks one question of a kind about triboxes; nothing of any other kind.
+pub fn ask(kind: Kind, place: &mut Placer, clock: &mut impl Clock, fold: &mut Fold) {
+    let points = [[0.0; 3]; 8].map(|_: [f32; 3]| place.far());
+    match kind {
+        Kind::TriboxBounds => {
+            bounds(&points, clock, fold);
+        }
+        Kind::TriboxFaces => faces(&bounds(&points, &mut (), fold), clock, fold),
+        Kind::TriboxOverlap | Kind::BoxOverlap => {
+            // Smaller, so that some overlap and some do not.
+            let [a, b, .., c, d] = points;
+            let (first, second) = ([a, place.near(a)], [b, place.near(b)]);
+            let (near, far) = ([a, c], [b, d]);
+            let pair = if place.rng.next_u32() & 1 == 0 { (first, second) } else { (near, far) };
+            if kind == Kind::BoxOverlap {
+                box_overlap(&pair, clock, fold);
+            } else {
+                overlap(&pair, clock, fold);
+            }
+        }
+        Kind::TriboxRest => {
+            let snap = place.rng.next_u32() & 0xFF == 0;
+            rest(&points, place.distance(), snap, clock, fold);
+        }
+        _ => {}
+    }
+}
+
+fn parameters(tribox: &Tribox, fold: &mut Fold) {
+    tribox.low.iter().chain(&tribox.high).for_each(|&parameter| fold.f32(parameter));
+}
+
+fn of(points: &[[f32; 3]], fold: &mut Fold) -> Tribox {
+    known(Tribox::of_points(points.iter().copied()), fold)
+}
+
+fn known(tribox: Result<Tribox, TriboxError>, fold: &mut Fold) -> Tribox {
+    tribox.unwrap_or_else(|error| {
+        fold.word(0xffff_ff00 | error as u32);
+        Tribox::EMPTY
+    })
+}
+
+/// The tribox of eight points.
+pub fn bounds(points: &Points, clock: &mut impl Clock, fold: &mut Fold) -> Tribox {
+    let tribox = timed(clock, || Tribox::of_points(points.iter().copied()));
+    let tribox = known(tribox, fold);
+    parameters(&tribox, fold);
+    tribox
+}
+
+/// Its boundary.
+pub fn faces(tribox: &Tribox, clock: &mut impl Clock, fold: &mut Fold) {
+    let boundary = timed(clock, || tribox.boundary());
+    boundary.vertices.iter().for_each(|vertex| fold.point(*vertex));
+    (0..FACES).for_each(|face| boundary.face(face).iter().for_each(|&vertex| fold.byte(vertex)));
+    let cleaned = boundary.cleaned();
+    (0..FACES).for_each(|face| cleaned.face(face).iter().for_each(|&vertex| fold.byte(vertex)));
+}
+
+/// Whether the triboxes of two pairs of points overlap.
+pub fn overlap((a, b): &([[f32; 3]; 2], [[f32; 3]; 2]), clock: &mut impl Clock, fold: &mut Fold) {
+    let (a, b) = (of(a, fold), of(b, fold));
+    fold.word(u32::from(timed(clock, || a.overlaps(&b))));
+}
+
+/// The same of boxes: what the test above is compared with.
+pub fn box_overlap(
+    ([a, b], [c, d]): &([[f32; 3]; 2], [[f32; 3]; 2]),
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let bounds = |a: &[f32; 3], b: &[f32; 3]| {
+        let (mut low, mut high) = (*a, *b);
+        low.iter_mut()
+            .zip(&mut high)
+            .filter(|(low, high)| low > high)
+            .for_each(|(low, high)| core::mem::swap(low, high));
+        (low, high)
+    };
+    let (first, second) = (bounds(a, b), bounds(c, d));
+    let apart = timed(clock, || {
+        let slabs = first.0.iter().zip(&first.1).zip(second.0.iter().zip(&second.1));
+        slabs
+            .into_iter()
+            .any(|((low, high), (other_low, other_high))| !((low <= other_high) & (other_low <= high)))
+    });
+    fold.word(u32::from(!apart));
+}
+
+/// Everything else.
+pub fn rest(points: &Points, distance: f32, snap: bool, clock: &mut impl Clock, fold: &mut Fold) {
+    let [a, b, c, d, e, f, g, h] = *points;
+    let (first, second) = (of(&[a, b, c], fold), of(&[d, e, f], fold));
+    let both = timed(clock, || first.intersection(&second).tightened());
+    parameters(&both, fold);
+    parameters(&known(first.padded(distance), fold), fold);
+    parameters(&known(first.translated(g), fold), fold);
+    parameters(&first.on_grid(), fold);
+    fold.f32(first.distance(g));
+    fold.word(u32::from(first.contains_point(h)) | u32::from(first.contains(&both)) << 1);
+    if let Some((enter, leave)) = first.clip(g, h) {
+        fold.f32(enter);
+        fold.f32(leave);
+    }
+    let pose = Pose { rotation: [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]], translation: h };
+    parameters(&known(first.moved(&pose), fold), fold);
+    parameters(&known(pose.bound([a, b, c]), fold), fold);
+    if snap {
+        parameters(&second.snapped(distance), fold);
+    }
+}
