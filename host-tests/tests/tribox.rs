@@ -1,6 +1,7 @@
 //! The boundary counts what it does; loops close; triboxes keep their words on small integers, where everything is exact.
 
 use meshsweep_core::tribox::{Boundary, DIRECTIONS, FACES, Pose, SLABS, Scalar, Tribox, VERTICES, boundary};
+use meshsweep_host_tests::oracle::polytope::{Dimension, HalfSpace, Polytope};
 use std::cell::Cell;
 use std::cmp::Ordering;
 use std::ops::{Add, Neg, Sub};
@@ -126,11 +127,11 @@ fn edges_are_paired(of: &Boundary<f32>) -> usize {
         }
     }
     let mut edges = 0;
-    for from in 0..VERTICES {
-        for to in 0..VERTICES {
-            assert_eq!(seen[from][to], seen[to][from], "edge {from} {to}");
-            assert!(seen[from][to] <= 1);
-            edges += usize::from(seen[from][to]);
+    for (from, row) in seen.iter().enumerate() {
+        for (to, &count) in row.iter().enumerate() {
+            assert_eq!(count, seen[to][from], "edge {from} {to}");
+            assert!(count <= 1);
+            edges += usize::from(count);
         }
     }
     edges / 2
@@ -396,8 +397,8 @@ fn what_is_moved_stays_inside() {
                 let row = pose.rotation[k].map(f64::from);
                 row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + f64::from(t[k])
             });
-            for slab in 0..SLABS {
-                let d = DIRECTIONS[slab].map(f64::from);
+            for (slab, direction) in DIRECTIONS.iter().enumerate() {
+                let d = direction.map(f64::from);
                 let here = d[0] * q[0] + d[1] * q[1] + d[2] * q[2];
                 for bound in [&tight, &loose] {
                     assert!(f64::from(bound.low[slab]) <= here && here <= f64::from(bound.high[slab]));
@@ -409,4 +410,68 @@ fn what_is_moved_stays_inside() {
     let there = point.moved(&Pose::IDENTITY).unwrap();
     assert!(there.contains(&point) && there.high[0] - there.low[0] < 1e-5);
     assert!(Pose { rotation: [[3.0; 3]; 3], translation: [0.0; 3] }.bound([[0.0; 3]]).is_err());
+}
+
+/// The 18 half-spaces of parameters that are multiples of an eighth, in eighths.
+fn half_spaces(tribox: &Tribox) -> Vec<HalfSpace> {
+    let eighths = |x: f32| (f64::from(x) * 8.0) as i64;
+    let sides = DIRECTIONS.iter().zip(tribox.slabs()).flat_map(|(direction, (low, high))| {
+        let normal = direction.map(i64::from);
+        [HalfSpace::new(normal.map(|n| -n), -eighths(low)), HalfSpace::new(normal, eighths(high))]
+    });
+    sides.collect()
+}
+
+/// Vertices of an exact polytope of [`half_spaces`], as f32.
+fn vertices(of: &Polytope) -> Vec<[u32; 3]> {
+    let bits = of.vertices().iter().map(|vertex| {
+        let [x, y, z] = vertex.numerator.map(|n| n as f64 / (8.0 * vertex.denominator as f64));
+        [x as f32 + 0.0, y as f32 + 0.0, z as f32 + 0.0].map(f32::to_bits)
+    });
+    let mut all: Vec<_> = bits.collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+#[test]
+fn boundaries_are_the_intersections_of_their_half_spaces() {
+    let mut rng = Rng(13);
+    let mut dimensions = [0u32; 4];
+    for round in 0..100_000 {
+        let scale = if round % 5 == 0 { 1024.0 } else { 1.0 };
+        let points: Vec<_> = rng.points().into_iter().map(|p| p.map(|x| x * scale + 3.0)).collect();
+        let mut tribox = Tribox::of_points(points).unwrap();
+        if round % 3 == 0 {
+            let other = Tribox::of_points(rng.points()).unwrap();
+            tribox = tribox.intersection(&other.translated([3.0; 3]).unwrap());
+        }
+        let exact = Polytope::new(&half_spaces(&tribox));
+        let tight = tribox.tightened();
+        assert_eq!(exact.is_empty(), tight.is_empty(), "{tribox:?}");
+        if exact.is_empty() {
+            continue;
+        }
+        let touched = Polytope::new(&half_spaces(&tight));
+        assert!((0..FACES).all(|plane| touched.is_tight(plane)), "{tight:?}");
+        let boundary = tight.boundary();
+        let mut found: Vec<_> =
+            boundary.vertices.iter().map(|vertex| vertex.map(|x| (x + 0.0).to_bits())).collect();
+        found.sort_unstable();
+        found.dedup();
+        assert_eq!(found, vertices(&exact), "{tribox:?}");
+        let dimension = exact.dimension();
+        dimensions[match dimension {
+            Dimension::Solid => 3,
+            Dimension::Polygon => 2,
+            Dimension::Segment => 1,
+            _ => 0,
+        }] += 1;
+        if dimension == Dimension::Solid {
+            let cleaned = boundary.cleaned();
+            let faces = (0..FACES).filter(|&face| !cleaned.face(face).is_empty()).count();
+            assert_eq!(faces, exact.distinct_faces().count(), "{tribox:?}");
+        }
+    }
+    assert!(dimensions.iter().all(|&count| count > 1000), "{dimensions:?}");
 }

@@ -1,6 +1,7 @@
 //! The eighteen parameters, and what comparisons alone can tell of them.
 
 use super::SLABS;
+use crate::num::tolerance::U32;
 use crate::num::{sum_down, sum_up};
 use core::fmt;
 
@@ -176,8 +177,8 @@ impl Tribox {
         if self.is_empty() {
             return Ok(Tribox::EMPTY);
         }
-        // √2, rounded up, and the product's rounding.
-        let diagonal = distance * 1.414_214_f32;
+        // Two roundings, and the constant is below √2.
+        let diagonal = distance * (core::f32::consts::SQRT_2 * (1.0 + 4.0 * U32));
         let mut padded = *self;
         let planes = padded.low.iter_mut().zip(padded.high.iter_mut()).enumerate();
         planes.for_each(|(slab, (low, high))| {

@@ -6,11 +6,13 @@
 //! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
 //! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
 //!                         ├─ storage  (bytes, levels) ──────┤
-//!                         └─ tree     (all of the box tree) ┘
+//!                         ├─ tree     (all of the box tree) ┤
+//!                         └─ bounds   (paper 001: triboxes) ┘
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
 //! something. Counts are exact.
 
+pub mod bounds;
 pub(crate) mod brute;
 mod closest;
 mod hulls;
@@ -43,6 +45,17 @@ pub fn measure_tree(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
     tables.extend(tree::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures convex bounds of one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or a flat one.
+pub fn measure_bounds(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject.table()];
+    tables.extend(bounds::tables(&subject)?);
     Ok(tables)
 }
 

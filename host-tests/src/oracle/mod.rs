@@ -3,6 +3,7 @@
 mod distance;
 mod double;
 pub mod lp;
+pub mod polytope;
 mod segment;
 
 pub use distance::{Bounded, distance_to_mesh, distance_to_triangle, rough_distance_sq};

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use meshsweep_host_tests::measure::{measure, measure_tree};
+use meshsweep_host_tests::measure::{measure, measure_bounds, measure_tree};
 use serde_json::{Value, json};
 
 use crate::firmware;
@@ -17,17 +17,19 @@ pub struct Options {
     json: Option<PathBuf>,
     firmware: bool,
     tree: bool,
+    bounds: bool,
 }
 
 impl Options {
-    /// `[--firmware] [--tree] [--json FILE] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --bounds] [--json FILE] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match word {
                 "--firmware" => options.firmware = true,
-                "--tree" => options.tree = true,
+                "--tree" if !options.bounds => options.tree = true,
+                "--bounds" if !options.tree => options.bounds = true,
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
                 flag if flag.starts_with("--") => return None,
                 mesh => options.meshes.push(PathBuf::from(mesh)),
@@ -37,14 +39,19 @@ impl Options {
     }
 }
 
-/// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree; and the firmware if asked to.
+/// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
+/// bounds; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
     let mut measured = Vec::new();
     for mesh in meshes {
         steps.run(&format!("measure {}", mesh.display()), || {
-            let tables = if options.tree { measure_tree(mesh)? } else { measure(mesh)? };
+            let tables = match options {
+                Options { tree: true, .. } => measure_tree(mesh)?,
+                Options { bounds: true, .. } => measure_bounds(mesh)?,
+                _ => measure(mesh)?,
+            };
             for table in &tables {
                 print!("{}", table.text());
             }
@@ -83,5 +90,6 @@ mod tests {
         assert!(options.firmware);
         assert_eq!(Options::parse(&["--json"]), None);
         assert_eq!(Options::parse(&["--fast"]), None);
+        assert_eq!(Options::parse(&["--tree", "--bounds"]), None);
     }
 }

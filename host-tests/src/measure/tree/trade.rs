@@ -15,7 +15,7 @@ const TOLERANCES: [f32; 4] = [0.0, 0.001, 0.01, 0.1];
 const STEPS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 const KINDS: [Points; 2] = [Points::Far, Points::Near];
 const MEASURED: [&str; 9] =
-    ["ns", "x exact", "nodes", "triangles", "promised", "promised mm", "found", "found mm", "finished %"];
+    ["ns", "x exact", "nodes", "triangles", "promised", "promised ‰", "found", "found ‰", "finished %"];
 
 /// A relative tolerance, and a budget of nodes.
 ///
@@ -68,7 +68,7 @@ fn fill(table: &mut Table, subject: &Subject, tree: &Tree<'_>, stops: &[(Cell, S
         }
     }
     table.note(format!("{COUNT} points of each kind; promised: mean of (upper - lower) / upper; found: mean of upper / exact - 1"));
-    table.note("mm: thousandths of the diagonal, what the exact answer promises subtracted; finished: the exact upper bound was found");
+    table.note("‰: thousandths of the mesh's diagonal, what the exact answer promises subtracted; finished: the exact upper bound was found");
     Ok(())
 }
 
