@@ -36,7 +36,8 @@ pub enum Ended {
     Tolerance,
     /// The step budget of [`Stop`] was used up.
     Steps,
-    /// The caller's memory was too short; [`Model::capacities`](crate::Model::capacities) says what is needed.
+    /// The caller's memory was too short; [`Model::capacities`](crate::Model::capacities), or of a tree
+    /// [`TreeHeader::stack_entries`](crate::blob::TreeHeader::stack_entries), says what is needed.
     Capacity,
     /// The blob knows the surface only to within an error, and that decides: it was cut after a coarser level, or a segment
     /// passes so near that vertices moved to a grid leave it open.
@@ -143,7 +144,8 @@ pub enum QueryError {
     NotFinite,
     /// A tolerance is negative, NaN or infinite.
     Tolerance,
-    /// An end of a segment is farther than 2^40 times the model's size from its origin: clip the segment first.
+    /// An end of a segment is too far away: on the cover tree farther than 2^40 times the model's size from its origin, on the box tree 2^38 grid
+    /// units from the model's farthest corner. Clip the segment first.
     OutOfDomain,
     /// The caller's queue is empty.
     NoQueue,
@@ -158,7 +160,7 @@ impl core::fmt::Display for QueryError {
         f.write_str(match self {
             QueryError::NotFinite => "a coordinate of the query is NaN or infinite",
             QueryError::Tolerance => "a tolerance is negative, NaN or infinite",
-            QueryError::OutOfDomain => "a segment's end is farther than 2^40 model sizes away: clip it first",
+            QueryError::OutOfDomain => "a segment's end is too far from the model: clip it first",
             QueryError::NoQueue => "the queue has no entries",
             QueryError::NotServed => "the blob was built without the sections that this question needs",
             QueryError::Model => "the model was not opened",

@@ -41,7 +41,7 @@ impl core::error::Error for BatchError {}
 /// [`closest_point`] of each of `points`, into the place of `answers` with the same index; the same bits but for `work`.
 ///
 /// `order` is working memory for sorting: with two entries a query all are asked in Morton order, with fewer they are sorted in pieces of half as many
-/// queries as there are entries, with less than two they are asked as they come, which is best if they are a path or a grid row by row. `hint`
+/// queries as there are entries, with less than two (`&mut []`) they are asked as they come, which is best if they are a path or a grid row by row. `hint`
 /// is where the first query begins, and is left where the last one ended.
 ///
 /// A query with a tolerance or a step budget, or a stack on which not everything fits, is answered on its own: where it stops depends on where it begins.

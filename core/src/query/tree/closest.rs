@@ -29,7 +29,7 @@ impl Hint {
 /// time is bounded, set [`Stop::steps`]. Farther than a million model sizes the interval is that of the model's box.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`].
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`]; [`QueryError::NotServed`] if the blob was not built for distances.
 pub fn closest_point(
     tree: &Tree<'_>,
     point: [f32; 3],

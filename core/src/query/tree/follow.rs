@@ -122,7 +122,8 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// The nearest triangle, first of all among those of the first entry if `first`. At most `budget` nodes and leaves.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(super) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, Gap> {
         let mut next = 0;
         if first && let Some((_, child)) = self.front.get(0) {
@@ -160,7 +161,8 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// Brings entry `i` up to date until it is of no more interest.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, i: usize, mut child: Child) -> Result<(), Gap> {
         loop {
             match child.known() {
@@ -197,7 +199,8 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// Replaces an entry by the nearest child of its node and adds the others.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn open(&mut self, node: u32, entry: Option<usize>) -> Result<(), Gap> {
         if self.work.splits >= self.steps {
             return Err(Gap::Undecided);
@@ -244,7 +247,8 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// Looks at the triangles of a leaf.
-    #[inline(always)]
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn look(&mut self, i: usize, child: Child) -> Result<(), Gap> {
         let patch = self.tree.leaf(child.node(), child.lane()).ok_or(Gap::Model)?;
         let (near, edges) = seen(&patch, self.probe.p).ok_or(Gap::Model)?;

@@ -2,7 +2,7 @@
 //!
 //! After Guéziec, *"Meshsweeper": From Closest Point to Hausdorff Distances Between Meshes* (2000), sections 3.3 and 5.1, on the box tree.
 
-use super::closest::{Hint, closest_point, closest_point_from};
+use super::closest::{Hint, closest_point_from};
 use super::follow::{Follow, Gap, Nearest};
 use super::front::{Child, Extent, Front, Known};
 use super::plane::Planes;
@@ -18,7 +18,7 @@ use glam::Vec3;
 /// What a session answers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Followed {
-    /// What [`closest_point`] answers, with the same bits; `work` is what the session did.
+    /// What [`closest_point`](super::closest_point) answers, with the same bits; `work` is what the session did.
     pub closest: ClosestPoint,
     /// While the query is no farther than this from where it is now, input units, [`ClosestPoint::triangle`] remains the closest triangle of
     /// the input mesh. Rounded down. 0 if that is not known: on edges and vertices, after a jump, and where it would be less than the last step.
@@ -59,7 +59,7 @@ impl<'t, const N: usize> Session<'t, N> {
         self.memory = Memory::EMPTY;
     }
 
-    /// As [`closest_point`], with the same bits in `lower`, `upper`, `point` and `triangle`, and the less work the less the query moved.
+    /// As [`closest_point`](super::closest_point), with the same bits in `lower`, `upper`, `point` and `triangle`, and the less work the less the query moved.
     ///
     /// With a tolerance in `stop` it is that function. A step budget bounds what the session does and, where that was not
     /// enough, the plain query after it: at most twice as many nodes. The session's answer then may be exact where the plain query's is not.
@@ -68,7 +68,7 @@ impl<'t, const N: usize> Session<'t, N> {
     /// then a node; for jumps that of [`closest_point_from`].
     ///
     /// # Errors
-    /// Those of [`closest_point`]; the session stays as it was.
+    /// Those of [`closest_point`](super::closest_point); the session stays as it was.
     pub fn closest_point(
         &mut self,
         tree: &Tree<'t>,
@@ -223,7 +223,7 @@ impl Memory {
         let probe = Probe::new(tree, point)?;
         let first = tree.frame(0).ok_or(QueryError::NotServed)?;
         if probe.far || stop.relative > 0.0 || stop.absolute > 0.0 {
-            let closest = closest_point(tree, point, stop, stack)?;
+            let closest = closest_point_from(tree, point, stop, stack, &mut Hint::NONE)?;
             return Ok(Followed { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);

@@ -72,7 +72,10 @@ impl SignedDistance {
     }
 }
 
-/// Signed distance of `point` (input units), negative inside.
+/// Signed distance of `point` (input units), negative inside: where the nearest surface has its back to the point.
+///
+/// Of a mesh that bounds a solid that is what it sounds like; of an inverted one the sides are exchanged. Parts that overlap are not united: the nearest
+/// surface decides. Cavities are as their winding says.
 ///
 /// The side is undefined if the mesh is not closed and consistently wound ([`TreeHeader::is_closed`](crate::blob::TreeHeader::is_closed)), if the distance is not
 /// clear of the stored surface's error and of rounding, next to walls and gaps thinner than these, next to slivers so flat that they have no certain
