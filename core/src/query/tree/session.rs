@@ -223,7 +223,7 @@ impl Memory {
         let probe = Probe::new(tree, point)?;
         let first = tree.frame(0).ok_or(QueryError::NotServed)?;
         if probe.far || stop.relative > 0.0 || stop.absolute > 0.0 {
-            let closest = closest_point_from(tree, point, stop, stack, &mut Hint::NONE)?;
+            let closest = closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())?;
             return Ok(Followed { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
