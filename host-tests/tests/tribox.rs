@@ -475,3 +475,35 @@ fn boundaries_are_the_intersections_of_their_half_spaces() {
     }
     assert!(dimensions.iter().all(|&count| count > 1000), "{dimensions:?}");
 }
+
+#[test]
+fn boundaries_in_f32_are_within_ten_roundings() {
+    let mut rng = Rng(14);
+    let mut unit = || (rng.next() >> 40) as f32 / (1u64 << 24) as f32;
+    for round in 0..20_000 {
+        let (flat, away) =
+            (if round % 3 == 0 { 1e-6 } else { 1.0 }, if round % 4 == 0 { 100.0 } else { 0.0 });
+        let points: Vec<[f32; 3]> =
+            (0..4 + round % 40).map(|_| [unit() + away, unit() * flat, unit() - 0.5]).collect();
+        let tribox = Tribox::of_points(points.iter().copied()).unwrap();
+        let most = tribox.slabs().fold(0f32, |most, (low, high)| most.max(low.abs()).max(high.abs()));
+        let doubt = f64::from(most) * 10.0 / f64::from(1u32 << 24);
+        let single = tribox.boundary();
+        let exact = |x: f32| Counted(f64::from(x));
+        let double = boundary(&tribox.low.map(exact), &tribox.high.map(exact));
+        for vertex in double.vertices {
+            let near = single.vertices.iter().any(|other| {
+                other.iter().zip(vertex).all(|(x, exact)| (f64::from(*x) - exact.0).abs() <= doubt)
+            });
+            assert!(near, "{tribox:?} {vertex:?}");
+        }
+        for vertex in single.vertices {
+            for (slab, (low, high)) in tribox.slabs().enumerate() {
+                let d = DIRECTIONS[slab].map(f64::from);
+                let here = (0..3).map(|k| d[k] * f64::from(vertex[k])).sum::<f64>();
+                let doubt = if slab < 3 { doubt } else { 2.0 * doubt };
+                assert!(f64::from(low) - doubt <= here && here <= f64::from(high) + doubt);
+            }
+        }
+    }
+}

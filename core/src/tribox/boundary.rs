@@ -89,8 +89,8 @@ fn beyond<S: Scalar>([a, b, c]: [S; 3], [ab, bc, ca]: [S; 3]) -> [[S; 3]; 4] {
 
 /// The boundary of the intersection of nine slabs, of which every plane touches it ([`Tribox::tightened`] sees to that).
 ///
-/// Faces are counter-clockwise from outside. Between 96 and 112 additions, 24 halvings and at most 24 comparisons. With f32 a vertex is within 4·2^-24
-/// of the greatest parameter from where three of the planes meet; exact for parameters that are multiples of 2^-20 of a power of two above all of them
+/// Faces are counter-clockwise from outside. Between 96 and 112 additions, 24 halvings and at most 24 comparisons. With f32 a vertex is within 10·2^-24
+/// of the greatest parameter from where it should be, by coordinate; exact for parameters that are multiples of 2^-20 of a power of two above all of them
 /// ([`Tribox::on_grid`]). Planes that do not touch give vertices that lie beyond others, in loops that still close.
 #[inline]
 pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> Boundary<S> {

@@ -12,7 +12,7 @@ const FRAMES: [[usize; 3]; 4] = [[0, 1, 2], [3, 4, 2], [5, 6, 0], [7, 8, 1]];
 impl Tribox {
     /// A lower bound, in the unit of the parameters, of the distance from a point to all that is inside; infinity if that is nothing, NaN for none.
     ///
-    /// The greatest distance to the four boxes of which the tribox is the intersection, rounded down: exact where the closest point lies on a face, short beside
+    /// The greatest distance to the four boxes of which the tribox is the intersection, rounded down, below f32's normal range to 0: exact where the closest point lies on a face, short beside
     /// some edges and vertices. 0 does not say that the point is inside.
     #[must_use]
     pub fn distance(&self, point: [f32; 3]) -> f32 {
@@ -41,7 +41,9 @@ impl Tribox {
             let here = square(a) + square(b) + square(c);
             if here > greatest { here } else { greatest }
         });
-        root(greatest) * (1.0 - 16.0 * U32) / scale
+        let distance = root(greatest) * (1.0 - 16.0 * U32) / scale;
+        // Below, the quotient may have been rounded up by more than that.
+        if distance >= f32::MIN_POSITIVE { distance } else { 0.0 }
     }
 
     /// Parameters between which the segment from `a` (0) to `b` (1) may be inside, rounded outward; `None` is a proof that it nowhere is.
@@ -81,5 +83,7 @@ impl Tribox {
 fn outward(plane: f32, from: f32, way: f32, up: bool) -> f32 {
     let t = (plane - from) / way;
     let grows = (t > 0.0) == up;
-    if grows { t * (1.0 + 8.0 * U32) } else { t * (1.0 - 8.0 * U32) }
+    let t = if grows { t * (1.0 + 8.0 * U32) } else { t * (1.0 - 8.0 * U32) };
+    // Below f32's normal range roundings are not relative.
+    if up { t + f32::MIN_POSITIVE } else { t - f32::MIN_POSITIVE }
 }

@@ -89,8 +89,8 @@ impl Tribox {
             let at = |of: &[f32; SLABS]| of.get(slab).copied().unwrap_or(0.0);
             largest(largest(most, at(&self.low)), at(&self.high))
         });
-        // Vertices as computed are that close to the real ones.
-        let doubt = (8.0 * U32) * size;
+        // Vertices as computed are that close to the real ones: five roundings of a vertex, and as many if rounding decided its corner's case.
+        let doubt = (16.0 * U32) * size;
         self.boundary()
             .vertices
             .into_iter()
