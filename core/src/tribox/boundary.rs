@@ -39,9 +39,12 @@ impl Scalar for f32 {
 pub struct Boundary<S> {
     /// Four vertices of each corner; corner `i` is where x is least if bit 0 is set, y if bit 1 is, z if bit 2 is. Vertices may coincide.
     pub vertices: [[S; 3]; VERTICES],
-    loops: [[u8; LOOP]; FACES],
+    loops: Loops,
     lengths: [u8; FACES],
 }
+
+/// A part is written four bytes wide, so that a loop's last one may reach beyond it.
+type Loops = [[u8; LOOP + 3]; FACES];
 
 /// Planes of a corner, in coordinates that grow towards it: box planes at the least three, chamfers between the first and second, second and third, third and first.
 #[derive(Clone, Copy)]
@@ -61,6 +64,79 @@ const CHAMFER_PARTS: [[&[u8]; 3]; 4] = [
     [&[3, 1], &[0, 2], &[2, 0, 1, 3]],
     [&[2, 0, 1, 3], &[3, 1], &[0, 2]],
 ];
+
+/// A part of a loop, ready to be written: slots of a corner, and how many.
+#[derive(Clone, Copy)]
+struct Part {
+    slots: u32,
+    length: u8,
+}
+
+/// Parts that a corner has in its six faces, box planes first, each forward and backward.
+const PARTS: [[Part; 12]; 4] = {
+    let mut parts = [[Part { slots: 0, length: 0 }; 12]; 4];
+    let mut case = 0;
+    while case < 4 {
+        let mut which = 0;
+        while which < 12 {
+            let face = which / 2;
+            let slots = if face < 3 { PLANE_PARTS[case][face] } else { CHAMFER_PARTS[case][face - 3] };
+            let mut i = 0;
+            while i < slots.len() {
+                let from = if which % 2 == 0 { i } else { slots.len() - 1 - i };
+                parts[case][which].slots |= (slots[from] as u32) << (8 * i);
+                i += 1;
+            }
+            parts[case][which].length = slots.len() as u8;
+            which += 1;
+        }
+        case += 1;
+    }
+    parts
+};
+
+/// Most corners of a face.
+const CORNERS: usize = 4;
+
+/// For each face its corners in the order of the loop, each with the number of its part; chamfers have two.
+const CORNERS_OF_FACES: [[(u8, u8); CORNERS]; FACES] = {
+    let mut faces = [[(0, 0); CORNERS]; FACES];
+    let mut axis = 0;
+    while axis < 3 {
+        let (second, third) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut low = 0;
+        while low < 2 {
+            // Corners of a box plane, counter-clockwise about the axis; the other way where it is least.
+            let around = [[0, 0], [1, 0], [1, 1], [0, 1]];
+            let mut i = 0;
+            while i < 4 {
+                let [b, c] = around[if low == 1 { 3 - i } else { i }];
+                let backward = (b != c) != (low == 1);
+                let corner = low << axis | b << second | c << third;
+                faces[2 * axis + 1 - low][i] = (corner as u8, (2 * axis + backward as usize) as u8);
+                i += 1;
+            }
+            let mut other = 0;
+            while other < 2 {
+                // Up one side of the chamfer and down the other.
+                let turned = low != other;
+                let slab = 3 + 2 * axis + turned as usize;
+                let mut i = 0;
+                while i < 2 {
+                    let far = if turned { 1 - i } else { i };
+                    let backward = (far == 0) != turned;
+                    let corner = low << axis | other << second | far << third;
+                    faces[2 * slab + 1 - low][i] = (corner as u8, (6 + 2 * axis + backward as usize) as u8);
+                    i += 1;
+                }
+                other += 1;
+            }
+            low += 1;
+        }
+        axis += 1;
+    }
+    faces
+};
 
 impl<S: Scalar> Corner<S> {
     /// Its four vertices, and its case.
@@ -94,52 +170,66 @@ fn beyond<S: Scalar>([a, b, c]: [S; 3], [ab, bc, ca]: [S; 3]) -> [[S; 3]; 4] {
 /// ([`Tribox::on_grid`]). Planes that do not touch give vertices that lie beyond others, in loops that still close.
 #[inline]
 pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> Boundary<S> {
+    let corners = [
+        at::<S, 0>(low, high),
+        at::<S, 1>(low, high),
+        at::<S, 2>(low, high),
+        at::<S, 3>(low, high),
+        at::<S, 4>(low, high),
+        at::<S, 5>(low, high),
+        at::<S, 6>(low, high),
+        at::<S, 7>(low, high),
+    ];
+    let cases = corners.map(|(_, case)| case);
     let mut vertices = [[S::ZERO; 3]; VERTICES];
-    let mut cases = [0usize; 8];
-    for (corner, (slots, case)) in vertices.as_chunks_mut::<4>().0.iter_mut().zip(&mut cases).enumerate() {
-        let is_low = [corner & 1 != 0, corner & 2 != 0, corner & 4 != 0];
-        let [x, y, z] = is_low;
-        let side = |low: S, high: S, is_low: bool| if is_low { -low } else { high };
-        // Where two coordinates grow in the same direction the sum's slab bounds the edge, else the difference's.
-        let planes = [side(low[0], high[0], x), side(low[1], high[1], y), side(low[2], high[2], z)];
-        let chamfers = [
-            if x == y { side(low[3], high[3], x) } else { side(low[4], high[4], x) },
-            if y == z { side(low[5], high[5], y) } else { side(low[6], high[6], y) },
-            if z == x { side(low[7], high[7], z) } else { side(low[8], high[8], z) },
-        ];
-        let (found, which) = Corner { planes, chamfers }.vertices();
-        *case = which;
-        *slots = found.map(|[px, py, pz]| {
-            [if x { -px } else { px }, if y { -py } else { py }, if z { -pz } else { pz }]
-        });
+    for (slots, (found, _)) in vertices.as_chunks_mut::<4>().0.iter_mut().zip(corners) {
+        *slots = found;
     }
-    let mut of = Boundary { vertices, loops: [[0; LOOP]; FACES], lengths: [0; FACES] };
-    for axis in 0..3 {
-        for is_low in [true, false] {
-            of.box_face(axis, is_low, &cases);
-            for second_is_low in [true, false] {
-                of.chamfer(axis, is_low, second_is_low, &cases);
+    let mut of = Boundary { vertices, loops: [[0; LOOP + 3]; FACES], lengths: [0; FACES] };
+    for (face, (corners, (vertices, length))) in
+        CORNERS_OF_FACES.iter().zip(of.loops.iter_mut().zip(&mut of.lengths)).enumerate()
+    {
+        let mut end = 0usize;
+        for &(corner, part) in corners.iter().take(if face < 6 { CORNERS } else { 2 }) {
+            let parts = &PARTS[cases[corner as usize & 7] & 3];
+            let Some(&Part { slots, length }) = parts.get(part as usize) else { continue };
+            let part = slots + u32::from(corner) * 0x0404_0404;
+            if let Some(place) = vertices.get_mut(end..end + 4) {
+                place.copy_from_slice(&part.to_le_bytes());
             }
+            end += usize::from(length);
         }
+        *length = end as u8;
     }
     of
 }
 
-/// The corner where coordinates `axis`, the next and the one after are least if told so.
+/// Vertices of corner `I`, and its case.
 #[inline(always)]
-fn corner(axis: usize, is_low: [bool; 3]) -> usize {
-    let [a, b, c] = is_low.map(usize::from);
-    a << axis | b << ((axis + 1) % 3) | c << ((axis + 2) % 3)
+fn at<S: Scalar, const I: usize>(low: &[S; SLABS], high: &[S; SLABS]) -> ([[S; 3]; 4], usize) {
+    let [x, y, z] = [I & 1 != 0, I & 2 != 0, I & 4 != 0];
+    let side = |low: S, high: S, is_low: bool| if is_low { -low } else { high };
+    // Where two coordinates grow in the same direction the sum's slab bounds the edge, else the difference's.
+    let planes = [side(low[0], high[0], x), side(low[1], high[1], y), side(low[2], high[2], z)];
+    let chamfers = [
+        if x == y { side(low[3], high[3], x) } else { side(low[4], high[4], x) },
+        if y == z { side(low[5], high[5], y) } else { side(low[6], high[6], y) },
+        if z == x { side(low[7], high[7], z) } else { side(low[8], high[8], z) },
+    ];
+    let (found, case) = Corner { planes, chamfers }.vertices();
+    let turned = found
+        .map(|[px, py, pz]| [if x { -px } else { px }, if y { -py } else { py }, if z { -pz } else { pz }]);
+    (turned, case)
 }
 
-/// A face's loop while it is put together.
+/// A face's loop while it is cleaned.
 struct Loop {
-    vertices: [u8; LOOP],
+    vertices: [u8; LOOP + 3],
     length: usize,
 }
 
 impl Loop {
-    const EMPTY: Loop = Loop { vertices: [0; LOOP], length: 0 };
+    const EMPTY: Loop = Loop { vertices: [0; LOOP + 3], length: 0 };
 
     #[inline(always)]
     fn push(&mut self, vertex: u8) {
@@ -148,25 +238,6 @@ impl Loop {
             self.length += 1;
         }
     }
-
-    /// The part of a corner, forward or backward.
-    #[inline(always)]
-    fn part(&mut self, corner: usize, slots: &[u8], forward: bool) {
-        let vertex = |slot: &u8| corner as u8 * 4 + slot;
-        if forward {
-            slots.iter().for_each(|slot| self.push(vertex(slot)));
-        } else {
-            slots.iter().rev().for_each(|slot| self.push(vertex(slot)));
-        }
-    }
-
-    #[inline(always)]
-    fn reversed_if(mut self, is: bool) -> Loop {
-        if is && let Some(used) = self.vertices.get_mut(..self.length) {
-            used.reverse();
-        }
-        self
-    }
 }
 
 impl<S: Scalar> Boundary<S> {
@@ -174,29 +245,6 @@ impl<S: Scalar> Boundary<S> {
         if let (Some(slots), Some(length)) = (self.loops.get_mut(face), self.lengths.get_mut(face)) {
             (*slots, *length) = (found.vertices, found.length as u8);
         }
-    }
-
-    /// The face of a box plane: a part of each of its four corners.
-    #[inline(always)]
-    fn box_face(&mut self, axis: usize, is_low: bool, cases: &[usize; 8]) {
-        let mut found = Loop::EMPTY;
-        for [b, c] in [[false, false], [true, false], [true, true], [false, true]] {
-            let corner = corner(axis, [is_low, b, c]) & 7;
-            found.part(corner, PLANE_PARTS[cases[corner] & 3][axis % 3], b == c);
-        }
-        self.put(2 * axis + usize::from(!is_low), &found.reversed_if(is_low));
-    }
-
-    /// The face of the chamfer between the planes of `axis` and of the next axis: a part of both its corners.
-    #[inline(always)]
-    fn chamfer(&mut self, axis: usize, is_low: bool, second_is_low: bool, cases: &[usize; 8]) {
-        let mut found = Loop::EMPTY;
-        for third_is_low in [false, true] {
-            let corner = corner(axis, [is_low, second_is_low, third_is_low]) & 7;
-            found.part(corner, CHAMFER_PARTS[cases[corner] & 3][axis % 3], third_is_low);
-        }
-        let slab = 3 + 2 * axis + usize::from(is_low != second_is_low);
-        self.put(2 * slab + usize::from(!is_low), &found.reversed_if(is_low != second_is_low));
     }
 
     /// The loop of a face, counter-clockwise from outside; empty for numbers from [`FACES`] on, and for faces that were [cleaned](Self::cleaned) away.
@@ -217,7 +265,7 @@ impl<S: Scalar> Boundary<S> {
         for (i, (slot, vertex)) in first.iter_mut().zip(&self.vertices).enumerate() {
             *slot = self.vertices.iter().position(|other| other == vertex).unwrap_or(i) as u8;
         }
-        let mut cleaned = Boundary { loops: [[0; LOOP]; FACES], lengths: [0; FACES], ..*self };
+        let mut cleaned = Boundary { loops: [[0; LOOP + 3]; FACES], lengths: [0; FACES], ..*self };
         for face in 0..FACES {
             let mut found = Loop::EMPTY;
             for &vertex in self.face(face) {
