@@ -39,12 +39,8 @@ impl Scalar for f32 {
 pub struct Boundary<S> {
     /// Four vertices of each corner; corner `i` is where x is least if bit 0 is set, y if bit 1 is, z if bit 2 is. Vertices may coincide.
     pub vertices: [[S; 3]; VERTICES],
-    loops: Loops,
-    lengths: [u8; FACES],
+    faces: [Loop; FACES],
 }
-
-/// A part is written four bytes wide, so that a loop's last one may reach beyond it.
-type Loops = [[u8; LOOP + 3]; FACES];
 
 /// Planes of a corner, in coordinates that grow towards it: box planes at the least three, chamfers between the first and second, second and third, third and first.
 #[derive(Clone, Copy)]
@@ -69,7 +65,7 @@ const CHAMFER_PARTS: [[&[u8]; 3]; 4] = [
 #[derive(Clone, Copy)]
 struct Part {
     slots: u32,
-    length: u8,
+    length: usize,
 }
 
 /// Parts that a corner has in its six faces, box planes first, each forward and backward.
@@ -87,7 +83,7 @@ const PARTS: [[Part; 12]; 4] = {
                 parts[case][which].slots |= (slots[from] as u32) << (8 * i);
                 i += 1;
             }
-            parts[case][which].length = slots.len() as u8;
+            parts[case][which].length = slots.len();
             which += 1;
         }
         case += 1;
@@ -99,7 +95,7 @@ const PARTS: [[Part; 12]; 4] = {
 const CORNERS: usize = 4;
 
 /// For each face its corners in the order of the loop, each with the number of its part; chamfers have two.
-const CORNERS_OF_FACES: [[(u8, u8); CORNERS]; FACES] = {
+const CORNERS_OF_FACES: [[(usize, usize); CORNERS]; FACES] = {
     let mut faces = [[(0, 0); CORNERS]; FACES];
     let mut axis = 0;
     while axis < 3 {
@@ -113,7 +109,7 @@ const CORNERS_OF_FACES: [[(u8, u8); CORNERS]; FACES] = {
                 let [b, c] = around[if low == 1 { 3 - i } else { i }];
                 let backward = (b != c) != (low == 1);
                 let corner = low << axis | b << second | c << third;
-                faces[2 * axis + 1 - low][i] = (corner as u8, (2 * axis + backward as usize) as u8);
+                faces[2 * axis + 1 - low][i] = (corner, 2 * axis + backward as usize);
                 i += 1;
             }
             let mut other = 0;
@@ -126,7 +122,7 @@ const CORNERS_OF_FACES: [[(u8, u8); CORNERS]; FACES] = {
                     let far = if turned { 1 - i } else { i };
                     let backward = (far == 0) != turned;
                     let corner = low << axis | other << second | far << third;
-                    faces[2 * slab + 1 - low][i] = (corner as u8, (6 + 2 * axis + backward as usize) as u8);
+                    faces[2 * slab + 1 - low][i] = (corner, 6 + 2 * axis + backward as usize);
                     i += 1;
                 }
                 other += 1;
@@ -141,7 +137,7 @@ const CORNERS_OF_FACES: [[(u8, u8); CORNERS]; FACES] = {
 impl<S: Scalar> Corner<S> {
     /// Its four vertices, and its case.
     #[inline(always)]
-    fn vertices(&self) -> ([[S; 3]; 4], usize) {
+    fn vertices(&self) -> ([[S; 3]; 4], u8) {
         let Corner { planes: [a, b, c], chamfers: [ab, bc, ca] } = *self;
         let p = [(ab + ca - bc).half(), (ab + bc - ca).half(), (bc + ca - ab).half()];
         if p[0] > a {
@@ -168,45 +164,18 @@ fn beyond<S: Scalar>([a, b, c]: [S; 3], [ab, bc, ca]: [S; 3]) -> [[S; 3]; 4] {
 /// Faces are counter-clockwise from outside. Between 96 and 112 additions, 24 halvings and at most 24 comparisons. With f32 a vertex is within 10·2^-24
 /// of the greatest parameter from where it should be, by coordinate; exact for parameters that are multiples of 2^-20 of a power of two above all of them
 /// ([`Tribox::on_grid`]). Planes that do not touch give vertices that lie beyond others, in loops that still close.
+///
+/// [`Boundary::compute`] does the same in place, which saves copying 600 bytes.
 #[inline]
 pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> Boundary<S> {
-    let corners = [
-        at::<S, 0>(low, high),
-        at::<S, 1>(low, high),
-        at::<S, 2>(low, high),
-        at::<S, 3>(low, high),
-        at::<S, 4>(low, high),
-        at::<S, 5>(low, high),
-        at::<S, 6>(low, high),
-        at::<S, 7>(low, high),
-    ];
-    let cases = corners.map(|(_, case)| case);
-    let mut vertices = [[S::ZERO; 3]; VERTICES];
-    for (slots, (found, _)) in vertices.as_chunks_mut::<4>().0.iter_mut().zip(corners) {
-        *slots = found;
-    }
-    let mut of = Boundary { vertices, loops: [[0; LOOP + 3]; FACES], lengths: [0; FACES] };
-    for (face, (corners, (vertices, length))) in
-        CORNERS_OF_FACES.iter().zip(of.loops.iter_mut().zip(&mut of.lengths)).enumerate()
-    {
-        let mut end = 0usize;
-        for &(corner, part) in corners.iter().take(if face < 6 { CORNERS } else { 2 }) {
-            let parts = &PARTS[cases[corner as usize & 7] & 3];
-            let Some(&Part { slots, length }) = parts.get(part as usize) else { continue };
-            let part = slots + u32::from(corner) * 0x0404_0404;
-            if let Some(place) = vertices.get_mut(end..end + 4) {
-                place.copy_from_slice(&part.to_le_bytes());
-            }
-            end += usize::from(length);
-        }
-        *length = end as u8;
-    }
-    of
+    let mut boundary = Boundary::EMPTY;
+    boundary.compute(low, high);
+    boundary
 }
 
-/// Vertices of corner `I`, and its case.
+/// Puts the vertices of corner `I` into its slots; its case.
 #[inline(always)]
-fn at<S: Scalar, const I: usize>(low: &[S; SLABS], high: &[S; SLABS]) -> ([[S; 3]; 4], usize) {
+fn at<S: Scalar, const I: usize>(low: &[S; SLABS], high: &[S; SLABS], slots: &mut [[S; 3]; 4]) -> u8 {
     let [x, y, z] = [I & 1 != 0, I & 2 != 0, I & 4 != 0];
     let side = |low: S, high: S, is_low: bool| if is_low { -low } else { high };
     // Where two coordinates grow in the same direction the sum's slab bounds the edge, else the difference's.
@@ -217,40 +186,115 @@ fn at<S: Scalar, const I: usize>(low: &[S; SLABS], high: &[S; SLABS]) -> ([[S; 3
         if z == x { side(low[7], high[7], z) } else { side(low[8], high[8], z) },
     ];
     let (found, case) = Corner { planes, chamfers }.vertices();
-    let turned = found
-        .map(|[px, py, pz]| [if x { -px } else { px }, if y { -py } else { py }, if z { -pz } else { pz }]);
-    (turned, case)
+    for (slot, [px, py, pz]) in slots.iter_mut().zip(found) {
+        *slot = [if x { -px } else { px }, if y { -py } else { py }, if z { -pz } else { pz }];
+    }
+    case
 }
 
-/// A face's loop while it is cleaned.
+/// A face's loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Loop {
+    /// A part is written four bytes wide, so that the last one may reach beyond the loop.
     vertices: [u8; LOOP + 3],
-    length: usize,
+    length: u8,
 }
 
 impl Loop {
     const EMPTY: Loop = Loop { vertices: [0; LOOP + 3], length: 0 };
 
+    /// Makes it the loop of face `F`. A function for each face, so that the tables are constants in it: half the instructions of a loop over them.
     #[inline(always)]
+    fn join<const F: usize>(&mut self, parts: &[&[Part; 12]; 8]) {
+        let mut end = 0usize;
+        // Four constants and not a loop over them: so they are.
+        let [a, b, c, d] = const { CORNERS_OF_FACES[F] };
+        end = self.put(a, parts, end);
+        end = self.put(b, parts, end);
+        if F < 6 {
+            end = self.put(c, parts, end);
+            end = self.put(d, parts, end);
+        }
+        self.length = end as u8;
+    }
+
+    /// Writes a part of a corner from `start` on; where it ends.
+    #[inline(always)]
+    fn put(&mut self, (corner, part): (usize, usize), parts: &[&[Part; 12]; 8], start: usize) -> usize {
+        let found = parts.get(corner).and_then(|parts| parts.get(part));
+        let Some(&Part { slots, length }) = found else { return start };
+        if let Some(place) = self.vertices.get_mut(start..).and_then(|rest| rest.first_chunk_mut::<4>()) {
+            *place = (slots + corner as u32 * 0x0404_0404).to_le_bytes();
+        }
+        start + length
+    }
+
+    fn as_slice(&self) -> &[u8] {
+        self.vertices.get(..usize::from(self.length)).unwrap_or(&[])
+    }
+
+    /// Adds a vertex unless it is the last one; one that was there before the last one takes that off: there and back again.
     fn push(&mut self, vertex: u8) {
-        if let Some(slot) = self.vertices.get_mut(self.length) {
-            *slot = vertex;
-            self.length += 1;
+        match self.as_slice() {
+            [.., before, _] if *before == vertex => self.length -= 1,
+            [.., last] if *last == vertex => {}
+            _ => {
+                if let Some(slot) = self.vertices.get_mut(usize::from(self.length)) {
+                    *slot = vertex;
+                    self.length += 1;
+                }
+            }
         }
     }
 }
 
 impl<S: Scalar> Boundary<S> {
-    fn put(&mut self, face: usize, found: &Loop) {
-        if let (Some(slots), Some(length)) = (self.loops.get_mut(face), self.lengths.get_mut(face)) {
-            (*slots, *length) = (found.vertices, found.length as u8);
-        }
+    /// All vertices at the origin, no faces: to be [computed](Self::compute).
+    pub const EMPTY: Self = Boundary { vertices: [[S::ZERO; 3]; VERTICES], faces: [Loop::EMPTY; FACES] };
+
+    /// [`boundary()`], in place.
+    #[inline]
+    pub fn compute(&mut self, low: &[S; SLABS], high: &[S; SLABS]) {
+        let Some([a, b, c, d, e, f, g, h]) = self.vertices.as_chunks_mut::<4>().0.first_chunk_mut::<8>()
+        else {
+            return;
+        };
+        let cases = [
+            at::<S, 0>(low, high, a),
+            at::<S, 1>(low, high, b),
+            at::<S, 2>(low, high, c),
+            at::<S, 3>(low, high, d),
+            at::<S, 4>(low, high, e),
+            at::<S, 5>(low, high, f),
+            at::<S, 6>(low, high, g),
+            at::<S, 7>(low, high, h),
+        ];
+        let parts = cases.map(|case| &PARTS[usize::from(case & 3)]);
+        let [x, xx, y, yy, z, zz, chamfers @ ..] = &mut self.faces;
+        x.join::<0>(&parts);
+        xx.join::<1>(&parts);
+        y.join::<2>(&parts);
+        yy.join::<3>(&parts);
+        z.join::<4>(&parts);
+        zz.join::<5>(&parts);
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = chamfers;
+        a.join::<6>(&parts);
+        b.join::<7>(&parts);
+        c.join::<8>(&parts);
+        d.join::<9>(&parts);
+        e.join::<10>(&parts);
+        f.join::<11>(&parts);
+        g.join::<12>(&parts);
+        h.join::<13>(&parts);
+        i.join::<14>(&parts);
+        j.join::<15>(&parts);
+        k.join::<16>(&parts);
+        l.join::<17>(&parts);
     }
 
     /// The loop of a face, counter-clockwise from outside; empty for numbers from [`FACES`] on, and for faces that were [cleaned](Self::cleaned) away.
     pub fn face(&self, face: usize) -> &[u8] {
-        let length = self.lengths.get(face).copied().unwrap_or(0) as usize;
-        self.loops.get(face).and_then(|slots| slots.get(..length)).unwrap_or(&[])
+        self.faces.get(face).map_or(&[], Loop::as_slice)
     }
 
     /// Corners of the vertices of a face.
@@ -265,28 +309,18 @@ impl<S: Scalar> Boundary<S> {
         for (i, (slot, vertex)) in first.iter_mut().zip(&self.vertices).enumerate() {
             *slot = self.vertices.iter().position(|other| other == vertex).unwrap_or(i) as u8;
         }
-        let mut cleaned = Boundary { loops: [[0; LOOP + 3]; FACES], lengths: [0; FACES], ..*self };
-        for face in 0..FACES {
+        let mut cleaned = *self;
+        for face in &mut cleaned.faces {
             let mut found = Loop::EMPTY;
-            for &vertex in self.face(face) {
-                let vertex = first.get(vertex as usize).copied().unwrap_or(vertex);
-                let last = |found: &Loop, back: usize| {
-                    let at = found.length.checked_sub(back)?;
-                    found.vertices.get(at).copied()
-                };
-                if last(&found, 2) == Some(vertex) {
-                    // There and back again.
-                    found.length -= 1;
-                } else if last(&found, 1) != Some(vertex) {
-                    found.push(vertex);
-                }
+            for &vertex in face.as_slice() {
+                found.push(first.get(usize::from(vertex)).copied().unwrap_or(vertex));
             }
-            while found.length > 1 && found.vertices.first() == found.vertices.get(found.length - 1) {
+            while let [start, _, .., end] = found.as_slice()
+                && start == end
+            {
                 found.length -= 1;
             }
-            if found.length > 2 {
-                cleaned.put(face, &found);
-            }
+            *face = if found.length > 2 { found } else { Loop::EMPTY };
         }
         cleaned
     }

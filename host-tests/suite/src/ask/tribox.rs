@@ -1,7 +1,7 @@
 //! Questions to triboxes. They need no blob: points are placed around its box.
 
 pub use meshsweep_core::tribox::Tribox;
-use meshsweep_core::tribox::{FACES, Pose, TriboxError};
+use meshsweep_core::tribox::{Boundary, FACES, Pose, TriboxError};
 
 use super::timed;
 use crate::fold::Fold;
@@ -64,7 +64,8 @@ pub fn bounds(points: &Points, clock: &mut impl Clock, fold: &mut Fold) -> Tribo
 
 /// Its boundary.
 pub fn faces(tribox: &Tribox, clock: &mut impl Clock, fold: &mut Fold) {
-    let boundary = timed(clock, || tribox.boundary());
+    let mut boundary = Boundary::EMPTY;
+    timed(clock, || boundary.compute(&tribox.low, &tribox.high));
     boundary.vertices.iter().for_each(|vertex| fold.point(*vertex));
     (0..FACES).for_each(|face| boundary.face(face).iter().for_each(|&vertex| fold.byte(vertex)));
     let cleaned = boundary.cleaned();
