@@ -8,6 +8,7 @@
 //! `meshsweep-core`'s, so that builder and reader compute the same bits; the core opens what was written before it is handed out.
 
 pub mod collapse;
+pub mod counted;
 pub mod emit;
 pub mod fan;
 pub mod hull;
@@ -16,3 +17,4 @@ pub mod mesh;
 pub mod precision;
 pub mod sweep;
 pub mod tree;
+pub mod tribox;

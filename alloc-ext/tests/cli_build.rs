@@ -10,6 +10,7 @@ fn without_arguments_it_explains_itself_in_ten_lines_with_numbers() {
     let text = ok::<&str>([]);
     assert!(text.lines().count() <= 12, "{text}");
     assert!(text.contains("Closest point to") && text.contains("First hit"), "{text}");
+    assert!(text.contains("cargo run --release -- build part.stl"), "{text}");
     let numbers = text.split("distance ").nth(1).unwrap().split([' ', ',']);
     let numbers: Vec<f64> = numbers.take(3).filter_map(|word| word.parse().ok()).collect();
     let exact = distance([10.0, 4.5, 7.0], &triangles(&fixture("bracket.stl")));
@@ -48,6 +49,8 @@ fn build_reports_mesh_sections_memory_and_levels() {
         "1948 triangles in ",
         "stack: ",
         "closed: signed distance is defined",
+        "half-width of an exact answer: about ",
+        " fans of one triangle",
         "collapse",
     ] {
         assert!(text.contains(part), "{part} in {text}");
@@ -122,6 +125,7 @@ fn a_build_that_stops_early_says_why() {
     let (mesh, out) = (fixture("torus.ply"), directory.join("t.msw"));
     let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "hull", "--base", "4"]);
     assert!(text.contains("stopped before 4 faces"), "{text}");
+    assert!(text.contains("--max-valence, --compactness and --max-normal-deviation relax"), "{text}");
 }
 
 #[test]
@@ -146,7 +150,7 @@ fn json_parses_and_its_sections_fill_the_blob() {
     assert_eq!(sizes.len(), 8);
     assert_eq!((1..).zip(&sizes).map(|(size, count)| size * count).sum::<u64>(), 1948);
     let fans: u64 = sizes.iter().sum();
-    assert_eq!((tree["fans"].as_u64(), tree["degenerate_fans"].as_u64()), (Some(fans), Some(sizes[0])));
+    assert_eq!((tree["fans"].as_u64(), tree["single_triangle_fans"].as_u64()), (Some(fans), Some(sizes[0])));
     assert!((tree["triangles_per_fan"].as_f64().unwrap() - 1948.0 / fans as f64).abs() < 1e-9);
     // A leaf is one or two fans.
     let leaf_count = tree["leaves"].as_u64().unwrap();
@@ -190,5 +194,88 @@ fn every_evil_fixture_is_built_or_refused_in_one_line_and_leaves_nothing_behind(
         };
         let (hull, tree) = (by("hull"), by("closest,segment"));
         assert!(tree || !hull, "{}: a tree is built of whatever a hull is", mesh.display());
+    }
+}
+
+/// Builds a mesh written by hand; the report.
+fn report(directory: &std::path::Path, name: &str, content: &str) -> String {
+    let (mesh, out) = (directory.join(name), directory.join("out.msw"));
+    fs::write(&mesh, content).unwrap();
+    ok(["build", arg(&mesh), "-o", arg(&out)])
+}
+
+#[test]
+fn polygons_that_were_split_are_reported() {
+    let directory = scratch("polygons");
+    let corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n";
+    let obj: String = corners.lines().map(|corner| format!("v {corner}\n")).collect();
+    let text = report(&directory, "a.obj", &(obj.clone() + "f 1 2 3 4\nf 1 2 5\nf 5 4 3 2\n"));
+    assert!(
+        text.contains("5 vertices, 5 triangles read") && text.contains("\n  2 polygons split: "),
+        "{text}"
+    );
+    let ply = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    let text = report(&directory, "a.ply", &(ply.to_owned() + corners + "4 0 1 2 3\n3 0 1 4\n"));
+    assert!(text.contains("\n  1 polygon split: numbers of triangles count"), "{text}");
+    assert!(!report(&directory, "b.obj", &(obj + "f 1 2 3\n")).contains(" split: "));
+}
+
+#[test]
+fn one_of_a_thing_is_in_the_singular() {
+    let directory = scratch("singular");
+    let text = report(&directory, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n");
+    for part in [
+        "1 triangle kept",
+        "1 zero-area triangle dropped",
+        "1 triangle with a repeated corner",
+        "1 fan of one",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert!(
+        !["1 triangles", "1 vertices", "1 fans", "1 copies"]
+            .iter()
+            .any(|wrong| text.contains(&format!(" {wrong}")))
+    );
+}
+
+#[test]
+fn the_half_width_that_is_promised_is_that_of_the_answers() {
+    let directory = scratch("half_width");
+    let mesh = triangles(&fixture("bracket.stl"));
+    let middle = |t: &cli_support::Triangle| -> [f64; 3] {
+        core::array::from_fn(|k| (t[0][k] + t[1][k] + t[2][k]) / 3.0)
+    };
+    let points = directory.join("p.csv");
+    for bits in ["16", "32"] {
+        let path = blob(&directory, "bracket.stl", &["--vertex-bits", bits]);
+        let tree = &info(&path)["tree"];
+        let said = |key: &str| tree[key].as_f64().unwrap();
+        let [near, far] = [said("half_width_near"), said("half_width_one_diagonal_away")];
+        let low: [f64; 3] =
+            core::array::from_fn(|k| mesh.iter().flatten().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+        let high: [f64; 3] =
+            core::array::from_fn(|k| mesh.iter().flatten().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+        let diagonal = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
+        // Off the surface by a few of these widths, and a diagonal off the box.
+        let at = |off: f64| {
+            mesh.iter().step_by(10).map(|t| middle(t).map(|x| (x + off) as f32)).collect::<Vec<_>>()
+        };
+        let aside = [[high[0] + diagonal, low[1], low[2]], [low[0], high[1] + diagonal, high[2]]];
+        let aside = aside.map(|p| p.map(|x| x as f32));
+        for (rows, promised) in [(at(0.1), near), (aside.to_vec(), far)] {
+            cli_support::write_csv(&points, &rows);
+            let text = ok(["closest", arg(&path), arg(&points)]);
+            let mut widths: Vec<f64> = text
+                .lines()
+                .skip(1)
+                .map(|line| line.split(',').map(cli_support::number).collect::<Vec<_>>())
+                .map(|row| (row[4] - row[3]) / 2.0)
+                .collect();
+            widths.sort_by(f64::total_cmp);
+            let median = widths[widths.len() / 2];
+            assert!((0.4..2.5).contains(&(median / promised)), "{bits} {median} {promised}");
+        }
     }
 }

@@ -223,3 +223,31 @@ fn a_signed_field_is_negative_inside_and_needs_a_closed_mesh() {
     let line = refused(&run(["field", arg(&open), "-o", arg(&out), "--signed"]), 1, "open_box.msw");
     assert!(line.contains("not closed"), "{line}");
 }
+
+#[test]
+fn samples_without_a_sign_are_quiet_nans_and_counted() {
+    let directory = scratch("field_nan");
+    // The middle of a face of the box, and of an edge, are on the surface.
+    let path = blob(&directory, "evil/cavity.stl", &[]);
+    let (one, many, wide) = (directory.join("1.f32"), directory.join("7.f32"), directory.join("i.f32"));
+    let field = |out: &Path, options: &[&str]| {
+        run([&["field", arg(&path), "-o", arg(out), "--size", "9", "--margin", "0", "--signed"], options]
+            .concat())
+    };
+    let output = field(&one, &["--threads", "1"]);
+    assert!(output.status.success());
+    let values = raw(&one);
+    let nans = values.iter().filter(|x| x.to_bits() == 0x7FC0_0000).count();
+    // All but the inner samples are on the outer faces.
+    assert!(nans >= 9 * 9 * 9 - 7 * 7 * 7 && nans < values.len(), "{nans}");
+    assert!(values.iter().all(|x| !x.is_nan() || x.to_bits() == 0x7FC0_0000));
+    let note = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(note.contains(&format!("{nans} of 729 samples have no sign: {nans} at the surface; ")), "{note}");
+    assert!(field(&many, &["--threads", "7"]).stderr.len() == note.len());
+    assert!(fs::read(&one).unwrap() == fs::read(&many).unwrap());
+    let note = String::from_utf8_lossy(&field(&wide, &["--interval"]).stderr).into_owned();
+    assert!(note.contains("from -upper to upper"), "{note}");
+    for (value, [lower, upper]) in values.iter().zip(raw(&wide).as_chunks::<2>().0) {
+        assert_eq!(value.is_nan(), *lower == -upper, "{value} {lower} {upper}");
+    }
+}

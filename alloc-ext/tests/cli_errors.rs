@@ -56,6 +56,24 @@ fn wrong_usage_is_status_2() {
     ] {
         assert_eq!(run(args).status.code(), Some(2), "{args:?}");
     }
+    for (args, wanted) in [
+        (&["closest", "a.msw", "1,2,3", "--threads", "0"][..], "at least 1"),
+        (&["closest", "a.msw", "1,2,3", "--threads", "-1"], "at least 1"),
+        (&["nearest", "a.msw", "1,2,3", "-n", "-1"], "from 1 to 1048576"),
+        (&["closest", "a.msw", "1,2,3", "--steps", "-1"], "at least 0"),
+        (&["closest", "a.msw", "1,2,3", "--queue", "-1"], "from 1 to 16777216"),
+        (&["hull", "a.stl", "-o", "a.ply", "--faces", "-3"], "at least 4"),
+        (&["build", "a.stl", "-o", "b", "--base", "-3"], "at least 4"),
+        (&["build", "a.stl", "-o", "b", "--max-valence", "-3"], "from 3 to 255"),
+        (&["build", "a.stl", "-o", "b", "--compactness", "-1"], "from 0 to 1"),
+        (&["build", "a.stl", "-o", "b", "--max-normal-deviation", "-1"], "from 0 to 180"),
+        (&["field", "a.msw", "-o", "f.npy", "--size", "-4"], "from 1 to 65536"),
+        (&["cut", "a.msw", "-o", "b.msw", "--level", "-1"], "at least 0"),
+    ] {
+        let output = run(args);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && stderr.contains(wanted), "{args:?} {stderr}");
+    }
     assert!(run(["help"]).status.success() && run(["--version"]).status.success());
 }
 
@@ -215,14 +233,96 @@ fn malformed_queries_are_named_by_line_and_field() {
     refused(&run(["closest", arg(&path), arg(&binary)]), 1, "p.csv, line 1");
     let far = file(&directory, "s.csv", "0 0 0 1 1 1\n0 0 0 1e38 0 0\n");
     let line = refused(&run(["segment", arg(&path), arg(&far)]), 1, "s.csv, line 2");
-    assert!(line.contains("clip it"), "{line}");
+    assert!(line.contains("clip the segment"), "{line}");
     // The first one that is refused is named, whichever thread comes first.
     let many: String =
         (0..5000).map(|i| format!("0 0 {} 1 1 1\n", if i >= 1200 { "1e38" } else { "0" })).collect();
     let far = file(&directory, "s.csv", many);
     refused(&run(["segment", arg(&path), arg(&far), "--threads", "4"]), 1, "s.csv, line 1201:");
     let line = refused(&run(["segment", arg(&path), "1,2,3,4,5,6", "0,0,0,1e38,0,0"]), 1, "query 0,0,0,1");
-    assert!(line.contains("clip it"), "{line}");
+    assert!(line.contains("clip the segment"), "{line}");
+}
+
+#[test]
+fn answers_before_a_query_that_is_refused_are_printed_but_make_no_file() {
+    let directory = scratch("before_refused");
+    let (tree, hull) = (blob(&directory, "torus.ply", &[]), directory.join("hull.msw"));
+    ok(["build", arg(&fixture("torus.ply")), "-o", arg(&hull), "--for", "hull"]);
+    let (good, bad) = (directory.join("good.csv"), directory.join("bad.csv"));
+    let points: String = (0..1500).map(|i| format!("{} 0.5 1\n", i % 7)).collect();
+    let segments: String = (0..1500).map(|i| format!("{} 0.5 9 1 0.5 -9\n", i % 7)).collect();
+    for (command, blob, queries, refused_one, options) in [
+        ("closest", &tree, &points, "1 2", &[][..]),
+        ("closest", &hull, &points, "1 2 nan", &[]),
+        ("within", &tree, &points, "1 2 three", &["-d", "1"]),
+        ("nearest", &tree, &points, "1 2", &["-n", "2"]),
+        ("signed", &tree, &points, "1 2 3 4", &[]),
+        ("segment", &tree, &segments, "0 0 0 1e38 0 0", &[]),
+        ("segment", &tree, &segments, "0 0 0 1e38 0 0", &["--all", "--threads", "3"]),
+        ("segment", &hull, &segments, "0 0 0 1e38 0 0", &[]),
+        ("segment", &hull, &segments, "0 0 0 1e38 0 0", &["--engine", "hull"]),
+        ("segment", &tree, &segments, "0 0 0 1", &[]),
+    ] {
+        fs::write(&good, queries).unwrap();
+        fs::write(&bad, format!("{queries}{refused_one}\n{queries}")).unwrap();
+        let ask =
+            |file: &Path, more: &[&str]| run([&[command, arg(blob), arg(file)], options, more].concat());
+        let broken = ask(&bad, &[]);
+        refused(&broken, 1, "bad.csv, line 1501");
+        assert!(broken.stdout == ask(&good, &[]).stdout, "{command} {options:?}");
+        let out = directory.join("out.csv");
+        let line = refused(&ask(&bad, &["-o", arg(&out)]), 1, "bad.csv, line 1501");
+        assert!(line.contains("out.csv is not written") && !out.exists(), "{line}");
+    }
+    // Raw numbers, too; and nothing is printed if there is no answer.
+    let raw = directory.join("p.f32");
+    write_raw(&raw, &[[1f32, 2.0, 3.0], [1.0, f32::NAN, 3.0], [4.0, 5.0, 6.0]]);
+    assert_eq!(
+        run(["closest", arg(&tree), arg(&raw)]).stdout,
+        ok(["closest", arg(&tree), "1,2,3"]).as_bytes()
+    );
+    fs::write(&bad, "1 2\n1 2 3\n").unwrap();
+    assert!(run(["closest", arg(&tree), arg(&bad)]).stdout.is_empty());
+}
+
+#[test]
+fn a_segment_that_is_too_long_is_told_a_limit_that_holds() {
+    let directory = scratch("too_far");
+    let path = blob(&directory, "torus.ply", &["--for", "segment,hull"]);
+    for engine in ["tree", "cover"] {
+        let line = refused(&run(["segment", arg(&path), "0,0,0,1e38,0,0", "--engine", engine]), 1, "too far");
+        let limit: f32 =
+            line.split("about ").nth(1).unwrap().split([';', ' ']).next().unwrap().parse().unwrap();
+        let to = |factor: f32| {
+            let query = format!("0,0,0,{},0,0", limit * factor);
+            run(["segment", arg(&path), &query, "--engine", engine]).status.success()
+        };
+        assert!(to(0.9) && !to(1.1), "{engine} {limit}");
+    }
+}
+
+#[test]
+fn a_file_without_queries_is_named_and_no_error() {
+    let directory = scratch("no_queries");
+    let path = blob(&directory, "torus.ply", &[]);
+    let (empty, raw) = (file(&directory, "empty.csv", "x,y,z\n# none\n"), file(&directory, "empty.f32", ""));
+    let output = run(["closest", arg(&path), arg(&empty), "1,2,3", arg(&raw)]);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && stderr.lines().count() == 2, "{stderr}");
+    assert!(stderr.starts_with("no queries in ") && stderr.contains("empty.csv\n"), "{stderr}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_field_beyond_the_file_system_is_refused_before_the_work() {
+    let directory = scratch("field_size");
+    let path = blob(&directory, "torus.ply", &[]);
+    let out = directory.join("f.f32");
+    let output = run(["field", arg(&path), "-o", arg(&out), "--size", "65536", "--interval"]);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("f.f32: will be a file of 2097152.0 GiB"), "{stderr}");
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(fs::read_dir(&directory).unwrap().count(), 1, "nothing is left");
 }
 
 #[test]

@@ -337,3 +337,28 @@ fn answers_of_a_cut_blob_contain_those_of_the_whole() {
         }
     }
 }
+
+#[test]
+fn large_and_small_numbers_are_printed_with_exponents() {
+    let directory = scratch("short");
+    let path = blob(&directory, "torus.ply", &[]);
+    let text = ok(["closest", arg(&path), "1e38,-3.4028235e38,1e-40", "20,0.5,-16777216"]);
+    let rows = parse_csv(&text, CLOSEST);
+    assert_eq!(rows[0][..3], ["1e38", "-3.4028235e38", "1e-40"]);
+    assert_eq!(rows[1][..3], ["20", "0.5", "-16777216"]);
+    assert!(rows.iter().flatten().all(|field| field.len() <= 18), "{text}");
+}
+
+#[test]
+fn places_that_are_left_open_among_all_hits_name_their_triangles() {
+    let directory = scratch("open_places");
+    let path = blob(&directory, "bracket.stl", &[]);
+    // Along the diagonal through a vertex in which some hundred triangles meet.
+    let text = ok(["segment", arg(&path), "10,10,10,-10,-10,-10", "--all"]);
+    let rows = parse_csv(&text, &format!("query,{SEGMENT}"));
+    assert!(rows.len() > 10 && rows.iter().all(|row| row[1] == "unknown"), "{text}");
+    let mut named: Vec<&str> = rows.iter().map(|row| row[6].as_str()).collect();
+    named.sort_unstable();
+    named.dedup();
+    assert!(named.len() == rows.len() && !named.contains(&""), "each row its own triangle: {text}");
+}

@@ -107,7 +107,7 @@ fn obj_index_beyond_the_vertices_is_refused_with_line_and_number_as_written() {
     let error = parse("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "a.obj, line 3: face 0 names vertex 3, but there are 2 vertices; remove or renumber the face"
+        "a.obj, line 3: face 1 names vertex 3, but there are 2 vertices; remove or renumber the face"
     );
     assert!(matches!(parse("a.obj", "v 0 0 0\nf 0 1 1\n"), Err(MeshError::IndexOutOfRange { index: 0, .. })));
     assert!(matches!(
@@ -124,7 +124,7 @@ fn obj_face_may_name_vertices_that_follow_it() {
 #[test]
 fn nan_is_refused_with_line_and_vertex() {
     let error = parse("a.obj", "v 0 0 0\nv 1 NaN 0\nv 0 1 0\nf 1 2 3\n").unwrap_err();
-    assert!(matches!(error, MeshError::NotFinite { line: Some(2), vertex: 1, .. }), "{error}");
+    assert!(matches!(error, MeshError::NotFinite { line: Some(2), vertex: 2, .. }), "{error}");
 }
 
 const FACET: &str =
@@ -207,4 +207,17 @@ fn coordinates_beyond_f32_or_wholly_below_its_normal_range_are_refused_by_name()
     assert!(matches!(scaled(1e-38), Err(MeshError::TooSmall { .. })));
     assert_eq!(scaled(3.4e38), Ok(3));
     assert_eq!(scaled(1.2e-38), Ok(3));
+}
+
+#[test]
+fn faces_of_more_than_three_corners_are_counted() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let raw = parse("a.obj", format!("{square}f 1 2 3 4\nf 1 2 3\nf 1 2\n")).unwrap();
+    assert_eq!((raw.polygons_split, raw.triangles.len()), (1, 3));
+    let raw = parse("a.ply", ply("ascii", "float", "uchar int", b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"))
+        .unwrap();
+    assert_eq!(raw.polygons_split, 1);
+    let facet = FACET.replace("endloop", "vertex -1 1 0\nendloop");
+    let raw = parse("a.stl", format!("solid\n{FACET}{facet}endsolid\n")).unwrap();
+    assert_eq!((raw.polygons_split, raw.triangles.len()), (1, 3));
 }

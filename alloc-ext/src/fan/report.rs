@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::counted::Counted;
+
 use super::{Fan, MAX_PATCH, Patch};
 
 /// Counts of fans and patches. Displayed as a few lines of text.
@@ -75,17 +77,17 @@ impl fmt::Display for FanReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{} triangles in {} fans, {:.3} a fan, {} alone; by size {:?}",
-            self.triangles,
-            self.fans,
+            "{} in {}, {:.3} a fan, {} alone; by size {:?}",
+            Counted(self.triangles, "triangle"),
+            Counted(self.fans, "fan"),
             self.triangles_per_fan(),
             self.degenerate,
             self.fan_sizes
         )?;
         write!(
             f,
-            "{} patches, {:.3} triangles a patch, {:.3} stored vertices a triangle; by size {:?}",
-            self.patches,
+            "{}, {:.3} triangles a patch, {:.3} stored vertices a triangle; by size {:?}",
+            Counted(self.patches, "patch"),
             self.triangles_per_patch(),
             self.vertices_per_triangle(),
             self.patch_sizes

@@ -35,36 +35,45 @@ impl PartialEq for Piece {
 }
 impl Eq for Piece {}
 
-/// Least found upper bound of the largest distance from a point of `triangles` (local frame) to the model's surface; local frame.
+/// Where a point's nearest surface is.
+pub struct Nearest {
+    /// Not above the distance.
+    pub lower: f64,
+    /// Not below the distance.
+    pub upper: f64,
+    /// Corners of a triangle of the surface, best of the nearest one, if one is known.
+    pub triangle: Option<[DVec3; 3]>,
+}
+
+/// Bounds of the largest distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Farthest {
+    /// A distance that a point has at least.
+    pub lower: f64,
+    /// A distance that no point exceeds; infinite if a query failed.
+    pub upper: f64,
+}
+
+/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper` exceeds `lower` by a twentieth where 20,000 queries do for that.
 ///
-/// `surface[source]` are corners of the surface's triangle with that number, local frame.
-/// Cost: one closest-point query for each triangle, and some dozens more for the farthest.
-pub fn hull_to_surface(
-    model: &Model<'_>,
+/// Cost: one query for each triangle, and some dozens more for the farthest.
+pub fn farthest(
     triangles: impl Iterator<Item = [DVec3; 3]>,
-    surface: impl Fn(u32) -> Option<[DVec3; 3]>,
-) -> f64 {
-    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue + 1024];
-    let scale = model.scale();
-    let mut found = 0f64;
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> Farthest {
     let mut bound_of = |corners: [DVec3; 3], found: &mut f64| {
         let [a, b, c] = corners;
         let centre = (a + b + c) / 3.0;
-        // The query is rounded to f32: the distance to what was asked is part of the bound.
-        let asked = (centre * scale).as_vec3();
-        let offset = (asked.as_dvec3() / scale - centre).length();
-        let Ok(answer) = closest_point(model, asked.to_array(), &Stop::EXACT, &mut queue) else {
-            return f64::INFINITY;
-        };
-        let at_centre = f64::from(answer.upper) / scale + offset;
-        *found = found.max(f64::from(answer.lower) / scale - offset);
+        let Some(near) = nearest(centre) else { return f64::INFINITY };
+        *found = found.max(near.lower);
         let reach = corners.iter().map(|p| (*p - centre).length()).fold(0.0, f64::max);
-        let lipschitz = at_centre + reach;
-        let convex = answer.triangle.and_then(&surface).map_or(f64::INFINITY, |[p, q, r]| {
+        let lipschitz = near.upper + reach;
+        let convex = near.triangle.map_or(f64::INFINITY, |[p, q, r]| {
             corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
         });
         lipschitz.min(convex) * (1.0 + 1e-12)
     };
+    let mut found = 0f64;
     let mut heap = BinaryHeap::new();
     for corners in triangles {
         let bound = bound_of(corners, &mut found);
@@ -74,7 +83,7 @@ pub fn hull_to_surface(
     let mut budget = 20_000;
     while let Some(piece) = heap.pop() {
         if piece.bound <= found * SLACK || budget == 0 || piece.bound == 0.0 {
-            return piece.bound.max(found);
+            return Farthest { lower: found, upper: piece.bound.max(found) };
         }
         budget -= 1;
         for half in bisect(piece.corners) {
@@ -82,7 +91,31 @@ pub fn hull_to_surface(
             heap.push(Piece { bound, corners: half });
         }
     }
-    found
+    Farthest { lower: found, upper: found }
+}
+
+/// Least found upper bound of the largest distance from a point of `triangles` (local frame) to the model's surface; local frame.
+///
+/// `surface[source]` are corners of the surface's triangle with that number, local frame. Cost: as [`farthest`].
+pub fn hull_to_surface(
+    model: &Model<'_>,
+    triangles: impl Iterator<Item = [DVec3; 3]>,
+    surface: impl Fn(u32) -> Option<[DVec3; 3]>,
+) -> f64 {
+    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue + 1024];
+    let scale = model.scale();
+    let nearest = |point: DVec3| {
+        // The query is rounded to f32: the distance to what was asked is part of the bound.
+        let asked = (point * scale).as_vec3();
+        let offset = (asked.as_dvec3() / scale - point).length();
+        let answer = closest_point(model, asked.to_array(), &Stop::EXACT, &mut queue).ok()?;
+        Some(Nearest {
+            lower: f64::from(answer.lower) / scale - offset,
+            upper: f64::from(answer.upper) / scale + offset,
+            triangle: answer.triangle.and_then(&surface),
+        })
+    };
+    farthest(triangles, nearest).upper
 }
 
 /// Two halves, cut across the longest edge.

@@ -1,5 +1,6 @@
 //! What can be wrong with a mesh, said so that its owner can mend it.
 
+use crate::counted::Counted;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -33,7 +34,7 @@ pub enum MeshError {
     Truncated { file: PathBuf, what: String, wanted: u64, found: u64 },
     /// A coordinate is NaN or infinite.
     NotFinite { file: PathBuf, line: Option<usize>, vertex: usize, at: [f64; 3] },
-    /// A face names a vertex that is not there. `index` is as written in the file (OBJ counts from 1).
+    /// A face names a vertex that is not there. `face` and `index` count as the file does: from 1 in OBJ, else from 0.
     IndexOutOfRange { file: PathBuf, line: Option<usize>, face: usize, index: i64, vertex_count: usize },
     /// The file holds no face.
     NoTriangles { file: PathBuf },
@@ -99,9 +100,11 @@ impl fmt::Display for MeshError {
             ),
             Self::IndexOutOfRange { file, line, face, index, vertex_count } => write!(
                 f,
-                "{}{}: face {face} names vertex {index}, but there are {vertex_count} vertices; remove or renumber the face",
+                "{}{}: face {face} names vertex {index}, but there {} {}; remove or renumber the face",
                 file.display(),
-                Line(*line)
+                Line(*line),
+                if *vertex_count == 1 { "is" } else { "are" },
+                Counted(*vertex_count, "vertex")
             ),
             Self::NoTriangles { file } => {
                 write!(f, "{}: no triangles; export the surface, not points or curves", file.display())
@@ -123,16 +126,24 @@ impl fmt::Display for MeshError {
             ),
             Self::NoArea { file, dropped } => write!(
                 f,
-                "{}: all {dropped} triangles have zero area; export with more digits or in a smaller unit",
-                file.display()
+                "{}: no triangle has an area ({} read); export with more digits or in a smaller unit",
+                file.display(),
+                Counted(*dropped, "triangle")
             ),
             Self::Open { edge_count, hole_count, largest_hole, slit_count, places, dropped_triangle } => {
                 write!(
                     f,
-                    "not closed: {edge_count} boundary edges in {hole_count} holes, the largest of {largest_hole} edges"
+                    "not closed: {} in {}, the largest of {}",
+                    Counted(*edge_count, "boundary edge"),
+                    Counted(*hole_count, "hole"),
+                    Counted(*largest_hole, "edge")
                 )?;
                 if *slit_count > 0 {
-                    write!(f, "; {slit_count} of them are slits (T-junctions or zero-area triangles)")?;
+                    write!(
+                        f,
+                        "; {} among them (T-junctions or zero-area triangles)",
+                        Counted(*slit_count, "slit")
+                    )?;
                 }
                 if let Some(triangle) = dropped_triangle {
                     write!(f, "; likely cause: zero-area triangle {triangle} was dropped there")?;
@@ -141,24 +152,32 @@ impl fmt::Display for MeshError {
             }
             Self::NonManifoldEdges { count, most, places } => write!(
                 f,
-                "{count} non-manifold edges, with up to {most} triangles; separate or unite the parts that meet there{}",
+                "{}, with up to {most} triangles; separate or unite the parts that meet there{}",
+                Counted(*count, "non-manifold edge"),
                 Edges(places)
             ),
             Self::NonManifoldVertices { count, places } => {
-                write!(f, "{count} vertices join several fans; run repair{}", Points(places))
+                write!(f, "several fans meet in {}; run repair{}", Counted(*count, "vertex"), Points(places))
             }
             Self::NonOrientable { part_count, places } => write!(
                 f,
-                "{part_count} one-sided parts (as a Möbius strip) have no outside; cut or thicken them{}",
+                "no outside: {} (as a Möbius strip); cut or thicken it{}",
+                Counted(*part_count, "one-sided part"),
                 Edges(places)
             ),
             Self::InconsistentWinding { edge_count, places } => write!(
                 f,
-                "{edge_count} edges join triangles wound against each other; run repair{}",
+                "triangles wound against each other at {}; run repair{}",
+                Counted(*edge_count, "edge"),
                 Edges(places)
             ),
             Self::InsideOut { part_count, places } => {
-                write!(f, "{part_count} outermost parts are inside out; run repair{}", Points(places))
+                write!(
+                    f,
+                    "inside out: {}; run repair{}",
+                    Counted(*part_count, "outermost part"),
+                    Points(places)
+                )
             }
             Self::ZeroVolume { triangle, at, volume, bound } => write!(
                 f,

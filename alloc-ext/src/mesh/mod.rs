@@ -8,7 +8,7 @@
 //! mend with its place; it accepts any triangle soup. [`require_closed_manifold`] is the further demand of an outer
 //! hull, kept apart because a distance index is content with a soup.
 //!
-//! Numbers of vertices, faces and triangles count from 0 in file order. A *face* is what the file lists, perhaps a
+//! Numbers of vertices, faces and triangles count from 0 in file order; errors of reading OBJ count from 1, as such a file does. A *face* is what the file lists, perhaps a
 //! polygon; a *triangle* is one after fan triangulation, numbered through in file order.
 
 mod boundary;
@@ -89,6 +89,8 @@ pub struct RawMesh {
     pub triangles: Vec<[u32; 3]>,
     /// Where it came from; only for messages.
     pub file: PathBuf,
+    /// Faces of the file with more than three corners, which [`triangles`](Self::triangles) has in parts.
+    pub polygons_split: usize,
     /// True if the coordinates were decimal text, so that `positions` holds the nearest `f64` of each.
     pub decimal: bool,
 }
@@ -104,7 +106,7 @@ impl RawMesh {
     /// As [`RawMesh::from_f32`], for coordinates that [`repair`] has yet to round.
     #[must_use]
     pub fn from_f64(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
-        Self { positions, triangles, file: PathBuf::from("(memory)"), decimal: false }
+        Self { positions, triangles, file: PathBuf::from("(memory)"), polygons_split: 0, decimal: false }
     }
 }
 

@@ -10,7 +10,9 @@ use super::{MeshError, RawMesh};
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
-    let mut face = 0;
+    // From 1, as everything in such a file.
+    let mut face = 1;
+    let mut polygons_split = 0;
     let mut corners: Vec<u32> = Vec::new();
     // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the final count.
     let mut highest: Option<(u32, usize, usize)> = None;
@@ -32,7 +34,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         let statement = statement.split('#').next().unwrap_or("");
         let mut words = statement.split_ascii_whitespace();
         match words.next() {
-            Some("v") => positions.push(point(file, number, positions.len(), &mut words)?),
+            Some("v") => positions.push(point(file, number, positions.len() + 1, &mut words)?),
             Some("f") => {
                 corners.clear();
                 for word in words {
@@ -42,7 +44,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     }
                     corners.push(vertex);
                 }
-                fan(&corners, &mut triangles);
+                polygons_split += usize::from(fan(&corners, &mut triangles));
                 face += 1;
             }
             _ => {}
@@ -56,7 +58,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             index: i64::from(vertex) + 1,
             vertex_count: positions.len(),
         }),
-        _ => Ok(RawMesh { positions, triangles, file: file.to_owned(), decimal: true }),
+        _ => Ok(RawMesh { positions, triangles, file: file.to_owned(), polygons_split, decimal: true }),
     }
 }
 
@@ -83,9 +85,10 @@ fn index(file: &Path, line: usize, face: usize, word: &str, vertex_count: usize)
     })
 }
 
-/// Splits a polygon into the fan about its first vertex, in order.
-pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
+/// Splits a polygon into the fan about its first vertex, in order; whether it has more than three corners.
+pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) -> bool {
     if let [first, rest @ ..] = corners {
         triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
     }
+    corners.len() > 3
 }

@@ -32,6 +32,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
 
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
+    let mut polygons_split = 0;
     let mut corners: Vec<u32> = Vec::new();
     for (name, element) in &header.elements {
         source.check_room(element)?;
@@ -75,7 +76,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                         };
                         corners.push(vertex);
                     }
-                    fan(&corners, &mut triangles);
+                    polygons_split += usize::from(fan(&corners, &mut triangles));
                 }
             }
             // Nothing to skip, and a header may announce any number of them.
@@ -92,7 +93,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         e.properties.values().any(|p| p.data_type == PropertyType::Scalar(ScalarType::Double))
     });
     let decimal = header.encoding == Encoding::Ascii && has_doubles;
-    Ok(RawMesh { positions, triangles, file: file.to_owned(), decimal })
+    Ok(RawMesh { positions, triangles, file: file.to_owned(), polygons_split, decimal })
 }
 
 fn require(

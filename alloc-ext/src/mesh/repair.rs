@@ -30,10 +30,11 @@ use super::{Mesh, MeshError, RawMesh};
 pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     check(&raw)?;
     let (mut positions, rounding) = round(&raw)?;
-    let RawMesh { mut triangles, file, .. } = raw;
+    let RawMesh { mut triangles, file, polygons_split, .. } = raw;
     let mut report = RepairReport {
         vertices_read: positions.len(),
         triangles_read: triangles.len(),
+        polygons_split,
         rounding,
         ..RepairReport::default()
     };

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::MeshError;
+use crate::counted::Counted;
 
 /// How many places a list keeps: enough to find the flaw, few enough to read.
 pub(super) const PLACES_KEPT: usize = 5;
@@ -51,6 +52,8 @@ pub struct RepairReport {
     pub vertices_read: usize,
     /// Triangles in the input.
     pub triangles_read: usize,
+    /// Faces of the input with more than three corners, which were split into triangles.
+    pub polygons_split: usize,
     /// Vertices in the result.
     pub vertices_kept: usize,
     /// Triangles in the result.
@@ -89,22 +92,22 @@ pub struct RepairReport {
 }
 
 impl RepairReport {
-    /// All findings: a key for machines, a phrase for people, the finding. For printing and JSON.
+    /// All findings: a key for machines, for people a noun and what is said of it, the finding. For printing and JSON.
     #[must_use]
-    pub fn findings(&self) -> [(&'static str, &'static str, &Finding); 12] {
+    pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 12] {
         [
-            ("welded", "vertices welded to an equal one", &self.welded),
-            ("repeated_corner", "triangles with a repeated corner dropped", &self.repeated_corner),
-            ("flipped_caps", "flat caps removed by an edge flip", &self.flipped_caps),
-            ("zero_area", "zero-area triangles dropped", &self.zero_area),
-            ("duplicate", "duplicate triangles dropped", &self.duplicate),
-            ("opposite_duplicate", "oppositely wound duplicates dropped", &self.opposite_duplicate),
-            ("unreferenced", "unreferenced vertices dropped", &self.unreferenced),
-            ("split_vertices", "copies made of non-manifold vertices", &self.split_vertices),
-            ("rewound", "triangles rewound to agree with their part", &self.rewound),
-            ("turned_parts", "inside-out parts turned", &self.turned_parts),
-            ("cavities", "cavities found and kept", &self.cavities),
-            ("non_orientable", "one-sided parts found", &self.non_orientable),
+            ("welded", ["vertex", "welded to an equal one"], &self.welded),
+            ("repeated_corner", ["triangle", "with a repeated corner dropped"], &self.repeated_corner),
+            ("flipped_caps", ["flat cap", "removed by an edge flip"], &self.flipped_caps),
+            ("zero_area", ["zero-area triangle", "dropped"], &self.zero_area),
+            ("duplicate", ["duplicate triangle", "dropped"], &self.duplicate),
+            ("opposite_duplicate", ["oppositely wound duplicate", "dropped"], &self.opposite_duplicate),
+            ("unreferenced", ["unreferenced vertex", "dropped"], &self.unreferenced),
+            ("split_vertices", ["copy", "made of non-manifold vertices"], &self.split_vertices),
+            ("rewound", ["triangle", "rewound to agree with the part around"], &self.rewound),
+            ("turned_parts", ["inside-out part", "turned"], &self.turned_parts),
+            ("cavities", ["cavity", "found and kept"], &self.cavities),
+            ("non_orientable", ["one-sided part", "found"], &self.non_orientable),
         ]
     }
 
@@ -146,15 +149,26 @@ impl fmt::Display for RepairReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} vertices, {} triangles read; {} vertices, {} triangles kept; parts: {}",
-            self.vertices_read, self.triangles_read, self.vertices_kept, self.triangles_kept, self.part_count
+            "{}, {} read; {}, {} kept; parts: {}",
+            Counted(self.vertices_read, "vertex"),
+            Counted(self.triangles_read, "triangle"),
+            Counted(self.vertices_kept, "vertex"),
+            Counted(self.triangles_kept, "triangle"),
+            self.part_count
         )?;
+        if self.polygons_split > 0 {
+            write!(
+                f,
+                "\n  {} split: numbers of triangles count those that they were split into, in file order",
+                Counted(self.polygons_split, "polygon")
+            )?;
+        }
         if self.rounding > 0.0 {
             write!(f, "\n  rounding to f32 moved vertices by up to {:e}", self.rounding)?;
         }
-        for (key, phrase, finding) in self.findings() {
+        for (key, [noun, what], finding) in self.findings() {
             if finding.count > 0 {
-                write!(f, "\n  {} {phrase}", finding.count)?;
+                write!(f, "\n  {} {what}", Counted(finding.count, noun))?;
                 // Every vertex of an STL file is welded: there the places say nothing.
                 if key == "welded" {
                     continue;

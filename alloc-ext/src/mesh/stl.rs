@@ -63,7 +63,7 @@ fn read_binary(file: &Path, mut bytes: Vec<u8>, count: u32) -> Result<RawMesh, M
         let triangle = triangle.map_err(|error| malformed(i, error))?;
         positions.extend(triangle.vertices.map(|v| v.0.map(f64::from)));
     }
-    Ok(RawMesh { triangles: in_threes(positions.len()), positions, file: file.to_owned(), decimal: false })
+    Ok(raw(file, positions, 0, false))
 }
 
 /// Reads the `vertex` lines of all solids in the file. A facet of more than three vertices becomes a fan.
@@ -77,6 +77,7 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions: Vec<[f64; 3]> = Vec::new();
     let mut vertex = 0;
     let mut facet = 0;
+    let mut polygons_split = 0;
     let mut polygon: Option<Vec<[f64; 3]>> = None;
     let mut last = 0;
     for (number, text) in lines(bytes) {
@@ -98,6 +99,7 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             }
             "endfacet" => match polygon.take().as_deref() {
                 Some([first, rest @ ..]) if rest.len() >= 2 => {
+                    polygons_split += usize::from(rest.len() > 2);
                     positions.extend(rest.windows(2).flat_map(|pair| [*first, pair[0], pair[1]]));
                     facet += 1;
                 }
@@ -111,9 +113,11 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     if polygon.is_some() {
         return Err(malformed(last, facet, "the file ends inside a facet"));
     }
-    Ok(RawMesh { triangles: in_threes(positions.len()), positions, file: file.to_owned(), decimal: true })
+    Ok(raw(file, positions, polygons_split, true))
 }
 
-fn in_threes(count: usize) -> Vec<[u32; 3]> {
-    (0..count as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect()
+/// Three positions for each triangle.
+fn raw(file: &Path, positions: Vec<[f64; 3]>, polygons_split: usize, decimal: bool) -> RawMesh {
+    let triangles = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    RawMesh { positions, triangles, file: file.to_owned(), polygons_split, decimal }
 }

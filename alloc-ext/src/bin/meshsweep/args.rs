@@ -1,6 +1,7 @@
 //! The command line. Values are checked here, so that a bad one is a usage error (exit status 2) before any file is touched.
 
 mod asking;
+mod bounding;
 mod building;
 mod explained;
 mod given;
@@ -10,6 +11,7 @@ pub use asking::{
     ClosestArgs, ClosestEngine, CullArgs, FieldArgs, NearestArgs, PointArgs, SearchArgs, SegmentArgs,
     SegmentEngine, SignedArgs, WithinArgs,
 };
+pub use bounding::TriboxArgs;
 pub use building::{BuildArgs, CutArgs, HullArgs, InfoArgs, StoredBits};
 pub use given::{Given, number};
 pub use values::Margin;
@@ -42,7 +44,7 @@ pub enum Command {
     #[command(after_help = explained::INFO)]
     Info(InfoArgs),
     /// Closest point and distance interval of each query point, as CSV
-    #[command(after_help = explained::closest())]
+    #[command(after_help = explained::closest(), mut_arg("queue", |queue| queue.help(explained::QUEUE)))]
     Closest(ClosestArgs),
     /// Whether each query point is within a distance of the surface, as CSV
     #[command(after_help = explained::within())]
@@ -57,7 +59,11 @@ pub enum Command {
     #[command(after_help = explained::FIELD)]
     Field(FieldArgs),
     /// First hit, or all hits, of each query segment, as CSV
-    #[command(after_help = explained::segment())]
+    #[command(
+        after_help = explained::segment(),
+        mut_arg("queue", |queue| queue.help(explained::QUEUE)),
+        mut_arg("steps", |steps| steps.help(explained::STEPS))
+    )]
     Segment(SegmentArgs),
     /// Triangles that may face a viewpoint, as CSV; all others certainly do not
     #[command(after_help = explained::CULL)]
@@ -68,6 +74,9 @@ pub enum Command {
     /// Cut a blob's hull hierarchy after a level: fewer bytes, wider intervals
     #[command(after_help = explained::CUT)]
     Cut(CutArgs),
+    /// Cover a mesh with unions of 1, 2, 4, ... triboxes, and write the finest as binary PLY
+    #[command(after_help = explained::TRIBOX)]
+    Tribox(TriboxArgs),
 }
 
 #[cfg(test)]

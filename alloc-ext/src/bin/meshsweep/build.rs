@@ -116,9 +116,9 @@ impl Report<'_> {
         if let Some(report) = hull {
             write!(
                 out,
-                ", collapse {:.3} ({} programs), sweep {:.3}, certify and check {:.3}",
+                ", collapse {:.3} ({}), sweep {:.3}, certify and check {:.3}",
                 report.collapse_time.as_secs_f64(),
-                report.programs,
+                Counted(report.programs, "program"),
                 report.sweep_time.as_secs_f64(),
                 report.certify_time.as_secs_f64()
             )?;
@@ -134,7 +134,8 @@ impl Report<'_> {
 pub fn why_stuck(wanted: u32, stuck: &Stuck) -> String {
     format!(
         "stopped before {wanted} faces, for no edge may collapse: {} by topology or valence, {} because no vertex is \
-         outside all planes, {} by compactness or normals; the conditions can be relaxed",
+         outside all planes, {} by compactness or normals; --max-valence, --compactness and --max-normal-deviation relax \
+         the conditions",
         stuck.topology, stuck.no_vertex, stuck.shape
     )
 }

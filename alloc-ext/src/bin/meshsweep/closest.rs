@@ -2,6 +2,7 @@
 
 use super::args::{ClosestArgs, ClosestEngine};
 use super::blob_file;
+use super::csv::Short;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
@@ -36,7 +37,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let model = blob_file::open(blob, &bytes)?;
     let tree_chosen = args.engine.map(|engine| engine == ClosestEngine::Tree);
     let tree = served::choose(blob, &model, Need::Distances, tree_chosen)?;
-    let points = Queries::points(&args.input.points)?;
+    let mut points = Queries::points(&args.input.points)?;
     let output = Output::file_or_stdout(output)?;
     let stop = args.search.stop(args.rel, args.abs);
     let asked = match tree {
@@ -47,10 +48,13 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
                 answers.resize(rows.len(), UNANSWERED);
                 // From nowhere, so that the work does not depend on which thread took the batch before.
                 let mut hint = Hint::NONE;
-                closest_points(&tree, rows, answers, &stop, &mut stack, &mut order, &mut hint)
-                    .map_err(|error| refused(first, error))?;
+                let done = closest_points(&tree, rows, answers, &stop, &mut stack, &mut order, &mut hint);
+                if done.is_err() {
+                    // A batch is not answered in its order.
+                    answers.clear();
+                }
                 answers.iter().for_each(|answer| tally.count(answer.ended, answer.work));
-                Ok(())
+                done.map_err(|error| refused(first, error))
             }
         }),
         None => threads::ask(&points, args.search.threads, || {
@@ -62,8 +66,9 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
                 Ok((answer.ended, answer.work))
             }
         }),
-    }?;
-    output.finish(|out| {
+    };
+    let stopped = points.stopped(asked.refused);
+    output.finish_until(stopped, |out| {
         writeln!(out, "{HEADER}")?;
         points.rows.iter().zip(&asked.answers).try_for_each(|(point, answer)| write_row(out, point, answer))
     })?;
@@ -81,7 +86,9 @@ fn refused(first: usize, error: BatchError) -> (usize, QueryError) {
 
 fn write_row(out: &mut dyn Write, [x, y, z]: &[f32; 3], answer: &ClosestPoint) -> io::Result<()> {
     let ClosestPoint { lower, upper, point: [px, py, pz], triangle, work, .. } = answer;
-    write!(out, "{x},{y},{z},{lower},{upper},{px},{py},{pz},")?;
+    for number in [x, y, z, lower, upper, px, py, pz] {
+        write!(out, "{},", Short(*number))?;
+    }
     // A cut blob knows no triangles of the file.
     if let Some(triangle) = triangle {
         write!(out, "{triangle}")?;

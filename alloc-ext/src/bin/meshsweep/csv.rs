@@ -2,18 +2,24 @@
 
 use super::args::number;
 use super::failure::Failure;
+use std::fmt;
 use std::path::Path;
 
-/// Rows of `N` numbers, and the line that each was on, counting from 1.
-pub type Rows<const N: usize> = (Vec<[f32; N]>, Vec<usize>);
+/// What a text holds up to its end, or to the first line that is no query.
+pub struct Rows<const N: usize> {
+    pub rows: Vec<[f32; N]>,
+    /// The line that each row was on, counting from 1.
+    pub lines: Vec<usize>,
+    /// What is wrong with the line after the last row.
+    pub broken: Option<Failure>,
+}
 
 /// Reads `N` numbers a line. Skipped: blank lines, what follows a `#`, and a first line of names.
 ///
 /// A number is rounded to the nearest f32, which is the query's coordinate.
-pub fn parse<const N: usize>(file: &Path, bytes: &[u8], wanted: &'static str) -> Result<Rows<N>, Failure> {
+pub fn parse<const N: usize>(file: &Path, bytes: &[u8], wanted: &'static str) -> Rows<N> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let mut rows = Vec::new();
-    let mut lines = Vec::new();
+    let mut found = Rows { rows: Vec::new(), lines: Vec::new(), broken: None };
     let mut may_be_header = true;
     for (number, line) in bytes.split(|&b| b == b'\n').enumerate() {
         let text = String::from_utf8_lossy(line);
@@ -26,10 +32,16 @@ pub fn parse<const N: usize>(file: &Path, bytes: &[u8], wanted: &'static str) ->
         if first && fields(text).all(is_name) {
             continue;
         }
-        rows.push(row(file, line, text, wanted)?);
-        lines.push(line);
+        match row(file, line, text, wanted) {
+            Ok(row) => found.rows.push(row),
+            Err(failure) => {
+                found.broken = Some(failure);
+                break;
+            }
+        }
+        found.lines.push(line);
     }
-    Ok((rows, lines))
+    found
 }
 
 /// Whether a field may head a column: it begins with a letter or a quotation mark, and is no number (as `nan` is).
@@ -73,25 +85,69 @@ fn row<const N: usize>(
     Ok(row)
 }
 
+/// A number in the fewest characters that read back as the same f32: with an exponent where there would be many zeros.
+pub struct Short(pub f32);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Short(x) = *self;
+        let is_everyday = x == 0.0 || !x.is_finite() || (1e-5..1e16).contains(&x.abs());
+        if is_everyday { write!(f, "{x}") } else { write!(f, "{x:e}") }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Rows<3>, String> {
-        parse(Path::new("a.csv"), text.as_bytes(), "3: x, y, z").map_err(|failure| failure.to_string())
+    fn read(text: &str) -> Rows<3> {
+        parse(Path::new("a.csv"), text.as_bytes(), "3: x, y, z")
+    }
+
+    #[test]
+    fn numbers_are_short_and_read_back() {
+        for (x, wanted) in [
+            (0.0, "0"),
+            (-0.0, "-0"),
+            (20.0, "20"),
+            (-1.25, "-1.25"),
+            (1e38, "1e38"),
+            (-3.402_823_5e38, "-3.4028235e38"),
+            (1e-38, "1e-38"),
+            (1e-45, "1e-45"),
+            (1.5e-5, "0.000015"),
+            (f32::INFINITY, "inf"),
+            (f32::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(Short(x).to_string(), wanted);
+        }
+        let mut x = f32::from_bits(1);
+        while x.is_finite() {
+            assert_eq!(Short(x).to_string().parse(), Ok(x));
+            assert!(Short(x).to_string().len() <= 18, "{x}");
+            x *= 1.7;
+        }
+    }
+
+    #[test]
+    fn what_stands_before_a_broken_line_is_read() {
+        let Rows { rows, lines, broken } = read("x,y,z\n1,2,3\n\n4,5,6\n7,8\n9,9,9\n");
+        assert_eq!((rows, lines), (vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], vec![2, 4]));
+        assert!(broken.is_some_and(|failure| failure.to_string().starts_with("a.csv, line 5: 2 fields")));
     }
 
     #[test]
     fn separators_headers_comments_and_blank_lines_are_understood() {
         let text = "\u{feff}x,y,z\r\n\n1,2,3 # here\n 1 ; 2; 3\r\n# 9,9,9\n1\t2  3\n";
-        let (rows, lines) = read(text).unwrap();
+        let Rows { rows, lines, broken } = read(text);
+        assert!(broken.is_none());
         assert_eq!(rows, [[1.0, 2.0, 3.0]; 3]);
         assert_eq!(lines, [3, 4, 6]);
     }
 
     #[test]
     fn malformed_lines_are_refused_with_line_and_field() {
-        let at = |text: &str| read(text).unwrap_err();
+        let at = |text: &str| read(text).broken.unwrap().to_string();
         assert!(
             at("x y z\n1 2 3\n1 2 three\n").starts_with("a.csv, line 3, field 3: \"three\" is not a number")
         );

@@ -61,12 +61,21 @@ pub fn run() -> Result<(), Failure> {
             )?,
             _ => writeln!(out, "From {from:?} to {to:?}: clear before t = {}.", segment.lower)?,
         }
-        writeln!(out, "Try:  meshsweep build part.stl -o part.msw")?;
-        writeln!(out, "      meshsweep closest part.msw 10,4.5,7")?;
-        writeln!(out, "      meshsweep field part.msw -o distances.npy")?;
-        writeln!(out, "      meshsweep hull part.stl --faces 200 -o hull.ply")?;
-        writeln!(out, "      meshsweep help")
+        let program = program();
+        writeln!(out, "Try:  {program} build part.stl -o part.msw")?;
+        writeln!(out, "      {program} closest part.msw 10,4.5,7")?;
+        writeln!(out, "      {program} field part.msw -o distances.npy")?;
+        writeln!(out, "      {program} hull part.stl --faces 200 -o hull.ply")?;
+        writeln!(out, "      {program} help")
     })
+}
+
+/// How the program is called: by `cargo run`, which says so in the environment, or by the name that it was called by now.
+fn program() -> String {
+    if std::env::var_os("CARGO_MANIFEST_DIR").is_some() {
+        return "cargo run --release --".to_owned();
+    }
+    std::env::args().next().unwrap_or_else(|| "meshsweep".to_owned())
 }
 
 fn in_triangle(triangle: Option<u32>) -> String {

@@ -6,7 +6,7 @@ mod tree;
 
 pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
 pub use shape::Shape;
-pub use tree::{bounds, stack_bytes, tree_format_name, tree_surface_error};
+pub use tree::{bounds, half_widths, stack_bytes, tree_format_name, tree_surface_error};
 
 use super::served;
 use meshsweep_core::Model;
@@ -24,6 +24,12 @@ pub fn triangles(model: &Model<'_>) -> u32 {
 /// A box of the local frame in the mesh's unit: low and high corner.
 pub fn in_input_units(model: &Model<'_>, local: &Aabb) -> [[f64; 3]; 2] {
     [local.min, local.max].map(|corner| (corner.as_dvec3() * model.scale()).to_array())
+}
+
+/// The diagonal of the mesh's box, in its unit.
+pub fn diagonal(model: &Model<'_>) -> f64 {
+    let [low, high] = in_input_units(model, &model.header().surface_box);
+    low.iter().zip(high).map(|(low, high)| (high - low).powi(2)).sum::<f64>().sqrt()
 }
 
 /// A length for people: as it is in everyday sizes, else with an exponent.
@@ -74,5 +80,5 @@ pub fn write_blob(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     if model.has_hull() {
         hull::write(out, model)?;
     }
-    model.tree().map_or(Ok(()), |tree| tree::write(out, &tree))
+    model.tree().map_or(Ok(()), |tree| tree::write(out, &tree, diagonal(model)))
 }

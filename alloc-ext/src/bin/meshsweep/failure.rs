@@ -5,13 +5,15 @@ use super::served::Need;
 use meshsweep_alloc::emit::CutError;
 use meshsweep_alloc::hull::BuildError;
 use meshsweep_alloc::mesh::MeshError;
+use meshsweep_core::tribox::TriboxError;
 use meshsweep_core::{OpenError, QueryError};
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Why a command did not do what it was asked. Nothing was written then.
+/// Why a command did not do what it was asked. No file was written then; on the standard output are the answers to the queries
+/// before the one that is refused.
 #[derive(Debug)]
 pub enum Failure {
     /// A file cannot be read.
@@ -42,6 +44,8 @@ pub enum Failure {
     NotServed { file: PathBuf, need: Need, other: Option<&'static str> },
     /// The hull engine cannot say anything about this blob.
     HullEngine { file: PathBuf, reason: &'static str },
+    /// The mesh is beyond what triboxes can hold.
+    Tribox { file: PathBuf, error: TriboxError },
     /// Sides are asked of a mesh that bounds no solid.
     NotClosed { file: PathBuf },
     /// The mesh has more triangles than a blob can hold.
@@ -56,6 +60,10 @@ pub enum Failure {
     RawLength { file: PathBuf, bytes: usize, record: usize },
     /// A query is refused.
     Query { place: Place, error: QueryError },
+    /// An end of a segment is too far away; `limit` says what is not.
+    TooFar { place: Place, limit: String },
+    /// The queries end too early for a file of answers.
+    Unwritten { file: PathBuf, cause: Box<Failure> },
     /// A search over many points of the program's own is refused.
     Search { file: PathBuf, error: QueryError },
     /// The arguments do not go together.
@@ -118,6 +126,7 @@ impl fmt::Display for Cause<'_> {
                 "change permissions or the path"
             }
             io::ErrorKind::StorageFull => "make room",
+            io::ErrorKind::FileTooLarge => "ask for less, or choose another file system",
             _ => "check path and medium",
         };
         write!(f, "{}; {remedy}", self.0)
@@ -175,6 +184,9 @@ impl fmt::Display for Failure {
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Open { file, error } => write!(f, "{}: {error}; {}", file.display(), remedy(error)),
             Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::Tribox { file, error } => {
+                write!(f, "{}: {error}; choose a larger unit", file.display())
+            }
             Failure::NotServed { file, need, other } => {
                 let (part, option) = (need.part(), need.option());
                 write!(f, "{}: has no {part}; build it again with --for {option}", file.display())?;
@@ -223,6 +235,10 @@ impl fmt::Display for Failure {
                 };
                 write!(f, "{place}: {error}{remedy}")
             }
+            Failure::TooFar { place, limit } => {
+                write!(f, "{place}: an end is too far away for this blob: {limit}; clip the segment first")
+            }
+            Failure::Unwritten { file, cause } => write!(f, "{cause}; {} is not written", file.display()),
             Failure::Search { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Usage { what } => f.write_str(what),
             Failure::ClosedPipe => f.write_str("the standard output was closed"),

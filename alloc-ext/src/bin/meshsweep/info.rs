@@ -78,7 +78,7 @@ fn as_json(model: &Model<'_>) -> Value {
         "serves": served::questions(model),
         "sections": sections,
         "hull": model.has_hull().then(|| hull_as_json(model)),
-        "tree": model.tree().map(|tree| tree_as_json(&tree)),
+        "tree": model.tree().map(|tree| tree_as_json(&tree, describe::diagonal(model))),
     })
 }
 
@@ -122,18 +122,21 @@ fn hull_as_json(model: &Model<'_>) -> Value {
     })
 }
 
-fn tree_as_json(tree: &Tree<'_>) -> Value {
+fn tree_as_json(tree: &Tree<'_>, diagonal: f64) -> Value {
     let h = tree.header();
     let shape = Shape::of(tree);
+    let [near, far] = describe::half_widths(tree, diagonal);
     json!({
         "is_closed": h.is_closed(),
         "vertex_format": describe::tree_format_name(tree),
         "surface_error": describe::tree_surface_error(tree),
+        "half_width_near": near,
+        "half_width_one_diagonal_away": far,
         "triangles": h.triangles,
         "triangles_without_area": shape.flat,
         "fans": shape.fans(),
         "triangles_per_fan": shape.triangles_per_fan(),
-        "degenerate_fans": shape.degenerate_fans(),
+        "single_triangle_fans": shape.single_triangle_fans(),
         "fans_by_size": shape.fan_sizes,
         "leaves": h.leaves,
         "triangles_per_leaf": shape.triangles_per_leaf,

@@ -9,16 +9,15 @@
 //! | `queries`, `csv`, `threads` | points and segments of arguments and files; asking many on several threads |
 //! | `stop` | stop rules, working memory, how queries ended |
 //! | `output` | files that are whole or not there, and pipes that close early |
-//! | `describe`, `counted` | tables of sections, levels and memory; numbers with their nouns |
+//! | `describe` | tables of sections, levels and memory |
 //! | `progress` | the bar |
 //! | `points` | questions about points that only the box tree answers: `within`, `nearest`, `signed` |
-//! | `build`, `info`, `closest`, `field`, `segment`, `cull`, `hull`, `cut`, `demo` | one command each |
+//! | `build`, `info`, `closest`, `field`, `segment`, `cull`, `hull`, `cut`, `tribox`, `demo` | one command each |
 
 mod args;
 mod blob_file;
 mod build;
 mod closest;
-mod counted;
 mod csv;
 mod cull;
 mod cut;
@@ -39,10 +38,12 @@ mod served;
 mod signed;
 mod stop;
 mod threads;
+mod tribox;
 mod within;
 
 use args::{Arguments, Command};
 use failure::Failure;
+use meshsweep_alloc::counted;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -66,5 +67,6 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Segment(args)) => segment::run(&args),
         Some(Command::Hull(args)) => hull::run(&args),
         Some(Command::Cut(args)) => cut::run(&args),
+        Some(Command::Tribox(args)) => tribox::run(&args),
     }
 }

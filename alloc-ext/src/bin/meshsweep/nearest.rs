@@ -50,13 +50,8 @@ impl Question for Ranking {
         (went, found): &Self::Answer,
     ) -> io::Result<()> {
         for (rank, near) in found.iter().enumerate() {
-            let Near { lower, upper, point: [x, y, z], triangle } = near;
-            writeln!(
-                out,
-                "{query},{},{lower},{upper},{x},{y},{z},{triangle},{}",
-                rank + 1,
-                went.work.total()
-            )?;
+            write!(out, "{query},{},", rank + 1)?;
+            points::write_near(out, near, went.work.total())?;
         }
         Ok(())
     }

@@ -52,6 +52,14 @@ impl Output {
         if is_device { Ok(()) } else { Self::file(path).map(drop) }
     }
 
+    /// Whether the file system has files of so many bytes; whether it has room for one is not known.
+    pub fn require_size(&self, bytes: u64) -> Result<(), Failure> {
+        let Target::File { out, .. } = &self.target else { return Ok(()) };
+        let file = out.get_ref();
+        let sized = file.set_len(bytes).and_then(|()| file.set_len(0));
+        sized.map_err(|error| Failure::write(&self.path, error))
+    }
+
     /// Runs `write` on the output, then puts the file in its place.
     pub fn finish(mut self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         let done = write(&mut self).and_then(|()| self.commit());
@@ -63,6 +71,22 @@ impl Output {
                 Failure::write(&self.path, error)
             }
         })
+    }
+
+    /// The same for answers that end before their time, if they are `stopped`: the standard output gets them, a file does not
+    /// come to be, for it is whole or not there.
+    pub fn finish_until(
+        self,
+        stopped: Option<Failure>,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        match stopped {
+            None => self.finish(write),
+            Some(failure) if matches!(self.target, Target::File { .. }) => {
+                Err(Failure::Unwritten { file: self.path.clone(), cause: Box::new(failure) })
+            }
+            Some(failure) => self.finish(write).and(Err(failure)),
+        }
     }
 
     fn commit(&mut self) -> io::Result<()> {

@@ -2,13 +2,14 @@
 
 use super::args::{PointArgs, SearchArgs};
 use super::blob_file;
+use super::csv::Short;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::served::{self, Need};
 use super::threads;
 use meshsweep_core::Tree;
-use meshsweep_core::query::tree::TreeEntry;
+use meshsweep_core::query::tree::{Near, TreeEntry};
 use meshsweep_core::query::{Ended, QueryError, Stop, Work};
 use std::io::{self, Write};
 use std::path::Path;
@@ -53,7 +54,7 @@ pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, question: &Q) ->
     let bytes = blob_file::read(&input.blob)?;
     let model = blob_file::open(&input.blob, &bytes)?;
     let tree = served::require_tree(&input.blob, &model, Need::Distances)?;
-    let points = Queries::points(&input.points)?;
+    let mut points = Queries::points(&input.points)?;
     let output = Output::file_or_stdout(output)?;
     let stop = search.stop(0.0, 0.0);
     let asked = threads::ask(&points, search.threads, || {
@@ -65,8 +66,9 @@ pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, question: &Q) ->
             answers.push(answer);
             Ok(outcome)
         }
-    })?;
-    output.finish(|out| {
+    });
+    let stopped = points.stopped(asked.refused);
+    output.finish_until(stopped, |out| {
         writeln!(out, "{}", question.header())?;
         let mut rows = points.rows.iter().zip(&asked.answers).enumerate();
         rows.try_for_each(|(query, (point, answer))| question.write(out, query, point, answer))
@@ -74,4 +76,13 @@ pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, question: &Q) ->
     question.remark(&input.blob, &tree);
     search.note(&asked);
     Ok(())
+}
+
+/// The last columns of a triangle's row: its interval, its closest point, its number, and the work of the query.
+pub fn write_near(out: &mut dyn Write, near: &Near, work: u32) -> io::Result<()> {
+    let Near { lower, upper, point: [x, y, z], triangle } = near;
+    for number in [lower, upper, x, y, z] {
+        write!(out, "{},", Short(*number))?;
+    }
+    writeln!(out, "{triangle},{work}")
 }

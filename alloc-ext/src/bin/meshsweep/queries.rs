@@ -1,11 +1,14 @@
 //! Queries of the command line, of text files, of raw f32 files and of the standard input, in the order given.
 
 use super::args::Given;
-use super::csv;
+use super::csv::{self, Rows, Short};
 use super::failure::{Failure, Place};
 use meshsweep_core::QueryError;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+
+/// What messages call the standard input.
+const STANDARD_INPUT: &str = "standard input";
 
 /// Queries of `N` finite numbers, and where each came from.
 pub struct Queries<const N: usize> {
@@ -13,6 +16,8 @@ pub struct Queries<const N: usize> {
     pub rows: Vec<[f32; N]>,
     /// Where they came from, each with its first row.
     origins: Vec<(usize, Origin)>,
+    /// What is wrong with the query after the last one. Those before it are asked all the same.
+    pub broken: Option<Failure>,
 }
 
 enum Origin {
@@ -47,8 +52,12 @@ impl<const N: usize> Queries<N> {
         if given.iter().filter_map(Given::file).filter(|path| is_stdin(path)).count() > 1 {
             return Err(Failure::Usage { what: "-: the standard input can be read only once".to_owned() });
         }
-        let mut queries = Queries { rows: Vec::new(), origins: Vec::new() };
+        let mut queries = Queries { rows: Vec::new(), origins: Vec::new(), broken: None };
         for given in given {
+            if queries.broken.is_some() {
+                break;
+            }
+            let before = queries.rows.len();
             match given {
                 Given::Query(query) => {
                     queries.origins.push((queries.rows.len(), Origin::Argument));
@@ -57,15 +66,26 @@ impl<const N: usize> Queries<N> {
                 Given::File(path) if is_stdin(path) => {
                     let mut bytes = Vec::new();
                     let read = std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes);
-                    queries.text(Path::new("standard input"), read, wanted)?;
+                    queries.text(Path::new(STANDARD_INPUT), read, wanted)?;
                 }
                 Given::File(path) if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("f32")) => {
                     queries.raw(path)?;
                 }
                 Given::File(path) => queries.text(path, std::fs::read(path), wanted)?,
             }
+            if let Given::File(path) = given
+                && queries.rows.len() == before
+                && queries.broken.is_none()
+            {
+                let name = if is_stdin(path) { Path::new(STANDARD_INPUT) } else { path };
+                // A standard error that is closed is no reason to withhold the answers.
+                let _ = writeln!(std::io::stderr(), "no queries in {}", name.display());
+            }
         }
-        Ok(queries)
+        match queries.broken.take() {
+            Some(failure) if queries.rows.is_empty() => Err(failure),
+            broken => Ok(Queries { broken, ..queries }),
+        }
     }
 
     fn text(
@@ -75,9 +95,10 @@ impl<const N: usize> Queries<N> {
         wanted: &'static str,
     ) -> Result<(), Failure> {
         let bytes = bytes.map_err(|error| Failure::ReadQueries { file: file.to_owned(), error, wanted })?;
-        let (rows, lines) = csv::parse(file, &bytes, wanted)?;
+        let Rows { rows, lines, broken } = csv::parse(file, &bytes, wanted);
         self.origins.push((self.rows.len(), Origin::Text { file: file.to_owned(), lines }));
         self.rows.extend(rows);
+        self.broken = broken;
         Ok(())
     }
 
@@ -92,16 +113,28 @@ impl<const N: usize> Queries<N> {
         let first = self.rows.len();
         self.origins.push((first, Origin::Raw { file: file.to_owned() }));
         self.rows.extend(rows);
-        match rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
-            Some(index) => Err(self.refused(first + index, QueryError::NotFinite)),
-            None => Ok(()),
+        if let Some(index) = rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
+            self.broken = Some(self.refused(first + index, QueryError::NotFinite));
+            self.rows.truncate(first + index);
         }
+        Ok(())
+    }
+
+    /// Why the answers end before their time: a query was refused, or the next one could not be read.
+    pub fn stopped(&mut self, refused: Option<(usize, QueryError)>) -> Option<Failure> {
+        let broken = self.broken.take();
+        refused.map(|(index, error)| self.refused(index, error)).or(broken)
     }
 
     /// A query that was refused, by its place.
     pub fn refused(&self, index: usize, error: QueryError) -> Failure {
+        Failure::Query { place: self.place(index), error }
+    }
+
+    /// Where a query came from.
+    pub fn place(&self, index: usize) -> Place {
         let after = self.origins.partition_point(|(first, _)| *first <= index);
-        let place = match after.checked_sub(1).and_then(|at| self.origins.get(at)) {
+        match after.checked_sub(1).and_then(|at| self.origins.get(at)) {
             Some((first, Origin::Text { file, lines })) => {
                 let line = lines.get(index - first).copied().unwrap_or_default();
                 Place::Line { file: file.clone(), line }
@@ -111,9 +144,8 @@ impl<const N: usize> Queries<N> {
                 Place::Record { file: file.clone(), number, byte: number * 4 * N }
             }
             Some((_, Origin::Argument)) | None => {
-                Place::Argument { text: self.rows[index].map(|x| x.to_string()).join(",") }
+                Place::Argument { text: self.rows[index].map(|x| Short(x).to_string()).join(",") }
             }
-        };
-        Failure::Query { place, error }
+        }
     }
 }

@@ -4,14 +4,16 @@ mod caster;
 
 use super::args::{SegmentArgs, SegmentEngine};
 use super::blob_file;
+use super::csv::Short;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::served::{self, Need};
 use super::threads;
 use caster::{Caster, Row, Verdict, ends};
-use meshsweep_core::Model;
+use meshsweep_core::num::{exp2, tolerance};
 use meshsweep_core::query::Hit;
+use meshsweep_core::{Model, QueryError, Tree};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -49,7 +51,7 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     if by_hull {
         require_exact_surface(&args.blob, &model)?;
     }
-    let segments = Queries::segments(&args.segments)?;
+    let mut segments = Queries::segments(&args.segments)?;
     let output = Output::file_or_stdout(output)?;
     let asked = threads::ask(&segments, args.search.threads, || {
         let mut caster = match tree {
@@ -60,8 +62,14 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
         move |index, segment, rows: &mut Vec<Row>| {
             if args.all { caster.all(index, segment, rows) } else { caster.first(index, segment, rows) }
         }
-    })?;
-    output.finish(|out| {
+    });
+    let stopped = match asked.refused {
+        Some((index, QueryError::OutOfDomain)) => {
+            Some(Failure::TooFar { place: segments.place(index), limit: limit(&model, tree.as_ref()) })
+        }
+        refused => segments.stopped(refused),
+    };
+    output.finish_until(stopped, |out| {
         writeln!(out, "{}{HEADER}", if args.all { "query," } else { "" })?;
         asked.answers.iter().try_for_each(|row| {
             if args.all {
@@ -72,6 +80,20 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     })?;
     args.search.note(&asked);
     Ok(())
+}
+
+/// How far away the ends of segments may be, in the mesh's unit.
+fn limit(model: &Model<'_>, tree: Option<&Tree<'_>>) -> String {
+    match tree {
+        Some(tree) => {
+            let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
+            let farthest = f64::from(tolerance::TREE_FAR) * unit;
+            format!(
+                "the ways along x, y and z to the farthest corner of its box may add up to about {farthest:.1e}"
+            )
+        }
+        None => format!("a coordinate may be about {:.1e} at most", tolerance::FAR * model.scale()),
+    }
 }
 
 fn require_exact_surface(file: &Path, model: &Model<'_>) -> Result<(), Failure> {
@@ -87,20 +109,27 @@ fn require_exact_surface(file: &Path, model: &Model<'_>) -> Result<(), Failure> 
 
 fn write_row(out: &mut dyn Write, row: &Row, segment: &[f32; 6]) -> io::Result<()> {
     match row.verdict {
-        Verdict::Hit(Hit { t, point: [x, y, z], triangle }) => {
-            write!(out, "yes,{t},{x},{y},{z},")?;
-            if let Some(triangle) = triangle {
-                write!(out, "{triangle}")?;
-            }
+        Verdict::Hit(Hit { t, point, triangle }) => {
+            write_place(out, "yes", t, point, triangle)?;
         }
         Verdict::Clear => write!(out, "no,,,,,")?,
-        Verdict::Unknown(t) => {
+        Verdict::Unknown { t, triangle } => {
             let [a, b] = ends(*segment);
-            let [x, y, z] = point_at(a, b, t);
-            write!(out, "unknown,{t},{x},{y},{z},")?;
+            write_place(out, "unknown", t, point_at(a, b, t), triangle)?;
         }
     }
     writeln!(out, ",{}", row.work.total())
+}
+
+fn write_place(
+    out: &mut dyn Write,
+    verdict: &str,
+    t: f32,
+    [x, y, z]: [f32; 3],
+    triangle: Option<u32>,
+) -> io::Result<()> {
+    write!(out, "{verdict},{},{},{},{},", Short(t), Short(x), Short(y), Short(z))?;
+    triangle.map_or(Ok(()), |triangle| write!(out, "{triangle}"))
 }
 
 fn point_at(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {

@@ -1,6 +1,7 @@
 //! `meshsweep signed`: on which side points are, and how far from the surface.
 
 use super::args::SignedArgs;
+use super::csv::Short;
 use super::failure::Failure;
 use super::points::{self, Question};
 use meshsweep_core::Tree;
@@ -26,7 +27,7 @@ pub fn name(side: Side) -> &'static str {
 struct Signed;
 
 /// Why a side is undefined.
-fn reason(tree: &Tree<'_>, answer: &SignedDistance) -> &'static str {
+pub fn reason(tree: &Tree<'_>, answer: &SignedDistance) -> &'static str {
     let ClosestPoint { lower, ended, .. } = answer.closest;
     match (answer.side, ended) {
         (Side::Outside | Side::Inside, _) => "",
@@ -80,7 +81,10 @@ impl Question for Signed {
     ) -> io::Result<()> {
         let SignedDistance { lower, upper, side, closest } = answer;
         let [px, py, pz] = closest.point;
-        write!(out, "{x},{y},{z},{},{reason},{lower},{upper},{px},{py},{pz},", name(*side))?;
+        write!(out, "{},{},{},{},{reason},", Short(*x), Short(*y), Short(*z), name(*side))?;
+        for number in [lower, upper, &px, &py, &pz] {
+            write!(out, "{},", Short(*number))?;
+        }
         if let Some(triangle) = closest.triangle {
             write!(out, "{triangle}")?;
         }

@@ -1,6 +1,5 @@
 //! Many queries on several threads: the same answers in the same order as on one.
 
-use super::failure::Failure;
 use super::queries::Queries;
 use super::stop::Tally;
 use meshsweep_core::QueryError;
@@ -14,8 +13,10 @@ const AT_ONCE: usize = 512;
 
 /// Answers, and what they took.
 pub struct Asked<A> {
-    /// In the order of the queries.
+    /// In the order of the queries, up to the first that is refused.
     pub answers: Vec<A>,
+    /// The first query that is refused, and why.
+    pub refused: Option<(usize, QueryError)>,
     pub tally: Tally,
     pub time: Duration,
     pub threads: usize,
@@ -32,7 +33,7 @@ pub fn ask<const N: usize, A: Send, W>(
     queries: &Queries<N>,
     threads: Option<NonZeroUsize>,
     worker: impl Fn() -> W + Sync,
-) -> Result<Asked<A>, Failure>
+) -> Asked<A>
 where
     W: FnMut(usize, [f32; N], &mut Vec<A>) -> Result<(Ended, Work), QueryError>,
 {
@@ -49,13 +50,13 @@ where
 }
 
 /// Asks every query, so many `at_once`. `worker` makes what a thread works with: of queries that stand together, the first of them with the given number, it
-/// appends the answers and counts how they ended; or it says which one is refused, the least number.
+/// appends the answers and counts how they ended; or it says which one is refused, the least number, and appends the answers before it at most.
 pub fn ask_batches<const N: usize, A: Send, W>(
     queries: &Queries<N>,
     threads: Option<NonZeroUsize>,
     at_once: usize,
     worker: impl Fn() -> W + Sync,
-) -> Result<Asked<A>, Failure>
+) -> Asked<A>
 where
     W: FnMut(usize, &[[f32; N]], &mut Vec<A>, &mut Tally) -> Result<(), (usize, QueryError)>,
 {
@@ -69,12 +70,15 @@ where
         while let Some((chunk, rows)) = chunks.lock().ok().and_then(|mut chunks| chunks.next()) {
             let mut answers = Vec::with_capacity(rows.len());
             let mut tally = Tally::default();
-            worker(chunk * at_once, rows, &mut answers, &mut tally)?;
+            let refused = worker(chunk * at_once, rows, &mut answers, &mut tally).err();
             done.push((chunk, answers, tally));
+            if refused.is_some() {
+                return (done, refused);
+            }
         }
-        Ok(done)
+        (done, None)
     };
-    let all: Vec<Result<Vec<_>, (usize, QueryError)>> = std::thread::scope(|scope| {
+    let all: Vec<(Vec<_>, Option<(usize, QueryError)>)> = std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
         let mine = work();
         let join = |other: std::thread::ScopedJoinHandle<'_, _>| {
@@ -82,18 +86,16 @@ where
         };
         std::iter::once(mine).chain(others.into_iter().map(join)).collect()
     });
-    // Chunks are taken in order, so the first query that is refused is among those that were asked.
-    let refused = all.iter().filter_map(|done| done.as_ref().err()).min_by_key(|(index, _)| *index);
-    if let Some(&(index, error)) = refused {
-        return Err(queries.refused(index, error));
-    }
+    // Chunks are taken in order, so the first query that is refused is among those that were asked, and all before it are.
+    let refused = all.iter().filter_map(|(_, refused)| *refused).min_by_key(|(index, _)| *index);
     let time = started.elapsed();
-    let mut done: Vec<_> = all.into_iter().flatten().flatten().collect();
+    let mut done: Vec<_> = all.into_iter().flat_map(|(done, _)| done).collect();
+    done.retain(|(chunk, ..)| refused.is_none_or(|(index, _)| *chunk <= index / at_once));
     done.sort_unstable_by_key(|(chunk, ..)| *chunk);
-    let mut asked = Asked { answers: Vec::new(), tally: Tally::default(), time, threads };
+    let mut asked = Asked { answers: Vec::new(), refused, tally: Tally::default(), time, threads };
     for (_, answers, tally) in done {
         asked.answers.extend(answers);
         asked.tally.add(&tally);
     }
-    Ok(asked)
+    asked
 }

@@ -1,6 +1,7 @@
 //! `meshsweep within`: whether points are within a distance of the surface, or which triangles are.
 
 use super::args::WithinArgs;
+use super::csv::Short;
 use super::failure::Failure;
 use super::points::{self, Question};
 use meshsweep_core::Tree;
@@ -49,7 +50,7 @@ impl Question for Any {
     }
 
     fn write(&self, out: &mut dyn Write, _: usize, [x, y, z]: &[f32; 3], answer: &Within) -> io::Result<()> {
-        write!(out, "{x},{y},{z},")?;
+        write!(out, "{},{},{},", Short(*x), Short(*y), Short(*z))?;
         match answer.verdict {
             Verdict::Yes { triangle } => write!(out, "yes,{triangle}")?,
             Verdict::No => write!(out, "no,")?,
@@ -102,8 +103,8 @@ impl Question for All {
         let work = went.work.total();
         for (index, near) in found.iter().enumerate() {
             let verdict = if index < went.certain { "yes" } else { "unknown" };
-            let Near { lower, upper, point: [x, y, z], triangle } = near;
-            writeln!(out, "{query},{verdict},{lower},{upper},{x},{y},{z},{triangle},{work}")?;
+            write!(out, "{query},{verdict},")?;
+            points::write_near(out, near, work)?;
         }
         if went.ended != Ended::Exact {
             // Triangles may be missing.

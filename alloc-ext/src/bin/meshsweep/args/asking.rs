@@ -1,7 +1,7 @@
 //! Arguments of the commands that ask a blob.
 
 use super::given::{self, Given};
-use super::values::{Margin, direction, margin, point, size, tolerance};
+use super::values::{Margin, direction, margin, point, size, threads, tolerance, whole};
 use clap::{Args, ValueEnum};
 use meshsweep_core::query::tree::{Facing, Sight};
 use std::num::NonZeroUsize;
@@ -13,14 +13,14 @@ pub struct SearchArgs {
     /// CSV file to write instead of the standard output
     #[arg(short, long, value_name = "CSV")]
     pub output: Option<PathBuf>,
-    /// Stop a query after opening so many nodes (segments: on the cover tree only)
-    #[arg(long, value_name = "NODES")]
+    /// Stop a query after opening so many nodes
+    #[arg(long, value_name = "NODES", allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
     pub steps: Option<u32>,
-    /// Stack or queue entries to search with; the default is what the blob needs (cover tree: and no less than 4096)
-    #[arg(long, value_name = "ENTRIES", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    /// Stack entries to search with [default: what the blob needs]
+    #[arg(long, value_name = "ENTRIES", allow_negative_numbers = true, value_parser = whole::<1, { 1 << 24 }>)]
     pub queue: Option<u32>,
     /// Threads [default: as many as the machine has processors for]; answers do not depend on it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
     /// Print nanoseconds per query, and how queries ended, to the standard error
     #[arg(long)]
@@ -89,7 +89,7 @@ pub struct NearestArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// Triangles for each point, nearest first
-    #[arg(short = 'n', long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { 1 << 20 }>)]
     pub count: u32,
     #[command(flatten)]
     pub search: SearchArgs,
@@ -111,19 +111,19 @@ pub struct FieldArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Samples along each axis: one number for all, or NX,NY,NZ
-    #[arg(long, value_name = "SIZE", default_value = "64", value_parser = size)]
+    #[arg(long, value_name = "SIZE", default_value = "64", allow_negative_numbers = true, value_parser = size)]
     pub size: Size,
     /// How far the grid reaches beyond the mesh's box: a length, or a percentage of the box's longest edge
     #[arg(long, value_name = "MARGIN", default_value = "10%", allow_negative_numbers = true, value_parser = margin)]
     pub margin: Margin,
-    /// Negative values inside; the mesh must be closed
+    /// Negative values inside, NaN where the side is not proved; the mesh must be closed
     #[arg(long)]
     pub signed: bool,
     /// Write lower and upper bound instead of the middle between them
     #[arg(long)]
     pub interval: bool,
     /// Threads [default: as many as the machine has processors for]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
 }
 

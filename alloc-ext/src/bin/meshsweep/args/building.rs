@@ -1,6 +1,6 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, ratio};
+use super::values::{degrees, ratio, whole};
 use clap::{Args, ValueEnum};
 use meshsweep_alloc::collapse::{Conditions, Priority};
 use meshsweep_alloc::precision::VertexBits;
@@ -26,7 +26,7 @@ pub struct BuildArgs {
     #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
     pub vertex_bits: StoredBits,
     /// Faces of the base hull, with --for hull [default: 200]
-    #[arg(long, value_name = "FACES", value_parser = clap::value_parser!(u32).range(4..))]
+    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
     pub base: Option<u32>,
     #[command(flatten)]
     pub collapse: CollapseArgs,
@@ -89,13 +89,13 @@ pub struct CollapseArgs {
     #[arg(long, value_enum, hide_possible_values = true)]
     pub priority: Option<PriorityName>,
     /// Largest valence of a hull vertex [default: 12]
-    #[arg(long, value_name = "EDGES", value_parser = clap::value_parser!(u8).range(3..))]
-    pub max_valence: Option<u8>,
+    #[arg(long, value_name = "EDGES", allow_negative_numbers = true, value_parser = whole::<3, 255>)]
+    pub max_valence: Option<u32>,
     /// Least ratio of a star's worst compactness after a collapse to that before it [default: 0.8]
-    #[arg(long, value_name = "RATIO", value_parser = ratio)]
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, value_parser = ratio)]
     pub compactness: Option<f64>,
     /// Largest change of a face's normal in a collapse, in degrees [default: 45]
-    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
     pub max_normal_deviation: Option<f64>,
 }
 
@@ -114,7 +114,7 @@ impl CollapseArgs {
             if degrees == 45.0 { default.min_normal_cosine } else { degrees.to_radians().cos() }
         };
         Conditions {
-            max_valence: self.max_valence.map_or(default.max_valence, usize::from),
+            max_valence: self.max_valence.map_or(default.max_valence, |edges| edges as usize),
             compactness_ratio: self.compactness.unwrap_or(default.compactness_ratio),
             min_normal_cosine: self.max_normal_deviation.map_or(default.min_normal_cosine, cosine),
             ..default
@@ -173,12 +173,15 @@ pub struct HullArgs {
     #[arg(short, long, value_name = "PLY")]
     pub output: PathBuf,
     /// Faces of the hull of a mesh [default: 200]
-    #[arg(long, value_parser = clap::value_parser!(u32).range(4..))]
+    #[arg(long, allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
     pub faces: Option<u32>,
     /// Level of a blob, 0 being the coarsest
-    #[arg(long, conflicts_with_all = [
-        "faces", "vertex_bits", "priority", "max_valence", "compactness", "max_normal_deviation",
-    ])]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_parser = whole::<0, { u32::MAX }>,
+        conflicts_with_all = ["faces", "vertex_bits", "priority", "max_valence", "compactness", "max_normal_deviation"]
+    )]
     pub level: Option<u32>,
     /// Bits of a coordinate of the hull of a mesh: auto, the fewest that hold the mesh exactly; 16 or 24, on a grid, to
     /// which the mesh moves; 32, single precision
@@ -193,7 +196,7 @@ pub struct CutArgs {
     /// Blob file, built --for hull
     pub blob: PathBuf,
     /// Finest level to keep, 0 being the coarsest
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
     pub level: u32,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]

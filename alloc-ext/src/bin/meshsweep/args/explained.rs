@@ -2,9 +2,19 @@
 
 pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable, 2 wrong usage.";
 
+/// Of `--queue` where there is `--engine`.
+pub const QUEUE: &str = "Stack or queue entries to search with [default: what the blob needs; on the cover tree no less than 4096]";
+
+/// Of `--steps` for segments.
+pub const STEPS: &str = "Stop a query after opening so many nodes, on the cover tree only (--engine cover)";
+
 const QUERIES: &str = "Queries are written as arguments, or in files, or both: as many as wanted, answered in the order given. \
     A file holds decimal numbers separated by commas, semicolons or blanks, one query on a line; a header line, blank lines and \
-    comments from # on are skipped. '-' reads this from the standard input. A file named *.f32 holds raw little-endian f32 numbers.";
+    comments from # on are skipped. '-' reads this from the standard input. A file named *.f32 holds raw little-endian f32 numbers. A \
+    query that is refused is named; the answers to those before it are printed, but not written to a file of -o.";
+
+const TRIANGLES: &str = "triangle counts the triangles of the mesh file from 0, in its order, each polygon being split into triangles \
+    about its first corner";
 
 pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     closest   closest, within, nearest, field; signed too if the mesh is closed: 13 to 14 bytes a triangle\n  \
@@ -19,7 +29,8 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     16     vertices move to a grid of 16 bits an axis\n  \
     24     hull: a grid of 24 bits an axis; box tree: 32\n  \
     32     single precision; box tree: 8 bytes a triangle more, and no hit is left open for the vertices' sake\n\
-    Whatever moves is in every answer's interval; the report says how far.\n\n\
+    Whatever moves is in every answer's interval; the report says how far. With 32 nothing moves, but intervals still carry the rounding \
+    of single precision: about two millionths of the distance, and of the longest triangle; the report says what that comes to.\n\n\
     Examples:\n  \
     meshsweep build part.stl -o part.msw\n  \
     meshsweep build scan.ply -o scan.msw --for closest\n  \
@@ -32,7 +43,7 @@ pub const INFO: &str = "Examples:\n  \
 pub fn closest() -> String {
     format!(
         "lower and upper enclose the distance to the mesh as it was read, in real arithmetic; px, py, pz are a point of its surface at \
-         most upper away; triangle counts as in the mesh file, from 0; work counts boxes and triangles that were looked at, \
+         most upper away; {TRIANGLES}; work counts boxes and triangles that were looked at, \
          and depends on the queries beside it: without --rel, --abs, --steps and --queue the box tree takes thousands at once, in an \
          order in which each begins where a neighbour ended.\n\n\
          {QUERIES}\n\n\
@@ -47,7 +58,7 @@ pub fn closest() -> String {
 pub fn within() -> String {
     format!(
         "The column 'within' says yes or no, which is proved; or unknown, if the distance differs from D by less than rounding and the \
-         surface error of the blob, or the query ended early. 'triangle' is one that is near enough. With --all a last row of unknown \
+         surface error of the blob, or the query ended early. 'triangle' is one that is near enough; {TRIANGLES}. With --all a last row of unknown \
          without a triangle says that the query ended early, and triangles may be missing.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
@@ -59,7 +70,7 @@ pub fn within() -> String {
 pub fn nearest() -> String {
     format!(
         "Queries count from 0, ranks from 1. Each triangle has its own interval and closest point; two whose intervals overlap may stand \
-         in either order. A mesh of fewer than N triangles gives them all.\n\n\
+         in either order. A mesh of fewer than N triangles gives them all; {TRIANGLES}.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep nearest part.msw 10,4.5,7 -n 5\n  \
@@ -72,7 +83,7 @@ pub fn signed() -> String {
         "The column 'side' says outside or inside, which is proved; or undefined, and then 'reason' says why: open mesh, if the mesh does \
          not bound a solid; at the surface, if the point cannot be told from a point of it; rounding, if single precision leaves the \
          side open; out of steps, out of stack, if the query ended early. lower and upper are the bounds of the signed distance, \
-         negative inside; if the side is undefined, they are -upper and upper of the distance.\n\n\
+         negative inside; if the side is undefined, they are -upper and upper of the distance; {TRIANGLES}.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep signed part.msw 10,4.5,7\n  \
@@ -83,8 +94,8 @@ pub fn signed() -> String {
 pub const FIELD: &str = "FILE is raw little-endian f32 if it is named *.f32 or *.raw, and NumPy's format if it is named *.npy: shape \
     (NZ, NY, NX), so that x runs fastest. Sample (k, j, i) is at origin + (i, j, k) * step, rounded to f32; origin and step are \
     printed. A value is the middle of the interval that contains the distance. With --interval there are two values a sample, lower \
-    and upper, as a last axis of length 2. With --signed, distances inside are negative; where the side is not proved the interval \
-    reaches from -upper to upper, and the value is 0. The bytes do not depend on the number of threads.\n\n\
+    and upper, as a last axis of length 2. With --signed, distances inside are negative; where the side is not proved the value is \
+    NaN, or with --interval -upper and upper; how many these are is printed. The bytes do not depend on the number of threads.\n\n\
     Examples:\n  \
     meshsweep field part.msw -o field.npy\n  \
     meshsweep field part.msw -o field.f32 --size 128,128,64 --margin 2.5 --signed";
@@ -93,8 +104,8 @@ pub fn segment() -> String {
     format!(
         "The column 'hit' says yes, with the first hit; no, which is proved; or unknown, if the query ended early, the blob is cut, or \
          rounding and the surface error of the blob leave it open: then the segment is proved clear before t, which px, py, pz belong \
-         to. With --all an unknown hit is a place where the stored surface is met and the mesh's may be. t runs from 0 to 1 along the \
-         segment, rounded to f32.\n\n\
+         to. With --all an unknown hit is a place where the stored triangle is met and the mesh's may be. t runs from 0 to 1 along the \
+         segment, rounded to f32; {TRIANGLES}.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep segment part.msw 20,10,90,20,10,-90\n  \
@@ -121,3 +132,13 @@ pub const HULL: &str = "The hull encloses the mesh: proved by exact arithmetic o
 pub const CUT: &str = "meshsweep info lists the levels. A box tree is left out: it knows the whole surface or none of it.\n\n\
     Example:\n  \
     meshsweep cut part.msw --level 2 -o small.msw";
+
+pub const TRIBOX: &str = "A tribox is what nine slabs have in common, along the axes and the diagonals of the coordinate planes: a box whose twelve edges are \
+    chamfered. Each level holds the mesh; if it is closed, its inside too. Triboxes of a level do not overlap, unless --simplify moves their planes.\n\n\
+    'faces' counts those of all triboxes, 'compression' is the mesh's triangles over it. 'void %' is what they hold beside the solid. 'hull error' is how \
+    far a tribox reaches beyond the convex hull of its part; 'largest distance' is from the union's boundary to the mesh, between two \
+    proved bounds. Lengths are in the mesh's unit. In what is written every vertex is exact, and the triboxes enclose the mesh.\n\n\
+    Examples:\n  \
+    meshsweep tribox part.stl\n  \
+    meshsweep tribox part.stl --levels 5 --simplify 0.5 -o proxy.ply\n  \
+    meshsweep tribox scan.ply --json";

@@ -1,5 +1,7 @@
 //! Values that need more than a number's syntax.
 
+use std::num::NonZeroUsize;
+
 /// How far a grid reaches beyond the mesh's box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Margin {
@@ -34,6 +36,20 @@ pub fn size(text: &str) -> Result<[usize; 3], String> {
         Some(&[x, y, z]) => Ok([x, y, z]),
         _ => Err(wanted.to_owned()),
     }
+}
+
+/// A whole number from `LEAST` to `MOST`.
+pub fn whole<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32, String> {
+    let wanted = || match MOST {
+        u32::MAX => format!("a whole number is wanted, at least {LEAST}"),
+        _ => format!("a whole number from {LEAST} to {MOST} is wanted"),
+    };
+    text.trim().parse().ok().filter(|n| (LEAST..=MOST).contains(n)).ok_or_else(wanted)
+}
+
+/// A number of threads.
+pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "a whole number is wanted, at least 1".to_owned())
 }
 
 /// A point: three finite numbers.
@@ -89,6 +105,16 @@ mod tests {
         for wrong in ["", "0", "1,2", "1,2,3,4", "-1", "65537", "1.5"] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn counts_say_their_range() {
+        assert_eq!(whole::<3, 255>("12"), Ok(12));
+        for wrong in ["", "2", "256", "-3", "1.5"] {
+            assert_eq!(whole::<3, 255>(wrong).unwrap_err(), "a whole number from 3 to 255 is wanted");
+        }
+        assert_eq!(whole::<4, { u32::MAX }>("-3").unwrap_err(), "a whole number is wanted, at least 4");
+        assert!(threads("0").unwrap_err().contains("at least 1") && threads("2").is_ok());
     }
 
     #[test]

@@ -59,7 +59,7 @@ impl Shape {
     }
 
     /// Fans of a single triangle.
-    pub fn degenerate_fans(&self) -> u32 {
+    pub fn single_triangle_fans(&self) -> u32 {
         self.fan_sizes[0]
     }
 }

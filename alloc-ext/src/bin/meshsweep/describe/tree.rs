@@ -4,6 +4,7 @@ use super::Length;
 use super::shape::Shape;
 use crate::counted::Counted;
 use meshsweep_core::Tree;
+use meshsweep_core::num::tolerance::{TREE_FAN, TREE_RELATIVE, TREE_WEAK, U32};
 use meshsweep_core::num::{exp2, up_to_f32};
 use meshsweep_core::query::tree::TreeEntry;
 use std::io::{self, Write};
@@ -16,6 +17,18 @@ pub fn stack_bytes(tree: &Tree<'_>) -> usize {
 /// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
 pub fn tree_surface_error(tree: &Tree<'_>) -> f32 {
     up_to_f32(f64::from(tree.header().surface_error) * exp2(tree.scale_exponent()))
+}
+
+/// About what an exact answer's half-width is, in the mesh's unit: next to the surface, and one diagonal of the mesh away
+/// (`core/docs/rounding.md` §8). Wider where slivers are near.
+pub fn half_widths(tree: &Tree<'_>, diagonal: f64) -> [f64; 2] {
+    let h = tree.header();
+    let unit = exp2(h.grid_exponent + tree.scale_exponent());
+    let u = f64::from(U32);
+    let near = f64::from(tree_surface_error(tree)) + f64::from(TREE_FAN) * u * f64::from(h.reach) * unit;
+    // What is not weak is certified to that part of the square: a half of it of the distance, a quarter at either end.
+    let relative = f64::from(TREE_RELATIVE) * u + (1.0 - f64::from(TREE_WEAK)) / 4.0;
+    [near, near + relative * diagonal]
 }
 
 /// How coordinates are stored.
@@ -35,7 +48,7 @@ pub fn bounds(tree: &Tree<'_>) -> Vec<&'static str> {
     .collect()
 }
 
-pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>, diagonal: f64) -> io::Result<()> {
     let h = tree.header();
     let shape = Shape::of(tree);
     writeln!(out, "box tree")?;
@@ -45,6 +58,13 @@ pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>) -> io::Result<()> {
         Length(tree_surface_error(tree)),
         tree_format_name(tree)
     )?;
+    if tree.serves_distances() {
+        let [near, far] = half_widths(tree, diagonal);
+        writeln!(
+            out,
+            "  half-width of an exact answer: about {near:.1e} near the surface, {far:.1e} one diagonal of the mesh away"
+        )?;
+    }
     let closed = if h.is_closed() {
         "closed: signed distance is defined"
     } else {
@@ -53,11 +73,11 @@ pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>) -> io::Result<()> {
     writeln!(out, "  {closed}")?;
     writeln!(
         out,
-        "  {} in {}: {:.2} each, {} of a single triangle (degenerate)",
+        "  {} in {}: {:.2} each; {} of one triangle",
         Counted(h.triangles, "triangle"),
         Counted(shape.fans(), "fan"),
         shape.triangles_per_fan(),
-        shape.degenerate_fans()
+        Counted(shape.single_triangle_fans(), "fan")
     )?;
     if shape.flat > 0 {
         writeln!(out, "  {} without area as stored", Counted(shape.flat, "triangle"))?;

@@ -22,8 +22,11 @@ const CANDIDATES: usize = 1024;
 pub enum Verdict {
     Hit(Hit),
     Clear,
-    /// Clear before this parameter.
-    Unknown(f32),
+    /// Clear before this parameter; of all hits, where the stored `triangle` is met.
+    Unknown {
+        t: f32,
+        triangle: Option<u32>,
+    },
 }
 
 /// One line of output.
@@ -98,7 +101,7 @@ impl<'a> Caster<'a> {
         let verdict = match answer.hit {
             _ if answer.is_clear() => Verdict::Clear,
             Some(hit) if answer.ended == Ended::Exact => Verdict::Hit(hit),
-            _ => Verdict::Unknown(answer.lower),
+            _ => Verdict::Unknown { t: answer.lower, triangle: None },
         };
         rows.push(Row { query, verdict, work: answer.work });
         Ok((answer.ended, answer.work))
@@ -121,15 +124,19 @@ impl<'a> Caster<'a> {
         for &hit in self.hits.iter().take(found.stored) {
             // A place from which on the surface may be; its t was rounded to nearest.
             let from = hit.t.next_down().max(0.0);
-            let verdict =
-                if found.ended == Ended::Level { Verdict::Unknown(from) } else { Verdict::Hit(hit) };
+            let verdict = if found.ended == Ended::Level {
+                Verdict::Unknown { t: from, triangle: hit.triangle }
+            } else {
+                Verdict::Hit(hit)
+            };
             rows.push(Row { query, verdict, work });
         }
+        let anywhere = Verdict::Unknown { t: 0.0, triangle: None };
         if found.ended == Ended::Capacity {
             // Hits may be missing anywhere.
-            rows.push(Row { query, verdict: Verdict::Unknown(0.0), work });
+            rows.push(Row { query, verdict: anywhere, work });
         } else if found.stored == 0 {
-            let verdict = if is_exact { Verdict::Clear } else { Verdict::Unknown(0.0) };
+            let verdict = if is_exact { Verdict::Clear } else { anywhere };
             rows.push(Row { query, verdict, work });
         }
         Ok((found.ended, work))

@@ -1,0 +1,207 @@
+//! `meshsweep tribox`: a mesh as unions of 1, 2, 4, … triboxes, what each misses, and the finest as binary PLY.
+
+use super::args::TriboxArgs;
+use super::counted::Counted;
+use super::failure::Failure;
+use super::mesh_file::{self, Loaded};
+use super::output::{Output, refuse_same_file};
+use meshsweep_alloc::mesh::{Mesh, write_ply};
+use meshsweep_alloc::tree;
+use meshsweep_alloc::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface};
+use meshsweep_core::Tree;
+use serde_json::{Value, json};
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
+    if let Some(output) = &args.output {
+        if !output.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) {
+            let what = format!(
+                "{}: triboxes are written as PLY; name an output that ends in .ply",
+                output.display()
+            );
+            return Err(Failure::Usage { what });
+        }
+        refuse_same_file(output, &[&args.mesh])?;
+        Output::probe(output)?;
+    }
+    let loaded = mesh_file::load(&args.mesh)?;
+    let triangles = loaded.mesh.triangles.len();
+    if triangles > tree::MAX_TRIANGLES {
+        return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
+    }
+    let started = Instant::now();
+    let bytes = box_tree(&loaded.mesh);
+    let tree = Tree::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
+    let hierarchy = Hierarchy::new(&loaded.mesh, &tree, &args.options())
+        .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })?;
+    let split_time = started.elapsed();
+    let started = Instant::now();
+    let levels = levels(args, &loaded.mesh, &tree, &hierarchy);
+    let report = Report {
+        args,
+        loaded: &loaded,
+        solid: hierarchy.is_solid.then(|| volume(&loaded.mesh)),
+        hierarchy: &hierarchy,
+        levels: &levels,
+        split_time,
+        measure_time: started.elapsed(),
+    };
+    if let Some(output) = &args.output {
+        let mesh = surface(&proxies(&hierarchy, usize::MAX));
+        Output::file(output)?.finish(|out| write_ply(&mesh, out))?;
+    }
+    Output::stdout().finish(|out| {
+        if args.json {
+            serde_json::to_writer_pretty(&mut *out, &report.as_json())?;
+            writeln!(out)
+        } else {
+            report.write(out)
+        }
+    })
+}
+
+/// Levels of 1, 2, 4, … triboxes, until there are no more.
+fn levels(args: &TriboxArgs, mesh: &Mesh, tree: &Tree<'_>, hierarchy: &Hierarchy) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    for number in 0..args.levels {
+        let level = level(hierarchy, 1 << number, mesh, tree);
+        if levels.last().is_some_and(|last| last.triboxes == level.triboxes) {
+            break;
+        }
+        levels.push(level);
+    }
+    levels
+}
+
+/// Volume that a closed mesh bounds, cubed input units.
+fn volume(mesh: &Mesh) -> f64 {
+    let wide = |p: [f32; 3]| p.map(f64::from);
+    let [ox, oy, oz] = mesh.positions.first().copied().map_or([0.0; 3], wide);
+    let of = |[a, b, c]: [[f32; 3]; 3]| {
+        let [[a, b, c], [d, e, f], [g, h, i]] = [a, b, c].map(wide).map(|[x, y, z]| [x - ox, y - oy, z - oz]);
+        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
+    };
+    (0..mesh.triangles.len()).filter_map(|triangle| mesh.corners(triangle)).map(of).sum::<f64>().abs()
+}
+
+struct Report<'a> {
+    args: &'a TriboxArgs,
+    loaded: &'a Loaded,
+    /// Its volume, if the mesh bounds a solid.
+    solid: Option<f64>,
+    hierarchy: &'a Hierarchy,
+    levels: &'a [Level],
+    split_time: Duration,
+    measure_time: Duration,
+}
+
+impl Report<'_> {
+    fn faces_of_mesh(&self) -> usize {
+        self.loaded.mesh.triangles.len()
+    }
+
+    fn compression(&self, level: &Level) -> f64 {
+        self.faces_of_mesh() as f64 / level.faces as f64
+    }
+
+    /// Void as a part of the solid.
+    fn void(&self, level: &Level) -> Option<f64> {
+        self.solid.filter(|&volume| volume > 0.0).map(|volume| level.void(volume))
+    }
+
+    fn measure(&self) -> &'static str {
+        match self.hierarchy.measure {
+            Measure::Area => "area",
+            Measure::Volume => "volume",
+        }
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.levels.last().is_some_and(|level| level.triboxes < 1 << (self.args.levels - 1))
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Report { args, loaded, .. } = self;
+        write!(out, "{}: {}, ", args.mesh.display(), Counted(self.faces_of_mesh(), "triangle"))?;
+        match self.solid {
+            Some(volume) => writeln!(out, "closed, volume {}", Short(volume))?,
+            None => writeln!(out, "not closed: triboxes hold its surface, not an inside")?,
+        }
+        if !loaded.report.is_clean() {
+            writeln!(out, "  {}", loaded.report)?;
+        }
+        writeln!(
+            out,
+            "triboxes   faces compression      volume    void %  hull error  largest distance to the mesh"
+        )?;
+        for level in self.levels {
+            let void = self.void(level).map_or("-".to_owned(), |void| format!("{:.3}", void * 100.0));
+            writeln!(
+                out,
+                "{:>8} {:>7} {:>11.2} {:>11} {:>9} {:>11}  {} to {}",
+                level.triboxes,
+                level.faces,
+                self.compression(level),
+                Short(level.volume),
+                void,
+                Short(level.error),
+                Short(level.distance.lower),
+                Short(level.distance.upper)
+            )?;
+        }
+        if self.is_exhausted() {
+            writeln!(out, "no further split saves enough {}", self.measure())?;
+        }
+        if let Some(output) = &args.output {
+            writeln!(out, "{}: the last level", output.display())?;
+        }
+        writeln!(
+            out,
+            "seconds: read and repair {:.3}, split {:.3}, measure {:.3}",
+            loaded.time.as_secs_f64(),
+            self.split_time.as_secs_f64(),
+            self.measure_time.as_secs_f64()
+        )
+    }
+
+    fn as_json(&self) -> Value {
+        let level = |level: &Level| {
+            json!({
+                "triboxes": level.triboxes,
+                "faces": level.faces,
+                "compression": self.compression(level),
+                "volume": level.volume,
+                "void_ratio": self.void(level),
+                "hull_error": level.error,
+                "distance": { "lower": level.distance.lower, "upper": level.distance.upper },
+            })
+        };
+        json!({
+            "triangles": self.faces_of_mesh(),
+            "is_closed": self.hierarchy.is_solid,
+            "volume": self.solid,
+            "measure": self.measure(),
+            "levels": self.levels.iter().map(level).collect::<Vec<_>>(),
+            "is_exhausted": self.is_exhausted(),
+        })
+    }
+}
+
+/// Four digits of a number.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let size = self.0.abs();
+        let text = if size == 0.0 {
+            "0".to_owned()
+        } else if (1e-3..1e6).contains(&size) {
+            let digits = (3 - size.log10().floor() as i32).clamp(0, 6);
+            format!("{:.*}", digits.unsigned_abs() as usize, self.0)
+        } else {
+            format!("{:.3e}", self.0)
+        };
+        f.pad(&text)
+    }
+}

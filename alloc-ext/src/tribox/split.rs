@@ -1,0 +1,236 @@
+//! The binary tree of cells, grown where splitting saves most.
+
+use super::cell::{Cell, Trust, Whole};
+use super::choose::{Choice, Choosing, Measure, Planes};
+use super::excess::excess;
+use super::extent::Extent;
+use super::polygons::HalfSpace;
+use crate::mesh::Mesh;
+use meshsweep_core::Tree;
+use meshsweep_core::num::exp2;
+use meshsweep_core::tribox::{Tribox, TriboxError};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Most splits above a cell; the rounding bound of [`polygons`](super::polygons) counts on it.
+pub(super) const DEPTH: u32 = 64;
+
+/// Part of a tribox's measure by which a gain may fall short of what was promised: what rounding to f32 does to thin triboxes.
+const DOUBT: f64 = 1e-3;
+
+/// How to split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SplitOptions {
+    /// Most leaves.
+    pub leaves: usize,
+    /// What splits should make little of; `None`: volume, or area if the mesh's tribox has next to no volume.
+    pub measure: Option<Measure>,
+    /// Which planes are tried.
+    pub planes: Planes,
+    /// A cell is split only if that saves more than this part of its tribox's measure. The paper's rule where positive; at −∞ cells are split
+    /// although the total grows, which may pay later.
+    pub least_gain: f64,
+    /// Where the best plane saves less than this part of the tribox's measure, planes are tried together with those that split both parts again.
+    pub foresight: f64,
+    /// How far planes of [proxies](Node::proxy) may move outward so that small faces vanish, input units.
+    pub simplify: f32,
+}
+
+impl Default for SplitOptions {
+    fn default() -> Self {
+        SplitOptions {
+            leaves: 64,
+            measure: None,
+            planes: Planes::Nine(7),
+            least_gain: 1e-4,
+            foresight: 0.05,
+            simplify: 0.0,
+        }
+    }
+}
+
+/// A cell of the tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Holds the part of the mesh, or of the solid, that is between the planes of the splits above, in real arithmetic. Inside of the parent's, and on
+    /// its side of the split's plane.
+    pub tribox: Tribox,
+    /// What is drawn for it: the same [simplified](Tribox::snapped) as asked for, and on a [grid](Tribox::on_grid), so that every vertex is an f32.
+    pub proxy: Tribox,
+    /// Formula (10) of the paper for the proxy: how far it reaches beyond the convex hull of the part, input units, see [`Level::error`](super::Level::error).
+    pub error: f64,
+    /// Where it was split.
+    pub split: Option<Split>,
+}
+
+/// A split of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Split {
+    /// Direction of the plane.
+    pub slab: usize,
+    /// Its parameter.
+    pub at: f32,
+    /// Numbers of the nodes where the parameter is less, and where it is greater.
+    pub children: [u32; 2],
+}
+
+/// Cells of a mesh, the coarsest first.
+#[derive(Clone, Debug)]
+pub struct Hierarchy {
+    /// The first one is the whole mesh; children come after their parents.
+    pub nodes: Vec<Node>,
+    /// Nodes in the order in which they were split.
+    pub order: Vec<u32>,
+    /// Whether the mesh bounds a solid, whose inside counts; else the triboxes hold its surface only.
+    pub is_solid: bool,
+    /// What was made little of.
+    pub measure: Measure,
+}
+
+impl Hierarchy {
+    /// Splits a mesh: a triangle soup, of which only the surface counts if it is not closed. The result is the same on every machine.
+    ///
+    /// `tree` is the mesh's [box tree](super::box_tree), which knows whether it is closed. Closed is a mesh of which every edge is run through as often in one direction as in the other; inside is where the winding number is not 0. Without triangles there is
+    /// one empty node.
+    ///
+    /// Cost: for each leaf, and each plane tried there, one pass over its part of the mesh.
+    ///
+    /// # Errors
+    /// If a coordinate is not finite or beyond [`Tribox::DOMAIN`].
+    ///
+    /// # Panics
+    /// If a triangle names a vertex that is not there; [`repair`](crate::mesh::repair()) promises that none does.
+    pub fn new(mesh: &Mesh, tree: &Tree<'_>, options: &SplitOptions) -> Result<Hierarchy, TriboxError> {
+        let whole = Whole::new(mesh, tree);
+        let root = whole.root(mesh)?;
+        let measure =
+            options.measure.unwrap_or(if is_flat(&root.tribox) { Measure::Area } else { Measure::Volume });
+        let is_solid = whole.is_solid;
+        let unit = grid_unit(&root.tribox);
+        let choosing = Choosing {
+            planes: options.planes,
+            measure,
+            unit,
+            foresight: options.foresight,
+            trust: Trust::Sketch,
+        };
+        let mut growing = Growing { whole, options, choosing, nodes: Vec::new(), heap: BinaryHeap::new() };
+        if root.tribox.is_empty() {
+            let (tribox, proxy) = (Tribox::EMPTY, Tribox::EMPTY);
+            let nodes = vec![Node { tribox, proxy, error: 0.0, split: None }];
+            return Ok(Hierarchy { nodes, order: Vec::new(), is_solid, measure });
+        }
+        growing.put(root, 0);
+        let mut order = Vec::new();
+        while order.len() + 1 < options.leaves.max(1)
+            && let Some(leaf) = growing.heap.pop()
+        {
+            let Leaf { node, depth, choice: Choice { slab, at, .. }, parts } = leaf;
+            let children = parts.map(|part| growing.put(part, depth + 1));
+            growing.nodes[node as usize].split = Some(Split { slab, at: at as f32, children });
+            order.push(node);
+        }
+        Ok(Hierarchy { nodes: growing.nodes, order, is_solid, measure })
+    }
+
+    /// Nodes whose triboxes cover the mesh together: `count` of them, or as many as there are. Those of a greater count are parts of those of a lesser.
+    #[must_use]
+    pub fn leaves(&self, count: usize) -> Vec<u32> {
+        let splits = &self.order[..self.order.len().min(count.saturating_sub(1))];
+        let mut is_leaf = vec![false; self.nodes.len()];
+        is_leaf[0] = true;
+        for &node in splits {
+            is_leaf[node as usize] = false;
+            for child in self.nodes[node as usize].split.iter().flat_map(|split| split.children) {
+                is_leaf[child as usize] = true;
+            }
+        }
+        (0..self.nodes.len() as u32).filter(|&node| is_leaf[node as usize]).collect()
+    }
+}
+
+/// Multiples of 2^-20 of the power of two above all parameters: splits lie on them, so that [`Tribox::on_grid`] does not move them and proxies do not overlap.
+fn grid_unit(tribox: &Tribox) -> f64 {
+    let most = tribox.slabs().fold(0f32, |most, (low, high)| most.max(low.abs()).max(high.abs()));
+    // `on_grid` has a quarter of its unit in f32.
+    exp2(((most.to_bits() >> 23).cast_signed() - 126 - 20).max(-147))
+}
+
+/// Whether volumes say nothing: a tribox that is a thousand times as wide as thick, or so.
+fn is_flat(tribox: &Tribox) -> bool {
+    let Extent { area, volume } = Extent::of(tribox);
+    volume <= 1e-4 * area * area.sqrt()
+}
+
+/// A leaf whose best split is known.
+struct Leaf {
+    node: u32,
+    depth: u32,
+    choice: Choice,
+    parts: [Cell; 2],
+}
+
+impl Ord for Leaf {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.choice.gain.total_cmp(&other.choice.gain).then(other.node.cmp(&self.node))
+    }
+}
+impl PartialOrd for Leaf {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Leaf {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+impl Eq for Leaf {}
+
+struct Growing<'a> {
+    whole: Whole<'a>,
+    options: &'a SplitOptions,
+    choosing: Choosing,
+    nodes: Vec<Node>,
+    heap: BinaryHeap<Leaf>,
+}
+
+impl Growing<'_> {
+    /// Takes a cell in; its number.
+    fn put(&mut self, cell: Cell, depth: u32) -> u32 {
+        let node = self.nodes.len() as u32;
+        let proxy = cell.tribox.snapped(self.options.simplify).on_grid();
+        let error = excess(&proxy, &cell);
+        self.nodes.push(Node { tribox: cell.tribox, proxy, error, split: None });
+        if depth < DEPTH && self.options.leaves > 1 {
+            let least = self.options.least_gain * self.choosing.measure.of(Extent::of(&cell.tribox));
+            let is_any = self.options.least_gain == f64::NEG_INFINITY;
+            if let Some((choice, parts)) =
+                self.choose(&cell).filter(|(choice, _)| is_any || choice.gain > least)
+            {
+                self.heap.push(Leaf { node, depth, choice, parts });
+            }
+        }
+        node
+    }
+
+    /// The best split of a cell, and its parts.
+    ///
+    /// Where parts of a solid overlap the box tree takes some of the inside for outside, and promises gains that are not to be had. As soon as one turns out
+    /// so, planes are chosen by winding numbers.
+    fn choose(&mut self, cell: &Cell) -> Option<(Choice, [Cell; 2])> {
+        loop {
+            let choice = self.choosing.best(&self.whole, cell)?;
+            let half = |is_low: bool| HalfSpace { slab: choice.slab, at: choice.at, is_low };
+            let part = |is_low: bool| self.whole.part(cell, &half(is_low), Trust::Proof);
+            let parts = [part(true)?, part(false)?];
+            let measure = |tribox: &Tribox| self.choosing.measure.of(Extent::of(tribox));
+            let before = measure(&cell.tribox);
+            let now = before - parts.iter().map(|part| measure(&part.tribox)).sum::<f64>();
+            if self.choosing.trust == Trust::Proof || now >= choice.now - DOUBT * before {
+                return Some((choice, parts));
+            }
+            self.choosing.trust = Trust::Proof;
+        }
+    }
+}
