@@ -1,7 +1,7 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, open, outer, random_input, segment, tree_closest, tree_open, tree_segment, tree_session,
+    closest, open, outer, random_input, segment, tree_closest, tree_open, tree_segment, tree_session, tribox,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -56,4 +56,9 @@ fn tree_segment_survives_seeded_edits() {
 #[test]
 fn tree_session_survives_seeded_edits() {
     drive(8, tree_session);
+}
+
+#[test]
+fn tribox_survives_any_floats() {
+    drive(9, tribox);
 }
