@@ -1,6 +1,6 @@
 //! The core's entry points as the suite asks them. The only module of the suite and the firmware that names the core's API.
 //!
-//! Each question folds *all* the bits of its answer, its work counters and its refusal among them. Nothing here formats or
+//! Each question is a call, so that the stack that is measured is its own. It folds *all* the bits of its answer, its work counters and its refusal among them. Nothing here formats or
 //! indexes: the proof image links these functions, and they may not bring a panic of their own.
 
 pub mod hull;

@@ -11,7 +11,8 @@ use crate::{Clock, Kind};
 /// Points of a tribox.
 pub type Points = [[f32; 3]; 8];
 
-/// Asks one question of a kind about triboxes; nothing of any other kind.
+/// Asks one question of a kind about triboxes; nothing of any other kind. A call, so that the other questions' stacks do not hold its boundaries.
+#[inline(never)]
 pub fn ask(kind: Kind, place: &mut Placer, clock: &mut impl Clock, fold: &mut Fold) {
     let points = [[0.0; 3]; 8].map(|_: [f32; 3]| place.far());
     match kind {
@@ -55,6 +56,7 @@ fn known(tribox: Result<Tribox, TriboxError>, fold: &mut Fold) -> Tribox {
 }
 
 /// The tribox of eight points.
+#[inline(never)]
 pub fn bounds(points: &Points, clock: &mut impl Clock, fold: &mut Fold) -> Tribox {
     let tribox = timed(clock, || Tribox::of_points(points.iter().copied()));
     let tribox = known(tribox, fold);
@@ -63,6 +65,7 @@ pub fn bounds(points: &Points, clock: &mut impl Clock, fold: &mut Fold) -> Tribo
 }
 
 /// Its boundary.
+#[inline(never)]
 pub fn faces(tribox: &Tribox, clock: &mut impl Clock, fold: &mut Fold) {
     let mut boundary = Boundary::EMPTY;
     timed(clock, || boundary.compute(&tribox.low, &tribox.high));
@@ -73,12 +76,14 @@ pub fn faces(tribox: &Tribox, clock: &mut impl Clock, fold: &mut Fold) {
 }
 
 /// Whether the triboxes of two pairs of points overlap.
+#[inline(never)]
 pub fn overlap((a, b): &([[f32; 3]; 2], [[f32; 3]; 2]), clock: &mut impl Clock, fold: &mut Fold) {
     let (a, b) = (of(a, fold), of(b, fold));
     fold.word(u32::from(timed(clock, || a.overlaps(&b))));
 }
 
 /// The same of boxes: what the test above is compared with.
+#[inline(never)]
 pub fn box_overlap(
     ([a, b], [c, d]): &([[f32; 3]; 2], [[f32; 3]; 2]),
     clock: &mut impl Clock,
@@ -103,6 +108,7 @@ pub fn box_overlap(
 }
 
 /// Everything else.
+#[inline(never)]
 pub fn rest(points: &Points, distance: f32, snap: bool, clock: &mut impl Clock, fold: &mut Fold) {
     let [a, b, c, d, e, f, g, h] = *points;
     let (first, second) = (of(&[a, b, c], fold), of(&[d, e, f], fold));

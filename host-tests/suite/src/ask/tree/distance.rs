@@ -12,6 +12,7 @@ use crate::ask::{self, timed};
 use crate::fold::Fold;
 
 /// Closest point; returns the witness.
+#[inline(never)]
 pub fn closest(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -32,6 +33,7 @@ pub fn closest(
 }
 
 /// Closest point, from where the last one was found.
+#[inline(never)]
 pub fn follow(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -47,6 +49,7 @@ pub fn follow(
 }
 
 /// Closest point, by a session that remembers what the last answers ruled out.
+#[inline(never)]
 pub fn session<'t>(
     tree: &Tree<'t>,
     point: [f32; 3],
@@ -65,6 +68,7 @@ pub fn session<'t>(
 }
 
 /// Closest point with a tolerance of a tenth, with one of `distance`, and with three nodes to open.
+#[inline(never)]
 pub fn stopped(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -87,6 +91,7 @@ pub fn stopped(
 }
 
 /// Whether the surface is within a distance.
+#[inline(never)]
 pub fn is_within(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -111,6 +116,7 @@ pub fn is_within(
 }
 
 /// The eight closest triangles.
+#[inline(never)]
 pub fn nearest(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -130,6 +136,7 @@ pub fn nearest(
 }
 
 /// All triangles within a distance, as far as eight places hold them.
+#[inline(never)]
 pub fn all_within(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -151,6 +158,7 @@ pub fn all_within(
 }
 
 /// Distance with the sign of the side.
+#[inline(never)]
 pub fn signed(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -177,6 +185,7 @@ pub fn signed(
 const BATCH: usize = 8;
 
 /// Closest points of eight points, in an order of the core's own.
+#[inline(never)]
 pub fn batch<'t>(
     tree: &Tree<'t>,
     points: &[[f32; 3]; BATCH],

@@ -11,6 +11,7 @@ use crate::ask::{self, timed};
 use crate::fold::Fold;
 
 /// First point of the segment from `a` to `b` on the surface.
+#[inline(never)]
 pub fn first_hit(
     tree: &Tree<'_>,
     ends: [[f32; 3]; 2],
@@ -22,6 +23,7 @@ pub fn first_hit(
 }
 
 /// First point of the segment from `a` to `b` on a triangle's front, then on a back.
+#[inline(never)]
 pub fn facing(
     tree: &Tree<'_>,
     ends: [[f32; 3]; 2],
@@ -49,6 +51,7 @@ fn hit_of(
 }
 
 /// Whether the segment from `a` to `b` meets the surface.
+#[inline(never)]
 pub fn any_hit(
     tree: &Tree<'_>,
     [a, b]: [[f32; 3]; 2],
@@ -67,6 +70,7 @@ pub fn any_hit(
 }
 
 /// Every point of the segment from `a` to `b` on the surface.
+#[inline(never)]
 pub fn all_hits(
     tree: &Tree<'_>,
     [a, b]: [[f32; 3]; 2],
@@ -86,6 +90,7 @@ pub fn all_hits(
 }
 
 /// Triangles that may face an eye at `point`, then along the way to there from the origin.
+#[inline(never)]
 pub fn cull(
     tree: &Tree<'_>,
     point: [f32; 3],
