@@ -507,3 +507,22 @@ fn boundaries_in_f32_are_within_ten_roundings() {
         }
     }
 }
+
+#[test]
+fn what_f32_cannot_sum_is_neither_clear_nor_far() {
+    let cube = Tribox::of_points([[-1.0; 3], [1.0; 3], [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]]).unwrap();
+    assert!(
+        cube.clip([2e38, -3.0, 0.0], [-2e38, 3.0, 0.0])
+            .is_some_and(|(enter, leave)| enter <= 0.5 && 0.5 <= leave)
+    );
+    assert!(
+        cube.clip([2e38, 0.0, 0.0], [-2e38, 0.0, 0.0])
+            .is_some_and(|(enter, leave)| enter <= 0.5 && 0.5 <= leave)
+    );
+    let distance = cube.distance([2e38, 2e38, 0.0]);
+    assert!(distance > 1.9e38 && distance < 2.83e38, "{distance}");
+    // One unit of the subnormal range, by √2 outward.
+    let ulp = f32::from_bits(1);
+    let padded = Tribox::of_point([0.0; 3]).unwrap().padded(ulp).unwrap();
+    assert!(padded.high[3] >= f32::from_bits(2) && padded.high[0] == ulp);
+}

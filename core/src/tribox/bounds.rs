@@ -85,7 +85,7 @@ impl Tribox {
         points.into_iter().try_fold(Tribox::EMPTY, |all, point| Ok(all.union(&Tribox::of_point(point)?)))
     }
 
-    /// Whether it holds nothing. A tribox whose parameters contradict each other in a less obvious way says so once it is
+    /// Whether a slab is empty: a proof that it holds nothing. Parameters that contradict each other in a less obvious way show once they are
     /// [tightened](Tribox::tightened).
     pub fn is_empty(&self) -> bool {
         self.slabs().any(|(low, high)| low > high)
@@ -179,6 +179,9 @@ impl Tribox {
         }
         // Two roundings, and the constant is below √2.
         let diagonal = distance * (core::f32::consts::SQRT_2 * (1.0 + 4.0 * U32));
+        // Below f32's normal range roundings are not relative.
+        let diagonal =
+            if diagonal > 0.0 && diagonal < f32::MIN_POSITIVE { diagonal.next_up() } else { diagonal };
         let mut padded = *self;
         let planes = padded.low.iter_mut().zip(padded.high.iter_mut()).enumerate();
         planes.for_each(|(slab, (low, high))| {

@@ -57,7 +57,8 @@ fn entry(differences: &Differences, i: usize, j: usize) -> f32 {
 }
 
 impl Tribox {
-    /// The same set with every plane moved inward until it touches, rounded outward; [`Tribox::EMPTY`] if the slabs have no common point.
+    /// The same set with every plane moved inward until it touches, rounded outward. [`Tribox::EMPTY`] proves that the slabs have no common point; off a
+    /// [grid](Self::on_grid) rounding may hide that they have none.
     ///
     /// Parameters never grow. Exact if they are on a [grid](Self::on_grid). Cost: 216 sums and comparisons and some.
     #[must_use]
@@ -106,7 +107,8 @@ impl Tribox {
     }
 
     /// A tribox that holds this one and whose [`boundary`](Self::boundary) f32 computes exactly: parameters are rounded outward to multiples of 2^-20 of
-    /// the power of two above all of them, then [tightened](Self::tightened), which may leave multiples of half of that.
+    /// the power of two above all of them, then [tightened](Self::tightened), which may leave multiples of half of that, and which a second time would be
+    /// rounded again. Coarse for what lies far from the origin: the unit goes by coordinates, not by size.
     #[must_use]
     pub fn on_grid(&self) -> Tribox {
         if self.is_empty() {

@@ -16,13 +16,17 @@ impl Tribox {
     /// some edges and vertices. 0 does not say that the point is inside.
     #[must_use]
     pub fn distance(&self, point: [f32; 3]) -> f32 {
+        if self.is_empty() {
+            return f32::INFINITY;
+        }
         let (low, high) = projections(point);
         let mut gaps = [0f32; super::SLABS];
         let slabs = self.slabs().zip(low.into_iter().zip(high));
         for (gap, ((from, to), (low, high))) in gaps.iter_mut().zip(slabs) {
             let (below, above) = (sum_down(from, -high), sum_down(low, -to));
             let most = if below > above { below } else { above };
-            *gap = if most > 0.0 { most } else { 0.0 };
+            // A sum beyond f32 says nothing; those of the axes do.
+            *gap = if most > 0.0 && most.is_finite() { most } else { 0.0 };
         }
         let most = gaps.iter().fold(0f32, |most, &gap| if gap > most { gap } else { most });
         // So that no square leaves f32's range.
@@ -63,6 +67,10 @@ impl Tribox {
             let doubt = (4.0 * U32) * (size_a + size_b);
             let (low, high) = (sum_down(low, -doubt), sum_up(high, doubt));
             let way = to - from;
+            // So far away that the way overflows: the slab says nothing.
+            if !way.is_finite() {
+                continue;
+            }
             if way == 0.0 {
                 if from < low || from > high {
                     return None;

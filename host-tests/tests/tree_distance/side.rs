@@ -147,6 +147,39 @@ fn overlapping_parts_answer_for_the_nearest_surface() {
 }
 
 #[test]
+fn overlapping_parts_that_are_equally_near_are_not_guessed() {
+    let turned =
+        [[0.764_842, -0.644_218, 0.0], [0.593_361, 0.704_466, -0.389_418], [0.250_870, 0.297_843, 0.921_061]];
+    let big = transformed(&scaled(&cube(1), 2.0), turned, [0.0; 3]);
+    let beam = transformed(&cube(1), [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [3.0, 0.0, 0.0]);
+    let beam = transformed(&beam, turned, [0.0; 3]);
+    let [both, big, beam] =
+        [joined(&big, &beam), big, beam].map(|mesh| Scene::new("beam in a box", mesh, true));
+    let mut rng = Rng::new(66);
+    let (mut sides, mut open) = ([0u32; 2], 0u32);
+    for i in 0..6_000 {
+        // Within the box, as far from its wall, whose back is there, as from the beam's end, whose front is.
+        let y = 0.05 + 0.9 * f64::from(rng.below(1000) as u32) / 1000.0;
+        let off = [0.0, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-3][i % 7] * (f64::from(rng.below(3) as u32) - 1.0);
+        let flat = [y - 1.0 + off, y, 0.1 * f64::from(rng.below(9) as u32) - 0.4];
+        let p: [f32; 3] = std::array::from_fn(|k| {
+            turned[k].iter().zip(flat).map(|(row, x): (&f32, f64)| f64::from(*row) * x).sum::<f64>() as f32
+        });
+        let (wall, end) = (big.truth(p), beam.truth(p));
+        let answer = ask(&both, p, &Stop::EXACT, STACK);
+        match answer.side {
+            Side::Undefined => open += 1,
+            Side::Inside => assert!(wall.lower <= end.upper, "{p:?} {answer:?} {wall:?} {end:?}"),
+            Side::Outside => assert!(end.lower <= wall.upper, "{p:?} {answer:?} {wall:?} {end:?}"),
+        }
+        if answer.side != Side::Undefined {
+            sides[usize::from(answer.side == Side::Inside)] += 1;
+        }
+    }
+    assert!(sides.iter().all(|&count| count > 100) && open > 500, "{sides:?} {open}");
+}
+
+#[test]
 fn thin_walls_are_never_guessed() {
     // A plate of one step of the grid, and thinner: seen from afar both faces are equally near.
     for (thickness, single) in [(2e-5, false), (1e-6, true), (1e-7, true)] {

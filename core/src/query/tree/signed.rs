@@ -75,7 +75,7 @@ impl SignedDistance {
 /// Signed distance of `point` (input units), negative inside: where the nearest surface has its back to the point.
 ///
 /// Of a mesh that bounds a solid that is what it sounds like; of an inverted one the sides are exchanged. Parts that overlap are not united: the nearest
-/// surface decides. Cavities are as their winding says.
+/// surface decides, and where surfaces of several are equally near up to rounding and the surface error, one of these. Cavities are as their winding says.
 ///
 /// The side is undefined if the mesh is not closed and consistently wound ([`TreeHeader::is_closed`](crate::blob::TreeHeader::is_closed)), if the distance is not
 /// clear of the stored surface's error and of rounding, next to walls and gaps thinner than these, next to slivers so flat that they have no certain
@@ -102,23 +102,30 @@ pub fn signed_distance(
     let probe = Probe::new(tree, point)?;
     let closed = tree.header().is_closed();
     let mut search = Search { tree, steps: stop.steps, stack, work: Work::default(), cut: None };
-    let (mut closest, mut side) = if probe.far {
-        let exact = Stop { relative: 0.0, absolute: 0.0, ..*stop };
-        (closest_point(tree, point, &exact, search.stack)?, Side::Undefined)
-    } else {
-        let survey = search.survey(&probe)?;
-        let closest = survey.closest(&search, point)?;
-        let clear = closed && closest.lower > 0.0;
-        (closest, if clear { search.side_from_nearer(survey)? } else { Side::Undefined })
+    let survey = if probe.far { None } else { Some(search.survey(&probe)?) };
+    let mut closest = match &survey {
+        Some(survey) => survey.closest(&search, point)?,
+        None => closest_point(tree, point, &Stop { relative: 0.0, absolute: 0.0, ..*stop }, search.stack)?,
+    };
+    let clear = closed && closest.lower > 0.0;
+    let mut side = match &survey {
+        Some(survey) if clear => search.side(survey)?,
+        _ => Side::Undefined,
     };
     if side == Side::Undefined
-        && closed
-        && closest.lower > 0.0
+        && clear
         && search.cut.is_none()
         && let Some(nearby) = outside_of_box(tree, &probe)
     {
         let survey = search.survey(&nearby)?;
         side = search.side(&survey)?;
+    }
+    if side == Side::Undefined
+        && clear
+        && search.cut.is_none()
+        && let Some(survey) = &survey
+    {
+        side = search.side_from_nearer(survey)?;
     }
     closest.work = search.work;
     if let Some(cut) = search.cut {
@@ -187,35 +194,52 @@ impl Search<'_, '_> {
             margin,
             best: Place::NOWHERE,
             solid: Place::NOWHERE,
+            seen: [Place::NOWHERE; 3],
             limit: EVERYTHING,
             least: [f32::INFINITY; 4],
         };
         let descent = descend(&tree, probe.p, self.stack, self.steps, &mut sides, &mut self.work)?;
-        let Sides { best, solid, least, .. } = sides;
+        let Sides { best, solid, seen, least, .. } = sides;
         let mut missed = f32::INFINITY;
         if let Descent::Short { least, steps } = descent {
             missed = least;
             self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
         }
-        Ok(Survey { probe, margin, best, solid, least, missed })
+        Ok(Survey { probe, margin, best, solid, seen, least, missed })
     }
 
-    /// The side of the surveyed point, which is known to be clear of the surface; if rounding leaves it open, that of points on the way to the surface:
-    /// there is none in the ball about the point that touches it, so all of the ball is on one side. What two features' distances differ by grows as
-    /// the inverse of the distance.
-    fn side_from_nearer(&mut self, survey: Survey<'_>) -> Result<Side, QueryError> {
-        let mut side = self.side(&survey)?;
-        let mut nearer = survey.nearer(self.tree);
+    /// The side that points on the ways to the surface have: there is none of it in the ball about the surveyed point that touches it, so the winding number is the
+    /// same in all of the ball. What two features' distances differ by grows as the inverse of the distance. Where parts overlap, surfaces
+    /// that are equally near may have different sides of it: the ways to the closest triangles of either facing have to agree.
+    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
+        let band = Candidates::new(survey.probe, survey.margin, survey.solid.distance_sq).band;
+        let mut agreed = None;
+        for (place, lower) in survey.seen.into_iter().zip(survey.least) {
+            if place.node == u32::MAX || lower > band {
+                continue;
+            }
+            let side = self.side_on_the_way(survey, place)?;
+            if side == Side::Undefined || agreed.is_some_and(|agreed| agreed != side) {
+                return Ok(Side::Undefined);
+            }
+            agreed = Some(side);
+        }
+        Ok(agreed.unwrap_or(Side::Undefined))
+    }
+
+    /// The side of the first point on the way to a triangle, and from there to what is closest, that has one.
+    fn side_on_the_way(&mut self, survey: &Survey<'_>, place: Place) -> Result<Side, QueryError> {
+        let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
             let Some(probe) = nearer else { break };
-            if side != Side::Undefined || self.cut.is_some() {
-                break;
-            }
             let survey = self.survey(&probe)?;
-            side = self.side(&survey)?;
-            nearer = survey.nearer(self.tree);
+            let side = self.side(&survey)?;
+            if side != Side::Undefined || self.cut.is_some() {
+                return Ok(side);
+            }
+            nearer = survey.nearer(self.tree, survey.best);
         }
-        Ok(side)
+        Ok(Side::Undefined)
     }
 
     /// The side of the surveyed point, which is known to be clear of the surface.
@@ -271,6 +295,8 @@ struct Survey<'p> {
     best: Place,
     /// The closest one with an area.
     solid: Place,
+    /// The closest triangle that has its front to the point, its back, that leaves it open.
+    seen: [Place; 3],
     /// For each [`Facing`] the least lower bound of a triangle that faces so, grid units.
     least: [f32; 4],
     /// Squared box bound of what was not looked at.
@@ -284,11 +310,11 @@ impl Survey<'_> {
         self.probe.lower(self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }))
     }
 
-    /// A point on the way to the closest one, a sixteenth of the distance off it and within the ball about this one that is proved to be empty.
-    fn nearer(&self, tree: &Tree<'_>) -> Option<Probe> {
-        let Survey { probe, best, .. } = *self;
-        let patch = tree.leaf(best.node, best.child)?;
-        let place = probe.p + (witness(probe, &patch, best.lane) - probe.p) * 0.9375;
+    /// A point on the way to a triangle, a sixteenth of the distance off it and within the ball about this one that is proved to be empty.
+    fn nearer(&self, tree: &Tree<'_>, to: Place) -> Option<Probe> {
+        let probe = self.probe;
+        let patch = tree.leaf(to.node, to.child)?;
+        let place = probe.p + (witness(probe, &patch, to.lane) - probe.p) * 0.9375;
         let nearer = Probe::new(tree, probe.units.point(place)).ok()?;
         let way = nearer.p - probe.p;
         let empty = probe.units.inward(self.lower());
@@ -331,6 +357,7 @@ struct Sides<'a, 't> {
     margin: f32,
     best: Place,
     solid: Place,
+    seen: [Place; 3],
     limit: f32,
     least: [f32; 4],
 }
@@ -367,6 +394,9 @@ impl Sides<'_, '_> {
                 let band = Candidates::new(self.probe, self.margin, self.solid.distance_sq).band;
                 let limit = limit_of(self.probe, band);
                 self.limit = if limit < self.limit { limit } else { self.limit };
+            }
+            if let Some(seen) = self.seen.get_mut(facing as usize) {
+                seen.improve(self.tree, here);
             }
             let lower = lower_of(patch, lane, p, distance_sq, certified_sq);
             if let Some(least) = self.least.get_mut(facing as usize)
