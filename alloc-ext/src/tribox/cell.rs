@@ -2,8 +2,8 @@
 //!
 //! *Why the tribox holds the solid, too.* Where the solid in a cell reaches farthest along a direction there is a point of the surface, which [`polygons`](super::polygons) see to, or a
 //! vertex of the region that the solid fills there. The parent's tribox, cut by the plane, is such a region, for it holds all of the solid there. Its vertices are computed within 2^-47 of the
-//! largest coordinate, 1/128 of the margin by which they are padded. If a computed vertex is outside of the solid and the true one inside, then the surface passes between them, and
-//! the surface's own bounds, padded by the same margin, hold the true one. A vertex whose winding number cannot be told counts as inside.
+//! largest coordinate, 1/64 of the margin by which they are padded. If a computed vertex is outside of the solid and the true one inside, then the surface passes between them, and
+//! the surface's own bounds, of a solid padded by the same margin everywhere, hold the true one. A vertex whose winding number cannot be told counts as inside.
 
 use super::polygons::{HalfSpace, Polygons, margin};
 use super::span::{Frame, projections};
@@ -105,7 +105,7 @@ impl<'a> Whole<'a> {
         let region = region.tightened();
         let polygons = cell.polygons.clipped(half, self.margin);
         let inner = if self.is_solid { self.inner(cell, half, trust) } else { Vec::new() };
-        let mut bound = polygons.bound(self.margin);
+        let mut bound = polygons.bound(self.margin, self.is_solid);
         for &vertex in &inner {
             bound = bound.union(&around(vertex, self.margin));
         }

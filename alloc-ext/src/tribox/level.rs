@@ -21,14 +21,15 @@ pub struct Level {
     pub triboxes: usize,
     /// Their faces, without those of no extent: `M` of Table 1.
     pub faces: usize,
-    /// Their volumes' sum, cubed input units. Simplified proxies may overlap; others do by 2^-20 of their coordinates at most.
+    /// Their volumes' sum, cubed input units. Simplified proxies may overlap; others do not.
     pub volume: f64,
     /// Formula (10), input units: the largest error of a node.
     ///
     /// As printed, ρ = max over vertices sᵢ and directions dⱼ of the cone of normals of sᵢ of (sᵢ·dⱼ) depends on where the origin is, and names no tribox.
     /// We read it as the Hausdorff distance of two convex bodies, the tribox T and the hull of the part S: sᵢ·dⱼ, with dⱼ of unit length in the normal cone of
     /// sᵢ, is the support function of S, and what T's exceeds it by is the error along dⱼ; the cones of all vertices are all directions. ρ = max (h_T(d) − h_S(d)).
-    /// An upper bound, 1 % too great at most where it converged. Cavities do not count; they do in [`distance`](Self::distance).
+    /// An upper bound but for what planes are moved by (2^-40 of the coordinates), 1 % too great at most where it converged; corners that cannot be told to be
+    /// outside count as part. Cavities do not count; they do in [`distance`](Self::distance).
     pub error: f64,
     /// Largest distance from a point of the union's boundary to the mesh, input units.
     pub distance: Farthest,
@@ -45,7 +46,7 @@ impl Level {
 /// The blob of a mesh's box tree as it is needed here: exact, with the triangles' own numbers.
 ///
 /// # Panics
-/// On a mesh of more than [`tree::MAX_TRIANGLES`].
+/// On a mesh of more than [`tree::MAX_TRIANGLES`], and, if debug assertions are on, on infinite coordinates.
 #[must_use]
 pub fn box_tree(mesh: &Mesh) -> Vec<u8> {
     // Not the numbers of the file, of which two triangles may share one where a flat one was mended.

@@ -92,15 +92,15 @@ impl Polygons {
         clipped
     }
 
-    /// A tribox that holds the true parts of all triangles, if inexact coordinates are padded by `margin`.
-    pub fn bound(&self, margin: f64) -> Tribox {
+    /// A tribox that holds the true parts of all triangles, inexact coordinates padded by `margin`, and the others too if `exact_too`.
+    pub fn bound(&self, margin: f64, exact_too: bool) -> Tribox {
         let (mut low, mut high) = ([f64::INFINITY; SLABS], [f64::NEG_INFINITY; SLABS]);
         let mut put = |slab: usize, value: f64, by: f64| {
             low[slab] = low[slab].min(value - by);
             high[slab] = high[slab].max(value + by);
         };
         for Corner { at: [x, y, z], exact } in &self.corners {
-            let pad = |axis: u8| if exact >> axis & 1 == 1 { 0.0 } else { margin };
+            let pad = |axis: u8| if exact >> axis & 1 == 1 && !exact_too { 0.0 } else { margin };
             let [px, py, pz] = [pad(0), pad(1), pad(2)];
             put(0, *x, px);
             put(1, *y, py);
