@@ -5,9 +5,10 @@ use super::header::Header;
 use super::layout::{
     FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, SectionKind, TREE_BYTES, WIDTH,
 };
+use super::patch::{Patch, Tag};
 use super::read::Bytes;
 use super::sections::{place_sections, read_header};
-use super::tree::{GridScale, Patch, Tag, Tree};
+use super::tree::{GridScale, Tree};
 use super::tree_header::TreeHeader;
 use crate::num::tolerance::U32;
 
