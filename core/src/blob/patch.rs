@@ -174,6 +174,24 @@ impl<'a> Patch<'a> {
         Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
     }
 
+    /// Centre 0 or 1 without the grid's origin, as stored, exactly.
+    #[inline(always)]
+    pub fn stored_centre(&self, which: usize) -> [f32; 3] {
+        if self.single {
+            return self.centre(which).to_array();
+        }
+        self.stored(6 * which, 2).map(|x| x as f32)
+    }
+
+    /// Ring vertex `i` without the grid's origin, as stored, exactly.
+    #[inline(always)]
+    pub fn stored_ring(&self, i: usize) -> [f32; 3] {
+        if self.single {
+            return self.ring(i).to_array();
+        }
+        self.stored(6 * self.tag.centres() + 2 * i, 2 * (self.tag.triangles() + 1)).map(|x| x as f32)
+    }
+
     #[inline(always)]
     fn stored(&self, at: usize, step: usize) -> [i32; 3] {
         [short(self.bytes, at), short(self.bytes, at + step), short(self.bytes, at + 2 * step)]

@@ -5,9 +5,11 @@ mod lanes;
 mod point_triangle;
 mod segment_triangle;
 mod swept_triangle;
+mod triangle_pair;
 
 pub use boxes::{Aabb, Clipped};
 pub use lanes::{LANES, Lanes};
 pub use point_triangle::{PointTriangle, point_triangle};
 pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
 pub use swept_triangle::{PointProbe, SegmentProbe, Support, direction_bound};
+pub use triangle_pair::{Contact, Real, determinant_margin, triangles_meet};

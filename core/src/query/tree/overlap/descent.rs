@@ -1,0 +1,180 @@
+//! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet leaves.
+//!
+//! A pair of nodes is settled at once for all pairs of their children, as 64 bits: that is all that has to wait, so memory is 16 bytes for each level.
+
+use super::PairEntry;
+use super::leaves::LeafPair;
+use super::placement::Placement;
+use super::spans::{Spans, pairs};
+use crate::blob::{Tree, TreeChild};
+use crate::geom::Contact;
+use crate::query::{Ended, QueryError, Work};
+use crate::tribox::Pose;
+
+/// Where two triangles are: node, child and lane in each tree.
+pub(super) type Place = [[u32; 3]; 2];
+
+/// What a question does with pairs of triangles that meet or may meet.
+pub(super) trait Collect {
+    /// Whether to go on; `None` if a tree is not one that was opened.
+    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool>;
+}
+
+/// Sum of the steps of a node's boxes, grid units: half of its size, or all of it.
+#[inline(always)]
+fn size(tree: &Tree<'_>, node: u32) -> Option<f32> {
+    let words = tree.boxes(node)?.as_chunks::<4>().0.get(15..)?.first_chunk::<3>()?;
+    let [x, y, z] = words.map(f32::from_le_bytes);
+    Some(x + y + z)
+}
+
+/// How many times larger a node has to be to be opened alone.
+const LARGER: f32 = 4.0;
+
+/// Visits every pair of leaves whose boxes meet; says why it missed some, if it did.
+#[inline(always)]
+pub(super) fn descend(
+    a: &Tree<'_>,
+    b: &Tree<'_>,
+    pose: &Pose,
+    steps: u32,
+    stack: &mut [PairEntry],
+    collect: &mut impl Collect,
+) -> Result<(Option<Ended>, Work), QueryError> {
+    let mut work = Work::default();
+    if !(a.serves_segments() && b.serves_segments()) {
+        return Err(QueryError::NotServed);
+    }
+    if stack.is_empty() {
+        return Err(QueryError::NoQueue);
+    }
+    let Some(place) = Placement::new(a, b, pose)? else { return Ok((None, work)) };
+    let units = [place.sides[0].unit, place.sides[1].unit];
+    let mut missed = None;
+    let mut waiting = 0usize;
+    let mut nodes = [0u32; 2];
+    let mut wanted = [u32::MAX; 2];
+    loop {
+        if work.splits >= steps {
+            return Ok((Some(Ended::Steps), work));
+        }
+        work.splits += 1;
+        let left = open(a, b, &place, nodes, wanted, &mut work).ok_or(QueryError::Model)?;
+        if left != [0; 2] {
+            match stack.get_mut(waiting) {
+                Some(slot) => {
+                    *slot = PairEntry { nodes, left };
+                    waiting += 1;
+                }
+                None => missed = Some(Ended::Capacity),
+            }
+        }
+        // The next pair of which one can be opened; pairs of leaves are looked at on the way.
+        loop {
+            let Some(top) = waiting.checked_sub(1) else { return Ok((missed, work)) };
+            let entry = stack.get_mut(top).ok_or(QueryError::Model)?;
+            let Some(lanes) = take(&mut entry.left) else {
+                waiting = top;
+                continue;
+            };
+            let entry = *entry;
+            let child = |tree: &Tree<'_>, which: usize| tree.child(entry.nodes[which], lanes[which]);
+            let children = [child(a, 0).ok_or(QueryError::Model)?, child(b, 1).ok_or(QueryError::Model)?];
+            let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Model)?;
+            if opens_a || opens_b {
+                let next = |opens: bool, which: usize| {
+                    if opens {
+                        (children[which].at, u32::MAX)
+                    } else {
+                        (entry.nodes[which], 1 << lanes[which])
+                    }
+                };
+                let ((first, rows), (second, columns)) = (next(opens_a, 0), next(opens_b, 1));
+                nodes = [first, second];
+                wanted = [rows, columns];
+                break;
+            }
+            let go_on = leaves(a, b, &place, entry.nodes, lanes, children, collect, &mut work);
+            if !go_on.ok_or(QueryError::Model)? {
+                return Ok((missed, work));
+            }
+        }
+    }
+}
+
+/// Takes the first pair out.
+#[inline(always)]
+fn take(left: &mut [u32; 2]) -> Option<[u32; 2]> {
+    let [low, high] = left;
+    let (word, base) = if *low != 0 { (low, 0) } else { (high, 4) };
+    if *word == 0 {
+        return None;
+    }
+    let bit = word.trailing_zeros();
+    *word &= *word - 1;
+    Some([base + (bit >> 3), bit & 7])
+}
+
+/// Which of two children to open: both, unless one is a leaf or much the smaller.
+#[inline(always)]
+fn opened(a: &Tree<'_>, b: &Tree<'_>, children: &[TreeChild; 2], units: [f32; 2]) -> Option<[bool; 2]> {
+    let [first, second] = children;
+    Some(match (first.is_leaf(), second.is_leaf()) {
+        (false, false) => {
+            let (x, y) = (size(a, first.at)? * units[0], size(b, second.at)? * units[1]);
+            [x * LARGER >= y, y * LARGER >= x]
+        }
+        (a, b) => [!a, !b],
+    })
+}
+
+/// Pairs of children of two nodes, `wanted` of each, whose boxes meet.
+#[inline(always)]
+fn open(
+    a: &Tree<'_>,
+    b: &Tree<'_>,
+    place: &Placement,
+    nodes: [u32; 2],
+    wanted: [u32; 2],
+    work: &mut Work,
+) -> Option<[u32; 2]> {
+    let side = |tree: &Tree<'_>, which: usize| {
+        let count = tree.links(nodes[which])?.count;
+        let spans = Spans::of(&place.sides[which], tree.boxes(nodes[which])?, count)?;
+        Some((spans, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
+    };
+    let ((first, rows), (second, lanes)) = (side(a, 0)?, side(b, 1)?);
+    work.nodes = work.nodes.saturating_add(rows.count_ones() * lanes.count_ones());
+    Some(pairs(&first, &second, rows, lanes))
+}
+
+/// Looks at a pair of leaves; whether to go on.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "the descent's state, inlined")]
+fn leaves(
+    a: &Tree<'_>,
+    b: &Tree<'_>,
+    place: &Placement,
+    nodes: [u32; 2],
+    lanes: [u32; 2],
+    [first, second]: [TreeChild; 2],
+    collect: &mut impl Collect,
+    work: &mut Work,
+) -> Option<bool> {
+    let (p, q) = (a.patch(first.at, first.tag)?, b.patch(second.at, second.tag)?);
+    let pair = LeafPair::new(place, &p, &q);
+    for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
+        while bits != 0 {
+            let j = bits.trailing_zeros();
+            bits &= bits - 1;
+            let contact = pair.settle(i, j as usize, work);
+            if contact != Contact::Apart {
+                let place = [[nodes[0], lanes[0], i as u32], [nodes[1], lanes[1], j]];
+                if !collect.pair(place, contact)? {
+                    return Some(false);
+                }
+            }
+        }
+    }
+    Some(true)
+}
