@@ -1,7 +1,8 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, open, outer, random_input, segment, tree_closest, tree_open, tree_segment, tree_session, tribox,
+    closest, open, outer, random_input, segment, tree_closest, tree_open, tree_overlap, tree_segment,
+    tree_session, tribox,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -61,4 +62,9 @@ fn tree_session_survives_seeded_edits() {
 #[test]
 fn tribox_survives_any_floats() {
     drive(9, tribox);
+}
+
+#[test]
+fn tree_overlap_survives_seeded_edits() {
+    drive(10, tree_overlap);
 }

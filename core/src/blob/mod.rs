@@ -18,7 +18,7 @@ pub use error::OpenError;
 pub use header::Header;
 pub use index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
 pub use model::{Capacities, Children, Level, Model, Node, Split};
-pub use patch::{GridRing, Patch, Tag};
+pub use patch::{CORNERS, GridRing, Patch, Tag};
 pub use sections::{Section, section_crc};
 pub use tree::{Links, Tree, TreeChild};
 pub use tree_header::TreeHeader;

@@ -83,6 +83,9 @@ pub struct GridRing<'a> {
     pub z: &'a [[u8; 2]],
 }
 
+/// Vertices of the largest patch: two centres and nine ring vertices.
+pub const CORNERS: usize = 11;
+
 /// Bytes of the largest patch on the grid: two centres and nine ring vertices.
 const GRID_WINDOW: usize = 66;
 
@@ -174,22 +177,49 @@ impl<'a> Patch<'a> {
         Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
     }
 
-    /// Centre 0 or 1 without the grid's origin, as stored, exactly.
+    /// All vertices without the grid's origin, as stored, exactly: both centres, alike if there is one fan, then nine of the ring, of which those beyond the
+    /// triangles' mean nothing but are finite. `[axis][vertex]`.
     #[inline(always)]
-    pub fn stored_centre(&self, which: usize) -> [f32; 3] {
+    pub fn stored_vertices(&self) -> [[f32; CORNERS]; 3] {
+        let mut out = [[0f32; CORNERS]; 3];
         if self.single {
-            return self.centre(which).to_array();
+            self.single_vertices(&mut out);
+            return out;
         }
-        self.stored(6 * which, 2).map(|x| x as f32)
+        let Some(window) = self.bytes.first_chunk::<GRID_WINDOW>() else { return out };
+        let second = 6 * (self.tag.centres() - 1);
+        let step = 2 * (self.tag.triangles() + 1);
+        for (axis, out) in out.iter_mut().enumerate() {
+            let ring = (6 + second + step * axis).min(GRID_WINDOW - 18);
+            let [first, next, rest @ ..] = out;
+            *first = short(window, 2 * axis) as f32;
+            *next = short(window, second + 2 * axis) as f32;
+            if let Some(chunk) = window.get(ring..).and_then(|b| b.first_chunk::<18>()) {
+                for (x, pair) in rest.iter_mut().zip(chunk.as_chunks::<2>().0) {
+                    *x = f32::from(u16::from_le_bytes(*pair));
+                }
+            }
+        }
+        out
     }
 
-    /// Ring vertex `i` without the grid's origin, as stored, exactly.
-    #[inline(always)]
-    pub fn stored_ring(&self, i: usize) -> [f32; 3] {
-        if self.single {
-            return self.ring(i).to_array();
+    #[inline(never)]
+    fn single_vertices(&self, out: &mut [[f32; CORNERS]; 3]) {
+        let second = self.tag.centres() - 1;
+        let used = self.tag.triangles() + 3;
+        for slot in 0..CORNERS {
+            let vertex = match slot {
+                0 => self.centre(0),
+                1 => self.centre(second),
+                _ if slot < used => self.ring(slot - 2),
+                _ => self.centre(0),
+            };
+            for (axis, x) in out.iter_mut().zip(vertex.to_array()) {
+                if let Some(place) = axis.get_mut(slot) {
+                    *place = x;
+                }
+            }
         }
-        self.stored(6 * self.tag.centres() + 2 * i, 2 * (self.tag.triangles() + 1)).map(|x| x as f32)
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
-//! Whether two triangles meet, with proof: fifteen determinants after Devillers & Guigue, *Faster Triangle-Triangle Intersection Tests* (2002).
+//! Whether two triangles meet, with proof, by signs of determinants after Devillers & Guigue, *Faster Triangle-Triangle Intersection Tests* (2002).
 //!
 //! Two triangles have a common point exactly if an edge of one has a point in common with the other. An edge misses a triangle if its ends lie on one
 //! side of the plane, or if its line passes two of the triangle's edges on different sides; it crosses if its ends lie on different sides and its line passes all
-//! three on one side. All of these are signs of determinants of three differences, and a sign counts only where it would be the
+//! three on one side. If both triangles pass through the other's plane, it is enough to compare where they do. All of these are signs of determinants of three differences, and a sign counts only where it would be the
 //! same for all vertices within `doubt`: `core/docs/rounding.md` §10.
 
 use core::ops::{Add, Mul, Sub};
@@ -118,7 +118,7 @@ fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shif
 /// Triangles that touch are [`Contact::Open`], whatever the precision; so is every pair of which one has no area and the other comes within rounding of it. `doubt` may be 0: then the
 /// given coordinates are the truth. Products of three lengths have to stay within the type's range.
 ///
-/// Cost: 6 determinants if a plane of one parts them, 15 mostly, and 36 inner products where those leave it open.
+/// Cost: 3 or 6 determinants if a plane of one parts them, 8 mostly; 15 and 36 inner products where a vertex comes near the other's plane.
 #[inline(always)]
 pub fn triangles_meet<T: Real>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> Contact {
     // Each end of a difference may be off.
@@ -133,14 +133,80 @@ pub fn triangles_meet<T: Real>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> 
     if parted(a_sides) {
         return Contact::Apart;
     }
+    if is_certain(a_sides) && is_certain(b_sides) {
+        return straddling_triangles_meet(a, b, [a_sides, b_sides], shift);
+    }
+    undecided(&edges_a, &edges_b, [a, b], [a_sides, b_sides], shift)
+}
+
+#[inline(always)]
+fn is_certain([p, q, r]: [i8; 3]) -> bool {
+    p != 0 && q != 0 && r != 0
+}
+
+/// How one edge turns past another: 1, −1, or 0 if that is not certain.
+#[inline(always)]
+fn turn<T: Real>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
+    let way = minus(second.from, first.from);
+    let margin = determinant_margin(first.length, second.length, norm_1(way), shift);
+    sign(dot(cross(first.way, second.way), way), margin)
+}
+
+/// The edges by which a triangle passes up and down through a plane, if some of its vertices are above (1) and the others below it (−1).
+#[inline(always)]
+fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2] {
+    let edge = |from: Point<T>, to: Point<T>| {
+        let way = minus(to, from);
+        Edge { from, way, length: norm_1(way) }
+    };
+    let (up, down) = if p > q {
+        // The edge from `a` goes down; what goes up begins at `b` if `c` is above.
+        (if r > q { (b, c) } else { (c, a) }, (a, b))
+    } else if p < q {
+        ((a, b), if r < q { (b, c) } else { (c, a) })
+    } else if p > r {
+        ((c, a), (b, c))
+    } else {
+        ((b, c), (c, a))
+    };
+    [edge(up.0, up.1), edge(down.0, down.1)]
+}
+
+/// Whether two triangles meet of which each certainly has vertices on both sides of the other's plane. `sides`: on which side of the other's plane the vertices of the first, and of the second,
+/// lie, 1 where corners run counter-clockwise; `shift` is what a difference of two vertices may be off by.
+///
+/// Both meet the planes' common line in an interval. Along the product of their normals the first triangle's begins where an edge passes up and the second's
+/// where one passes down; so two determinants tell whether either ends before the other begins.
+#[inline(always)]
+pub fn straddling_triangles_meet<T: Real>(
+    a: [Point<T>; 3],
+    b: [Point<T>; 3],
+    [a_sides, b_sides]: [[i8; 3]; 2],
+    shift: T,
+) -> Contact {
+    let ([a_up, a_down], [b_up, b_down]) = (passing(a, a_sides), passing(b, b_sides));
+    // Negative if the second begins behind the first one's end, positive if it ends before its beginning.
+    let (behind, before) = (turn(&a_down, &b_down, shift), turn(&a_up, &b_up, shift));
+    if behind < 0 || before > 0 {
+        Contact::Apart
+    } else if behind > 0 && before < 0 {
+        Contact::Meets
+    } else {
+        Contact::Open
+    }
+}
+
+/// Whether they meet if it is open of some vertex on which side of the other plane it lies.
+#[inline(never)]
+fn undecided<T: Real>(
+    edges_a: &[Edge<T>; 3],
+    edges_b: &[Edge<T>; 3],
+    points: [[Point<T>; 3]; 2],
+    [a_sides, b_sides]: [[i8; 3]; 2],
+    shift: T,
+) -> Contact {
     // How each edge of `a` runs past each edge of `b`.
-    let turns = edges_a.map(|first| {
-        edges_b.map(|second| {
-            let way = minus(second.from, first.from);
-            let margin = determinant_margin(first.length, second.length, norm_1(way), shift);
-            sign(dot(cross(first.way, second.way), way), margin)
-        })
-    });
+    let turns = edges_a.map(|first| edges_b.map(|second| turn(&first, &second, shift)));
     let [[s, t, u], [v, w, x], [y, z, o]] = turns;
     let across = [[s, v, y], [t, w, z], [u, x, o]];
     let mut all_miss = true;
@@ -155,7 +221,7 @@ pub fn triangles_meet<T: Real>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> 
             all_miss &= is_past || from * to > 0;
         }
     }
-    if all_miss || parted_in_a_plane(&edges_a, &edges_b, [a, b], shift) {
+    if all_miss || parted_in_a_plane(edges_a, edges_b, points, shift) {
         Contact::Apart
     } else {
         Contact::Open
@@ -163,7 +229,6 @@ pub fn triangles_meet<T: Real>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> 
 }
 
 /// Whether some plane upright on a triangle, along one of its edges, parts it from the other. Of triangles in one plane no determinant says more than that.
-#[inline(never)]
 fn parted_in_a_plane<T: Real>(
     edges_a: &[Edge<T>; 3],
     edges_b: &[Edge<T>; 3],

@@ -5,7 +5,6 @@
 //! arithmetic on the stored numbers; and no frame makes a distance longer.
 
 mod contain;
-mod dyadic;
 mod parse;
 mod surface;
 

@@ -5,11 +5,12 @@
 
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{
-    BatchError, Facing, Hint, Near, Session, Side, Sight, TreeEntry, Verdict, all_hits, all_within, any_hit,
-    closest_point, closest_point_from, closest_points, first_hit, front_facing, is_within, nearest,
-    signed_distance,
+    BatchError, Contact, Facing, Hint, Near, PairEntry, Session, Side, Sight, TreeEntry, TrianglePair,
+    Verdict, all_hits, all_overlaps, all_within, any_hit, closest_point, closest_point_from, closest_points,
+    first_hit, front_facing, is_within, nearest, overlap, signed_distance,
 };
 use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, Stop, Work};
+use meshsweep_core::tribox::Pose;
 
 /// The caller's memory, of any length.
 #[derive(Debug)]
@@ -141,6 +142,28 @@ impl Asker {
                 assert!(index < points.len() && error != QueryError::Model, "{index}: {error}");
             }
             Err(error) => panic!("{error}"),
+        }
+    }
+
+    /// Whether two trees meet, and where, in at most so many steps: every pair of nodes may have to be opened.
+    ///
+    /// # Panics
+    /// If an answer is out of range or took too long.
+    pub fn overlap(&self, a: &Tree<'_>, b: &Tree<'_>, pose: &Pose, steps: u32) {
+        let mut stack = vec![PairEntry::EMPTY; self.stack.len()];
+        let mut pairs = vec![TrianglePair::EMPTY; self.near.len()];
+        let in_range = |[first, second]: [u32; 2]| {
+            assert!(first < a.input_triangles() && second < b.input_triangles(), "{first} {second}");
+        };
+        if let Some(answer) = answered(overlap(a, b, pose, steps, &mut stack)) {
+            assert!(answer.work.splits <= steps, "{answer:?}");
+            assert_eq!(answer.contact != Contact::Open, answer.ended == Ended::Exact, "{answer:?}");
+            answer.triangles.into_iter().for_each(in_range);
+        }
+        if let Some(answer) = answered(all_overlaps(a, b, pose, steps, &mut pairs, &mut stack)) {
+            assert!(answer.work.splits <= steps, "{answer:?}");
+            assert!(answer.dropped == 0 || answer.stored == pairs.len(), "{answer:?}");
+            pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
         }
     }
 

@@ -10,5 +10,5 @@ mod tribox;
 
 pub use hull::{closest, open, outer, seeds, segment};
 pub use input::random_input;
-pub use tree::{tree_closest, tree_open, tree_seeds, tree_segment, tree_session};
+pub use tree::{tree_closest, tree_open, tree_overlap, tree_seeds, tree_segment, tree_session};
 pub use tribox::tribox;

@@ -9,6 +9,7 @@ use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::query::Stop;
 use meshsweep_core::query::tree::Session;
+use meshsweep_core::tribox::Pose;
 use meshsweep_core::{Model, Tree};
 use std::sync::OnceLock;
 
@@ -161,4 +162,24 @@ pub fn tree_session(data: &[u8]) {
     follow::<0>(&mut asker, trees, &path, &stop);
     follow::<5>(&mut asker, trees, &path, &stop);
     follow::<128>(&mut asker, trees, &path, &stop);
+}
+
+/// Two edited blobs under motions that may be anything.
+pub fn tree_overlap(data: &[u8]) {
+    let mut input = Input(data);
+    let (first, second) = (input.blob(tree_seeds()), input.blob(tree_seeds()));
+    let (Ok(a), Ok(b)) = (Tree::open(&first), Tree::open(&second)) else { return };
+    let asker = Asker::new(usize::from(input.byte() % 160), usize::from(input.byte() % 16));
+    let steps = u32::from(input.byte());
+    for _ in 0..3 {
+        let translation = input.point();
+        let rotation = match input.byte() % 4 {
+            0 => [input.point(), input.point(), input.point()],
+            1 => Pose::IDENTITY.rotation,
+            _ => [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]],
+        };
+        let pose = Pose { rotation, translation };
+        asker.overlap(&a, &b, &pose, steps);
+        asker.overlap(&b, &a, &pose, steps);
+    }
 }

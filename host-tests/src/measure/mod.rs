@@ -7,7 +7,8 @@
 //! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
-//!                         └─ bounds   (paper 001: triboxes) ┘
+//!                         ├─ bounds   (paper 001: triboxes) ┤
+//!                         └─ overlap  (mesh against mesh) ──┘
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
 //! something. Counts are exact.
@@ -16,6 +17,7 @@ pub mod bounds;
 pub(crate) mod brute;
 mod closest;
 mod hulls;
+mod overlap;
 mod paper;
 pub mod rival;
 mod segments;
@@ -56,6 +58,17 @@ pub fn measure_bounds(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
     tables.extend(bounds::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures the overlap of one mesh file, which need not be closed, with itself under random motions.
+///
+/// # Errors
+/// The file is no mesh, or an answer is wrong.
+pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject.table()];
+    tables.extend(overlap::tables(&subject)?);
     Ok(tables)
 }
 

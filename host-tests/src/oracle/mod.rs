@@ -2,7 +2,9 @@
 
 mod distance;
 mod double;
+pub(crate) mod dyadic;
 pub mod lp;
+pub mod moved;
 pub mod polytope;
 mod segment;
 

@@ -8,6 +8,15 @@ use crate::rng::Rng;
 /// An axis-aligned box: least corner, greatest corner.
 pub type Bounds = [[f32; 3]; 2];
 
+/// A rotation up to rounding, rows of a matrix, and what is added after it.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion {
+    /// The matrix.
+    pub rotation: [[f32; 3]; 3],
+    /// Added to what was rotated.
+    pub translation: [f32; 3],
+}
+
 /// Where the queries of a kind come from.
 #[derive(Clone, Debug)]
 pub struct Placer {
@@ -57,6 +66,11 @@ impl Placer {
         segment(&mut self.rng, &self.bounds)
     }
 
+    /// See [`motion`].
+    pub fn motion(&mut self) -> Motion {
+        motion(&mut self.rng, &self.bounds)
+    }
+
     /// See [`distance`].
     pub fn distance(&mut self) -> f32 {
         distance(&mut self.rng, &self.bounds)
@@ -85,6 +99,28 @@ pub fn path_point(rng: &mut Rng, bounds: &Bounds, previous: [f32; 3]) -> [f32; 3
 pub fn segment(rng: &mut Rng, bounds: &Bounds) -> [[f32; 3]; 2] {
     let start = surface_point(rng, bounds);
     [start, surface_point(rng, bounds)]
+}
+
+/// Any rotation about the box's centre, then the centre anywhere in the doubled box. A quaternion needs no root: its products are divided by its squared length.
+pub fn motion(rng: &mut Rng, bounds: &Bounds) -> Motion {
+    let (mut w, x, y, z) = (rng.signed_unit(), rng.signed_unit(), rng.signed_unit(), rng.signed_unit());
+    let mut norm = (w * w + x * x) + (y * y + z * z);
+    if norm < 1.0 / 64.0 {
+        w = 1.0;
+        norm = (1.0 + x * x) + (y * y + z * z);
+    }
+    let two = 2.0 / norm;
+    let rotation = [
+        [1.0 - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)],
+        [two * (x * y + w * z), 1.0 - two * (x * x + z * z), two * (y * z - w * x)],
+        [two * (x * z - w * y), two * (y * z + w * x), 1.0 - two * (x * x + y * y)],
+    ];
+    let [(cx, _), (cy, _), (cz, _)] = [0, 1, 2].map(|axis| centre_and_half(bounds, axis));
+    let mut translation = far_point(rng, bounds);
+    for (to, [a, b, c]) in translation.iter_mut().zip(rotation) {
+        *to -= a * cx + b * cy + c * cz;
+    }
+    Motion { rotation, translation }
 }
 
 /// A distance of at most half the box's half size along x.

@@ -44,6 +44,10 @@ pub enum Kind {
     Batch,
     /// Triangles that may face an eye.
     Cull,
+    /// Whether the surface meets its moved copy.
+    Overlap,
+    /// All pairs of triangles that do.
+    AllOverlaps,
     /// The tribox of eight points.
     TriboxBounds,
     /// The boundary of a tribox.
@@ -58,7 +62,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 25] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -77,6 +81,8 @@ impl Kind {
         Self::Session,
         Self::Batch,
         Self::Cull,
+        Self::Overlap,
+        Self::AllOverlaps,
         Self::TriboxBounds,
         Self::TriboxFaces,
         Self::TriboxOverlap,
@@ -106,6 +112,8 @@ impl Kind {
             Self::Session => "session",
             Self::Batch => "batch_of_8",
             Self::Cull => "cull",
+            Self::Overlap => "overlap",
+            Self::AllOverlaps => "all_overlaps",
             Self::TriboxBounds => "tribox_bounds",
             Self::TriboxFaces => "tribox_faces",
             Self::TriboxOverlap => "tribox_overlap",

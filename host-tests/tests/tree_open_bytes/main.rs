@@ -11,6 +11,7 @@ use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::query::Stop;
 use meshsweep_core::query::tree::Session;
+use meshsweep_core::tribox::Pose;
 use meshsweep_core::{OpenError, Tree};
 use meshsweep_host_tests::corrupt::{Asker, entry, seal};
 use meshsweep_host_tests::generate::{Triangles, icosphere};
@@ -66,5 +67,9 @@ fn ask_everything(tree: &Tree<'_>, some: bool) {
     asker.sight(tree, POINTS[1]);
     let path = (0..6).map(|step| [0.9, 0.2, 0.01 * step as f32]);
     asker.path(&mut Session::<16>::new(), tree, path, &Stop::EXACT);
+    let turned = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
+    for translation in POINTS.into_iter().take(if some { 2 } else { 5 }) {
+        asker.overlap(tree, tree, &Pose { rotation: turned, translation }, 60);
+    }
     Asker::new(1, 1).point(tree, POINTS[0], 0.5, &Stop::EXACT);
 }

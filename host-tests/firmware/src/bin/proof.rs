@@ -8,6 +8,7 @@ mod bare;
 use bare::Input;
 use meshsweep_suite::ask::{hull, tree, tribox};
 use meshsweep_suite::fold::Fold;
+use meshsweep_suite::place::Motion;
 
 #[unsafe(no_mangle)]
 extern "C" fn ask_hull_open(input: &Input<'_>, fold: &mut Fold) {
@@ -171,6 +172,22 @@ extern "C" fn ask_tribox_overlap(pairs: &([[f32; 3]; 2], [[f32; 3]; 2]), fold: &
 #[unsafe(no_mangle)]
 extern "C" fn ask_tribox_rest(points: &tribox::Points, input: &Input<'_>, fold: &mut Fold) {
     tribox::rest(points, input.a[0], input.any != 0, &mut (), fold);
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_overlap(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        let pose = tree::pose(Motion { rotation: [input.a, input.b, input.a], translation: input.b });
+        tree::overlap(&tree, &pose, scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tree_all_overlaps(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+    if let Ok(tree) = tree::open(input.blob) {
+        let pose = tree::pose(Motion { rotation: [input.a, input.b, input.a], translation: input.b });
+        tree::all_overlaps(&tree, &pose, scratch, &mut (), fold);
+    }
 }
 
 #[unsafe(no_mangle)]

@@ -9,7 +9,7 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 24] = [
+const QUESTIONS: [&str; 26] = [
     "ask_hull_open",
     "ask_hull_closest",
     "ask_hull_first_hit",
@@ -30,6 +30,8 @@ const QUESTIONS: [&str; 24] = [
     "ask_tree_session",
     "ask_tree_batch",
     "ask_tree_cull",
+    "ask_tree_overlap",
+    "ask_tree_all_overlaps",
     "ask_tribox_bounds",
     "ask_tribox_faces",
     "ask_tribox_overlap",

@@ -3,8 +3,8 @@
 use meshsweep_alloc::mesh::Mesh;
 
 use super::TreeProof;
-use super::dyadic::Dyadic;
 use super::parse::TreeBlob;
+use crate::oracle::dyadic::Dyadic;
 
 /// Every triangle of the mesh is stored exactly once, with its number, its winding, and its corners within the surface error.
 ///

@@ -1,11 +1,12 @@
 //! Questions to the box tree.
 
 mod distance;
+mod meeting;
 mod sight;
 
 pub use meshsweep_core::Tree;
 use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{Hint, Near, Session, TreeEntry};
+use meshsweep_core::query::tree::{Hint, Near, PairEntry, Session, TreeEntry, TrianglePair};
 
 use super::{Refused, Subject};
 use crate::fold::Fold;
@@ -13,6 +14,7 @@ use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
 
 pub use distance::{all_within, batch, closest, follow, is_within, nearest, session, signed, stopped};
+pub use meeting::{all_overlaps, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
 /// Entries of the stack.
@@ -27,6 +29,8 @@ pub struct Scratch<'t> {
     hint: Hint,
     session: Session<'t>,
     facing: [u32; 64],
+    pairs: [PairEntry; PairEntry::ENOUGH],
+    meeting: [TrianglePair; 8],
 }
 
 impl Scratch<'_> {
@@ -40,6 +44,8 @@ impl Scratch<'_> {
             hint: Hint::NONE,
             session: Session::new(),
             facing: [0; 64],
+            pairs: [PairEntry::EMPTY; PairEntry::ENOUGH],
+            meeting: [TrianglePair::EMPTY; 8],
         }
     }
 }
@@ -113,6 +119,8 @@ impl<'t> Subject<'t> for Tree<'t> {
             Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
             Kind::Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, clock, fold),
             Kind::Cull => cull(self, place.far(), scratch, clock, fold),
+            Kind::Overlap => overlap(self, &pose(place.motion()), scratch, clock, fold),
+            Kind::AllOverlaps => all_overlaps(self, &pose(place.motion()), scratch, clock, fold),
         }
     }
 }

@@ -5,7 +5,7 @@
 use super::PairEntry;
 use super::leaves::LeafPair;
 use super::placement::Placement;
-use super::spans::{Spans, pairs};
+use super::spans::{Pairs, Spans, pairs};
 use crate::blob::{Tree, TreeChild};
 use crate::geom::Contact;
 use crate::query::{Ended, QueryError, Work};
@@ -59,42 +59,40 @@ pub(super) fn descend(
             return Ok((Some(Ended::Steps), work));
         }
         work.splits += 1;
-        let left = open(a, b, &place, nodes, wanted, &mut work).ok_or(QueryError::Model)?;
-        if left != [0; 2] {
-            match stack.get_mut(waiting) {
-                Some(slot) => {
-                    *slot = PairEntry { nodes, left };
-                    waiting += 1;
+        let pairs = open(a, b, &place, nodes, wanted, &mut work).ok_or(QueryError::Model)?;
+        let mut next = None;
+        if pairs.bits != [0; 2] {
+            // Surfaces that meet mostly do so where boxes overlap most.
+            next = Some((nodes, pairs.deepest));
+            let left = without(pairs.bits, pairs.deepest);
+            if left != [0; 2] {
+                match stack.get_mut(waiting) {
+                    Some(slot) => {
+                        *slot = PairEntry { nodes, left };
+                        waiting += 1;
+                    }
+                    None => missed = Some(Ended::Capacity),
                 }
-                None => missed = Some(Ended::Capacity),
             }
         }
         // The next pair of which one can be opened; pairs of leaves are looked at on the way.
         loop {
-            let Some(top) = waiting.checked_sub(1) else { return Ok((missed, work)) };
-            let entry = stack.get_mut(top).ok_or(QueryError::Model)?;
-            let Some(lanes) = take(&mut entry.left) else {
-                waiting = top;
-                continue;
+            let Some((parents, lanes)) = next.take().or_else(|| take(stack, &mut waiting)) else {
+                return Ok((missed, work));
             };
-            let entry = *entry;
-            let child = |tree: &Tree<'_>, which: usize| tree.child(entry.nodes[which], lanes[which]);
+            let child = |tree: &Tree<'_>, which: usize| tree.child(parents[which], lanes[which]);
             let children = [child(a, 0).ok_or(QueryError::Model)?, child(b, 1).ok_or(QueryError::Model)?];
             let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Model)?;
             if opens_a || opens_b {
-                let next = |opens: bool, which: usize| {
-                    if opens {
-                        (children[which].at, u32::MAX)
-                    } else {
-                        (entry.nodes[which], 1 << lanes[which])
-                    }
+                let down = |opens: bool, which: usize| {
+                    if opens { (children[which].at, u32::MAX) } else { (parents[which], 1 << lanes[which]) }
                 };
-                let ((first, rows), (second, columns)) = (next(opens_a, 0), next(opens_b, 1));
+                let ((first, rows), (second, columns)) = (down(opens_a, 0), down(opens_b, 1));
                 nodes = [first, second];
                 wanted = [rows, columns];
                 break;
             }
-            let go_on = leaves(a, b, &place, entry.nodes, lanes, children, collect, &mut work);
+            let go_on = leaves(a, b, &place, parents, lanes, children, collect, &mut work);
             if !go_on.ok_or(QueryError::Model)? {
                 return Ok((missed, work));
             }
@@ -102,17 +100,27 @@ pub(super) fn descend(
     }
 }
 
-/// Takes the first pair out.
+/// Takes the next pair off the stack: its parents, and which children.
 #[inline(always)]
-fn take(left: &mut [u32; 2]) -> Option<[u32; 2]> {
-    let [low, high] = left;
-    let (word, base) = if *low != 0 { (low, 0) } else { (high, 4) };
-    if *word == 0 {
-        return None;
+fn take(stack: &mut [PairEntry], waiting: &mut usize) -> Option<([u32; 2], [u32; 2])> {
+    let top = waiting.checked_sub(1)?;
+    let entry = stack.get_mut(top)?;
+    let [low, high] = entry.left;
+    let (word, base) = if low != 0 { (low, 0) } else { (high, 4) };
+    let bit = word.trailing_zeros() & 31;
+    let lanes = [base + (bit >> 3), bit & 7];
+    entry.left = without(entry.left, lanes);
+    let nodes = entry.nodes;
+    if entry.left == [0; 2] {
+        *waiting = top;
     }
-    let bit = word.trailing_zeros();
-    *word &= *word - 1;
-    Some([base + (bit >> 3), bit & 7])
+    Some((nodes, lanes))
+}
+
+#[inline(always)]
+fn without([low, high]: [u32; 2], [i, j]: [u32; 2]) -> [u32; 2] {
+    let bit = 1 << (8 * (i & 3) + (j & 7));
+    if i < 4 { [low & !bit, high] } else { [low, high & !bit] }
 }
 
 /// Which of two children to open: both, unless one is a leaf or much the smaller.
@@ -137,7 +145,7 @@ fn open(
     nodes: [u32; 2],
     wanted: [u32; 2],
     work: &mut Work,
-) -> Option<[u32; 2]> {
+) -> Option<Pairs> {
     let side = |tree: &Tree<'_>, which: usize| {
         let count = tree.links(nodes[which])?.count;
         let spans = Spans::of(&place.sides[which], tree.boxes(nodes[which])?, count)?;
@@ -162,7 +170,7 @@ fn leaves(
     work: &mut Work,
 ) -> Option<bool> {
     let (p, q) = (a.patch(first.at, first.tag)?, b.patch(second.at, second.tag)?);
-    let pair = LeafPair::new(place, &p, &q);
+    let mut pair = LeafPair::new(place, &p, &q);
     for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
         while bits != 0 {
             let j = bits.trailing_zeros();

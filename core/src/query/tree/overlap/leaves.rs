@@ -4,8 +4,9 @@ use super::placement::Placement;
 use crate::blob::Patch;
 use crate::blob::layout::WIDTH;
 use crate::fan::LANES_BELOW;
-use crate::geom::{Contact, determinant_margin, triangles_meet};
+use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 use crate::query::Work;
+use crate::tree::WIDE;
 
 /// Places for a patch's vertices: two centres and the ring, and some to spare so that eight are read at shift 1.
 pub(super) const SLOTS: usize = 12;
@@ -29,24 +30,14 @@ impl Corners {
     fn stored(patch: &Patch<'_>) -> Corners {
         let tag = patch.tag();
         let triangles = tag.triangles().min(WIDTH);
-        let mut corners = Corners {
-            at: [[0.0; SLOTS]; 3],
-            used: (RING + triangles + 1).min(SLOTS),
-            triangles,
-            turn: tag.turn(),
-        };
-        let second = tag.centres() - 1;
-        let [xs, ys, zs] = &mut corners.at;
-        for (slot, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
-            let vertex = match slot {
-                0 => patch.stored_centre(0),
-                1 => patch.stored_centre(second),
-                _ if slot <= RING + triangles => patch.stored_ring(slot - RING),
-                _ => patch.stored_centre(0),
-            };
-            [*x, *y, *z] = vertex;
+        let mut at = [[0.0; SLOTS]; 3];
+        let used = (RING + triangles + 1).min(SLOTS);
+        for (at, stored) in at.iter_mut().zip(patch.stored_vertices()) {
+            // What is not in use may not count as far away.
+            *at = [stored[0]; SLOTS];
+            at.iter_mut().zip(stored).take(used).for_each(|(x, stored)| *x = stored);
         }
-        corners
+        Corners { at, used, triangles, turn: tag.turn() }
     }
 
     #[inline(always)]
@@ -79,13 +70,16 @@ struct Facets {
 }
 
 impl Facets {
-    /// `far` is the largest 1-norm of a vertex of either leaf, `shift` what a difference of two may be off by.
+    /// Of the triangles `wanted`; others may mean nothing. `far` is the largest 1-norm of a vertex of either leaf, `shift` what a difference of two may be off by.
     #[inline(always)]
-    fn of(corners: &Corners, far: f32, shift: f32) -> Option<Facets> {
+    fn of(corners: &Corners, wanted: u32, far: f32, shift: f32) -> Option<Facets> {
         let first = LANES_BELOW.get(corners.turn)?;
         let [x, y, z] = &corners.at;
         let mut facets = Facets { normal: [[0.0; WIDTH]; 3], height: [0.0; WIDTH], margin: [0.0; WIDTH] };
         for i in 0..WIDTH {
+            if !WIDE && wanted >> i & 1 == 0 {
+                continue;
+            }
             let [cx, cy, cz] = [blend(first[i], x), blend(first[i], y), blend(first[i], z)];
             let (ex, ey, ez) = (x[RING + i] - cx, y[RING + i] - cy, z[RING + i] - cz);
             let (gx, gy, gz) = (x[RING + 1 + i] - cx, y[RING + 1 + i] - cy, z[RING + 1 + i] - cz);
@@ -100,42 +94,145 @@ impl Facets {
         Some(facets)
     }
 
-    /// For each triangle of the other leaf the planes that have it on one side.
+    /// On which sides of these planes, those `wanted`, the other leaf's vertices certainly lie; nothing of other planes.
     #[inline(always)]
-    fn part(&self, other: &Corners) -> [u32; WIDTH] {
+    fn sides(&self, wanted: u32, other: &Corners) -> Sides {
         let [nx, ny, nz] = &self.normal;
         let [x, y, z] = &other.at;
-        let (mut above, mut below) = ([[0u32; WIDTH]; SLOTS], [[0u32; WIDTH]; SLOTS]);
-        for (k, (above, below)) in above.iter_mut().zip(&mut below).enumerate().take(other.used) {
-            if k >= SLOTS {
-                break;
+        let mut sides = Sides { above: [0; SLOTS], below: [0; SLOTS] };
+        let vertices = x.iter().zip(y).zip(z).zip(sides.above.iter_mut().zip(&mut sides.below));
+        for (((&x, &y), &z), (above, below)) in vertices.take(other.used) {
+            let height = |i: usize| nx[i] * x + ny[i] * y + nz[i] * z - self.height[i];
+            if WIDE {
+                let mut heights = [0f32; WIDTH];
+                for (i, out) in heights.iter_mut().enumerate() {
+                    *out = height(i);
+                }
+                for (i, (height, margin)) in heights.iter().zip(&self.margin).enumerate() {
+                    *above |= if height > margin { 1 << i } else { 0 };
+                    *below |= if *height < -margin { 1 << i } else { 0 };
+                }
+                *above &= wanted;
+                *below &= wanted;
+                continue;
             }
-            let (x, y, z) = (x[k], y[k], z[k]);
             for i in 0..WIDTH {
-                let height = nx[i] * x + ny[i] * y + nz[i] * z - self.height[i];
-                above[i] = if height > self.margin[i] { u32::MAX } else { 0 };
-                below[i] = if height < -self.margin[i] { u32::MAX } else { 0 };
+                if wanted >> i & 1 != 0 {
+                    let (height, margin) = (height(i), self.margin[i]);
+                    *above |= u32::from(height > margin) << i;
+                    *below |= u32::from(height < -margin) << i;
+                }
             }
         }
-        let mut parted = [0u32; WIDTH];
-        for (j, parted) in parted.iter_mut().enumerate().take(other.triangles) {
-            let centre = usize::from(j >= other.turn);
-            let (Some(a), Some(b), Some(c)) =
-                (above.get(centre), above.get(RING + j), above.get(RING + 1 + j))
-            else {
-                continue;
-            };
-            let (Some(d), Some(e), Some(f)) =
-                (below.get(centre), below.get(RING + j), below.get(RING + 1 + j))
-            else {
-                continue;
-            };
-            for i in 0..WIDTH {
-                *parted |= (a[i] & b[i] & c[i] | d[i] & e[i] & f[i]) & (1 << i);
-            }
-        }
-        parted
+        sides
     }
+}
+
+/// For each vertex of a leaf the planes of the other one's triangles that it is above of, and those that it is below.
+struct Sides {
+    above: [u32; SLOTS],
+    below: [u32; SLOTS],
+}
+
+impl Sides {
+    /// The planes that have all vertices of a triangle on one side.
+    #[inline(always)]
+    fn parting(&self, slots: [usize; 3]) -> u32 {
+        let all = |bits: &[u32; SLOTS]| {
+            slots.iter().fold(u32::MAX, |all, &slot| all & bits.get(slot).copied().unwrap_or(0))
+        };
+        all(&self.above) | all(&self.below)
+    }
+
+    /// The sides of a triangle's vertices, 0 where it is not certain.
+    #[inline(always)]
+    fn of(&self, slots: [usize; 3], plane: usize) -> [i8; 3] {
+        let at = |bits: &[u32; SLOTS], slot: usize| {
+            (bits.get(slot).copied().unwrap_or(0) >> (plane & 7) & 1) as i8
+        };
+        slots.map(|slot| at(&self.above, slot) - at(&self.below, slot))
+    }
+}
+
+/// Boxes of a leaf's triangles.
+struct Boxes {
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+}
+
+/// One box.
+struct Extent {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Boxes {
+    #[inline(always)]
+    fn of(corners: &Corners) -> Option<Boxes> {
+        let first = LANES_BELOW.get(corners.turn)?;
+        let mut boxes = Boxes { low: [[0.0; WIDTH]; 3], high: [[0.0; WIDTH]; 3] };
+        for ((x, low), high) in corners.at.iter().zip(&mut boxes.low).zip(&mut boxes.high) {
+            for i in 0..WIDTH {
+                let (c, e, g) = (blend(first[i], x), x[RING + i], x[RING + 1 + i]);
+                low[i] = less(c, less(e, g));
+                high[i] = greater(c, greater(e, g));
+            }
+        }
+        Some(boxes)
+    }
+
+    #[inline(always)]
+    fn one(&self, i: usize) -> Extent {
+        let at = |axes: &[[f32; WIDTH]; 3]| axes.map(|axis| axis.get(i).copied().unwrap_or(0.0));
+        Extent { low: at(&self.low), high: at(&self.high) }
+    }
+
+    /// The box of the first `count`.
+    #[inline(always)]
+    fn all(&self, count: usize) -> Extent {
+        let low = self.low.map(|axis| axis.into_iter().take(count).fold(f32::MAX, less));
+        let high = self.high.map(|axis| axis.into_iter().take(count).fold(f32::MIN, greater));
+        Extent { low, high }
+    }
+}
+
+impl Extent {
+    /// Which of the first `count` boxes, of those `wanted`, are not farther than `doubt` along any axis.
+    #[inline(always)]
+    fn near(&self, boxes: &Boxes, count: usize, wanted: u32, doubt: f32) -> u32 {
+        let mut bits = wanted & u32::MAX >> (32 - count.clamp(1, WIDTH));
+        let axes = self.low.iter().zip(&self.high).zip(boxes.low.iter().zip(&boxes.high));
+        if WIDE {
+            let mut gaps = [f32::MIN; WIDTH];
+            for ((from, to), (low, high)) in axes {
+                for (gap, (low, high)) in gaps.iter_mut().zip(low.iter().zip(high)) {
+                    *gap = greater(*gap, greater(low - to, from - high));
+                }
+            }
+            for (j, &gap) in gaps.iter().enumerate() {
+                bits &= if gap <= doubt { u32::MAX } else { !(1 << j) };
+            }
+            return bits;
+        }
+        for ((from, to), (low, high)) in axes {
+            for (j, (low, high)) in low.iter().zip(high).enumerate() {
+                if bits >> j & 1 != 0 && greater(low - to, from - high) > doubt {
+                    bits &= !(1 << j);
+                }
+            }
+        }
+        bits
+    }
+}
+
+#[inline(always)]
+fn less(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}
+
+#[inline(always)]
+fn greater(a: f32, b: f32) -> f32 {
+    if b > a { b } else { a }
 }
 
 /// The first or the second centre.
@@ -150,6 +247,8 @@ pub(super) struct LeafPair<'a> {
     patches: [Patch<'a>; 2],
     a: Corners,
     b: Corners,
+    /// Where the first leaf's vertices lie to the second's planes, and the other way.
+    sides: [Sides; 2],
 }
 
 impl<'a> LeafPair<'a> {
@@ -172,29 +271,59 @@ impl<'a> LeafPair<'a> {
                 axis[i] = ((a * x[i] + b * y[i]) + (c * z[i] + shift)) - base;
             }
         }
-        LeafPair { place, patches: [*a, *b], a: first, b: second }
+        let none = || Sides { above: [0; SLOTS], below: [0; SLOTS] };
+        LeafPair { place, patches: [*a, *b], a: first, b: second, sides: [none(), none()] }
     }
 
-    /// Pairs that no plane of a triangle parts: for each triangle of the first leaf the other's.
+    /// Pairs that neither a coordinate nor the plane of a triangle parts: for each triangle of the first leaf the other's.
     #[inline(always)]
-    pub(super) fn candidates(&self) -> Option<[u32; WIDTH]> {
+    pub(super) fn candidates(&mut self) -> Option<[u32; WIDTH]> {
+        let near = self.side_by_side()?;
+        if near.iter().all(|&bits| bits == 0) {
+            return Some([0; WIDTH]);
+        }
         let (far_a, far_b) = (self.a.reach(), self.b.reach());
         let far = if far_a > far_b { far_a } else { far_b };
         let shift = self.place.doubt + self.place.doubt;
-        let by_first = Facets::of(&self.a, far, shift)?.part(&self.b);
-        let by_second = Facets::of(&self.b, far, shift)?.part(&self.a);
-        let all = u32::MAX >> (32 - self.b.triangles.min(WIDTH));
-        let mut candidates = [0u32; WIDTH];
-        for (i, (candidates, parted)) in
-            candidates.iter_mut().zip(by_second).enumerate().take(self.a.triangles)
-        {
-            let mut bits = all & !parted;
-            for (j, parted) in by_first.iter().enumerate() {
-                bits &= !((parted >> i & 1) << j);
-            }
-            *candidates = bits;
+        let (mut rows, mut lanes) = (0u32, 0u32);
+        for (i, &bits) in near.iter().enumerate() {
+            rows |= u32::from(bits != 0) << i;
+            lanes |= bits;
         }
+        let to_first = Facets::of(&self.a, rows, far, shift)?.sides(rows, &self.b);
+        let to_second = Facets::of(&self.b, lanes, far, shift)?.sides(lanes, &self.a);
+        let mut candidates = near;
+        for (i, bits) in candidates.iter_mut().enumerate().take(self.a.triangles) {
+            *bits &= !to_second.parting(self.a.slots(i));
+        }
+        for j in 0..self.b.triangles {
+            let parting = to_first.parting(self.b.slots(j));
+            for (i, bits) in candidates.iter_mut().enumerate() {
+                *bits &= !((parting >> i & 1) << j);
+            }
+        }
+        self.sides = [to_second, to_first];
         Some(candidates)
+    }
+
+    /// Pairs whose boxes along the axes meet.
+    #[inline(always)]
+    fn side_by_side(&self) -> Option<[u32; WIDTH]> {
+        // As each vertex may be off; differences are compared, not sums, so that no rounding comes in but their own, which is less than the excess of `doubt`.
+        let doubt = self.place.doubt + self.place.doubt;
+        let (first, second) = (Boxes::of(&self.a)?, Boxes::of(&self.b)?);
+        let rows = second.all(self.b.triangles).near(&first, self.a.triangles, u32::MAX, doubt);
+        let lanes = first.all(self.a.triangles).near(&second, self.b.triangles, u32::MAX, doubt);
+        let mut near = [0u32; WIDTH];
+        if rows == 0 || lanes == 0 {
+            return Some(near);
+        }
+        for (i, near) in near.iter_mut().enumerate() {
+            if rows >> i & 1 != 0 {
+                *near = first.one(i).near(&second, self.b.triangles, lanes, doubt);
+            }
+        }
+        Some(near)
     }
 
     /// What is known of triangle `i` of the first leaf and `j` of the second.
@@ -203,7 +332,14 @@ impl<'a> LeafPair<'a> {
         work.triangles = work.triangles.saturating_add(1);
         let a = self.a.slots(i).map(|slot| self.a.corner(slot));
         let b = self.b.slots(j).map(|slot| self.b.corner(slot));
-        let contact = triangles_meet(a, b, self.place.doubt);
+        let [to_second, to_first] = &self.sides;
+        let (a_sides, b_sides) = (to_second.of(self.a.slots(i), j), to_first.of(self.b.slots(j), i));
+        let doubt = self.place.doubt;
+        let contact = if a_sides.iter().chain(&b_sides).all(|&side| side != 0) {
+            straddling_triangles_meet(a, b, [a_sides, b_sides], doubt + doubt)
+        } else {
+            triangles_meet(a, b, doubt)
+        };
         if contact != Contact::Open {
             return contact;
         }
@@ -219,11 +355,8 @@ impl<'a> LeafPair<'a> {
         let [first, second] = &self.patches;
         let unit = f64::from(self.place.sides[0].unit);
         let wide = |patch: &Patch<'_>, slots: [usize; 3]| {
-            slots.map(|slot| {
-                let vertex =
-                    if slot < RING { patch.stored_centre(slot) } else { patch.stored_ring(slot - RING) };
-                vertex.map(f64::from)
-            })
+            let stored = patch.stored_vertices();
+            slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))
         };
         let a = wide(first, self.a.slots(i));
         let [[cx, cy, cz], ..] = a;

@@ -83,45 +83,82 @@ fn along(
     }
 }
 
-/// Pairs of children whose intervals meet along every direction: a byte for each of the first node's, of which `rows` are wanted, with a bit for each of the
-/// second's, of which `lanes` are.
+/// Pairs of children whose intervals meet along every direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pairs {
+    /// A byte for each of the first node's, a bit in it for each of the second's.
+    pub(super) bits: [u32; 2],
+    /// The pair that overlaps most along the direction of its least overlap: where a search for contact should begin.
+    pub(super) deepest: [u32; 2],
+}
+
+/// All pairs of the first node's `rows` and the second's `lanes`, as bits.
 #[inline(always)]
-pub(super) fn pairs(a: &Spans, b: &Spans, rows: u32, lanes: u32) -> [u32; 2] {
-    let mut pairs = [0u32; 2];
+pub(super) fn pairs(a: &Spans, b: &Spans, rows: u32, lanes: u32) -> Pairs {
+    let mut pairs = Pairs { bits: [0; 2], deepest: [0; 2] };
+    let mut depth = -1.0;
     let mut left = rows;
     while left != 0 {
-        let i = left.trailing_zeros() as usize & (WIDTH - 1);
+        let i = left.trailing_zeros();
         left &= left - 1;
-        let met = row(a, b, i, lanes) & lanes;
-        pairs[i >> 2] |= met << (8 * (i as u32 & 3));
+        let depths = if WIDE { wide(a, b, i as usize) } else { narrow(a, b, i as usize, lanes) };
+        let (mut met, mut bit) = (0u32, 1u32);
+        for (j, &deep) in (0u32..).zip(&depths) {
+            if deep >= 0.0 && lanes & bit != 0 {
+                met |= bit;
+                if deep > depth {
+                    depth = deep;
+                    pairs.deepest = [i, j];
+                }
+            }
+            bit <<= 1;
+        }
+        let [low, high] = &mut pairs.bits;
+        *(if i < 4 { low } else { high }) |= met << (8 * (i & 3));
     }
     pairs
 }
 
+/// By how much child `i` of the first overlaps each child of the second, along the direction where that is least; negative if it is apart.
 #[inline(always)]
-fn row(a: &Spans, b: &Spans, i: usize, lanes: u32) -> u32 {
-    if WIDE {
-        let mut bits = [0u32; WIDTH];
-        for (j, bit) in bits.iter_mut().enumerate() {
-            let mut met = true;
-            for d in 0..DIRECTIONS {
-                met &= (a.low[d][i] <= b.high[d][j]) & (b.low[d][j] <= a.high[d][i]);
-            }
-            *bit = if met { 1 << j } else { 0 };
-        }
-        return in_memory(bits).iter().fold(0, |all, bit| all | bit);
-    }
-    let mut bits = lanes;
+pub(super) fn wide(a: &Spans, b: &Spans, i: usize) -> [f32; WIDTH] {
+    let i = i & (WIDTH - 1);
+    let mut depths = [f32::MAX; WIDTH];
     for d in 0..DIRECTIONS {
-        let (Some(&from), Some(&to)) = (a.low[d].get(i), a.high[d].get(i)) else { return 0 };
-        for (j, (&low, &high)) in b.low[d].iter().zip(&b.high[d]).enumerate() {
-            if bits >> j & 1 != 0 && !((from <= high) & (low <= to)) {
-                bits &= !(1 << j);
-            }
-        }
-        if bits == 0 {
-            break;
+        let (from, to) = (a.low[d][i], a.high[d][i]);
+        for (depth, (low, high)) in depths.iter_mut().zip(b.low[d].iter().zip(&b.high[d])) {
+            *depth = less(*depth, less(high - from, to - low));
         }
     }
-    bits
+    in_memory(depths)
+}
+
+/// The same, the wanted alone, and no further than they are apart.
+#[inline(always)]
+pub(super) fn narrow(a: &Spans, b: &Spans, i: usize, lanes: u32) -> [f32; WIDTH] {
+    let mut depths = [-1f32; WIDTH];
+    for (j, depth) in depths.iter_mut().enumerate() {
+        if lanes >> j & 1 != 0 {
+            let mut least = f32::MAX;
+            let directions = a.low.iter().zip(&a.high).zip(b.low.iter().zip(&b.high));
+            for ((from, to), (low, high)) in directions {
+                let (Some(from), Some(to), Some(low), Some(high)) =
+                    (from.get(i), to.get(i), low.get(j), high.get(j))
+                else {
+                    break;
+                };
+                least = less(least, less(high - from, to - low));
+                if least < 0.0 {
+                    break;
+                }
+            }
+            *depth = least;
+        }
+    }
+    depths
+}
+
+#[inline(always)]
+fn less(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
 }

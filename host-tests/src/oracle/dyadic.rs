@@ -4,11 +4,11 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
 
 use num_bigint::BigInt;
-use num_traits::{Signed, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 
 /// An exact number.
 #[derive(Clone, Debug)]
-pub(super) struct Dyadic {
+pub(crate) struct Dyadic {
     mantissa: BigInt,
     exponent: i32,
 }
@@ -29,8 +29,19 @@ impl From<f64> for Dyadic {
 }
 
 impl Dyadic {
+    /// The nearest f64, or one of its neighbours.
+    pub(crate) fn rounded(&self) -> f64 {
+        let bits = self.mantissa.bits() as i32;
+        // A mantissa of more than 64 bits loses its last ones first: converting it whole could overflow.
+        let cut = (bits - 64).max(0);
+        let kept = (&self.mantissa >> cut.unsigned_abs()).to_f64().unwrap_or(0.0);
+        let exponent = self.exponent + cut;
+        let half = exponent / 2;
+        kept * 2f64.powi(half) * 2f64.powi(exponent - half)
+    }
+
     /// Whether it is at least 0.
-    pub(super) fn is_non_negative(&self) -> bool {
+    pub(crate) fn is_non_negative(&self) -> bool {
         !self.mantissa.is_negative()
     }
 
@@ -87,7 +98,7 @@ impl PartialOrd for Dyadic {
 }
 
 /// Whether a symmetric matrix has no negative eigenvalue: all its principal minors are at least 0.
-pub(super) fn is_semidefinite(m: &[[Dyadic; 3]; 3]) -> bool {
+pub(crate) fn is_semidefinite(m: &[[Dyadic; 3]; 3]) -> bool {
     let pair = |i: usize, j: usize| &(&m[i][i] * &m[j][j]) - &(&m[i][j] * &m[j][i]);
     let minor = |i: usize, j: usize| &(&m[1][i] * &m[2][j]) - &(&m[1][j] * &m[2][i]);
     let all = &(&(&m[0][0] * &minor(1, 2)) - &(&m[0][1] * &minor(0, 2))) + &(&m[0][2] * &minor(0, 1));

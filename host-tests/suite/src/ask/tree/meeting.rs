@@ -1,0 +1,65 @@
+//! The model and its moved copy.
+
+use meshsweep_core::query::tree::{Contact, all_overlaps as core_all_overlaps, overlap as core_overlap};
+use meshsweep_core::tribox::Pose;
+
+use super::{Scratch, Tree};
+use crate::Clock;
+use crate::ask::{self, timed};
+use crate::fold::Fold;
+use crate::place::Motion;
+
+/// A motion as the core takes it.
+#[must_use]
+pub fn pose(Motion { rotation, translation }: Motion) -> Pose {
+    Pose { rotation, translation }
+}
+
+/// Whether the surface meets its moved copy.
+#[inline(never)]
+pub fn overlap(
+    tree: &Tree<'_>,
+    pose: &Pose,
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    match timed(clock, || core_overlap(tree, tree, pose, u32::MAX, &mut scratch.pairs)) {
+        Ok(answer) => {
+            fold.word(match answer.contact {
+                Contact::Apart => 1,
+                Contact::Meets => 2,
+                Contact::Open => 3,
+            });
+            answer.triangles.unwrap_or([u32::MAX; 2]).into_iter().for_each(|number| fold.word(number));
+            ask::how(fold, answer.work, answer.ended);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}
+
+/// Pairs of nodes that a search for all pairs may open: what it needs differs by orders of magnitude.
+const STEPS: u32 = 12;
+
+/// All pairs of triangles that meet, as far as a few steps go.
+#[inline(never)]
+pub fn all_overlaps(
+    tree: &Tree<'_>,
+    pose: &Pose,
+    scratch: &mut Scratch<'_>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { pairs, meeting, .. } = scratch;
+    match timed(clock, || core_all_overlaps(tree, tree, pose, STEPS, meeting, pairs)) {
+        Ok(answer) => {
+            for pair in meeting.iter().take(answer.stored) {
+                pair.triangles.into_iter().for_each(|number| fold.word(number));
+                fold.word(u32::from(pair.is_certain));
+            }
+            fold.word(answer.dropped);
+            ask::how(fold, answer.work, answer.ended);
+        }
+        Err(error) => ask::refusal(fold, error),
+    }
+}

@@ -1,0 +1,73 @@
+//! Scales, places far from the origin, and matrices that are no rotations.
+
+use super::scene::{IDENTITY, Scene, Tally, holds, motions, placed, rotation};
+use meshsweep_host_tests::generate::{Rng, rough_sphere, scaled, torus, transformed};
+
+/// Powers of two near 1e30 and 1e-30: scaling by them is exact.
+const SCALES: [f32; 2] = [(1u128 << 99) as f32, 1.0 / (1u128 << 99) as f32];
+
+#[test]
+fn scaling_both_meshes_and_the_motion_by_a_power_of_two_changes_no_answer() {
+    let (a, b) = (torus(2.0, 0.75, 16, 8), rough_sphere(2, 0.5, 1));
+    let (first, second) = (Scene::new(a.clone()), Scene::new(b.clone()));
+    let poses = motions(&first, &second, 25, 1);
+    for scale in SCALES {
+        let (large, other) = (Scene::new(scaled(&a, scale)), Scene::new(scaled(&b, scale)));
+        for pose in &poses {
+            let translation = pose.translation.map(|x| x * scale);
+            let moved = meshsweep_core::tribox::Pose { translation, ..*pose };
+            for (plain, scaled) in first.trees().iter().zip(large.trees()) {
+                for (with, and) in second.trees().iter().zip(other.trees()) {
+                    let answer = super::scene::ask(plain, with, pose);
+                    assert_eq!(answer, super::scene::ask(&scaled, &and, &moved), "{scale}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn answers_at_extreme_scales_are_exact() {
+    for scale in [1e30, 1e-30] {
+        let a = Scene::new(scaled(&torus(2.0, 0.75, 12, 8), scale));
+        let b = Scene::new(scaled(&rough_sphere(1, 0.5, 1), scale));
+        let mut tallies: [Tally; 4] = Default::default();
+        for pose in motions(&a, &b, 20, 2) {
+            holds("scaled", &a, &b, &pose, &mut tallies);
+        }
+        assert!(tallies[3].open == 0 && tallies[3].meets > 0 && tallies[3].apart > 0, "{tallies:?}");
+    }
+}
+
+#[test]
+fn a_mesh_far_from_its_own_origin_is_met_all_the_same() {
+    let far = [1e6, -1.5e6, 2e6];
+    let a = Scene::new(transformed(&scaled(&torus(2.0, 0.75, 16, 8), 64.0), IDENTITY, far));
+    let b = Scene::new(scaled(&rough_sphere(2, 0.5, 1), 64.0));
+    let mut tallies: [Tally; 4] = Default::default();
+    let mut rng = Rng::new(4);
+    for _ in 0..20 {
+        let offset = rng.point_in([-250.0; 3], [250.0; 3]);
+        let place = std::array::from_fn(|k| far[k] + offset[k]);
+        holds("first is far", &a, &b, &placed(&b, rotation(&mut rng), place), &mut tallies);
+        holds("second is far", &b, &a, &placed(&a, rotation(&mut rng), offset), &mut tallies);
+    }
+    assert!(tallies[3].meets > 0 && tallies[3].apart > 0, "{tallies:?}");
+}
+
+#[test]
+fn matrices_need_not_be_rotations() {
+    let (a, b) = (Scene::new(torus(2.0, 0.75, 16, 8)), Scene::new(rough_sphere(2, 0.5, 1)));
+    let mirrored = [[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]];
+    let sheared = [[1.5, 0.7, 0.0], [-0.4, 0.6, 1.1], [0.2, 2.0, -1.0]];
+    let flat = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.2, 0.0]];
+    let mut rng = Rng::new(5);
+    let mut tallies: [Tally; 4] = Default::default();
+    for matrix in [mirrored, sheared, flat] {
+        for _ in 0..8 {
+            let place = rng.point_in([-4.0, -4.0, -2.0], [4.0, 4.0, 2.0]);
+            holds("matrix", &a, &b, &placed(&b, matrix, place), &mut tallies);
+        }
+    }
+    assert!(tallies[3].meets > 0 && tallies[3].apart > 0, "{tallies:?}");
+}

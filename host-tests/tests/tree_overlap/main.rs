@@ -1,0 +1,7 @@
+//! Overlap of two box trees against exact predicates on the input meshes.
+
+mod extremes;
+mod limits;
+mod scene;
+mod touching;
+mod truth;
