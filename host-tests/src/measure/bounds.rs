@@ -3,26 +3,33 @@
 //! ```text
 //! convex_hull ──────┬─ dop (slabs; `clip` makes them solids) ─┐
 //!                   ├─ enclosing_sphere ──────────────────────┼─ sizes (volume, area)
-//!                   └─ oriented_box ──────────────────────────┴─ false_positives
-//! pose (a moved copy) ─ contact (whether it meets the mesh) ──────┘
+//!                   └─ oriented_box ──────────────────────────┴─ contenders (each with its rig: the same in f32)
+//!                                                                    │
+//! pose (a moved copy) ─ contact (whether it meets the mesh) ─────────┴─ false_positives ─ cost
 //! ```
-//! The tribox (Crosnier & Rossignac 1999) is the 18-DOP of the axes and the edges' diagonals. All is in f64, of the f32 mesh.
+//! The tribox (Crosnier & Rossignac 1999) is the 18-DOP of the axes and the edges' diagonals. All but what is timed is in f64, of the
+//! f32 mesh.
 
 pub mod clip;
 pub mod contact;
+mod contenders;
 pub mod convex_hull;
+pub mod cost;
 pub mod dop;
 pub mod enclosing_sphere;
 mod false_positives;
 pub mod oriented_box;
 pub mod pose;
+mod rig;
 
 use glam::DVec3;
 
 use clip::Solid;
 use convex_hull::ConvexHull;
+use cost::Cost;
 use dop::{Dop, Slabs};
 use enclosing_sphere::Sphere;
+use false_positives::{Cases, Tally};
 use oriented_box::OrientedBox;
 
 use super::Subject;
@@ -58,13 +65,18 @@ impl Bounds {
     }
 }
 
-/// The tables.
+/// The tables; `counts` are the instructions that [`cost::counted`] had counted.
 ///
 /// # Errors
-/// The mesh is flat, or parry3d refuses it.
-pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
+/// The mesh is flat, or parry3d refuses it, or f32 cannot hold its squares.
+pub fn tables(subject: &Subject, counts: Option<&[Cost]>) -> Result<Vec<Table>, String> {
     let bounds = Bounds::new(subject)?;
-    Ok(vec![sizes(&bounds), false_positives::table(subject, &bounds)?])
+    let mut contenders = contenders::contenders(&bounds)?;
+    let cases = Cases::new(subject, &bounds)?;
+    let tallies: Vec<Tally> = contenders.iter().map(|contender| Tally::of(&cases, contender)).collect();
+    let mut tables = vec![sizes(&bounds), false_positives::table(&cases, &contenders, &tallies)];
+    tables.extend(cost::tables(&cases, &mut contenders, &tallies, counts));
+    Ok(tables)
 }
 
 fn sizes(bounds: &Bounds) -> Table {

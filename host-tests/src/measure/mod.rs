@@ -31,6 +31,7 @@ pub mod workload;
 
 use std::path::Path;
 
+use bounds::cost::Cost;
 use meshsweep_alloc::collapse::Priority;
 use table::Table;
 
@@ -50,14 +51,14 @@ pub fn measure_tree(file: &Path) -> Result<Vec<Table>, String> {
     Ok(tables)
 }
 
-/// Measures convex bounds of one mesh file, which need not be closed.
+/// Measures convex bounds of one mesh file, which need not be closed; `counts` as [`bounds::tables`] takes them.
 ///
 /// # Errors
 /// The file is no mesh, or a flat one.
-pub fn measure_bounds(file: &Path) -> Result<Vec<Table>, String> {
+pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
-    tables.extend(bounds::tables(&subject)?);
+    tables.extend(bounds::tables(&subject, counts)?);
     Ok(tables)
 }
 

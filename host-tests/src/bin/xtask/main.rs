@@ -8,7 +8,7 @@
 //!           ├ proof   (no panic left)
 //!           └ elf     (sizes) ─ table
 //! fixtures ── generators and builder
-//! measuring ─ host_tests::measure, firmware
+//! measuring ─ host_tests::measure, firmware, valgrind
 //! count ───── valgrind (callgrind) on this program itself
 //! racing ──── host_tests::race, valgrind
 //! rival ───── images of other engines, in the emulator
@@ -46,9 +46,10 @@ cargo xtask setup                   makes sure of the cross targets, of QEMU and
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
-cargo xtask measure [--firmware] [--tree | --bounds | --overlap] [--json FILE] [MESH...]
+cargo xtask measure [--firmware] [--tree | --bounds [--count]] [--json FILE] [MESH...]
                                     work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/);
-                                    --tree: only the box tree's; --bounds: how tight boxes, triboxes, hulls... are; --overlap: the mesh against itself
+                                    --tree: only the box tree's; --bounds: how tight boxes, triboxes, hulls... are and
+                                    what they cost, with --count in instructions too
 cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask race [--count] [--quick] [--hull] [--json FILE] [MESH...]
                                     this library, parry3d, obvhs and a plain loop on the same queries: times or, with
@@ -108,6 +109,10 @@ fn main() -> ExitCode {
         ["ask", question, queries] => {
             let Ok(queries) = queries.parse() else { return usage() };
             steps.run(question, || count::ask(question, queries));
+        }
+        // What `measure --bounds --count` runs in the simulator.
+        ["ask-bounds", mesh] => {
+            steps.run(mesh, || measuring::ask(mesh));
         }
         // What `race --count` runs in the simulator.
         ["ask-engine", engine, mesh, hull_triangles] => {

@@ -3,11 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use meshsweep_host_tests::measure::{measure, measure_bounds, measure_overlap, measure_tree};
+use meshsweep_host_tests::measure::bounds::cost::{Cost, counted};
+use meshsweep_host_tests::measure::{measure, measure_bounds, measure_tree};
 use serde_json::{Value, json};
 
 use crate::firmware;
 use crate::steps::Steps;
+use crate::valgrind::Valgrind;
 use crate::workspace;
 
 /// What to measure.
@@ -16,55 +18,53 @@ pub struct Options {
     meshes: Vec<PathBuf>,
     json: Option<PathBuf>,
     firmware: bool,
-    part: Option<Part>,
-}
-
-/// What of a mesh, if not hull hierarchy and box tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
-    Tree,
-    Bounds,
-    Overlap,
+    tree: bool,
+    bounds: bool,
+    count: bool,
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --bounds | --overlap] [--json FILE] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --bounds [--count]] [--json FILE] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match word {
                 "--firmware" => options.firmware = true,
-                "--tree" if options.part.is_none() => options.part = Some(Part::Tree),
-                "--bounds" if options.part.is_none() => options.part = Some(Part::Bounds),
-                "--overlap" if options.part.is_none() => options.part = Some(Part::Overlap),
+                "--tree" => options.tree = true,
+                "--bounds" => options.bounds = true,
+                "--count" => options.count = true,
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
                 flag if flag.starts_with("--") => return None,
                 mesh => options.meshes.push(PathBuf::from(mesh)),
             }
         }
-        Some(options)
+        let is_one = !(options.tree && options.bounds) && (options.bounds || !options.count);
+        is_one.then_some(options)
     }
 }
 
 /// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds, with `--overlap` the mesh against itself; and the firmware if asked to.
+/// bounds; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
-    let mut measured = Vec::new();
+    let valgrind = if options.count { Valgrind::find() } else { None };
+    let mut written = Vec::new();
     for mesh in meshes {
+        let counts = valgrind.as_ref().and_then(|valgrind| {
+            steps.run(&format!("count bounds of {}", mesh.display()), || count(valgrind, mesh))
+        });
         steps.run(&format!("measure {}", mesh.display()), || {
-            let tables = match options.part {
-                Some(Part::Tree) => measure_tree(mesh)?,
-                Some(Part::Bounds) => measure_bounds(mesh)?,
-                Some(Part::Overlap) => measure_overlap(mesh)?,
-                None => measure(mesh)?,
+            let tables = match options {
+                Options { tree: true, .. } => measure_tree(mesh)?,
+                Options { bounds: true, .. } => measure_bounds(mesh, counts.as_deref())?,
+                _ => measure(mesh)?,
             };
             for table in &tables {
                 print!("{}", table.text());
             }
-            measured.push(json!({
+            written.push(json!({
                 "mesh": mesh.file_name().map(|name| name.to_string_lossy()),
                 "tables": tables.iter().map(|table| table.json()).collect::<Vec<Value>>(),
             }));
@@ -72,7 +72,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
         });
     }
     if let Some(file) = &options.json {
-        steps.run("write the tables", || write(file, &measured));
+        steps.run("write the tables", || write(file, &written));
     }
     if options.firmware
         && let Some(tools) = firmware::setup(steps)
@@ -81,9 +81,36 @@ pub fn run(steps: &mut Steps, options: &Options) {
     }
 }
 
+/// Instructions of each bound at one pose. The simulator writes a profile after each move and after each test.
+fn count(valgrind: &Valgrind, mesh: &Path) -> Result<Vec<Cost>, String> {
+    let functions = [counted::COUNTED, counted::WRITTEN];
+    let (printed, totals) =
+        valgrind.stages("bounds-count", functions, &["ask-bounds".as_ref(), mesh.as_os_str()])?;
+    let asked = printed.lines().find_map(|line| line.strip_prefix("asked "));
+    let read = || {
+        let (bounds, poses) = asked?.split_once(' ')?;
+        let (bounds, poses): (usize, f64) = (bounds.parse().ok()?, poses.parse().ok()?);
+        let stages = totals.get(..2 * bounds)?.chunks_exact(2);
+        let each = |total: f64| total / poses;
+        Some(stages.map(|pair| Cost { update: each(pair[0]), test: each(pair[1]) }).collect())
+    };
+    read().ok_or_else(|| format!("callgrind counted nothing\n{printed}"))
+}
+
+/// The run that is counted.
+pub fn ask(mesh: &str) -> Result<(), String> {
+    let [bounds, poses] = counted::ask(Path::new(mesh))?;
+    println!("asked {bounds} {poses}");
+    Ok(())
+}
+
 fn write(file: &Path, measured: &[Value]) -> Result<(), String> {
-    let text = serde_json::to_string_pretty(measured).map_err(|error| error.to_string())?;
-    fs::write(file, text + "\n").map_err(|error| format!("cannot write {}: {error}", file.display()))
+    text(file, &serde_json::to_string_pretty(measured).map_err(|error| error.to_string())?)
+}
+
+fn text(file: &Path, text: &str) -> Result<(), String> {
+    fs::write(file, text.to_owned() + "\n")
+        .map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 #[cfg(test)]
@@ -100,6 +127,13 @@ mod tests {
         assert_eq!(Options::parse(&["--json"]), None);
         assert_eq!(Options::parse(&["--fast"]), None);
         assert_eq!(Options::parse(&["--tree", "--bounds"]), None);
-        assert_eq!(Options::parse(&["--overlap", "--overlap"]), None);
+    }
+
+    #[test]
+    fn only_bounds_are_counted() {
+        let options = Options::parse(&["--count", "--bounds"]).expect("fine");
+        assert!(options.count && options.bounds);
+        assert_eq!(Options::parse(&["--count"]), None);
+        assert_eq!(Options::parse(&["--tree", "--count"]), None);
     }
 }

@@ -1,6 +1,5 @@
 //! `cargo xtask race`: engines against each other, in nanoseconds or in instructions.
 
-use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -9,7 +8,6 @@ use meshsweep_host_tests::race::engine::ENTRANTS;
 use meshsweep_host_tests::race::{Scale, Scope, Workload, counted, race, summary};
 use serde_json::{Value, json};
 
-use crate::process;
 use crate::steps::Steps;
 use crate::valgrind::Valgrind;
 use crate::workspace;
@@ -110,30 +108,17 @@ fn instructions(
     mesh: &Path,
     hull_triangles: usize,
 ) -> Result<Vec<(String, f64)>, String> {
-    let own = env::current_exe().map_err(|error| error.to_string())?;
-    let folder = workspace::target().join("race-count");
-    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
-    if folder.exists() {
-        fs::remove_dir_all(&folder).map_err(failed)?;
-    }
-    fs::create_dir_all(&folder).map_err(failed)?;
-    let profile = folder.join("profile");
-    let mut command = valgrind.command();
-    command.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
-    command.arg(format!("--toggle-collect={}", counted::COUNTED));
-    command.arg(format!("--dump-after={}", counted::WRITTEN));
-    command.arg(own).arg("ask-engine").arg(engine).arg(mesh).arg(hull_triangles.to_string());
-    let printed = process::capture(&mut command)?;
+    let hull_triangles = hull_triangles.to_string();
+    let arguments = ["ask-engine".as_ref(), engine.as_ref(), mesh.as_os_str(), hull_triangles.as_ref()];
+    let (printed, totals) =
+        valgrind.stages("race-count", [counted::COUNTED, counted::WRITTEN], &arguments)?;
     let asked = printed.lines().filter_map(|line| line.strip_prefix("asked "));
     asked
         .enumerate()
         .map(|(index, line)| {
             let read = || {
                 let (workload, queries) = line.split_once(' ')?;
-                let text = fs::read_to_string(profile.with_extension((index + 1).to_string())).ok()?;
-                let total = text.lines().find_map(|line| line.strip_prefix("totals: "))?;
-                let [total, queries]: [f64; 2] = [total.parse().ok()?, queries.parse().ok()?];
-                Some((workload.to_owned(), total / queries))
+                Some((workload.to_owned(), totals.get(index)? / queries.parse::<f64>().ok()?))
             };
             read().ok_or_else(|| format!("callgrind counted nothing for `{line}`"))
         })

@@ -1,9 +1,13 @@
 //! valgrind, where it is installed or to be had.
 
+use std::env;
+use std::ffi::OsStr;
+use std::fs;
 use std::process::Command;
 
 use crate::process;
 use crate::toolbox::{Toolbox, Wanted};
+use crate::workspace;
 
 const VALGRIND: Wanted =
     Wanted { name: "valgrind", alternatives: &[&["valgrind"]], ignore_installed: &["valgrind", "libc6-dbg"] };
@@ -41,5 +45,32 @@ impl Valgrind {
                 command
             }
         }
+    }
+
+    /// Runs this program in callgrind, which collects inside of the function `counted` only and writes its counters each time
+    /// `written` returns. What the program printed, and the instructions of each time. `name` is of a folder for the profiles.
+    pub fn stages(
+        &self,
+        name: &str,
+        [counted, written]: [&str; 2],
+        arguments: &[&OsStr],
+    ) -> Result<(String, Vec<f64>), String> {
+        let own = env::current_exe().map_err(|error| error.to_string())?;
+        let folder = workspace::target().join(name);
+        let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+        if folder.exists() {
+            fs::remove_dir_all(&folder).map_err(failed)?;
+        }
+        fs::create_dir_all(&folder).map_err(failed)?;
+        let profile = folder.join("profile");
+        let mut command = self.command();
+        command.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
+        command.arg(format!("--toggle-collect={counted}")).arg(format!("--dump-after={written}"));
+        let printed = process::capture(command.arg(own).args(arguments))?;
+        let profiles = (1..)
+            .map_while(|index: usize| fs::read_to_string(profile.with_extension(index.to_string())).ok());
+        let total = |text: String| text.lines().find_map(|line| line.strip_prefix("totals: ")?.parse().ok());
+        let totals: Option<Vec<f64>> = profiles.map(total).collect();
+        Ok((printed, totals.ok_or("callgrind counted nothing")?))
     }
 }

@@ -4,9 +4,10 @@
 //! they meet although they do not, of one of them although a plane parts the hulls with 0.4 % of the diagonal to spare. It missed
 //! none. Here its trees only tell which triangles to look at.
 
-use parry3d::math::Vector;
+use parry3d::math::{Pose as ParryPose, Vector};
 use parry3d::query::details::intersection_test_support_map_support_map;
 use parry3d::shape::{SupportMap, TriMesh};
+use parry3d::utils::point_cloud_support_point;
 
 use crate::measure::Subject;
 use crate::oracle::meets;
@@ -74,15 +75,14 @@ impl Supports {
 
     /// Whether the hull meets its moved copy, by GJK in f32.
     #[must_use]
-    pub fn meets_moved(&self, pose: &Pose) -> bool {
-        intersection_test_support_map_support_map(&pose.parry, self, self)
+    pub fn meets_moved(&self, pose: &ParryPose) -> bool {
+        intersection_test_support_map_support_map(pose, self, self)
     }
 }
 
 impl SupportMap for Supports {
     fn local_support_point(&self, direction: Vector) -> Vector {
-        let along = |p: &&Vector| p.dot(direction);
-        self.0.iter().max_by(|a, b| along(a).total_cmp(&along(b))).copied().unwrap_or(Vector::ZERO)
+        point_cloud_support_point(direction, &self.0)
     }
 }
 

@@ -7,8 +7,10 @@ use super::clip::{Plane, Solid};
 /// Directions, and what their polytope is called.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slabs {
-    /// In tables.
+    /// In tables, with what the directions are.
     pub name: &'static str,
+    /// The same, short.
+    pub label: &'static str,
     /// One a slab, not of length 1.
     pub directions: Vec<DVec3>,
 }
@@ -30,17 +32,19 @@ const CORNERS: [DVec3; 4] = [
 ];
 
 impl Slabs {
-    /// All that are compared. The 24 planes that paper 001 cites are 12 directions, which no union of axes, edges and corners
-    /// (3, 6, 4) has; the 20-DOP and the 26-DOP stand on either side of it.
+    /// All that are compared, planes two a direction, least first; all but the 20-DOP have the box's planes. The 24-DOP is that of
+    /// FCL (`fcl::KDOP`, `kDOP-inl.h`; hpp-fcl's too): three of the four corners, so not symmetric. Paper 001 cites one of 24 planes
+    /// and does not say which.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let slabs = |name, groups: &[&[DVec3]]| Self { name, directions: groups.concat() };
+        let slabs = |label, name, groups: &[&[DVec3]]| Self { name, label, directions: groups.concat() };
         vec![
-            slabs("box (axes)", &[&AXES]),
-            slabs("14-DOP (axes, corners)", &[&AXES, &CORNERS]),
-            slabs("tribox = 18-DOP (axes, edges)", &[&AXES, &EDGES]),
-            slabs("20-DOP (corners, edges)", &[&CORNERS, &EDGES]),
-            slabs("26-DOP (axes, corners, edges)", &[&AXES, &CORNERS, &EDGES]),
+            slabs("box", "box (axes)", &[&AXES]),
+            slabs("14-DOP", "14-DOP (axes, corners)", &[&AXES, &CORNERS]),
+            slabs("tribox", "tribox = 18-DOP (axes, edges)", &[&AXES, &EDGES]),
+            slabs("20-DOP", "20-DOP (corners, edges)", &[&CORNERS, &EDGES]),
+            slabs("24-DOP", "24-DOP (axes, edges, corners but x+y+z)", &[&AXES, &EDGES, &CORNERS[1..]]),
+            slabs("26-DOP", "26-DOP (axes, corners, edges)", &[&AXES, &CORNERS, &EDGES]),
         ]
     }
 }
@@ -105,6 +109,7 @@ impl Dop {
 mod tests {
     use super::{Dop, Slabs};
     use crate::generate::{Rng, rough_sphere};
+    use crate::measure::bounds::convex_hull::ConvexHull;
     use glam::{DMat3, DVec3};
 
     fn within(inner: &Dop, outer: &Dop, slack: f64) -> bool {
@@ -133,6 +138,48 @@ mod tests {
                 let loose = Dop::of(&slabs, corners.iter().map(|p| turn * *p));
                 assert!(within(&tight, &loose, 1e-8), "{}", slabs.name);
             }
+        }
+    }
+
+    /// Each of the first's slabs is one of the second's, so that the second is inside.
+    fn is_among(fewer: &Slabs, more: &Slabs) -> bool {
+        fewer.directions.iter().all(|d| more.directions.contains(d))
+    }
+
+    #[test]
+    fn more_slabs_are_tighter_and_all_hold_the_points() {
+        let all = Slabs::all();
+        let labels = |more: &Slabs| -> Vec<&str> {
+            all.iter().filter(|fewer| is_among(fewer, more)).map(|fewer| fewer.label).collect()
+        };
+        assert_eq!(labels(&all[4]), ["box", "tribox", "24-DOP"]);
+        assert_eq!(labels(&all[5]), ["box", "14-DOP", "tribox", "20-DOP", "24-DOP", "26-DOP"]);
+        let mut rng = Rng::new(24);
+        for seed in 0..20 {
+            let (positions, _) = rough_sphere(1, 0.6, seed);
+            let squeeze = DVec3::from_array(rng.point_in([0.2; 3], [1.0; 3]).map(f64::from));
+            let points: Vec<DVec3> =
+                positions.iter().map(|p| DVec3::from_array(p.map(f64::from)) * squeeze).collect();
+            let hull = ConvexHull::new(&points).expect("not flat").volume();
+            let solids = all.iter().map(|slabs| {
+                let dop = Dop::of(slabs, points.iter().copied());
+                for p in &points {
+                    let mut along = slabs.directions.iter().map(|d| d.dot(*p)).zip(&dop.ranges);
+                    assert!(along.all(|(x, [low, high])| *low <= x && x <= *high), "{}", slabs.name);
+                }
+                dop.solid(slabs, DVec3::ZERO, 1.6).volume()
+            });
+            let volumes: Vec<f64> = solids.collect();
+            for (fewer, outer) in all.iter().zip(&volumes) {
+                assert!(*outer >= hull * (1.0 - 1e-12), "{}", fewer.name);
+                for (more, inner) in all.iter().zip(&volumes).filter(|(more, _)| is_among(fewer, more)) {
+                    assert!(*inner <= outer * (1.0 + 1e-12), "{} in {}", more.name, fewer.name);
+                }
+            }
+            assert!(
+                volumes[4] < volumes[2] && volumes[5] < volumes[4],
+                "three corners, and the fourth, cut something"
+            );
         }
     }
 

@@ -1,16 +1,12 @@
 //! How often bounds meet although the meshes do not: a mesh against itself, turned and moved at random.
 
-use glam::DVec3;
-
 use crate::generate::Rng;
 use crate::measure::Subject;
 use crate::measure::table::{Cell, Table, fixed, row};
 
 use super::Bounds;
 use super::contact::{Supports, Surface};
-use super::convex_hull::ConvexHull;
-use super::dop::{Dop, Slabs};
-use super::enclosing_sphere::Sphere;
+use super::contenders::{About, Contender};
 use super::pose::Pose;
 
 /// Poses of the moved mesh.
@@ -20,146 +16,112 @@ const POSES: usize = 2_000;
 /// for them to tell apart.
 const FARTHEST: f64 = 2.2;
 
-/// A pose and what is true of it.
-struct Case {
-    pose: Pose,
-    hulls_meet: bool,
-    meshes_meet: bool,
+/// The poses, seeded.
+pub(super) fn poses(bounds: &Bounds) -> Vec<Pose> {
+    let mut rng = Rng::new(0x0070_6f73_6573);
+    (0..POSES).map(|_| Pose::random(&mut rng, &bounds.sphere, FARTHEST)).collect()
 }
 
-fn cases(subject: &Subject, bounds: &Bounds) -> Result<Vec<Case>, String> {
-    let surface = Surface::new(subject)?;
-    let hull = Supports::new(&bounds.hull);
-    let mut rng = Rng::new(0x0070_6f73_6573);
-    let case = |_| {
-        let pose = Pose::random(&mut rng, &bounds.sphere, FARTHEST);
+/// Poses and what is true of them.
+pub(super) struct Cases {
+    pub(super) poses: Vec<Pose>,
+    hulls_meet: usize,
+    meshes_meet: Vec<bool>,
+}
+
+impl Cases {
+    pub(super) fn new(subject: &Subject, bounds: &Bounds) -> Result<Self, String> {
+        let surface = Surface::new(subject)?;
+        let hull = Supports::new(&bounds.hull);
+        let poses = poses(bounds);
         // The surfaces whatever the hulls say: those are a bound like others, to be caught if they are wrong.
-        Case { hulls_meet: hull.meets_moved(&pose), meshes_meet: surface.meets_moved(&pose), pose }
-    };
-    Ok((0..POSES).map(case).collect())
+        let meshes_meet = poses.iter().map(|pose| surface.meets_moved(pose)).collect();
+        let hulls_meet = poses.iter().filter(|pose| hull.meets_moved(&pose.parry)).count();
+        Ok(Self { poses, hulls_meet, meshes_meet })
+    }
+
+    fn meet(&self) -> usize {
+        self.meshes_meet.iter().filter(|meet| **meet).count()
+    }
 }
 
 /// What a bound says of all cases.
-#[derive(Default)]
-struct Tally {
-    /// Pairs that it takes for meeting, of those whose meshes do not meet.
-    wrong: usize,
+pub(super) struct Tally {
+    /// Its verdicts.
+    pub(super) meets: Vec<bool>,
+    /// Pairs that it takes for meeting, of a hundred whose meshes do not meet.
+    pub(super) wrong: f64,
     /// Pairs of which it denies that they meet although they do.
     missed: usize,
-    comparisons: usize,
+    /// Mean.
+    comparisons: f64,
+    /// Moved, over the hull's, pose by pose.
+    volumes: Vec<f64>,
 }
 
 impl Tally {
-    /// `meets` tells whether the bounds meet and the comparisons made.
-    fn of(cases: &[Case], mut meets: impl FnMut(&Case) -> (bool, usize)) -> Self {
-        let mut tally = Self::default();
-        for case in cases {
-            let (bounds_meet, comparisons) = meets(case);
-            tally.comparisons += comparisons;
-            tally.wrong += usize::from(bounds_meet && !case.meshes_meet);
-            tally.missed += usize::from(!bounds_meet && case.meshes_meet);
+    pub(super) fn of(cases: &Cases, contender: &Contender<'_>) -> Self {
+        let judged: Vec<_> = cases.poses.iter().map(|pose| (contender.judge)(pose)).collect();
+        let pairs = || judged.iter().zip(&cases.meshes_meet);
+        let wrong = pairs().filter(|(bound, mesh)| bound.meets && !**mesh).count();
+        Self {
+            meets: judged.iter().map(|bound| bound.meets).collect(),
+            wrong: 100.0 * wrong as f64 / (POSES - cases.meet()).max(1) as f64,
+            missed: pairs().filter(|(bound, mesh)| !bound.meets && **mesh).count(),
+            comparisons: judged.iter().map(|bound| bound.comparisons).sum::<usize>() as f64 / POSES as f64,
+            volumes: judged.iter().map(|bound| bound.volume).collect(),
         }
-        tally
     }
 
-    fn mean_comparisons(&self) -> Cell {
-        fixed(self.comparisons as f64 / POSES as f64, 1)
+    /// Mean of the moved bound's volume over the hull's.
+    pub(super) fn volume(&self) -> f64 {
+        self.volumes.iter().sum::<f64>() / POSES as f64
     }
-}
 
-/// The slabs about a moved slab bound: they need its vertices alone, and are looser than those about the mesh.
-struct Looser {
-    tally: Tally,
-    /// Mean of the volume over that of the tight slabs.
-    volume: f64,
-}
-
-impl Looser {
-    fn of(cases: &[Case], slabs: &Slabs, bounds: &Bounds, corners: &[DVec3], rest: &Dop) -> Self {
-        let mut ratios = 0.0;
-        let hull = &bounds.hull;
-        let tally = Tally::of(cases, |case| {
-            let loose = Dop::of(slabs, corners.iter().map(|p| case.pose.apply(*p)));
-            let tight = moved(slabs, hull, &case.pose);
-            // The corners of what a ball encloses are within √3 of its radius, so the corners of what these enclose within 3.
-            let centre = case.pose.apply(bounds.sphere.centre);
-            let volume = |dop: &Dop| dop.solid(slabs, centre, 2.0 * bounds.sphere.radius).volume();
-            ratios += volume(&loose) / volume(&tight);
-            rest.meets(&loose)
-        });
-        Self { tally, volume: ratios / POSES as f64 }
+    /// Mean of the volume over another's at the same pose.
+    fn volume_over(&self, other: &Self) -> f64 {
+        self.volumes.iter().zip(&other.volumes).map(|(ours, theirs)| ours / theirs).sum::<f64>()
+            / POSES as f64
     }
-}
-
-fn moved(slabs: &Slabs, hull: &ConvexHull, pose: &Pose) -> Dop {
-    Dop::of(slabs, hull.points.iter().map(|p| pose.apply(*p)))
 }
 
 /// The table.
-pub(super) fn table(subject: &Subject, bounds: &Bounds) -> Result<Table, String> {
-    let cases = cases(subject, bounds)?;
-    let count = |of: fn(&Case) -> bool| cases.iter().filter(|case| of(case)).count();
-    let apart = count(|case| !case.meshes_meet);
-    let share = |tally: &Tally| fixed(100.0 * tally.wrong as f64 / apart.max(1) as f64, 1);
+pub(super) fn table(cases: &Cases, contenders: &[Contender<'_>], tallies: &[Tally]) -> Table {
     let columns = [
         "bound",
+        "bounded about",
+        "points moved",
         "false %",
+        "missed",
         "comparisons, most",
         "mean",
-        "vertices moved",
-        "missed",
-        "false % from own vertices",
-        "own vertices",
-        "volume x",
+        "volume, of the hull's",
+        "of that about the hull's vertices",
     ];
     let title = "A mesh against itself, moved: bounds that meet, of the pairs whose meshes do not";
     let mut table = Table::new("false_positives", title, &columns);
-    for (slabs, rest, solid) in &bounds.slabs {
-        let tight = Tally::of(&cases, |case| rest.meets(&moved(slabs, &bounds.hull, &case.pose)));
-        let looser = Looser::of(&cases, slabs, bounds, &solid.vertices, rest);
+    for (index, (contender, tally)) in contenders.iter().zip(tallies).enumerate() {
+        let tight = index.checked_sub(1).filter(|_| contender.about == About::Own);
         table.push(row![
-            slabs.name,
-            share(&tight),
-            2 * slabs.directions.len(),
-            tight.mean_comparisons(),
-            bounds.hull.points.len(),
-            tight.missed + looser.tally.missed,
-            share(&looser.tally),
-            solid.vertices.len(),
-            fixed(looser.volume, 2),
-        ]);
-    }
-    let mut push = |name: &str, tally: &Tally, comparisons: Option<usize>, moved: Option<usize>| {
-        let mean = if comparisons.is_some() { tally.mean_comparisons() } else { Cell::Empty };
-        let empty = Cell::Empty;
-        table.push(row![
-            name,
-            share(tally),
-            comparisons,
-            mean,
-            moved,
+            contender.name,
+            contender.about.name(),
+            contender.vertices,
+            fixed(tally.wrong, 1),
             tally.missed,
-            empty.clone(),
-            empty.clone(),
-            empty
+            contender.most,
+            contender.most.map(|_| fixed(tally.comparisons, 1)),
+            fixed(tally.volume(), 2),
+            tight.map_or(Cell::Empty, |tight| fixed(tally.volume_over(&tallies[tight]), 2)),
         ]);
-    };
-    let Sphere { centre, radius } = bounds.sphere;
-    let spheres = Tally::of(&cases, |case| (case.pose.apply(centre).distance(centre) <= 2.0 * radius, 1));
-    push("smallest enclosing sphere", &spheres, Some(1), Some(1));
-    for (name, oriented) in &bounds.boxes {
-        let boxes =
-            Tally::of(&cases, |case| oriented.meets(&oriented.moved(case.pose.rotation, case.pose.shift)));
-        push(name, &boxes, Some(15), Some(1));
     }
-    push("convex hull", &Tally::of(&cases, |case| (case.hulls_meet, 0)), None, None);
-    let (meet, hulls) = (count(|case| case.meshes_meet), count(|case| case.hulls_meet));
+    let (meet, hulls) = (cases.meet(), cases.hulls_meet);
     table.note(format!("{POSES} poses, seeded; {hulls} pairs of hulls meet, {meet} pairs of meshes"));
     table
         .note("meshes: surface against surface, by exact predicates; a part inside another does not meet it");
     table.note(
         "hulls: parry3d's GJK, f32; comparisons of an oriented box: separating axes, each some 20 flops",
     );
-    table.note("vertices moved: the hull's, about which tight slabs are taken; own vertices: the slabs' about the moved slabs' corners");
-    Ok(table)
+    table.note("bounded about: moved vertices of the hull, or of the resting slabs, or a copy that is turned; volumes: mean over the poses");
+    table.note("rounded outward: this library's tribox, which holds what it bounds in real arithmetic; the others are rounded to nearest");
+    table
 }

@@ -1,6 +1,7 @@
 //! Where a moved copy of the mesh is.
 
 use glam::{DMat3, DQuat, DVec3};
+use meshsweep_core::tribox::Pose as Matrix;
 use parry3d::math::{Pose as ParryPose, Rotation, Vector};
 
 use crate::generate::Rng;
@@ -15,6 +16,33 @@ pub struct Pose {
     pub shift: DVec3,
     /// Both for parry3d, rounded to f32.
     pub parry: ParryPose,
+}
+
+/// A pose as programs have it: in f32.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion {
+    /// Rows of the rotation, and the shift.
+    pub matrix: Matrix,
+    /// For parry3d.
+    pub parry: ParryPose,
+}
+
+impl Motion {
+    /// Where a point goes.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply(&self, point: [f32; 3]) -> [f32; 3] {
+        let [x, y, z] = self.turn(point);
+        let [u, v, w] = self.matrix.translation;
+        [x + u, y + v, z + w]
+    }
+
+    /// Where a direction goes.
+    #[inline(always)]
+    #[must_use]
+    pub fn turn(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
+        self.matrix.rotation.map(|[a, b, c]| a * x + b * y + c * z)
+    }
 }
 
 impl Pose {
@@ -38,6 +66,14 @@ impl Pose {
             Rotation::from_xyzw(x, y, z, w).normalize(),
         );
         Self { rotation, shift, parry }
+    }
+
+    /// Rounded to f32.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        let single = |row: DVec3| row.to_array().map(|x| x as f32);
+        let rotation = [0, 1, 2].map(|k| single(self.rotation.row(k)));
+        Motion { matrix: Matrix { rotation, translation: single(self.shift) }, parry: self.parry }
     }
 
     /// A point moved.
