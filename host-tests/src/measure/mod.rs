@@ -7,8 +7,8 @@
 //! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
-//!                         ├─ bounds   (paper 001: triboxes) ┤
-//!                         └─ overlap  (mesh against mesh) ──┘
+//!                         ├─ overlap  (mesh against mesh) ──┤
+//!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
 //! something. Counts are exact.
@@ -19,6 +19,7 @@ mod closest;
 mod hulls;
 mod overlap;
 mod paper;
+pub mod plot;
 pub mod rival;
 mod segments;
 pub(crate) mod stopwatch;

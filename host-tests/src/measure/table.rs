@@ -20,7 +20,8 @@ pub enum Cell {
 }
 
 impl Cell {
-    fn text(&self) -> String {
+    /// As it is printed.
+    pub(super) fn text(&self) -> String {
         match self {
             Self::Empty => "-".to_owned(),
             Self::Text(text) => text.clone(),
@@ -28,6 +29,15 @@ impl Cell {
             Self::Fixed(value, digits) => format!("{value:.digits$}"),
             Self::Scientific(0.0) => "0".to_owned(),
             Self::Scientific(value) => format!("{value:.1e}"),
+        }
+    }
+
+    /// Its number, if it is one.
+    pub(super) fn number(&self) -> Option<f64> {
+        match self {
+            Self::Empty | Self::Text(_) => None,
+            Self::Count(count) => Some(*count as f64),
+            Self::Fixed(value, _) | Self::Scientific(value) => Some(*value),
         }
     }
 

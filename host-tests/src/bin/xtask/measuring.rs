@@ -1,10 +1,11 @@
-//! `cargo xtask measure`: the tables of `host_tests::measure`, printed and written.
+//! `cargo xtask measure`: the tables of `host_tests::measure`, printed, written and plotted.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use meshsweep_host_tests::measure::bounds::cost::{Cost, counted};
-use meshsweep_host_tests::measure::{measure, measure_bounds, measure_tree};
+use meshsweep_host_tests::measure::plot::{self, Measured};
+use meshsweep_host_tests::measure::{measure, measure_bounds, measure_overlap, measure_tree};
 use serde_json::{Value, json};
 
 use crate::firmware;
@@ -17,49 +18,65 @@ use crate::workspace;
 pub struct Options {
     meshes: Vec<PathBuf>,
     json: Option<PathBuf>,
+    plot: Option<PathBuf>,
     firmware: bool,
-    tree: bool,
-    bounds: bool,
+    part: Option<Part>,
     count: bool,
 }
 
+/// What of a mesh, if not hull hierarchy and box tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    Tree,
+    Bounds,
+    Overlap,
+}
+
 impl Options {
-    /// `[--firmware] [--tree | --bounds [--count]] [--json FILE] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --overlap | --bounds [--count]] [--json FILE] [--plot FILE.svg] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match word {
                 "--firmware" => options.firmware = true,
-                "--tree" => options.tree = true,
-                "--bounds" => options.bounds = true,
+                "--tree" if options.part.is_none() => options.part = Some(Part::Tree),
+                "--bounds" if options.part.is_none() => options.part = Some(Part::Bounds),
+                "--overlap" if options.part.is_none() => options.part = Some(Part::Overlap),
                 "--count" => options.count = true,
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
+                "--plot" => options.plot = Some(svg(words.next()?)?),
                 flag if flag.starts_with("--") => return None,
                 mesh => options.meshes.push(PathBuf::from(mesh)),
             }
         }
-        let is_one = !(options.tree && options.bounds) && (options.bounds || !options.count);
-        is_one.then_some(options)
+        (options.part == Some(Part::Bounds) || !options.count).then_some(options)
     }
 }
 
+/// A file of the only format that plots are written in.
+fn svg(file: &str) -> Option<PathBuf> {
+    let file = PathBuf::from(file);
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")).then_some(file)
+}
+
 /// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds; and the firmware if asked to.
+/// bounds, with `--overlap` the mesh against itself; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
     let valgrind = if options.count { Valgrind::find() } else { None };
-    let mut written = Vec::new();
+    let (mut written, mut plotted) = (Vec::new(), Vec::new());
     for mesh in meshes {
         let counts = valgrind.as_ref().and_then(|valgrind| {
             steps.run(&format!("count bounds of {}", mesh.display()), || count(valgrind, mesh))
         });
         steps.run(&format!("measure {}", mesh.display()), || {
-            let tables = match options {
-                Options { tree: true, .. } => measure_tree(mesh)?,
-                Options { bounds: true, .. } => measure_bounds(mesh, counts.as_deref())?,
-                _ => measure(mesh)?,
+            let tables = match options.part {
+                Some(Part::Tree) => measure_tree(mesh)?,
+                Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
+                Some(Part::Overlap) => measure_overlap(mesh)?,
+                None => measure(mesh)?,
             };
             for table in &tables {
                 print!("{}", table.text());
@@ -68,11 +85,16 @@ pub fn run(steps: &mut Steps, options: &Options) {
                 "mesh": mesh.file_name().map(|name| name.to_string_lossy()),
                 "tables": tables.iter().map(|table| table.json()).collect::<Vec<Value>>(),
             }));
+            let name = mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            plotted.push(Measured { mesh: name, tables });
             Ok(())
         });
     }
     if let Some(file) = &options.json {
         steps.run("write the tables", || write(file, &written));
+    }
+    if let Some(file) = &options.plot {
+        steps.run("plot", || text(file, &plot::svg(&plotted)?));
     }
     if options.firmware
         && let Some(tools) = firmware::setup(steps)
@@ -127,12 +149,16 @@ mod tests {
         assert_eq!(Options::parse(&["--json"]), None);
         assert_eq!(Options::parse(&["--fast"]), None);
         assert_eq!(Options::parse(&["--tree", "--bounds"]), None);
+        assert_eq!(Options::parse(&["--overlap", "--overlap"]), None);
     }
 
     #[test]
-    fn only_bounds_are_counted() {
-        let options = Options::parse(&["--count", "--bounds"]).expect("fine");
-        assert!(options.count && options.bounds);
+    fn plots_are_svg_and_only_bounds_are_counted() {
+        let options = Options::parse(&["--count", "--plot", "trade.svg", "--bounds"]).expect("fine");
+        assert_eq!(options.plot, Some(PathBuf::from("trade.svg")));
+        assert!(options.count && options.part == Some(super::Part::Bounds));
+        assert_eq!(Options::parse(&["--plot", "trade.png"]), None);
+        assert_eq!(Options::parse(&["--plot"]), None);
         assert_eq!(Options::parse(&["--count"]), None);
         assert_eq!(Options::parse(&["--tree", "--count"]), None);
     }
