@@ -1,6 +1,6 @@
 //! Bounds of what was moved (Crosnier & Rossignac 1999, section 3: from a hull's vertices, or from the vertices of the tribox).
 
-use super::bounds::{TriboxError, checked, projections};
+use super::bounds::{TriboxError, checked};
 use super::{SLABS, Tribox};
 use crate::num::tolerance::U32;
 use crate::num::{sum_down, sum_up};
@@ -37,38 +37,60 @@ impl Pose {
         Ok(())
     }
 
-    /// Where a point goes, and what each coordinate may be off by if each of the point's is off by `doubt`.
+    /// Where a point goes, and the sum of the sizes of each coordinate's terms.
     #[inline(always)]
-    fn apply(&self, [x, y, z]: [f32; 3], doubt: f32) -> ([f32; 3], [f32; 3]) {
-        let (mut place, mut margin) = ([0f32; 3], [0f32; 3]);
+    fn apply(&self, [x, y, z]: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+        let (mut place, mut size) = ([0f32; 3], [0f32; 3]);
         let rows = self.rotation.iter().zip(self.translation);
-        for ((place, margin), (&[a, b, c], t)) in place.iter_mut().zip(&mut margin).zip(rows) {
-            *place = (a * x + b * y) + (c * z + t);
-            let size = ((a * x).abs() + (b * y).abs()) + ((c * z).abs() + t.abs());
-            let spread = (a.abs() + b.abs() + c.abs()) * doubt;
-            *margin = size * (COORDINATE * U32) + spread * (1.0 + COORDINATE * U32) + UNDERFLOW;
+        for ((place, size), (&[a, b, c], t)) in place.iter_mut().zip(&mut size).zip(rows) {
+            let (p, q, r) = (a * x, b * y, c * z);
+            *place = (p + q) + (r + t);
+            *size = (p.abs() + q.abs()) + (r.abs() + t.abs());
         }
-        (place, margin)
+        (place, size)
     }
 
-    /// A tribox of all points after the motion: tight but for rounding.
+    /// A tribox of all points after the motion: tight but for rounding, for which each plane is moved outward once, as far as the worst point needs.
     ///
     /// # Errors
     /// If a number is not finite, a coordinate beyond [`Tribox::DOMAIN`] before or after the motion, or an entry of the matrix beyond 2.
     pub fn bound(&self, points: impl IntoIterator<Item = [f32; 3]>) -> Result<Tribox, TriboxError> {
         self.check()?;
-        points.into_iter().try_fold(Tribox::EMPTY, |all, point| Ok(all.union(&self.around(point, 0.0)?)))
+        self.around(points, 0.0)
     }
 
-    /// The tribox of one point that is known up to `doubt` per coordinate.
-    fn around(&self, point: [f32; 3], doubt: f32) -> Result<Tribox, TriboxError> {
-        let (place, [x, y, z]) = self.apply(checked(point)?, doubt);
-        let (low, high) = projections(checked(place)?);
-        let sums =
-            [x, y, z, sum_up(x, y), sum_up(x, y), sum_up(y, z), sum_up(y, z), sum_up(z, x), sum_up(z, x)];
-        let mut around = Tribox { low, high };
-        let planes = around.low.iter_mut().zip(around.high.iter_mut()).zip(sums);
-        planes.for_each(|((low, high), by)| (*low, *high) = (sum_down(*low, -by), sum_up(*high, by)));
+    /// The tribox of points that are known up to `doubt` per coordinate.
+    fn around(&self, points: impl IntoIterator<Item = [f32; 3]>, doubt: f32) -> Result<Tribox, TriboxError> {
+        let mut around = Tribox::EMPTY;
+        let mut sizes = [0f32; 3];
+        for point in points {
+            let (place, size) = self.apply(checked(point)?);
+            let [x, y, z] = checked(place)?;
+            for (most, size) in sizes.iter_mut().zip(size) {
+                *most = if size > *most { size } else { *most };
+            }
+            let along = [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x];
+            for ((low, high), along) in around.low.iter_mut().zip(&mut around.high).zip(along) {
+                *low = if along < *low { along } else { *low };
+                *high = if along > *high { along } else { *high };
+            }
+        }
+        if around.is_empty() {
+            return Ok(around);
+        }
+        let mut margins = [0f32; 3];
+        for ((margin, size), [a, b, c]) in margins.iter_mut().zip(sizes).zip(self.rotation) {
+            let spread = (a.abs() + b.abs() + c.abs()) * doubt;
+            *margin = size * (COORDINATE * U32) + spread * (1.0 + COORDINATE * U32) + UNDERFLOW;
+        }
+        let ([x, y, z], [sx, sy, sz]) = (margins, sizes);
+        // The sum of two coordinates is rounded once more.
+        let sum = |a: f32, b: f32, size: f32| sum_up(sum_up(a, b), size * (2.0 * U32));
+        let (xy, yz, zx) = (sum(x, y, sx + sy), sum(y, z, sy + sz), sum(z, x, sz + sx));
+        let planes = around.low.iter_mut().zip(around.high.iter_mut());
+        for ((low, high), by) in planes.zip([x, y, z, xy, xy, yz, yz, zx, zx]) {
+            (*low, *high) = (sum_down(*low, -by), sum_up(*high, by));
+        }
         Ok(around)
     }
 }
@@ -91,9 +113,6 @@ impl Tribox {
         });
         // Vertices as computed are that close to the real ones: five roundings of a vertex, and as many if rounding decided its corner's case.
         let doubt = (16.0 * U32) * size;
-        self.boundary()
-            .vertices
-            .into_iter()
-            .try_fold(Tribox::EMPTY, |all, vertex| Ok(all.union(&pose.around(vertex, doubt)?)))
+        pose.around(self.boundary().vertices, doubt)
     }
 }
