@@ -111,6 +111,7 @@ fn every_command_s_help_has_examples_that_run() {
     write_csv(&directory.join("points.csv"), &points);
     write_raw(&directory.join("points.f32"), &points);
     write_csv(&directory.join("segments.csv"), &segments);
+    write_csv(&directory.join("path.csv"), &[[30f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]; 3]);
     let everything = ["--for", "closest,segment,cull,hull"];
     let part = blob(&directory, "bracket.stl", &everything);
     let commands = ok(["help"]);
@@ -119,13 +120,14 @@ fn every_command_s_help_has_examples_that_run() {
         .map_while(|line| line.split_whitespace().next())
         .filter(|command| *command != "help")
         .collect();
-    assert_eq!(commands.len(), 12, "{commands:?}");
+    assert_eq!(commands.len(), 13, "{commands:?}");
     for command in commands {
         let help = ok(["help", command]);
         let examples: Vec<&str> = help.lines().filter_map(|line| line.strip_prefix("  meshsweep ")).collect();
         assert!(examples.iter().any(|example| example.starts_with(command)), "{command}: {help}");
         for example in examples {
             fs::copy(&part, directory.join("part.msw")).unwrap();
+            fs::copy(&part, directory.join("tool.msw")).unwrap();
             let words: Vec<&str> = example.split_whitespace().collect();
             let output = meshsweep().args(words).current_dir(&directory).output().unwrap();
             assert!(output.status.success(), "{example}: {}", String::from_utf8_lossy(&output.stderr));
@@ -141,9 +143,10 @@ fn writes(example: &str, directory: &Path) -> bool {
 
 #[test]
 fn help_names_every_option_with_a_sentence() {
-    for command in
-        ["build", "info", "closest", "within", "nearest", "signed", "field", "segment", "cull", "hull", "cut"]
-    {
+    for command in [
+        "build", "info", "closest", "within", "nearest", "signed", "field", "segment", "overlap", "cull",
+        "hull", "cut",
+    ] {
         let help = ok(["help", command]);
         // Options are indented; a line of prose may begin with one, too.
         let is_option = |line: &&str| line.starts_with("  ") && line.trim_start().starts_with('-');

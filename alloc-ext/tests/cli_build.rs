@@ -39,7 +39,7 @@ fn build_reports_mesh_sections_memory_and_levels() {
     let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "closest,segment,hull"]);
     for part in [
         "1948 triangles read",
-        "serves closest, within, nearest, field, signed, segment, hull --level, cut",
+        "serves closest, within, nearest, field, signed, segment, overlap, hull --level, cut",
         "cover tree",
         "tree fans",
         "total",
@@ -63,9 +63,9 @@ fn a_blob_holds_what_was_asked_for_and_no_more() {
     let directory = scratch("asked_for");
     let links = ["tree header", "tree links", "tree fans", "tree source numbers"];
     for (questions, more, serves) in [
-        (&[][..], &["tree boxes for distances", "tree boxes for segments"][..], "segment"),
+        (&[][..], &["tree boxes for distances", "tree boxes for segments"][..], "overlap"),
         (&["--for", "closest"], &["tree boxes for distances"], "signed"),
-        (&["--for", "segment"], &["tree boxes for segments"], "segment"),
+        (&["--for", "segment"], &["tree boxes for segments"], "overlap"),
     ] {
         let info = info(&blob(&directory, "torus.ply", questions));
         let mut wanted: Vec<&str> = links.iter().chain(more).copied().collect();

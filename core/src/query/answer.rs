@@ -147,6 +147,8 @@ pub enum QueryError {
     /// An end of a segment is too far away: on the cover tree farther than 2^40 times the model's size from its origin, on the box tree 2^38 grid
     /// units from the model's farthest corner. Clip the segment first.
     OutOfDomain,
+    /// An entry of a pose's matrix is beyond 2, or one of two models is so much larger that the other is a point beside it: their grids differ by more than 2^40.
+    PoseOutOfDomain,
     /// The caller's queue is empty.
     NoQueue,
     /// The blob was built without the sections that this question needs (`meshsweep build --for`).
@@ -161,6 +163,9 @@ impl core::fmt::Display for QueryError {
             QueryError::NotFinite => "a coordinate of the query is NaN or infinite",
             QueryError::Tolerance => "a tolerance is negative, NaN or infinite",
             QueryError::OutOfDomain => "a segment's end is too far from the model: clip it first",
+            QueryError::PoseOutOfDomain => {
+                "an entry of the matrix is beyond 2, or one model is 2^40 times as large as the other"
+            }
             QueryError::NoQueue => "the queue has no entries",
             QueryError::NotServed => "the blob was built without the sections that this question needs",
             QueryError::Model => "the model was not opened",

@@ -76,11 +76,11 @@ fn what_cannot_be_answered_is_refused() {
     }
     let mut stretched = Pose::IDENTITY;
     stretched.rotation[0][0] = 2.5;
-    assert_eq!(refused(&tree, &tree, stretched, None), QueryError::OutOfDomain);
+    assert_eq!(refused(&tree, &tree, stretched, None), QueryError::PoseOutOfDomain);
     assert_eq!(refused(&tree, &tree, Pose::IDENTITY, Some(&mut stack[..0])), QueryError::NoQueue);
     let tiny = Scene::new(scaled(&cube(2), 1e-20));
-    assert_eq!(refused(&tree, &tiny.trees()[0], Pose::IDENTITY, None), QueryError::OutOfDomain);
-    assert_eq!(refused(&tiny.trees()[0], &tree, Pose::IDENTITY, None), QueryError::OutOfDomain);
+    assert_eq!(refused(&tree, &tiny.trees()[0], Pose::IDENTITY, None), QueryError::PoseOutOfDomain);
+    assert_eq!(refused(&tiny.trees()[0], &tree, Pose::IDENTITY, None), QueryError::PoseOutOfDomain);
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions { segments: false, ..TreeOptions::default() };
     let bytes = blob(None, Some(&build(&mesh, 0.0, 12, &options).0));

@@ -8,8 +8,8 @@ mod given;
 mod values;
 
 pub use asking::{
-    ClosestArgs, ClosestEngine, CullArgs, FieldArgs, NearestArgs, PointArgs, SearchArgs, SegmentArgs,
-    SegmentEngine, SignedArgs, WithinArgs,
+    ClosestArgs, ClosestEngine, CullArgs, FieldArgs, NearestArgs, OverlapArgs, PointArgs, SearchArgs,
+    SegmentArgs, SegmentEngine, SignedArgs, WithinArgs,
 };
 pub use bounding::TriboxArgs;
 pub use building::{BuildArgs, CutArgs, HullArgs, InfoArgs, StoredBits};
@@ -65,6 +65,9 @@ pub enum Command {
         mut_arg("steps", |steps| steps.help(explained::STEPS))
     )]
     Segment(SegmentArgs),
+    /// Whether two meshes meet, one of them moved, as CSV
+    #[command(after_help = explained::overlap(), mut_arg("queue", |queue| queue.help(explained::PAIRS)))]
+    Overlap(OverlapArgs),
     /// Triangles that may face a viewpoint, as CSV; all others certainly do not
     #[command(after_help = explained::CULL)]
     Cull(CullArgs),

@@ -12,7 +12,7 @@
 //! | `describe` | tables of sections, levels and memory |
 //! | `progress` | the bar |
 //! | `points` | questions about points that only the box tree answers: `within`, `nearest`, `signed` |
-//! | `build`, `info`, `closest`, `field`, `segment`, `cull`, `hull`, `cut`, `tribox`, `demo` | one command each |
+//! | `build`, `info`, `closest`, `field`, `segment`, `overlap`, `cull`, `hull`, `cut`, `tribox`, `demo` | one command each |
 
 mod args;
 mod blob_file;
@@ -30,6 +30,7 @@ mod info;
 mod mesh_file;
 mod nearest;
 mod output;
+mod overlap;
 mod points;
 mod progress;
 mod queries;
@@ -62,6 +63,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Within(args)) => within::run(&args),
         Some(Command::Nearest(args)) => nearest::run(&args),
         Some(Command::Signed(args)) => signed::run(&args),
+        Some(Command::Overlap(args)) => overlap::run(&args),
         Some(Command::Cull(args)) => cull::run(&args),
         Some(Command::Field(args)) => field::run(&args),
         Some(Command::Segment(args)) => segment::run(&args),

@@ -46,6 +46,20 @@ impl Queries<6> {
     }
 }
 
+impl Queries<7> {
+    /// Motions by quaternion.
+    pub fn poses(given: &[Given<7>]) -> Result<Self, Failure> {
+        Self::read(given, "7: x, y, z, qw, qx, qy, qz")
+    }
+}
+
+impl Queries<12> {
+    /// Motions by matrix.
+    pub fn matrices(given: &[Given<12>]) -> Result<Self, Failure> {
+        Self::read(given, "12: three rows of a matrix and translation")
+    }
+}
+
 impl<const N: usize> Queries<N> {
     fn read(given: &[Given<N>], wanted: &'static str) -> Result<Self, Failure> {
         let is_stdin = |path: &Path| path.as_os_str() == "-";

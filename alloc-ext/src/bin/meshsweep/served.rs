@@ -17,6 +17,7 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
         ("field", distances),
         ("signed", distances && tree.is_some_and(|tree| tree.header().is_closed())),
         ("segment", tree.is_some_and(Tree::serves_segments) || hull),
+        ("overlap", tree.is_some_and(Tree::serves_segments)),
         ("cull", tree.is_some_and(Tree::serves_culling)),
         ("hull --level", hull),
         ("cut", hull),

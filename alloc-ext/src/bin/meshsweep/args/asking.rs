@@ -185,6 +185,41 @@ pub enum SegmentEngine {
 }
 
 #[derive(Debug, Args)]
+pub struct OverlapArgs {
+    /// Blob file of the mesh that stays
+    pub first: PathBuf,
+    /// Blob file of the mesh that is moved
+    pub second: PathBuf,
+    /// Where the second mesh is: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was built]
+    #[arg(long, value_name = "POSE", num_args = 1.., allow_negative_numbers = true, value_parser = given::poses())]
+    pub pose: Vec<Given<7>>,
+    /// The same as three rows of a matrix, each with its translation: m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z each, or files
+    #[arg(
+        long,
+        value_name = "MATRIX",
+        num_args = 1..,
+        conflicts_with = "pose",
+        allow_negative_numbers = true,
+        value_parser = given::matrices()
+    )]
+    pub matrix: Vec<Given<12>>,
+    /// All pairs of triangles that meet, one on a line
+    #[arg(long)]
+    pub all: bool,
+    #[command(flatten)]
+    pub search: SearchArgs,
+}
+
+impl OverlapArgs {
+    /// Files that are read.
+    pub fn files(&self) -> Vec<&Path> {
+        let poses = self.pose.iter().filter_map(Given::file);
+        let matrices = self.matrix.iter().filter_map(Given::file);
+        [self.first.as_path(), self.second.as_path()].into_iter().chain(poses).chain(matrices).collect()
+    }
+}
+
+#[derive(Debug, Args)]
 pub struct CullArgs {
     /// Blob file, built --for cull
     pub blob: PathBuf,

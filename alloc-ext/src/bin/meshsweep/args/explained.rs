@@ -8,6 +8,9 @@ pub const QUEUE: &str = "Stack or queue entries to search with [default: what th
 /// Of `--steps` for segments.
 pub const STEPS: &str = "Stop a query after opening so many nodes, on the cover tree only (--engine cover)";
 
+/// Of `--queue` for pairs of nodes.
+pub const PAIRS: &str = "Stack entries to search with [default: 128, which are always enough]";
+
 const QUERIES: &str = "Queries are written as arguments, or in files, or both: as many as wanted, answered in the order given. \
     A file holds decimal numbers separated by commas, semicolons or blanks, one query on a line; a header line, blank lines and \
     comments from # on are skipped. '-' reads this from the standard input. A file named *.f32 holds raw little-endian f32 numbers. A \
@@ -18,7 +21,7 @@ const TRIANGLES: &str = "triangle counts the triangles of the mesh file from 0, 
 
 pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     closest   closest, within, nearest, field; signed too if the mesh is closed: 13 to 14 bytes a triangle\n  \
-    segment   segment: 12 bytes a triangle; with closest 15\n  \
+    segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
     hull      hull --level, cut, and closest and segment with --engine cover or hull: 35 to 50 bytes a triangle more\n\
     The first three share a box tree, which any mesh will do for, open or not, manifold or not, and which takes a second for a \
@@ -111,6 +114,21 @@ pub fn segment() -> String {
          meshsweep segment part.msw 20,10,90,20,10,-90\n  \
          meshsweep segment part.msw segments.csv --all -o hits.csv\n  \
          meshsweep segment part.msw segments.csv --facing front"
+    )
+}
+
+pub fn overlap() -> String {
+    format!(
+        "A pose moves the second mesh: p becomes R p + (x, y, z), R being the rotation of the quaternion (qw, qx, qy, qz), which need not have length 1 and may \
+         not be 0. It is rounded to a matrix of f32, and what is said is about that. --matrix takes any matrix with entries up to 2 as it is.\n\n\
+         The column 'contact' says apart or meets, which is proved; or open, if the surfaces touch, come nearer than rounding and the blobs' surface errors can \
+         tell, or the query ended early. Surfaces alone count: a mesh inside of another one is apart from it. first and second are triangles that meet; with --all \
+         one pair is on each line, open ones among them, and an open without triangles says that pairs may be missing. {TRIANGLES}. Poses count from 0.\n\n\
+         {QUERIES}\n\n\
+         Examples:\n  \
+         meshsweep overlap part.msw part.msw --pose 30,0,0,1,0,0,0\n  \
+         meshsweep overlap part.msw part.msw --matrix 0,-1,0,5,1,0,0,5,0,0,1,0 --all\n  \
+         meshsweep overlap part.msw tool.msw --pose path.csv -o contacts.csv"
     )
 }
 

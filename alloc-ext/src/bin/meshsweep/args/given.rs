@@ -31,6 +31,16 @@ pub fn segments() -> impl TypedValueParser<Value = Given<6>> {
     OsStringValueParser::new().try_map(|text| given(text, "ax,ay,az,bx,by,bz"))
 }
 
+/// Motions as translation and quaternion, or files of them.
+pub fn poses() -> impl TypedValueParser<Value = Given<7>> {
+    OsStringValueParser::new().try_map(|text| given(text, "x,y,z,qw,qx,qy,qz"))
+}
+
+/// Motions as three rows of a matrix, each with its coordinate's translation, or files of them.
+pub fn matrices() -> impl TypedValueParser<Value = Given<12>> {
+    OsStringValueParser::new().try_map(|text| given(text, "m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z"))
+}
+
 /// Numbers alone are a query: a file of such a name has to be given with its directory.
 fn given<const N: usize>(text: OsString, names: &str) -> Result<Given<N>, String> {
     let Some(characters) = text.to_str() else { return Ok(Given::File(text.into())) };

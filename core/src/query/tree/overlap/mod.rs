@@ -89,7 +89,7 @@ pub struct Overlaps {
 /// Cost: what lies near the other surface: for meshes in contact, or apart, some dozens of pairs of nodes.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`]; [`QueryError::OutOfDomain`] if an entry of the matrix is beyond 2, or one grid is 2^40 times as coarse as the other;
+/// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond 2, or one grid is 2^40 times as coarse as the other;
 /// [`QueryError::NotServed`] unless both have boxes for segments; [`QueryError::NoQueue`].
 pub fn overlap(
     a: &Tree<'_>,

@@ -87,13 +87,13 @@ impl Placement {
             return Err(QueryError::NotFinite);
         }
         if entries().any(|x| x.abs() > 2.0) {
-            return Err(QueryError::OutOfDomain);
+            return Err(QueryError::PoseOutOfDomain);
         }
         let exponent = |tree: &Tree<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
         let (ea, eb) = (exponent(a), exponent(b));
         let common = if ea > eb { ea } else { eb };
         if ea - eb > RATIO || eb - ea > RATIO {
-            return Err(QueryError::OutOfDomain);
+            return Err(QueryError::PoseOutOfDomain);
         }
         let units = [exp2(ea - common), exp2(eb - common)];
         let [unit_a, unit_b] = units;
@@ -139,7 +139,7 @@ impl Placement {
             + greatest([r0, r1, r2].map(|row| most(row, from.map(|x| x * unit_b))))
             + greatest(into.map(f64::abs)) * unit_a;
         if far > FARTHEST {
-            return Err(QueryError::OutOfDomain);
+            return Err(QueryError::PoseOutOfDomain);
         }
         let narrow = |v: [f64; 3]| v.map(|x| x as f32);
         let first = Side {
