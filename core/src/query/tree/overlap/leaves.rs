@@ -50,6 +50,14 @@ impl Corners {
         [usize::from(triangle >= self.turn), RING + triangle, RING + 1 + triangle]
     }
 
+    /// The box of all.
+    #[inline(always)]
+    fn extent(&self) -> Extent {
+        let low = self.at.map(|axis| axis.into_iter().fold(f32::MAX, less));
+        let high = self.at.map(|axis| axis.into_iter().fold(f32::MIN, greater));
+        Extent { low, high }
+    }
+
     /// Largest 1-norm.
     #[inline(always)]
     fn reach(&self) -> f32 {
@@ -186,17 +194,16 @@ impl Boxes {
         let at = |axes: &[[f32; WIDTH]; 3]| axes.map(|axis| axis.get(i).copied().unwrap_or(0.0));
         Extent { low: at(&self.low), high: at(&self.high) }
     }
-
-    /// The box of the first `count`.
-    #[inline(always)]
-    fn all(&self, count: usize) -> Extent {
-        let low = self.low.map(|axis| axis.into_iter().take(count).fold(f32::MAX, less));
-        let high = self.high.map(|axis| axis.into_iter().take(count).fold(f32::MIN, greater));
-        Extent { low, high }
-    }
 }
 
 impl Extent {
+    /// Whether two boxes are farther than `doubt` from each other along an axis.
+    #[inline(always)]
+    fn is_beyond(&self, other: &Extent, doubt: f32) -> bool {
+        let axes = self.low.iter().zip(&self.high).zip(other.low.iter().zip(&other.high));
+        axes.into_iter().any(|((from, to), (low, high))| greater(low - to, from - high) > doubt)
+    }
+
     /// Which of the first `count` boxes, of those `wanted`, are not farther than `doubt` along any axis.
     #[inline(always)]
     fn near(&self, boxes: &Boxes, count: usize, wanted: u32, doubt: f32) -> u32 {
@@ -311,10 +318,14 @@ impl<'a> LeafPair<'a> {
     fn side_by_side(&self) -> Option<[u32; WIDTH]> {
         // As each vertex may be off; differences are compared, not sums, so that no rounding comes in but their own, which is less than the excess of `doubt`.
         let doubt = self.place.doubt + self.place.doubt;
-        let (first, second) = (Boxes::of(&self.a)?, Boxes::of(&self.b)?);
-        let rows = second.all(self.b.triangles).near(&first, self.a.triangles, u32::MAX, doubt);
-        let lanes = first.all(self.a.triangles).near(&second, self.b.triangles, u32::MAX, doubt);
+        let (whole, other) = (self.a.extent(), self.b.extent());
         let mut near = [0u32; WIDTH];
+        if whole.is_beyond(&other, doubt) {
+            return Some(near);
+        }
+        let (first, second) = (Boxes::of(&self.a)?, Boxes::of(&self.b)?);
+        let rows = other.near(&first, self.a.triangles, u32::MAX, doubt);
+        let lanes = whole.near(&second, self.b.triangles, u32::MAX, doubt);
         if rows == 0 || lanes == 0 {
             return Some(near);
         }

@@ -162,3 +162,42 @@ pub(super) fn narrow(a: &Spans, b: &Spans, i: usize, lanes: u32) -> [f32; WIDTH]
 fn less(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{DIRECTIONS, Spans, WIDTH, narrow, wide};
+
+    #[test]
+    fn both_kernels_find_the_same_pairs_and_depths() {
+        let mut state = 0x1234_5678u32;
+        let mut random = move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / 65_536.0 - 128.0
+        };
+        let mut met = 0;
+        for round in 0..500 {
+            let mut spans = || {
+                let mut spans = Spans { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
+                for (low, high) in spans.low.iter_mut().flatten().zip(spans.high.iter_mut().flatten()) {
+                    *low = random();
+                    *high = *low + if round % 5 == 0 { 0.0 } else { random().abs() * 2.0 };
+                }
+                spans
+            };
+            let (a, b) = (spans(), spans());
+            let b = if round % 7 == 0 { a } else { b };
+            for i in 0..WIDTH {
+                let (first, second) = (wide(&a, &b, i), narrow(&a, &b, i, 0b1011_0111));
+                for j in 0..WIDTH {
+                    if 0b1011_0111 >> j & 1 == 0 || first[j] < 0.0 {
+                        assert!(second[j] < 0.0);
+                    } else {
+                        assert_eq!(first[j].to_bits(), second[j].to_bits());
+                        met += 1;
+                    }
+                }
+            }
+        }
+        assert!(met > 1_000, "{met}");
+    }
+}
