@@ -43,5 +43,5 @@ pub mod refine;
 pub mod tree;
 pub mod tribox;
 
-pub use blob::{Model, OpenError, Tree};
+pub use blob::{Model, OpenError, Tree, Triboxes};
 pub use query::{QueryError, QueueEntry};
