@@ -7,7 +7,8 @@
 //! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
-//!                         └─ bounds   (paper 001: triboxes) ┘
+//!                         ├─ bounds   (paper 001: triboxes) ┤
+//!                         └─ triboxes (their hierarchies) ──┘
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
 //! something. Counts are exact.
@@ -25,6 +26,7 @@ mod subject;
 pub mod table;
 mod trade;
 mod tree;
+pub mod triboxes;
 pub mod workload;
 
 use std::path::Path;
@@ -56,6 +58,17 @@ pub fn measure_bounds(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
     tables.extend(bounds::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures the stored triboxes of one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or triboxes deny that meshes meet.
+pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject.table()];
+    tables.extend(triboxes::tables(&subject)?);
     Ok(tables)
 }
 

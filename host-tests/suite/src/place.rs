@@ -8,6 +8,9 @@ use crate::rng::Rng;
 /// An axis-aligned box: least corner, greatest corner.
 pub type Bounds = [[f32; 3]; 2];
 
+/// A rotation matrix, by rows and up to rounding, and what is added after it.
+pub type Motion = ([[f32; 3]; 3], [f32; 3]);
+
 /// Where the queries of a kind come from.
 #[derive(Clone, Debug)]
 pub struct Placer {
@@ -57,6 +60,11 @@ impl Placer {
         segment(&mut self.rng, &self.bounds)
     }
 
+    /// See [`motion`].
+    pub fn motion(&mut self) -> Motion {
+        motion(&mut self.rng, &self.bounds)
+    }
+
     /// See [`distance`].
     pub fn distance(&mut self) -> f32 {
         distance(&mut self.rng, &self.bounds)
@@ -91,6 +99,27 @@ pub fn segment(rng: &mut Rng, bounds: &Bounds) -> [[f32; 3]; 2] {
 pub fn distance(rng: &mut Rng, bounds: &Bounds) -> f32 {
     let (_, half) = centre_and_half(bounds, 0);
     0.5 * half * rng.unit()
+}
+
+/// A rotation about the box's centre, then the centre is put anywhere in the doubled box.
+pub fn motion(rng: &mut Rng, bounds: &Bounds) -> Motion {
+    // A quaternion of any length but 0; no root is needed.
+    let [x, y, z] = [(); 3].map(|()| rng.signed_unit());
+    let w = 0.25 + rng.unit();
+    let s = 2.0 / (((w * w + x * x) + y * y) + z * z);
+    let rotation = [
+        [1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+        [s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)],
+        [s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)],
+    ];
+    let centre: [f32; 3] = core::array::from_fn(|axis| centre_and_half(bounds, axis).0);
+    let to = far_point(rng, bounds);
+    let mut translation = [0.0; 3];
+    for ((slot, [a, b, c]), to) in translation.iter_mut().zip(rotation).zip(to) {
+        let [x, y, z] = centre;
+        *slot = to - ((a * x + b * y) + c * z);
+    }
+    (rotation, translation)
 }
 
 fn surface_point(rng: &mut Rng, bounds: &Bounds) -> [f32; 3] {

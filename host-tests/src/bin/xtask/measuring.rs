@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use meshsweep_host_tests::measure::{measure, measure_bounds, measure_tree};
+use meshsweep_host_tests::measure::{measure, measure_bounds, measure_tree, measure_triboxes};
 use serde_json::{Value, json};
 
 use crate::firmware;
@@ -18,29 +18,32 @@ pub struct Options {
     firmware: bool,
     tree: bool,
     bounds: bool,
+    triboxes: bool,
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --bounds] [--json FILE] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --bounds | --triboxes] [--json FILE] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match word {
                 "--firmware" => options.firmware = true,
-                "--tree" if !options.bounds => options.tree = true,
-                "--bounds" if !options.tree => options.bounds = true,
+                "--tree" => options.tree = true,
+                "--bounds" => options.bounds = true,
+                "--triboxes" => options.triboxes = true,
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
                 flag if flag.starts_with("--") => return None,
                 mesh => options.meshes.push(PathBuf::from(mesh)),
             }
         }
-        Some(options)
+        let one = [options.tree, options.bounds, options.triboxes].iter().filter(|&&is| is).count() <= 1;
+        one.then_some(options)
     }
 }
 
 /// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds; and the firmware if asked to.
+/// bounds, with `--triboxes` only stored triboxes; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
@@ -50,6 +53,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
             let tables = match options {
                 Options { tree: true, .. } => measure_tree(mesh)?,
                 Options { bounds: true, .. } => measure_bounds(mesh)?,
+                Options { triboxes: true, .. } => measure_triboxes(mesh)?,
                 _ => measure(mesh)?,
             };
             for table in &tables {
@@ -91,5 +95,6 @@ mod tests {
         assert_eq!(Options::parse(&["--json"]), None);
         assert_eq!(Options::parse(&["--fast"]), None);
         assert_eq!(Options::parse(&["--tree", "--bounds"]), None);
+        assert_eq!(Options::parse(&["--triboxes", "--bounds"]), None);
     }
 }
