@@ -2,6 +2,7 @@
 
 use meshsweep_host_tests::fuzz_targets::{
     closest, open, outer, random_input, segment, tree_closest, tree_open, tree_segment, tree_session, tribox,
+    triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -61,4 +62,9 @@ fn tree_session_survives_seeded_edits() {
 #[test]
 fn tribox_survives_any_floats() {
     drive(9, tribox);
+}
+
+#[test]
+fn triboxes_survive_seeded_edits() {
+    drive(10, triboxes);
 }

@@ -6,6 +6,7 @@ use meshsweep_alloc::tribox::store;
 use meshsweep_core::Triboxes;
 use meshsweep_core::query::tribox::{NodePair, apart, candidates, stack_entries};
 use meshsweep_core::tribox::{Pose as CorePose, Tribox};
+use parry3d::math::{Pose as ParryPose, Vector};
 
 use crate::generate::Rng;
 
@@ -43,13 +44,14 @@ fn rounded(pose: &Pose) -> CorePose {
     }
 }
 
-/// A pose that the core and the oracle know alike.
-fn exact(pose: Pose) -> (Pose, CorePose) {
-    let core = rounded(&pose);
+/// The core's pose with all its digits. parry3d, which only chooses triangles to look at, is told of the nearest rotation of `near`.
+#[must_use]
+pub fn exact(core: &CorePose, near: &Pose) -> Pose {
     let columns = core.rotation.map(|row| row.map(f64::from));
     let rotation = glam::DMat3::from_cols_array_2d(&columns).transpose();
     let shift = DVec3::from_array(core.translation.map(f64::from));
-    (Pose { rotation, shift, parry: pose.parry }, core)
+    let parry = ParryPose::from_parts(Vector::from_array(core.translation), near.parry.rotation);
+    Pose { rotation, shift, parry }
 }
 
 /// The paper's test: of the larger tribox's children, the moved one about its vertices; nine slabs. Whether apart, pairs tested.
@@ -79,7 +81,11 @@ pub fn by_vertices(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &CorePose) -> (bool
 /// Random poses of a mesh in a sphere, as the core is told them and with all their digits.
 pub fn poses(sphere: &Sphere, count: usize) -> impl Iterator<Item = (Pose, CorePose)> {
     let mut rng = Rng::new(0x0070_6f73_6573);
-    (0..count).map(move |_| exact(Pose::random(&mut rng, sphere, FARTHEST)))
+    (0..count).map(move |_| {
+        let pose = Pose::random(&mut rng, sphere, FARTHEST);
+        let core = rounded(&pose);
+        (exact(&core, &pose), core)
+    })
 }
 
 /// The sphere that the poses are about.
