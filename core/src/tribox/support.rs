@@ -16,17 +16,11 @@
 
 use super::FACES;
 
-/// A multiple of a plane's parameter.
-#[derive(Clone, Copy, Debug)]
-struct Term {
-    plane: u8,
-    factor: f32,
-}
-
 /// A direction, split into multiples of planes' directions in all ways that may be the least.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Support {
-    sums: [[Term; 3]; 4],
+    factors: [[f32; 3]; 4],
+    planes: [[u8; 3]; 4],
     count: u8,
 }
 
@@ -35,7 +29,7 @@ const DIAGONALS: [[u8; 3]; 3] = [[0, 3, 7], [3, 0, 5], [7, 5, 0]];
 
 impl Support {
     /// Nothing.
-    pub(crate) const NONE: Support = Support { sums: [[Term { plane: 0, factor: 0.0 }; 3]; 4], count: 0 };
+    pub(crate) const NONE: Support = Support { factors: [[0.0; 3]; 4], planes: [[0; 3]; 4], count: 0 };
 
     /// Of a finite direction.
     pub(crate) fn along(direction: [f32; 3]) -> Support {
@@ -63,26 +57,24 @@ impl Support {
         let (xy, zx, yz) =
             (double((x, x_up), (y, y_up)), double((z, z_up), (x, x_up)), double((y, y_up), (z, z_up)));
         let (x, y, z) = (single(x, x_up), single(y, y_up), single(z, z_up));
-        let sum = |terms: [(u8, f32); 3]| terms.map(|(plane, factor)| Term { plane, factor });
-        let cut = sum([(xy, b - c), (yz, c), (x, a - b + c)]);
+        let (cut, cut_planes) = ([b - c, c, a - b + c], [xy, yz, x]);
         let rest = b + c - a;
         if rest <= 0.0 {
-            let other = sum([(xy, b), (zx, c), (x, a - b - c)]);
-            return Support { sums: [cut, other, cut, cut], count: 2 };
+            let factors = [cut, [b, c, a - b - c], [0.0; 3], [0.0; 3]];
+            return Support { factors, planes: [cut_planes, [xy, zx, x], [0; 3], [0; 3]], count: 2 };
         }
-        let three = sum([(xy, 0.5 * (a + b - c)), (zx, 0.5 * (a - b + c)), (yz, 0.5 * rest)]);
-        let sums =
-            [cut, three, sum([(xy, a - c), (zx, c), (y, rest)]), sum([(xy, b), (zx, a - b), (z, rest)])];
-        Support { sums, count: 4 }
+        let three = [0.5 * (a + b - c), 0.5 * (a - b + c), 0.5 * rest];
+        let factors = [cut, three, [a - c, c, rest], [b, a - b, rest]];
+        Support { factors, planes: [cut_planes, [xy, zx, yz], [xy, zx, y], [xy, zx, z]], count: 4 }
     }
 
     #[inline(always)]
     fn least(&self, planes: &[f32; FACES], flip: u8) -> f32 {
         let mut least = f32::INFINITY;
-        for sum in self.sums.iter().take(usize::from(self.count)) {
-            let [p, q, r] = sum.map(|Term { plane, factor }| {
-                planes.get(usize::from(plane ^ flip)).copied().unwrap_or(f32::INFINITY) * factor
-            });
+        let sums = self.factors.iter().zip(&self.planes);
+        for (&[a, b, c], &[i, j, k]) in sums.take(usize::from(self.count)) {
+            let at = |plane: u8| planes.get(usize::from(plane ^ flip)).copied().unwrap_or(f32::INFINITY);
+            let (p, q, r) = (at(i) * a, at(j) * b, at(k) * c);
             let here = (p + q) + r;
             least = if here < least { here } else { least };
         }

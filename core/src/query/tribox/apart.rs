@@ -121,7 +121,7 @@ fn descend(
     let axes = Axes::new(a, b, pose)?;
     let mut work = Work::default();
     let mut ended = Ended::Exact;
-    let mut hint = 0;
+    let mut hint = (0, 0);
     *stack.first_mut().ok_or(QueryError::NoQueue)? = NodePair { a: 0, b: 0 };
     let mut waiting = 1usize;
     while let Some(top) = waiting.checked_sub(1) {

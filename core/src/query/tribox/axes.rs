@@ -117,21 +117,24 @@ impl Axes {
         Ok(Axes { sides })
     }
 
-    /// Whether one of the directions proves that two nodes have no common point. It looks at direction `*hint` first, and leaves there which one it was.
+    /// Whether one of the directions proves that two nodes have no common point. It looks first at the direction `*hint`, of which side and slab, and leaves there which one it was.
     #[inline]
-    pub(super) fn separate(&self, a: &Body, b: &Body, hint: &mut usize) -> bool {
-        let [of_a, of_b] = &self.sides;
-        let tried = |axis: usize| {
-            let (axes, own, other, slab) =
-                if axis < SLABS { (of_a, a, b, axis) } else { (of_b, b, a, axis - SLABS) };
-            axes.get(slab).is_some_and(|axis| axis.separates(own, other, slab))
-        };
-        if tried(*hint) {
+    pub(super) fn separate(&self, a: &Body, b: &Body, hint: &mut (usize, usize)) -> bool {
+        let Axes { sides: [of_a, of_b] } = self;
+        let (side, slab) = *hint;
+        let (axes, own, other) = if side == 0 { (of_a, a, b) } else { (of_b, b, a) };
+        if axes.get(slab).is_some_and(|axis| axis.separates(own, other, slab)) {
             return true;
         }
-        let found = (0..2 * SLABS).find(|&axis| axis != *hint && tried(axis));
-        *hint = found.unwrap_or(*hint);
-        found.is_some()
+        for (side, (axes, own, other)) in [(of_a, a, b), (of_b, b, a)].into_iter().enumerate() {
+            for (slab, axis) in axes.iter().enumerate() {
+                if axis.separates(own, other, slab) {
+                    *hint = (side, slab);
+                    return true;
+                }
+            }
+        }
+        false
     }
 }
 
