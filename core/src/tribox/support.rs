@@ -31,6 +31,12 @@ impl Support {
     /// Nothing.
     pub(crate) const NONE: Support = Support { factors: [[0.0; 3]; 4], planes: [[0; 3]; 4], count: 0 };
 
+    /// Whether it is that.
+    #[inline(always)]
+    pub(crate) fn is_none(&self) -> bool {
+        self.count == 0
+    }
+
     /// Of a finite direction.
     pub(crate) fn along(direction: [f32; 3]) -> Support {
         // Axes by falling size; each with the sign, and the sign of −x for the order in which z − x is stored.

@@ -118,7 +118,8 @@ fn descend(
     stack: &mut [NodePair],
     mut found: impl FnMut(NodePair) -> ControlFlow<()>,
 ) -> Result<(Work, Ended), QueryError> {
-    let axes = Axes::new(a, b, pose)?;
+    let mut axes = Axes::NONE;
+    axes.prepare(a, b, pose)?;
     let mut work = Work::default();
     let mut ended = Ended::Exact;
     let mut hint = (0, 0);

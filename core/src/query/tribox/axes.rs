@@ -10,6 +10,7 @@ use crate::tribox::{DIRECTIONS, FACES, Pose, SLABS, Support};
 /// For a point p of the other one its value along the slab is `towards` · p + `offset`, up to `margin`, which is more than all that rounding does to a comparison.
 #[derive(Clone, Copy)]
 struct Axis {
+    /// Along `towards`; prepared when it is first wanted.
     support: Support,
     towards: [f32; 3],
     offset: f32,
@@ -67,12 +68,23 @@ impl Body {
 }
 
 impl Axes {
-    /// Of a motion of `b`.
+    /// Before [`prepare`](Self::prepare).
+    pub(super) const NONE: Axes = {
+        let none = Axis { support: Support::NONE, towards: [0.0; 3], offset: 0.0, margin: 0.0 };
+        Axes { sides: [[none; SLABS]; 2] }
+    };
+
+    /// For a motion of `b`.
     ///
     /// Let w be a direction, M and t the motion. The value of a moved point is w·(Mp + t) = (Mᵀw)·p + w·t. Along the slabs of `a`, w is a direction of small integers and e = Mᵀw is computed; along
     /// those of `b` w = Mf is computed from a direction f, and Mᵀw is f up to the rounding of M. That and e's rounding count with the largest coordinate of `b`. No gap
     /// is rounded by more than [`TRIBOX_AXIS`] units of what is summed (`core/docs/rounding.md` has the count).
-    pub(super) fn new(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &Pose) -> Result<Axes, QueryError> {
+    pub(super) fn prepare(
+        &mut self,
+        a: &Triboxes<'_>,
+        b: &Triboxes<'_>,
+        pose: &Pose,
+    ) -> Result<(), QueryError> {
         pose.check().map_err(QueryError::from)?;
         let (reach_a, reach_b) = (reach(a)?, reach(b)?);
         let [p, q, r] = pose.rotation;
@@ -91,43 +103,35 @@ impl Axes {
             }
             sum
         };
-        let none = Axis { support: Support::NONE, towards: [0.0; 3], offset: 0.0, margin: 0.0 };
-        let mut sides = [[none; SLABS]; 2];
-        let [first, second] = &mut sides;
+        let [first, second] = &mut self.sides;
         for ((of_a, of_b), direction) in first.iter_mut().zip(second.iter_mut()).zip(DIRECTIONS) {
             let f = direction.map(f32::from);
             let margin = |w: [f32; 3]| {
                 TRIBOX_AXIS * U32 * (back_sizes(w) * reach_b + size(w) * (reach_a + largest)) + UNDERFLOW
             };
             let e = back(f);
-            let support = Support::along(e);
-            *of_a = Axis { support, towards: e, offset: dot(f, pose.translation), margin: margin(f) };
+            (of_a.towards, of_a.offset, of_a.margin) = (e, dot(f, pose.translation), margin(f));
             let w = [dot(p, f), dot(q, f), dot(r, f)];
             let [x, y, z] = back(w);
             let [fx, fy, fz] = f;
             // What the matrix lacks of a rotation.
             let rest = size([x - fx, y - fy, z - fz]) * reach_b;
-            *of_b = Axis {
-                support: Support::along(w),
-                towards: w,
-                offset: -dot(w, pose.translation),
-                margin: margin(w) + rest,
-            };
+            (of_b.towards, of_b.offset, of_b.margin) = (w, -dot(w, pose.translation), margin(w) + rest);
         }
-        Ok(Axes { sides })
+        Ok(())
     }
 
     /// Whether one of the directions proves that two nodes have no common point. It looks first at the direction `*hint`, of which side and slab, and leaves there which one it was.
     #[inline]
-    pub(super) fn separate(&self, a: &Body, b: &Body, hint: &mut (usize, usize)) -> bool {
-        let Axes { sides: [of_a, of_b] } = self;
+    pub(super) fn separate(&mut self, a: &Body, b: &Body, hint: &mut (usize, usize)) -> bool {
+        let [of_a, of_b] = &mut self.sides;
         let (side, slab) = *hint;
-        let (axes, own, other) = if side == 0 { (of_a, a, b) } else { (of_b, b, a) };
-        if axes.get(slab).is_some_and(|axis| axis.separates(own, other, slab)) {
+        let (axes, own, other) = if side == 0 { (&mut *of_a, a, b) } else { (&mut *of_b, b, a) };
+        if axes.get_mut(slab).is_some_and(|axis| axis.separates(own, other, slab)) {
             return true;
         }
         for (side, (axes, own, other)) in [(of_a, a, b), (of_b, b, a)].into_iter().enumerate() {
-            for (slab, axis) in axes.iter().enumerate() {
+            for (slab, axis) in axes.iter_mut().enumerate() {
                 if axis.separates(own, other, slab) {
                     *hint = (side, slab);
                     return true;
@@ -141,17 +145,22 @@ impl Axes {
 impl Axis {
     /// Whether there is a gap between the slab of `own` and what the other one takes of the direction.
     #[inline(always)]
-    fn separates(&self, own: &Body, other: &Body, slab: usize) -> bool {
+    fn separates(&mut self, own: &Body, other: &Body, slab: usize) -> bool {
         let plane = |plane: usize| own.planes.get(plane).copied().unwrap_or(f32::INFINITY);
         let (low, high) = (plane(2 * slab), plane(2 * slab + 1));
         let centre = dot(self.towards, other.centre) + self.offset;
         // Beyond a plane there is a gap only if even the centre is.
-        if centre > high {
+        let is_above = centre > high;
+        if !(is_above || -centre > low) {
+            return false;
+        }
+        if self.support.is_none() {
+            self.support = Support::along(self.towards);
+        }
+        if is_above {
             (self.offset - self.support.greatest_against(&other.planes)) - high > self.margin
-        } else if -centre > low {
-            (-self.offset - self.support.greatest(&other.planes)) - low > self.margin
         } else {
-            false
+            (-self.offset - self.support.greatest(&other.planes)) - low > self.margin
         }
     }
 }
