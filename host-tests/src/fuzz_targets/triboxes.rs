@@ -120,8 +120,9 @@ pub fn triboxes(data: &[u8]) {
     let mut input = Input(data);
     let (first, second) = (input.blob(triboxes_seeds()), input.blob(triboxes_seeds()));
     let opened = Triboxes::open(&first);
-    if Model::open(&first).is_ok() {
-        assert!(opened.is_ok(), "{opened:?}");
+    // The same bytes as a model: all of them are checked, the triboxes among them. An edit may have made a section of an unknown kind of them.
+    if let Ok(model) = Model::open(&first) {
+        assert_eq!(model.triboxes().is_some(), opened.is_ok(), "{opened:?}");
     }
     let (Ok(a), Ok(b)) = (opened, Triboxes::open(&second)) else { return };
     ask_triboxes(&a, &b);

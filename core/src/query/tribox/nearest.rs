@@ -32,7 +32,7 @@ pub struct Bound {
 
 /// A lower bound of the distance of a point and the mesh: the distance to the leaf that is nearest by [`Tribox::distance`]. 0 in a leaf.
 ///
-/// A stack of [`depth`](Triboxes::depth) + 2 entries suffices. Cost: some 250 instructions of a Cortex-M4F a tribox tested.
+/// A stack of [`depth`](Triboxes::depth) + 2 entries suffices. Cost: about a thousand instructions of a Cortex-M4F a tribox tested.
 ///
 /// # Errors
 /// [`QueryError::NotFinite`] and [`QueryError::OutOfDomain`] (beyond [`Tribox::DOMAIN`]) of the point; [`QueryError::NoQueue`] without a stack.
