@@ -176,3 +176,57 @@ fn coordinates_beyond_what_triboxes_hold_are_refused_by_name() {
         assert_eq!(json(&mesh, &["--levels", "3"])["is_closed"], true);
     }
 }
+
+fn info(blob: &Path) -> Value {
+    serde_json::from_str(&ok(["info", arg(blob), "--json"])).expect("it is JSON")
+}
+
+#[test]
+fn a_blob_of_triboxes_holds_what_the_command_prints() {
+    let directory = scratch("tribox_blob");
+    let blob = directory.join("torus.msw");
+    let text =
+        ok(["build", arg(&fixture("torus.ply")), "--for", "triboxes", "--triboxes", "16", "-o", arg(&blob)]);
+    assert!(text.contains("serves triboxes, cut") && text.contains("31 nodes of 16 leaves"), "{text}");
+    let stored = info(&blob);
+    assert_eq!((&stored["hull"], &stored["tree"]), (&Value::Null, &Value::Null));
+    let stored = &stored["triboxes"];
+    assert_eq!((&stored["is_solid"], &stored["leaves"]), (&Value::Bool(true), &Value::from(16)));
+    assert_eq!(numbers(stored, "triboxes"), [1.0, 2.0, 4.0, 8.0, 16.0]);
+    // On a coarser grid than what the command writes, so a little larger.
+    let printed = json(&fixture("torus.ply"), &["--levels", "5"]);
+    for (there, here) in numbers(stored, "void_ratio").iter().zip(numbers(&printed, "void_ratio")) {
+        assert!((there - here).abs() < 3e-3, "{there} {here}");
+    }
+    for (there, levels) in numbers(stored, "distance").iter().zip(printed["levels"].as_array().unwrap()) {
+        let lower = levels["distance"]["lower"].as_f64().unwrap();
+        assert!(*there >= lower && *there < lower * 1.07, "{there} {lower}");
+    }
+}
+
+#[test]
+fn triboxes_are_cut_alone_or_with_the_hull_and_stay_else() {
+    let directory = scratch("tribox_cut");
+    let [blob, cut] = ["all.msw", "cut.msw"].map(|name| directory.join(name));
+    let questions = ["--for", "closest,hull,triboxes", "--triboxes", "8", "--base", "60"];
+    ok([&["build", arg(&fixture("groove.obj")), "-o", arg(&blob)], questions.as_slice()].concat());
+    let whole = info(&blob);
+    let leaves = |blob: &Value| blob["triboxes"]["leaves"].as_u64().expect("there are some");
+    let count = leaves(&whole);
+    assert!(count > 2 && whole["tree"].is_object());
+    let text = ok(["cut", arg(&blob), "--triboxes", "2", "-o", arg(&cut)]);
+    assert!(text.contains("2 triboxes"), "{text}");
+    let left = info(&cut);
+    assert_eq!((leaves(&left), &left["tree"], &left["hull"]), (2, &whole["tree"], &whole["hull"]));
+    ok(["cut", arg(&blob), "--level", "0", "-o", arg(&cut)]);
+    assert_eq!((leaves(&info(&cut)), &info(&cut)["tree"]), (count, &Value::Null));
+    ok(["cut", arg(&blob), "--level", "0", "--triboxes", "1", "-o", arg(&cut)]);
+    assert_eq!(leaves(&info(&cut)), 1);
+    assert_eq!(run(["cut", arg(&blob), "-o", arg(&cut)]).status.code(), Some(2), "nothing to cut is named");
+    let plain = directory.join("plain.msw");
+    ok(["build", arg(&fixture("groove.obj")), "-o", arg(&plain)]);
+    refused(&run(["cut", arg(&plain), "--triboxes", "2", "-o", arg(&cut)]), 1, "--for triboxes");
+    let mesh = fixture("groove.obj");
+    let stray = ["build", arg(&mesh), "--triboxes", "2", "-o", arg(&plain)];
+    refused(&run(stray), 2, "add triboxes to --for");
+}

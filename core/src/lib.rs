@@ -24,6 +24,7 @@
 //! | [`fan`] | point–fan and ray–fan kernels, scalar and eight lanes wide; normal cones |
 //! | [`blob`] | the format: header, sections, checked views; the only place that reads bytes |
 //! | [`tree`] | the box tree: eight boxes at a time |
+//! | [`tribox`] | bounds of eighteen planes: closure, boundary, reach |
 //! | [`refine`] | split tables: the selectively refined hull, the faces of a level |
 //! | [`query`] | one file per question; stop rules, intervals, work counters |
 //!
@@ -43,5 +44,5 @@ pub mod refine;
 pub mod tree;
 pub mod tribox;
 
-pub use blob::{Model, OpenError, Tree};
+pub use blob::{Model, OpenError, Tree, Triboxes};
 pub use query::{QueryError, QueueEntry};

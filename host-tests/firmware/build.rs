@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 /// Images without a runtime: linked by `bare.x`, never started.
-const BARE: [&str; 11] = [
+const BARE: [&str; 12] = [
     "proof",
     "size_empty",
     "size_open",
@@ -16,10 +16,11 @@ const BARE: [&str; 11] = [
     "size_tree_alone",
     "size_tree_segment",
     "size_tree_session",
+    "size_triboxes",
 ];
 
 /// Images that run.
-const SUITES: [&str; 2] = ["suite_hull", "suite_tree"];
+const SUITES: [&str; 3] = ["suite_hull", "suite_tree", "suite_triboxes"];
 
 /// RAM is kept at what such parts have, not at what the emulated board has, so that an image that needs more fails.
 fn memory(target: &str) -> Option<&'static str> {

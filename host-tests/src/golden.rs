@@ -1,13 +1,14 @@
 //! Blobs and answers that are committed: whoever computes other bits, another machine or a later version, is noticed.
 
-use meshsweep_alloc::emit;
+use meshsweep_alloc::emit::{self, Parts};
 use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_suite::ask::{Refused, Subject, hull, tree};
+use meshsweep_alloc::tribox::store;
+use meshsweep_suite::ask::{Refused, Subject, hull, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
-use crate::generate::groove_block;
+use crate::generate::{groove_block, torus};
 
 /// The box tree of `groove_block()`, with every section that a tree can have.
 #[must_use]
@@ -17,6 +18,18 @@ pub fn groove_tree() -> Vec<u8> {
     let options = TreeOptions { cull: true, ..TreeOptions::default() };
     let (tables, _) = build(&mesh, 0.0, mesh.triangles.len(), &options);
     emit::blob(None, Some(&tables))
+}
+
+/// 64 triboxes of the torus of the fixtures, and nothing else.
+///
+/// # Panics
+/// Never: the torus is in the domain.
+#[must_use]
+pub fn torus_triboxes() -> Vec<u8> {
+    let (positions, triangles) = torus(2.0, 0.75, 48, 24);
+    let mesh = Mesh::new(positions, triangles);
+    let (tables, _) = store(&mesh, 0.0, mesh.triangles.len(), 64).expect("in the domain");
+    emit::assemble(&Parts { triboxes: Some(&tables), ..Parts::default() })
 }
 
 /// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash of all answers' bits.
@@ -33,6 +46,14 @@ pub fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
 /// The core's refusal of the blob.
 pub fn tree_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
     answers::<tree::Tree<'_>>(name, blob, &mut tree::Scratch::new())
+}
+
+/// The same for a blob's triboxes.
+///
+/// # Errors
+/// The core's refusal of the blob.
+pub fn tribox_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    answers::<triboxes::Triboxes<'_>>(name, blob, &mut triboxes::Scratch::new())
 }
 
 fn answers<'t, S: Subject<'t>>(

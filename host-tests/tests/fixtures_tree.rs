@@ -1,9 +1,9 @@
-//! The committed box tree and the committed answers: what the builder makes, and what this machine computes.
+//! The committed box tree, triboxes and answers: what the builder makes, and what this machine computes.
 
 use std::path::{Path, PathBuf};
 
-use meshsweep_core::Tree;
-use meshsweep_host_tests::golden::{groove_tree, hull_answers, tree_answers};
+use meshsweep_core::{Tree, Triboxes};
+use meshsweep_host_tests::golden::{groove_tree, hull_answers, torus_triboxes, tree_answers, tribox_answers};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
@@ -31,9 +31,18 @@ fn committed_tree_opens_with_every_triangle_and_every_section() {
 }
 
 #[test]
+fn committed_triboxes_are_what_the_builder_makes() {
+    let bytes = read("torus.msw");
+    assert!(bytes == torus_triboxes(), "fixtures/torus.msw is out of date: run `cargo xtask fixtures`");
+    let triboxes = Triboxes::open(&bytes).expect("opens");
+    assert!(triboxes.is_solid() && triboxes.leaf_count() == 64);
+}
+
+#[test]
 fn answers_have_the_committed_bits() {
     let here = hull_answers("bracket.msw", &read("bracket.msw")).expect("opens")
-        + &tree_answers("groove.msw", &read("groove.msw")).expect("opens");
+        + &tree_answers("groove.msw", &read("groove.msw")).expect("opens")
+        + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens");
     let committed = String::from_utf8(read("answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
         assert_eq!(here, committed, "other bits; if they are meant to be, run `cargo xtask fixtures`");

@@ -2,7 +2,7 @@
 
 use meshsweep_host_tests::fuzz_targets::{
     closest, open, outer, random_input, segment, tree_closest, tree_open, tree_overlap, tree_segment,
-    tree_session, tribox,
+    tree_session, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -67,4 +67,9 @@ fn tribox_survives_any_floats() {
 #[test]
 fn tree_overlap_survives_seeded_edits() {
     drive(10, tree_overlap);
+}
+
+#[test]
+fn triboxes_survive_seeded_edits() {
+    drive(11, triboxes);
 }

@@ -2,6 +2,7 @@
 
 use super::tables::Tables;
 use crate::tree::TreeTables;
+use crate::tribox::TriboxTables;
 use glam::Vec3;
 use meshsweep_core::blob::layout::{
     FLAG_CUT, HEADER_BYTES, HEADER_CRC_AT, LEAF_FLAG, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind,
@@ -11,26 +12,61 @@ use meshsweep_core::blob::{Header, section_crc};
 use meshsweep_core::geom::Aabb;
 use meshsweep_core::num::{down_to_f32, exp2, up_to_f32};
 
+/// What a blob is to hold, all of the same mesh.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Parts<'a> {
+    /// The hull hierarchy.
+    pub hull: Option<&'a Tables>,
+    /// The box tree.
+    pub tree: Option<&'a TreeTables>,
+    /// The tribox hierarchy.
+    pub triboxes: Option<&'a TriboxTables>,
+}
+
 /// A blob of a hull hierarchy, a box tree, or both of the same mesh.
 ///
 /// The sections follow each other as given here; same tables, same bytes. Without either the blob does not open.
 pub fn blob(hull: Option<&Tables>, tree: Option<&TreeTables>) -> Vec<u8> {
-    let mut header = match (hull, tree) {
-        (Some(tables), _) => tables.header(),
-        (None, Some(tree)) => tree_header(tree),
-        (None, None) => Tables::default().header(),
+    assemble(&Parts { hull, tree, triboxes: None })
+}
+
+/// A blob of any of its parts; without one it does not open. Same tables, same bytes.
+pub fn assemble(parts: &Parts<'_>) -> Vec<u8> {
+    let mut header = match *parts {
+        Parts { hull: Some(tables), .. } => tables.header(),
+        Parts { tree: Some(tree), .. } => tree_header(tree),
+        Parts { triboxes: Some(triboxes), .. } => triboxes_header(triboxes),
+        _ => Tables::default().header(),
     };
     let mut bodies: Vec<(SectionKind, Vec<u8>)> = Vec::new();
-    if let Some(tables) = hull {
-        let kinds = SectionKind::ALL.into_iter().filter(|kind| !kind.is_tree());
+    if let Some(tables) = parts.hull {
+        let kinds = SectionKind::ALL.into_iter().filter(|kind| kind.is_hull());
         bodies.extend(kinds.map(|kind| (kind, tables.section(kind, &header))));
     }
-    if let Some(tree) = tree {
+    if let Some(tree) = parts.tree {
         header.input_triangles = header.input_triangles.max(tree.input_triangles);
         bodies.extend(tree.sections.iter().cloned());
     }
+    if let Some(triboxes) = parts.triboxes {
+        debug_assert_eq!(triboxes.scale_exponent, header.scale_exponent, "of another mesh");
+        bodies.push((SectionKind::Triboxes, triboxes.section.clone()));
+    }
     bodies.retain(|(_, body)| !body.is_empty());
     join(header, &bodies)
+}
+
+/// The header of a blob that holds triboxes alone.
+fn triboxes_header(triboxes: &TriboxTables) -> Header {
+    let [min, max] = triboxes.bounds.map(Vec3::from_array);
+    Header {
+        scale_exponent: triboxes.scale_exponent,
+        surface_error: triboxes.surface_error,
+        input_triangles: triboxes.input_triangles,
+        hull_box: Aabb { min, max },
+        surface_box: Aabb { min, max },
+        queue_capacity: 0,
+        ..Tables::default().header()
+    }
 }
 
 /// The header of a blob that holds a box tree alone.
@@ -159,7 +195,7 @@ impl Tables {
                     }
                 }
             }
-            // The box tree brings its own.
+            // Box tree and triboxes bring their own.
             _ => {}
         }
         out

@@ -1,7 +1,11 @@
 //! A coarser blob out of a finer one: every section runs coarse to fine, so a cut keeps a prefix of each.
 
+use super::bytes::{Parts, assemble};
 use super::tables::Tables;
+use crate::tree::TreeTables;
+use crate::tribox;
 use meshsweep_core::Model;
+use meshsweep_core::blob::layout::SectionKind;
 
 /// Why a blob was not cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +17,8 @@ pub enum CutError {
         /// Levels there are.
         levels: u32,
     },
+    /// The blob has no triboxes.
+    NoTriboxes,
     /// The model is not one that was opened.
     Model,
 }
@@ -26,12 +32,47 @@ impl std::fmt::Display for CutError {
             CutError::NoLevel { wanted, levels } => {
                 write!(f, "level {wanted} does not exist: the blob has levels 0 to {}", levels - 1)
             }
+            CutError::NoTriboxes => {
+                write!(f, "the blob has no triboxes to cut: build it with --for triboxes")
+            }
             CutError::Model => write!(f, "the blob was not opened"),
         }
     }
 }
 
 impl std::error::Error for CutError {}
+
+/// What is left of a blob after a level of its hull hierarchy, or a level of its triboxes, the finest of at most so many; or both.
+///
+/// A box tree cannot be cut: where the hull hierarchy is, it is left out. What nothing is said of stays as it is.
+///
+/// # Errors
+/// [`CutError`] if there is nothing of the kind to cut.
+pub fn cut_blob(model: &Model<'_>, level: Option<u32>, triboxes: Option<u32>) -> Result<Vec<u8>, CutError> {
+    let hull = match level {
+        Some(level) => Some(cut(model, level)?),
+        None if model.has_hull() => Some(Tables::from_model(model).ok_or(CutError::Model)?),
+        None => None,
+    };
+    let tree = if level.is_none() { tree(model) } else { None };
+    if triboxes.is_some() && model.triboxes().is_none() {
+        return Err(CutError::NoTriboxes);
+    }
+    let triboxes = tribox::cut(model, triboxes.unwrap_or(u32::MAX));
+    Ok(assemble(&Parts { hull: hull.as_ref(), tree: tree.as_ref(), triboxes: triboxes.as_ref() }))
+}
+
+/// The box tree as it stands in a blob.
+fn tree(model: &Model<'_>) -> Option<TreeTables> {
+    let tree = model.tree()?;
+    let sections = model.sections().filter(|section| section.kind.is_tree()).filter_map(|section| {
+        let bytes = model.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
+        Some((section.kind, bytes.to_vec()))
+    });
+    let sections: Vec<(SectionKind, Vec<u8>)> = sections.collect();
+    let (scale_exponent, input_triangles) = (tree.scale_exponent(), tree.input_triangles());
+    Some(TreeTables { scale_exponent, input_triangles, header: *tree.header(), sections })
+}
 
 /// Tables of the model's hull hierarchy after level `index`, a valid and still certified coarser model; the last level returns all of it.
 ///

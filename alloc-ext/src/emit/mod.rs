@@ -4,6 +4,6 @@ mod bytes;
 mod cut;
 mod tables;
 
-pub use bytes::blob;
-pub use cut::{CutError, cut};
+pub use bytes::{Parts, assemble, blob};
+pub use cut::{CutError, cut, cut_blob};
 pub use tables::{NodeRecord, SplitRecord, Tables};

@@ -7,6 +7,7 @@
 //! split               the tree: the cell of the greatest gain is split first
 //! level               unions as levels of detail: faces, volume, error, distance
 //! surface             their triangles
+//! lattice, store      the same on a blob's grid, and the section's bytes
 //! ```
 //!
 //! Cells are cut, not sorted into: triboxes of a level meet at planes and do not overlap. If the mesh is closed they hold its inside too.
@@ -31,10 +32,12 @@ mod cell;
 mod choose;
 mod excess;
 mod extent;
+mod lattice;
 mod level;
 mod polygons;
 mod span;
 mod split;
+mod store;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -43,6 +46,8 @@ mod winding;
 
 pub use choose::{Measure, Planes};
 pub use extent::Extent;
+pub use lattice::Lattice;
 pub use level::{Level, box_tree, level, proxies};
 pub use split::{Hierarchy, Node, Split, SplitOptions};
+pub use store::{TriboxReport, TriboxTables, cut, store, volume};
 pub use surface::surface;

@@ -4,6 +4,7 @@ use super::cell::{Cell, Trust, Whole};
 use super::choose::{Choice, Choosing, Measure, Planes};
 use super::excess::excess;
 use super::extent::Extent;
+use super::lattice::Lattice;
 use super::polygons::HalfSpace;
 use crate::mesh::Mesh;
 use meshsweep_core::Tree;
@@ -34,6 +35,8 @@ pub struct SplitOptions {
     pub foresight: f64,
     /// How far planes of [proxies](Node::proxy) may move outward so that small faces vanish, input units.
     pub simplify: f32,
+    /// Where proxies are stored; `None`: on a [grid](Tribox::on_grid) each of their own.
+    pub lattice: Option<Lattice>,
 }
 
 impl Default for SplitOptions {
@@ -45,6 +48,7 @@ impl Default for SplitOptions {
             least_gain: 1e-4,
             foresight: 0.05,
             simplify: 0.0,
+            lattice: None,
         }
     }
 }
@@ -55,7 +59,8 @@ pub struct Node {
     /// Holds the part of the mesh, or of the solid, that is between the planes of the splits above, in real arithmetic. Inside of the parent's, and on
     /// its side of the split's plane.
     pub tribox: Tribox,
-    /// What is drawn for it: the same [simplified](Tribox::snapped) as asked for, and on a [grid](Tribox::on_grid), so that every vertex is an f32.
+    /// What is drawn for it: the same [simplified](Tribox::snapped) as asked for, and on a [grid](Tribox::on_grid) or the [lattice](SplitOptions::lattice), so that every
+    /// vertex is an f32.
     pub proxy: Tribox,
     /// Formula (10) of the paper for the proxy: how far it reaches beyond the convex hull of the part, input units, see [`Level::error`](super::Level::error).
     pub error: f64,
@@ -106,7 +111,7 @@ impl Hierarchy {
         let measure =
             options.measure.unwrap_or(if is_flat(&root.tribox) { Measure::Area } else { Measure::Volume });
         let is_solid = whole.is_solid;
-        let unit = grid_unit(&root.tribox);
+        let unit = options.lattice.map_or_else(|| grid_unit(&root.tribox), |lattice| lattice.spacing());
         let choosing = Choosing {
             planes: options.planes,
             measure,
@@ -199,7 +204,8 @@ impl Growing<'_> {
     /// Takes a cell in; its number.
     fn put(&mut self, cell: Cell, depth: u32) -> u32 {
         let node = self.nodes.len() as u32;
-        let proxy = cell.tribox.snapped(self.options.simplify).on_grid();
+        let simple = cell.tribox.snapped(self.options.simplify);
+        let proxy = self.options.lattice.map_or_else(|| simple.on_grid(), |lattice| lattice.around(&simple));
         let error = excess(&proxy, &cell);
         self.nodes.push(Node { tribox: cell.tribox, proxy, error, split: None });
         if depth < DEPTH && self.options.leaves > 1 {

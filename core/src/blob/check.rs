@@ -39,7 +39,7 @@ impl Model<'_> {
         self.check_cover()
     }
 
-    /// A blob that holds a box tree alone says nothing of a hull.
+    /// A blob without a hull hierarchy says nothing of one.
     pub(super) fn check_without_hull(&self) -> Result<(), OpenError> {
         let h = &self.header;
         let counts =

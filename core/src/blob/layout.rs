@@ -6,7 +6,7 @@ pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
 pub const VERSION_MAJOR: u16 = 1;
 /// A reader accepts any minor version: additions that an older reader may ignore.
-pub const VERSION_MINOR: u16 = 1;
+pub const VERSION_MINOR: u16 = 2;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
 /// Offset of the header's own CRC, which covers the header with this field skipped, and the section table.
@@ -57,6 +57,21 @@ pub const TREE_CLOSED: u8 = 1;
 /// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
 pub const TREE_SINGLE: u8 = 2;
 
+/// Bytes of the header of the tribox hierarchy.
+pub const TRIBOXES_BYTES: usize = 32;
+/// Bytes of one record of its level table.
+pub const TRIBOX_LEVEL_BYTES: usize = 16;
+/// Bytes of the number of the node that a split splits.
+pub const TRIBOX_SPLIT_BYTES: usize = 2;
+/// Bytes of a node of the tribox hierarchy.
+pub const TRIBOX_BYTES: usize = 40;
+/// Most splits above a tribox.
+pub const MAX_TRIBOX_DEPTH: u32 = 64;
+/// Most triboxes of a level: a node's number takes 16 bits.
+pub const MAX_TRIBOXES: u32 = 1 << 15;
+/// Flag of the tribox hierarchy: the mesh bounds a solid, and the triboxes hold its inside too.
+pub const TRIBOXES_SOLID: u32 = 1;
+
 /// What a section holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
@@ -97,11 +112,13 @@ pub enum SectionKind {
     TreeSource = 17,
     /// For each leaf of the box tree a cone that contains the normals of its triangles.
     TreeCones = 18,
+    /// A hierarchy of triboxes that hold the mesh: unions of 1, 2, 4, … of them.
+    Triboxes = 19,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 18] = [
+    pub const ALL: [SectionKind; 19] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -120,11 +137,17 @@ impl SectionKind {
         SectionKind::TreeFans,
         SectionKind::TreeSource,
         SectionKind::TreeCones,
+        SectionKind::Triboxes,
     ];
 
-    /// Whether the section belongs to the box tree; the others are the hull hierarchy's.
+    /// Whether the section belongs to the hull hierarchy.
+    pub fn is_hull(self) -> bool {
+        (self as u32) < SectionKind::Tree as u32
+    }
+
+    /// Whether the section belongs to the box tree.
     pub fn is_tree(self) -> bool {
-        self as u32 >= SectionKind::Tree as u32
+        !self.is_hull() && self != SectionKind::Triboxes
     }
 
     /// The kind's name as `info` prints it.
@@ -148,6 +171,7 @@ impl SectionKind {
             SectionKind::TreeFans => "tree fans",
             SectionKind::TreeSource => "tree source numbers",
             SectionKind::TreeCones => "tree normal cones",
+            SectionKind::Triboxes => "triboxes",
         }
     }
 }

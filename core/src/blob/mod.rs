@@ -13,6 +13,8 @@ mod sections;
 mod tree;
 mod tree_header;
 mod tree_open;
+mod triboxes;
+mod triboxes_open;
 
 pub use error::OpenError;
 pub use header::Header;
@@ -22,3 +24,4 @@ pub use patch::{CORNERS, GridRing, Patch, Tag};
 pub use sections::{Section, section_crc};
 pub use tree::{Links, Tree, TreeChild};
 pub use tree_header::TreeHeader;
+pub use triboxes::{TriboxLevel, Triboxes, TriboxesHeader};

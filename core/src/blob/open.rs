@@ -6,13 +6,14 @@ use super::model::{Model, Vertices, Widths};
 use super::read::Bytes;
 use super::sections::{Section, place_sections, read_header, section};
 use super::tree::Tree;
+use super::triboxes::Triboxes;
 
 impl<'a> Model<'a> {
     /// Opens a blob where it lies, and checks all of it: CRCs, every index, every coordinate, every order that the
     /// queries rely on. Any bytes are safe to open.
     ///
     /// Cost: linear in the blob, no allocation; once per start, not per query. Alignment of `bytes` does not matter.
-    /// A program that only asks the box tree links less code with [`Tree::open`].
+    /// A program that only asks the box tree links less code with [`Tree::open`], one that only asks triboxes with [`Triboxes::open`].
     ///
     /// # Errors
     /// [`OpenError`] says what was wanted and what was found.
@@ -35,32 +36,29 @@ impl<'a> Model<'a> {
             source: Bytes(&[]),
             levels: Bytes(&[]),
         };
-        let seen = place_sections(
-            &header,
-            all,
-            true,
-            |kind| !kind.is_tree(),
-            |index, kind, data| {
-                if Some(data.len()) != model.section_len(kind) {
-                    return Err(OpenError::Section { index });
-                }
-                model.place(kind, data);
-                Ok(())
-            },
-        )?;
-        let missing = SectionKind::ALL.into_iter().filter(|kind| !kind.is_tree()).find(|&kind| {
-            let present = seen.checked_shr(kind as u32).unwrap_or(0) & 1 != 0;
-            !present && model.section_len(kind) != Some(0)
-        });
+        let seen = place_sections(&header, all, true, SectionKind::is_hull, |index, kind, data| {
+            if Some(data.len()) != model.section_len(kind) {
+                return Err(OpenError::Section { index });
+            }
+            model.place(kind, data);
+            Ok(())
+        })?;
+        let has = |kind: SectionKind| seen.checked_shr(kind as u32).unwrap_or(0) & 1 != 0;
+        let missing = SectionKind::ALL
+            .into_iter()
+            .filter(|kind| kind.is_hull())
+            .find(|&kind| !has(kind) && model.section_len(kind) != Some(0));
         if let Some(section) = missing {
             return Err(OpenError::MissingSection { section });
         }
-        let has_tree = seen.checked_shr(SectionKind::Tree as u32).unwrap_or(0) & 1 != 0;
         // Any section of a tree needs the others.
-        if seen.checked_shr(SectionKind::Tree as u32).unwrap_or(0) != 0 {
+        if SectionKind::ALL.into_iter().any(|kind| kind.is_tree() && has(kind)) {
             Tree::open(bytes)?;
         }
-        if has_tree && !model.has_hull() {
+        if has(SectionKind::Triboxes) {
+            Triboxes::open(bytes)?;
+        }
+        if (has(SectionKind::Tree) || has(SectionKind::Triboxes)) && !model.has_hull() {
             model.check_without_hull()?;
         } else {
             model.check()?;
@@ -79,7 +77,13 @@ impl<'a> Model<'a> {
         Tree::view(self.bytes.0).ok()
     }
 
-    /// Whether the blob has a hull hierarchy and cover tree. Without, [`tree`](Self::tree) is there.
+    /// The tribox hierarchy, if the blob has one.
+    pub fn triboxes(&self) -> Option<Triboxes<'a>> {
+        // `open` has checked it.
+        Triboxes::view(self.bytes.0).ok()
+    }
+
+    /// Whether the blob has a hull hierarchy and cover tree. Without, [`tree`](Self::tree) or [`triboxes`](Self::triboxes) are there.
     pub fn has_hull(&self) -> bool {
         self.header.nodes != 0
     }

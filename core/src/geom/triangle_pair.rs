@@ -3,7 +3,7 @@
 //! Two triangles have a common point exactly if an edge of one has a point in common with the other. An edge misses a triangle if its ends lie on one
 //! side of the plane, or if its line passes two of the triangle's edges on different sides; it crosses if its ends lie on different sides and its line passes all
 //! three on one side. If both triangles pass through the other's plane, it is enough to compare where they do. All of these are signs of determinants of three differences, and a sign counts only where it would be the
-//! same for all vertices within `doubt`: `core/docs/rounding.md` §10.
+//! same for all vertices within `doubt`: `core/docs/rounding.md` §11.
 
 use core::ops::{Add, Mul, Sub};
 

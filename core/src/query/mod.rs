@@ -6,6 +6,7 @@
 //! | first hit of a segment | [`first_hit`] | cover tree |
 //! | all hits of a segment | [`all_hits`] | cover tree |
 //! | all of these and more, faster | [`tree`] | box tree over triangle fans |
+//! | are two moved models apart; bounds without triangles | [`tribox`] | tribox hierarchy (Crosnier & Rossignac 1999, 4) |
 //! | hits of a segment from outside | [`outer_hits`] | selectively refined hull (Platis & Theoharis 2003, 3.2) |
 
 mod answer;
@@ -15,6 +16,7 @@ mod frontier;
 mod outer_hits;
 mod segment;
 pub mod tree;
+pub mod tribox;
 
 pub use answer::{AllHits, ClosestPoint, Ended, Hit, QueryError, SegmentHit, Stop, Work};
 pub use closest::closest_point;

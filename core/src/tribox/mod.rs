@@ -11,6 +11,7 @@
 //! snap      planes moved outward until small faces vanish
 //! measure   distance, segments
 //! moved     bounds of what was rotated
+//! support   how far they reach along any direction
 //! ```
 
 mod boundary;
@@ -19,10 +20,12 @@ mod closure;
 mod measure;
 mod moved;
 mod snap;
+mod support;
 
 pub use boundary::{Boundary, FACES, LOOP, Scalar, VERTICES, boundary};
 pub use bounds::{Tribox, TriboxError};
 pub use moved::Pose;
+pub(crate) use support::Support;
 
 /// Number of slabs.
 pub const SLABS: usize = 9;

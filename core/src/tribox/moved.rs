@@ -27,7 +27,7 @@ impl Pose {
     pub const IDENTITY: Pose =
         Pose { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
 
-    fn check(&self) -> Result<(), TriboxError> {
+    pub(crate) fn check(&self) -> Result<(), TriboxError> {
         checked(self.translation)?;
         for row in self.rotation {
             if checked(row)?.iter().any(|entry| entry.abs() > 2.0) {

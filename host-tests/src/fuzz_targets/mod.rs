@@ -7,8 +7,10 @@ mod hull;
 mod input;
 mod tree;
 mod tribox;
+mod triboxes;
 
 pub use hull::{closest, open, outer, seeds, segment};
 pub use input::random_input;
 pub use tree::{tree_closest, tree_open, tree_overlap, tree_seeds, tree_segment, tree_session};
 pub use tribox::tribox;
+pub use triboxes::{ask_triboxes, triboxes, triboxes_seeds};

@@ -8,6 +8,7 @@
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
+//!                         ├─ triboxes (their hierarchies) ──┤
 //!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
@@ -28,6 +29,7 @@ mod subject;
 pub mod table;
 mod trade;
 mod tree;
+pub mod triboxes;
 pub mod workload;
 
 use std::path::Path;
@@ -71,6 +73,17 @@ pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
     tables.extend(overlap::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures the stored triboxes of one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or triboxes deny that meshes meet.
+pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject.table()];
+    tables.extend(triboxes::tables(&subject)?);
     Ok(tables)
 }
 

@@ -8,14 +8,8 @@ use crate::rng::Rng;
 /// An axis-aligned box: least corner, greatest corner.
 pub type Bounds = [[f32; 3]; 2];
 
-/// A rotation up to rounding, rows of a matrix, and what is added after it.
-#[derive(Clone, Copy, Debug)]
-pub struct Motion {
-    /// The matrix.
-    pub rotation: [[f32; 3]; 3],
-    /// Added to what was rotated.
-    pub translation: [f32; 3],
-}
+/// A rotation matrix, by rows and up to rounding, and what is added after it.
+pub type Motion = ([[f32; 3]; 3], [f32; 3]);
 
 /// Where the queries of a kind come from.
 #[derive(Clone, Debug)]
@@ -101,32 +95,31 @@ pub fn segment(rng: &mut Rng, bounds: &Bounds) -> [[f32; 3]; 2] {
     [start, surface_point(rng, bounds)]
 }
 
-/// Any rotation about the box's centre, then the centre anywhere in the doubled box. A quaternion needs no root: its products are divided by its squared length.
-pub fn motion(rng: &mut Rng, bounds: &Bounds) -> Motion {
-    let (mut w, x, y, z) = (rng.signed_unit(), rng.signed_unit(), rng.signed_unit(), rng.signed_unit());
-    let mut norm = (w * w + x * x) + (y * y + z * z);
-    if norm < 1.0 / 64.0 {
-        w = 1.0;
-        norm = (1.0 + x * x) + (y * y + z * z);
-    }
-    let two = 2.0 / norm;
-    let rotation = [
-        [1.0 - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)],
-        [two * (x * y + w * z), 1.0 - two * (x * x + z * z), two * (y * z - w * x)],
-        [two * (x * z - w * y), two * (y * z + w * x), 1.0 - two * (x * x + y * y)],
-    ];
-    let [(cx, _), (cy, _), (cz, _)] = [0, 1, 2].map(|axis| centre_and_half(bounds, axis));
-    let mut translation = far_point(rng, bounds);
-    for (to, [a, b, c]) in translation.iter_mut().zip(rotation) {
-        *to -= a * cx + b * cy + c * cz;
-    }
-    Motion { rotation, translation }
-}
-
 /// A distance of at most half the box's half size along x.
 pub fn distance(rng: &mut Rng, bounds: &Bounds) -> f32 {
     let (_, half) = centre_and_half(bounds, 0);
     0.5 * half * rng.unit()
+}
+
+/// A rotation about the box's centre, then the centre is put anywhere in the doubled box.
+pub fn motion(rng: &mut Rng, bounds: &Bounds) -> Motion {
+    // A quaternion of any length but 0; no root is needed.
+    let [x, y, z] = [(); 3].map(|()| rng.signed_unit());
+    let w = 0.25 + rng.unit();
+    let s = 2.0 / (((w * w + x * x) + y * y) + z * z);
+    let rotation = [
+        [1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+        [s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)],
+        [s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)],
+    ];
+    let centre: [f32; 3] = core::array::from_fn(|axis| centre_and_half(bounds, axis).0);
+    let to = far_point(rng, bounds);
+    let mut translation = [0.0; 3];
+    for ((slot, [a, b, c]), to) in translation.iter_mut().zip(rotation).zip(to) {
+        let [x, y, z] = centre;
+        *slot = to - ((a * x + b * y) + c * z);
+    }
+    (rotation, translation)
 }
 
 fn surface_point(rng: &mut Rng, bounds: &Bounds) -> [f32; 3] {

@@ -58,11 +58,19 @@ pub enum Kind {
     BoxOverlap,
     /// All else that triboxes answer.
     TriboxRest,
+    /// Whether a tribox hierarchy is apart from a moved copy.
+    TriboxesApart,
+    /// Which of its leaves may meet those of the copy.
+    TriboxesCandidates,
+    /// A lower bound of the distance from the doubled box.
+    TriboxesDistance,
+    /// Where a segment first enters a leaf.
+    TriboxesClip,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 29] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -88,6 +96,10 @@ impl Kind {
         Self::TriboxOverlap,
         Self::BoxOverlap,
         Self::TriboxRest,
+        Self::TriboxesApart,
+        Self::TriboxesCandidates,
+        Self::TriboxesDistance,
+        Self::TriboxesClip,
     ];
 
     /// The name in reports: one word.
@@ -119,6 +131,10 @@ impl Kind {
             Self::TriboxOverlap => "tribox_overlap",
             Self::BoxOverlap => "box_overlap",
             Self::TriboxRest => "tribox_rest",
+            Self::TriboxesApart => "triboxes_apart",
+            Self::TriboxesCandidates => "triboxes_candidates",
+            Self::TriboxesDistance => "triboxes_distance",
+            Self::TriboxesClip => "triboxes_clip",
         }
     }
 
@@ -131,6 +147,15 @@ impl Kind {
                 | Self::TriboxOverlap
                 | Self::BoxOverlap
                 | Self::TriboxRest
+        )
+    }
+
+    /// Whether it is about a blob's triboxes.
+    #[must_use]
+    pub const fn is_triboxes(self) -> bool {
+        matches!(
+            self,
+            Self::TriboxesApart | Self::TriboxesCandidates | Self::TriboxesDistance | Self::TriboxesClip
         )
     }
 

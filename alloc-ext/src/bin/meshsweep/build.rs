@@ -10,7 +10,8 @@ use super::progress::Bar;
 use meshsweep_alloc::collapse::Stuck;
 use meshsweep_alloc::hull::{self, BuildError, BuildOptions, BuildReport, Built};
 use meshsweep_alloc::tree::{self, TreeOptions};
-use meshsweep_alloc::{emit, precision::VertexBits};
+use meshsweep_alloc::tribox::{self, TriboxReport, TriboxTables};
+use meshsweep_alloc::{emit, emit::Parts, precision::VertexBits};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::VertexFormat;
 use std::io::{self, Write};
@@ -19,6 +20,9 @@ use std::time::Duration;
 /// Faces of a hull unless told otherwise.
 pub const FACES: u32 = 200;
 
+/// Triboxes unless told otherwise.
+const TRIBOXES: u32 = 64;
+
 /// What a mesh that is not closed can be built for.
 const INSTEAD: &str = "for distances and segments, --for closest,segment needs no closed mesh";
 
@@ -26,6 +30,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     let wanted = args.wanted();
     if let Some(option) = args.hull_option().filter(|_| !wanted.hull) {
         return Err(Failure::Usage { what: format!("{option} is for a hull; add hull to --for") });
+    }
+    if args.triboxes.is_some() && !wanted.triboxes {
+        return Err(Failure::Usage { what: "--triboxes is for triboxes; add triboxes to --for".to_owned() });
     }
     refuse_same_file(&args.output, &[&args.mesh])?;
     Output::probe(&args.output)?;
@@ -43,12 +50,17 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         ..TreeOptions::default()
     };
     let triangles = loaded.mesh.triangles.len();
-    if wanted.tree() && triangles > tree::MAX_TRIANGLES {
+    if (wanted.tree() || wanted.triboxes) && triangles > tree::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
     let tree =
         wanted.tree().then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
-    let bytes = emit::blob(hull.as_ref().map(|hull| &hull.tables), tree.as_ref().map(|(tables, _)| tables));
+    let triboxes = if wanted.triboxes { Some(build_triboxes(args, &loaded)?) } else { None };
+    let bytes = emit::assemble(&Parts {
+        hull: hull.as_ref().map(|hull| &hull.tables),
+        tree: tree.as_ref().map(|(tables, _)| tables),
+        triboxes: triboxes.as_ref().map(|(tables, _)| tables),
+    });
     // What does not open must not be handed out.
     let model = Model::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
@@ -57,6 +69,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         loaded: &loaded,
         hull: hull.as_ref().map(|hull| &hull.report),
         tree_time: tree.as_ref().map(|(_, report)| report.time),
+        tribox_time: triboxes.as_ref().map(|(_, report)| report.time),
         model: &model,
     };
     Output::stdout().finish(|out| report.write(out))
@@ -77,6 +90,12 @@ fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
     .map_err(|error| failed(args, error))
 }
 
+fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(TriboxTables, TriboxReport), Failure> {
+    let Loaded { mesh, moved, input_triangles, .. } = loaded;
+    tribox::store(mesh, *moved, *input_triangles, args.triboxes.unwrap_or(TRIBOXES))
+        .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })
+}
+
 fn failed(args: &BuildArgs, error: BuildError) -> Failure {
     Failure::Build { file: args.mesh.clone(), error }
 }
@@ -87,12 +106,13 @@ struct Report<'a> {
     loaded: &'a Loaded,
     hull: Option<&'a BuildReport>,
     tree_time: Option<Duration>,
+    tribox_time: Option<Duration>,
     model: &'a Model<'a>,
 }
 
 impl Report<'_> {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Report { args, loaded, hull, tree_time, model } = self;
+        let Report { args, loaded, hull, tree_time, tribox_time, model } = self;
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
@@ -125,6 +145,9 @@ impl Report<'_> {
         }
         if let Some(time) = tree_time {
             write!(out, ", box tree {:.3}", time.as_secs_f64())?;
+        }
+        if let Some(time) = tribox_time {
+            write!(out, ", triboxes {:.3}", time.as_secs_f64())?;
         }
         writeln!(out)
     }

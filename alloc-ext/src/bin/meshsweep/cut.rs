@@ -12,24 +12,26 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
     refuse_same_file(&args.output, &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
-    served::require_hull(&args.blob, &model)?;
-    let cut =
-        emit::cut(&model, args.level).map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
-    let cut = cut.to_bytes();
+    if args.level.is_some() {
+        served::require_hull(&args.blob, &model)?;
+    }
+    let cut = emit::cut_blob(&model, args.level, args.triboxes)
+        .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
     // What does not open must not be handed out.
-    Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
+    let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
     Output::stdout().finish(|out| {
         let (kept, all) = (cut.len(), bytes.len());
         let share = kept as f64 / all as f64 * 100.0;
-        writeln!(
-            out,
-            "{}: {kept} of {} ({share:.1} %), levels 0 to {}",
-            args.output.display(),
-            Counted(all, "byte"),
-            args.level
-        )?;
-        match model.tree() {
+        write!(out, "{}: {kept} of {} ({share:.1} %)", args.output.display(), Counted(all, "byte"))?;
+        if let Some(level) = args.level {
+            write!(out, ", levels 0 to {level}")?;
+        }
+        if let Some(triboxes) = left.triboxes().filter(|_| args.triboxes.is_some()) {
+            write!(out, ", {}", Counted(triboxes.leaf_count(), "tribox"))?;
+        }
+        writeln!(out)?;
+        match model.tree().filter(|_| args.level.is_some()) {
             Some(_) => writeln!(
                 out,
                 "the box tree cannot be cut and is left out: closest and segment use the cover tree"

@@ -3,13 +3,16 @@
 mod hull;
 mod shape;
 mod tree;
+mod triboxes;
 
 pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
 pub use shape::Shape;
 pub use tree::{bounds, half_widths, stack_bytes, tree_format_name, tree_surface_error};
+pub use triboxes::as_json as triboxes_as_json;
 
 use super::served;
 use meshsweep_core::Model;
+use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::geom::Aabb;
 use std::fmt;
 use std::io::{self, Write};
@@ -18,7 +21,10 @@ use std::io::{self, Write};
 pub fn triangles(model: &Model<'_>) -> u32 {
     let of_levels = || model.levels().last().map_or(0, |level| level.faces);
     let of_tree = || model.tree().map_or(0, |tree| tree.header().triangles);
-    [model.header().surface_triangles, of_tree(), of_levels()].into_iter().find(|&n| n > 0).unwrap_or(1)
+    [model.header().surface_triangles, of_tree(), of_levels(), model.header().input_triangles]
+        .into_iter()
+        .find(|&n| n > 0)
+        .unwrap_or(1)
 }
 
 /// A box of the local frame in the mesh's unit: low and high corner.
@@ -47,6 +53,17 @@ impl<T: Copy + Into<f64> + fmt::Display + fmt::LowerExp> fmt::Display for Length
     }
 }
 
+/// Which hierarchy a section belongs to.
+fn hierarchy(kind: SectionKind) -> &'static str {
+    if kind.is_hull() {
+        "hull hierarchy"
+    } else if kind.is_tree() {
+        "box tree"
+    } else {
+        "triboxes"
+    }
+}
+
 /// Sections with their bytes, those of each hierarchy together.
 fn write_sections(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     let triangles = f64::from(triangles(model));
@@ -56,14 +73,15 @@ fn write_sections(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     let header = model.header().header_bytes as usize;
     line("header", header)?;
     let mut all = 0;
-    for (title, is_tree) in [("hull hierarchy", false), ("box tree", true)] {
-        let of_kind = || model.sections().filter(|section| section.kind.is_tree() == is_tree);
+    for title in ["hull hierarchy", "box tree", "triboxes"] {
+        let of_kind = || model.sections().filter(|section| hierarchy(section.kind) == title);
         let bytes: usize = of_kind().map(|section| section.bytes as usize).sum();
         if bytes == 0 {
             continue;
         }
         line(title, bytes)?;
-        for section in of_kind() {
+        // Triboxes are one section.
+        for section in of_kind().filter(|section| section.kind.name() != title) {
             line(&format!("  {}", section.kind.name()), section.bytes as usize)?;
         }
         all += bytes;
@@ -80,5 +98,8 @@ pub fn write_blob(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     if model.has_hull() {
         hull::write(out, model)?;
     }
-    model.tree().map_or(Ok(()), |tree| tree::write(out, &tree, diagonal(model)))
+    if let Some(tree) = model.tree() {
+        tree::write(out, &tree, diagonal(model))?;
+    }
+    model.triboxes().map_or(Ok(()), |triboxes| triboxes::write(out, &triboxes))
 }

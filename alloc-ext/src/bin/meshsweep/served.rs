@@ -20,7 +20,8 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
         ("overlap", tree.is_some_and(Tree::serves_segments)),
         ("cull", tree.is_some_and(Tree::serves_culling)),
         ("hull --level", hull),
-        ("cut", hull),
+        ("triboxes", model.triboxes().is_some()),
+        ("cut", hull || model.triboxes().is_some()),
     ]
     .into_iter()
     .filter_map(|(question, serves)| serves.then_some(question))

@@ -7,7 +7,7 @@ use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
 use meshsweep_alloc::mesh::{Mesh, write_ply};
 use meshsweep_alloc::tree;
-use meshsweep_alloc::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface};
+use meshsweep_alloc::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
 use meshsweep_core::Tree;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -72,17 +72,6 @@ fn levels(args: &TriboxArgs, mesh: &Mesh, tree: &Tree<'_>, hierarchy: &Hierarchy
         levels.push(level);
     }
     levels
-}
-
-/// Volume that a closed mesh bounds, cubed input units.
-fn volume(mesh: &Mesh) -> f64 {
-    let wide = |p: [f32; 3]| p.map(f64::from);
-    let [ox, oy, oz] = mesh.positions.first().copied().map_or([0.0; 3], wide);
-    let of = |[a, b, c]: [[f32; 3]; 3]| {
-        let [[a, b, c], [d, e, f], [g, h, i]] = [a, b, c].map(wide).map(|[x, y, z]| [x - ox, y - oy, z - oz]);
-        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
-    };
-    (0..mesh.triangles.len()).filter_map(|triangle| mesh.corners(triangle)).map(of).sum::<f64>().abs()
 }
 
 struct Report<'a> {
@@ -189,7 +178,7 @@ impl Report<'_> {
 }
 
 /// Four digits of a number.
-struct Short(f64);
+pub struct Short(pub f64);
 
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -6,9 +6,8 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::{hull, tree, tribox};
+use meshsweep_suite::ask::{hull, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
-use meshsweep_suite::place::Motion;
 
 #[unsafe(no_mangle)]
 extern "C" fn ask_hull_open(input: &Input<'_>, fold: &mut Fold) {
@@ -177,7 +176,7 @@ extern "C" fn ask_tribox_rest(points: &tribox::Points, input: &Input<'_>, fold: 
 #[unsafe(no_mangle)]
 extern "C" fn ask_tree_overlap(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
     if let Ok(tree) = tree::open(input.blob) {
-        let pose = tree::pose(Motion { rotation: [input.a, input.b, input.a], translation: input.b });
+        let pose = tree::pose(([input.a, input.b, input.a], input.b));
         tree::overlap(&tree, &pose, scratch, &mut (), fold);
     }
 }
@@ -185,7 +184,7 @@ extern "C" fn ask_tree_overlap(input: &Input<'_>, scratch: &mut tree::Scratch<'_
 #[unsafe(no_mangle)]
 extern "C" fn ask_tree_all_overlaps(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
     if let Ok(tree) = tree::open(input.blob) {
-        let pose = tree::pose(Motion { rotation: [input.a, input.b, input.a], translation: input.b });
+        let pose = tree::pose(([input.a, input.b, input.a], input.b));
         tree::all_overlaps(&tree, &pose, scratch, &mut (), fold);
     }
 }
@@ -194,5 +193,44 @@ extern "C" fn ask_tree_all_overlaps(input: &Input<'_>, scratch: &mut tree::Scrat
 extern "C" fn ask_tree_cull(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::cull(&tree, input.a, scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_triboxes_open(input: &Input<'_>, fold: &mut Fold) {
+    match triboxes::open(input.blob) {
+        Ok(opened) => {
+            fold.point(triboxes::bounds(&opened)[0]);
+            triboxes::contents(&opened, fold);
+        }
+        Err(refused) => fold.word(refused.0),
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_triboxes_apart(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+    if let Ok(opened) = triboxes::open(input.blob) {
+        triboxes::reject(&opened, &([input.a, input.b, input.a], input.b), scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_triboxes_candidates(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+    if let Ok(opened) = triboxes::open(input.blob) {
+        triboxes::candidates(&opened, &([input.a, input.b, input.a], input.b), scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_triboxes_distance(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+    if let Ok(opened) = triboxes::open(input.blob) {
+        triboxes::nearest(&opened, input.a, scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_triboxes_clip(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+    if let Ok(opened) = triboxes::open(input.blob) {
+        triboxes::first(&opened, [input.a, input.b], scratch, &mut (), fold);
     }
 }

@@ -10,6 +10,7 @@ use meshsweep_alloc::precision::VertexBits;
 use meshsweep_alloc::tree::{self, TreeOptions};
 use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{Triangles, bracket, torus};
+use meshsweep_host_tests::golden::torus_triboxes;
 
 use crate::boards::Flash;
 use crate::images::Profile;
@@ -36,14 +37,16 @@ pub enum Blob {
     SingleTree,
     /// The box tree of a torus with holes, beside needles and triangles without area, with normal cones.
     SoupTree,
+    /// 64 triboxes of a finer torus.
+    Triboxes,
 }
 
 impl Blob {
-    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box tree of one mesh.
-    pub const fn standard(flash: Flash) -> [Self; 2] {
+    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box tree of one mesh, and triboxes.
+    pub const fn standard(flash: Flash) -> [Self; 3] {
         match flash {
-            Flash::Small => [Self::Torus, Self::TorusTree],
-            Flash::Large => [Self::Bracket, Self::BracketTree],
+            Flash::Small => [Self::Torus, Self::TorusTree, Self::Triboxes],
+            Flash::Large => [Self::Bracket, Self::BracketTree, Self::Triboxes],
         }
     }
 
@@ -61,6 +64,7 @@ impl Blob {
             Self::BracketTree => "bracket_tree",
             Self::SingleTree => "single_tree",
             Self::SoupTree => "soup_tree",
+            Self::Triboxes => "triboxes",
         }
     }
 
@@ -69,6 +73,7 @@ impl Blob {
         match self {
             Self::Torus | Self::Bracket | Self::Grid16 | Self::Grid24 | Self::Cut => "suite_hull",
             Self::TorusTree | Self::BracketTree | Self::SingleTree | Self::SoupTree => "suite_tree",
+            Self::Triboxes => "suite_triboxes",
         }
     }
 
@@ -109,6 +114,7 @@ impl Blob {
             Self::TorusTree => Ok(box_tree(small_torus(), &default)),
             Self::BracketTree => Ok(box_tree(bracket(), &default)),
             Self::SingleTree => Ok(box_tree(small_torus(), &TreeOptions { single: true, ..default })),
+            Self::Triboxes => Ok(torus_triboxes()),
             Self::SoupTree => Ok(box_tree(soup(), &TreeOptions { cull: true, ..default })),
         }
     }
@@ -157,7 +163,7 @@ fn write_if_changed(path: &Path, content: &[u8]) -> Result<(), String> {
 mod tests {
     use super::Blob;
     use meshsweep_core::blob::layout::VertexFormat;
-    use meshsweep_core::{Model, Tree};
+    use meshsweep_core::{Model, Tree, Triboxes};
     use meshsweep_suite::Subject;
 
     const HULLS: [Blob; 5] = [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut];
@@ -173,6 +179,8 @@ mod tests {
             let bytes = blob.bytes().expect("a blob");
             assert!(Tree::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
         }
+        let bytes = Blob::Triboxes.bytes().expect("a blob");
+        assert!(Triboxes::open(&bytes).expect("opens").memory_suffices());
     }
 
     #[test]

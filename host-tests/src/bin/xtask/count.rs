@@ -4,6 +4,7 @@
 //! of queries: the difference is the queries' alone.
 
 mod tree;
+mod triboxes;
 
 use std::env;
 use std::hint::black_box;
@@ -35,12 +36,15 @@ pub fn run(steps: &mut Steps) {
     let columns = ["question", "instructions"];
     let mut table =
         Table::new("instructions", "Instructions a query, fixtures/bracket, this machine", &columns);
-    for question in QUESTIONS.into_iter().chain(tree::QUESTIONS) {
+    for question in QUESTIONS.into_iter().chain(tree::QUESTIONS).chain(triboxes::QUESTIONS) {
         let counted = steps.run(&format!("count {question}"), || each(&valgrind, question));
         table.push(vec![Cell::from(question), counted.map_or(Cell::Empty, |count| fixed(count, 0))]);
     }
     table.note("far, near, path: closest point; all with the memory that the model's capacities name");
-    table.note("tree: to the box tree, the others to the hull hierarchy");
+    table.note("tree: to the box tree, triboxes: to 64 of them, the others to the hull hierarchy");
+    table.note(
+        "apart, candidates: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
+    );
     println!("{}", table.text());
     check_lanes(steps);
 }
@@ -55,6 +59,9 @@ fn each(valgrind: &Valgrind, question: &str) -> Result<f64, String> {
 pub fn ask(question: &str, queries: usize) -> Result<(), String> {
     if let Some(asked) = tree::ask(question, queries) {
         return asked.map(|_| ());
+    }
+    if let Some(asked) = triboxes::ask(question, queries) {
+        return asked;
     }
     let folder = workspace::root().join("fixtures");
     let subject = Subject::load(&folder.join("bracket.stl"))?;

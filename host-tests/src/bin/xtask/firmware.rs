@@ -79,7 +79,7 @@ fn compared(cross: &Cross, qemu: &Qemu, board: &Board, blob: Blob) -> Result<Rea
 }
 
 fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
-    const QUESTIONS: [&str; 9] = [
+    const QUESTIONS: [&str; 10] = [
         "open",
         "closest",
         "segment",
@@ -89,6 +89,7 @@ fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
         "tree_alone",
         "tree_segment",
         "tree_session",
+        "triboxes",
     ];
     let mut added = Vec::new();
     for profile in Profile::ALL {

@@ -3,7 +3,7 @@
 use std::fs;
 
 use meshsweep_host_tests::generate::fixtures::write_fixtures;
-use meshsweep_host_tests::golden::{groove_tree, hull_answers, tree_answers};
+use meshsweep_host_tests::golden::{groove_tree, hull_answers, torus_triboxes, tree_answers, tribox_answers};
 use meshsweep_host_tests::measure::Subject;
 
 use meshsweep_alloc::hull::BuildOptions;
@@ -32,11 +32,16 @@ pub fn write(steps: &mut Steps) {
         let bytes = groove_tree();
         put("groove.msw", &bytes).map(|()| bytes)
     });
-    if let (Some(hull), Some(tree)) = (hull, tree) {
+    let triboxes = steps.run("fixtures/torus.msw", || {
+        let bytes = torus_triboxes();
+        put("torus.msw", &bytes).map(|()| bytes)
+    });
+    if let (Some(hull), Some(tree), Some(triboxes)) = (hull, tree, triboxes) {
         steps.run("fixtures/answers.txt", || {
             let refused = |refused| format!("the core refuses the blob: {refused:?}");
             let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
-                + &tree_answers("groove.msw", &tree).map_err(refused)?;
+                + &tree_answers("groove.msw", &tree).map_err(refused)?
+                + &tribox_answers("torus.msw", &triboxes).map_err(refused)?;
             put("answers.txt", answers.as_bytes())
         });
     }

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use meshsweep_host_tests::measure::bounds::cost::{Cost, counted};
 use meshsweep_host_tests::measure::plot::{self, Measured};
-use meshsweep_host_tests::measure::{measure, measure_bounds, measure_overlap, measure_tree};
+use meshsweep_host_tests::measure::{
+    measure, measure_bounds, measure_overlap, measure_tree, measure_triboxes,
+};
 use serde_json::{Value, json};
 
 use crate::firmware;
@@ -30,10 +32,11 @@ enum Part {
     Tree,
     Bounds,
     Overlap,
+    Triboxes,
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --overlap | --bounds [--count]] [--json FILE] [--plot FILE.svg] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --triboxes | --overlap | --bounds [--count]] [--json FILE] [--plot FILE.svg] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -43,6 +46,7 @@ impl Options {
                 "--tree" if options.part.is_none() => options.part = Some(Part::Tree),
                 "--bounds" if options.part.is_none() => options.part = Some(Part::Bounds),
                 "--overlap" if options.part.is_none() => options.part = Some(Part::Overlap),
+                "--triboxes" if options.part.is_none() => options.part = Some(Part::Triboxes),
                 "--count" => options.count = true,
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
                 "--plot" => options.plot = Some(svg(words.next()?)?),
@@ -61,7 +65,7 @@ fn svg(file: &str) -> Option<PathBuf> {
 }
 
 /// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds, with `--overlap` the mesh against itself; and the firmware if asked to.
+/// bounds, with `--overlap` the mesh against itself, with `--triboxes` only stored triboxes; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
@@ -76,6 +80,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
                 Some(Part::Tree) => measure_tree(mesh)?,
                 Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
+                Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 None => measure(mesh)?,
             };
             for table in &tables {
@@ -149,6 +154,7 @@ mod tests {
         assert_eq!(Options::parse(&["--json"]), None);
         assert_eq!(Options::parse(&["--fast"]), None);
         assert_eq!(Options::parse(&["--tree", "--bounds"]), None);
+        assert_eq!(Options::parse(&["--triboxes", "--bounds"]), None);
         assert_eq!(Options::parse(&["--overlap", "--overlap"]), None);
     }
 

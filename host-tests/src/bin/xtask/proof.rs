@@ -9,7 +9,7 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 26] = [
+const QUESTIONS: [&str; 31] = [
     "ask_hull_open",
     "ask_hull_closest",
     "ask_hull_first_hit",
@@ -36,6 +36,11 @@ const QUESTIONS: [&str; 26] = [
     "ask_tribox_faces",
     "ask_tribox_overlap",
     "ask_tribox_rest",
+    "ask_triboxes_open",
+    "ask_triboxes_apart",
+    "ask_triboxes_candidates",
+    "ask_triboxes_distance",
+    "ask_triboxes_clip",
 ];
 
 /// Links the proof image.

@@ -1,6 +1,6 @@
 //! What the suite yields: on a board as printed lines, on the host by running it.
 
-use meshsweep_suite::ask::{Refused, hull, tree};
+use meshsweep_suite::ask::{Refused, hull, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
@@ -81,16 +81,17 @@ impl Reading {
         if done { Ok(reading) } else { Err(format!("the image stopped before it was done:\n{printed}")) }
     }
 
-    /// Runs the suite here: on the blob's box tree if it has one, else on its split hierarchy.
+    /// Runs the suite here: on the blob's box tree if it has one, or its triboxes, else on its split hierarchy.
     pub fn of_host(blob: &[u8]) -> Result<Self, String> {
         let mut here = Here { blocks: Vec::new() };
         let plan = Plan::STANDARD;
-        let ran = match run::<tree::Tree<'_>>(blob, plan, &mut tree::Scratch::new(), &mut here) {
-            Err(Refused::NO_SECTION) => {
-                run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut here)
-            }
-            ran => ran,
-        };
+        let mut ran = run::<tree::Tree<'_>>(blob, plan, &mut tree::Scratch::new(), &mut here);
+        if ran == Err(Refused::NO_SECTION) {
+            ran = run::<triboxes::Triboxes<'_>>(blob, plan, &mut triboxes::Scratch::new(), &mut here);
+        }
+        if ran == Err(Refused::NO_SECTION) {
+            ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut here);
+        }
         ran.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
         let blob = format!("{} {:016x}", blob.len(), Fold::of_bytes(blob));
         Ok(Self { blob, blocks: here.blocks, costs: Vec::new(), scratch: 0 })

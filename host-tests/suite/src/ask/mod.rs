@@ -6,6 +6,7 @@
 pub mod hull;
 pub mod tree;
 pub mod tribox;
+pub mod triboxes;
 
 use meshsweep_core::OpenError;
 use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, SegmentHit, Work};

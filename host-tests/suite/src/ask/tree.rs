@@ -78,7 +78,7 @@ impl<'t> Subject<'t> for Tree<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        kind != Kind::OuterHits
+        kind != Kind::OuterHits && !kind.is_triboxes()
     }
 
     fn ask(
@@ -96,7 +96,11 @@ impl<'t> Subject<'t> for Tree<'t> {
             | Kind::TriboxFaces
             | Kind::TriboxOverlap
             | Kind::BoxOverlap
-            | Kind::TriboxRest => {}
+            | Kind::TriboxRest
+            | Kind::TriboxesApart
+            | Kind::TriboxesCandidates
+            | Kind::TriboxesDistance
+            | Kind::TriboxesClip => {}
             Kind::Contents => contents(self, fold),
             Kind::ClosestFar => {
                 closest(self, place.far(), scratch, clock, fold);

@@ -28,9 +28,15 @@ pub struct BuildArgs {
     /// Faces of the base hull, with --for hull [default: 200]
     #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
     pub base: Option<u32>,
+    /// Most triboxes of the finest level, with --for triboxes [default: 64]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, MAX_TRIBOXES>)]
+    pub triboxes: Option<u32>,
     #[command(flatten)]
     pub collapse: CollapseArgs,
 }
+
+/// Most triboxes that are worth the time.
+const MAX_TRIBOXES: u32 = 4096;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Serves {
@@ -38,6 +44,7 @@ pub enum Serves {
     Segment,
     Hull,
     Cull,
+    Triboxes,
 }
 
 /// What a blob has to serve.
@@ -47,6 +54,7 @@ pub struct Wanted {
     pub segment: bool,
     pub hull: bool,
     pub cull: bool,
+    pub triboxes: bool,
 }
 
 impl Wanted {
@@ -64,6 +72,7 @@ impl BuildArgs {
             segment: has(Serves::Segment),
             hull: has(Serves::Hull),
             cull: has(Serves::Cull),
+            triboxes: has(Serves::Triboxes),
         }
     }
 
@@ -193,11 +202,14 @@ pub struct HullArgs {
 
 #[derive(Debug, Args)]
 pub struct CutArgs {
-    /// Blob file, built --for hull
+    /// Blob file, built --for hull or triboxes
     pub blob: PathBuf,
-    /// Finest level to keep, 0 being the coarsest
-    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
-    pub level: u32,
+    /// Finest level of the hull hierarchy to keep, 0 being the coarsest
+    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>, required_unless_present = "triboxes")]
+    pub level: Option<u32>,
+    /// Keep the finest level of at most so many triboxes
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { u32::MAX }>)]
+    pub triboxes: Option<u32>,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]
     pub output: PathBuf,

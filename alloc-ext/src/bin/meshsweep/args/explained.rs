@@ -23,10 +23,11 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     closest   closest, within, nearest, field; signed too if the mesh is closed: 13 to 14 bytes a triangle\n  \
     segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
-    hull      hull --level, cut, and closest and segment with --engine cover or hull: 35 to 50 bytes a triangle more\n\
+    hull      hull --level, cut, and closest and segment with --engine cover or hull: 35 to 50 bytes a triangle more\n  \
+    triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 82 bytes a tribox\n\
     The first three share a box tree, which any mesh will do for, open or not, manifold or not, and which takes a second for a \
     hundred thousand triangles. hull is the progressive hull with its split tables; it needs a closed manifold mesh and takes far \
-    longer.\n\n\
+    longer. triboxes will do with any mesh; if it is closed they hold its inside too. They take as long as the command tribox.\n\n\
     What --vertex-bits means:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
     16     vertices move to a grid of 16 bits an axis\n  \
@@ -37,7 +38,8 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     Examples:\n  \
     meshsweep build part.stl -o part.msw\n  \
     meshsweep build scan.ply -o scan.msw --for closest\n  \
-    meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500";
+    meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500\n  \
+    meshsweep build part.stl -o proxy.msw --for triboxes --triboxes 16";
 
 pub const INFO: &str = "Examples:\n  \
     meshsweep info part.msw\n  \
@@ -148,8 +150,10 @@ pub const HULL: &str = "The hull encloses the mesh: proved by exact arithmetic o
     meshsweep hull part.msw --level 0 -o coarsest.ply";
 
 pub const CUT: &str = "meshsweep info lists the levels. A box tree is left out: it knows the whole surface or none of it.\n\n\
-    Example:\n  \
-    meshsweep cut part.msw --level 2 -o small.msw";
+    Triboxes stay as they are unless --triboxes is given; without --level all else stays.\n\n\
+    Examples:\n  \
+    meshsweep cut part.msw --level 2 -o small.msw\n  \
+    meshsweep cut part.msw --triboxes 8 -o small.msw";
 
 pub const TRIBOX: &str = "A tribox is what nine slabs have in common, along the axes and the diagonals of the coordinate planes: a box whose twelve edges are \
     chamfered. Each level holds the mesh; if it is closed, its inside too. Triboxes of a level do not overlap, unless --simplify moves their planes.\n\n\

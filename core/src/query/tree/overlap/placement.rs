@@ -1,7 +1,7 @@
 //! Two trees in one frame: how the second one lies to the first.
 //!
 //! Lengths are in *common units*: the larger one's grid units, so that nothing grows when numbers are brought there. The frame is the first one's, its
-//! origin that of the first one's grid, so that a mesh far from its own origin costs no precision. See `core/docs/rounding.md` §10.
+//! origin that of the first one's grid, so that a mesh far from its own origin costs no precision. See `core/docs/rounding.md` §11.
 
 use crate::blob::Tree;
 use crate::num::exp2;
@@ -12,10 +12,10 @@ use crate::tribox::Pose;
 /// Directions along which boxes are compared: the axes of both trees' boxes.
 pub(super) const DIRECTIONS: usize = 6;
 
-/// Rounding of a box's interval, in units of [`U32`] times what both trees reach along the direction. Proved: 77 (§10).
+/// Rounding of a box's interval, in units of [`U32`] times what both trees reach along the direction. Proved: 77 (§11).
 const INTERVAL: f64 = 96.0;
 
-/// Rounding of a moved vertex, the 2-norm, in units of the roundoff times the longest way along an axis. Proved: 8.7 in f32, 19.1 in f64 (§10).
+/// Rounding of a moved vertex, the 2-norm, in units of the roundoff times the longest way along an axis. Proved: 8.7 in f32, 19.1 in f64 (§11).
 const VERTEX: f64 = 20.0;
 
 /// Largest ratio of the trees' grid units, 2^40: then the smaller model is a point for all that the larger one can tell.

@@ -11,7 +11,7 @@ use crate::place::Motion;
 
 /// A motion as the core takes it.
 #[must_use]
-pub fn pose(Motion { rotation, translation }: Motion) -> Pose {
+pub fn pose((rotation, translation): Motion) -> Pose {
     Pose { rotation, translation }
 }
 

@@ -1,0 +1,55 @@
+//! The tribox hierarchy: size, levels, memory.
+
+use crate::counted::Counted;
+use crate::tribox::Short;
+use meshsweep_core::Triboxes;
+use meshsweep_core::blob::TriboxLevel;
+use serde_json::{Value, json};
+use std::io::{self, Write};
+
+/// Void beside the solid, where there is one.
+fn void(triboxes: &Triboxes<'_>, level: &TriboxLevel) -> Option<f32> {
+    triboxes.is_solid().then_some(level.void_ratio)
+}
+
+pub(super) fn write(out: &mut dyn Write, triboxes: &Triboxes<'_>) -> io::Result<()> {
+    let holds = if triboxes.is_solid() { "hold the solid" } else { "hold the surface" };
+    writeln!(out, "triboxes")?;
+    writeln!(
+        out,
+        "  {} of {}, depth {}: they {holds}",
+        Counted(triboxes.node_count(), "node"),
+        Counted(triboxes.leaf_count(), "leaf"),
+        triboxes.depth()
+    )?;
+    writeln!(out, "  triboxes    void %  hull error  largest distance to the mesh")?;
+    for level in triboxes.levels() {
+        let void = void(triboxes, &level).map_or("-".to_owned(), |void| format!("{:.3}", void * 100.0));
+        writeln!(
+            out,
+            "  {:>8} {void:>9} {:>11}  {}",
+            level.triboxes,
+            Short(level.error.into()),
+            Short(level.distance.into())
+        )?;
+    }
+    Ok(())
+}
+
+pub fn as_json(triboxes: &Triboxes<'_>) -> Value {
+    let level = |level: TriboxLevel| {
+        json!({
+            "triboxes": level.triboxes,
+            "void_ratio": void(triboxes, &level),
+            "hull_error": level.error,
+            "distance": level.distance,
+        })
+    };
+    json!({
+        "is_solid": triboxes.is_solid(),
+        "nodes": triboxes.node_count(),
+        "leaves": triboxes.leaf_count(),
+        "depth": triboxes.depth(),
+        "levels": triboxes.levels().map(level).collect::<Vec<_>>(),
+    })
+}

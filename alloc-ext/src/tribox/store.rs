@@ -1,0 +1,193 @@
+//! Tribox hierarchies as a section of a blob.
+
+use super::lattice::Lattice;
+use super::level::{Level, box_tree, level};
+use super::split::{Hierarchy, Node, SplitOptions};
+use crate::mesh::Mesh;
+use meshsweep_core::blob::layout::{
+    MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
+    TRIBOXES_SOLID,
+};
+use meshsweep_core::blob::{TriboxLevel, TriboxesHeader};
+use meshsweep_core::num::{Radius16, exp2, up_to_f32};
+use meshsweep_core::tribox::{FACES, TriboxError};
+use meshsweep_core::{Model, Tree};
+use std::time::{Duration, Instant};
+
+/// Everything that a blob holds of a tribox hierarchy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriboxTables {
+    /// Input coordinate = local coordinate × 2^this.
+    pub scale_exponent: i32,
+    /// Triangles of the input file.
+    pub input_triangles: u32,
+    /// No vertex of the input is farther than this from the mesh that was split, local frame.
+    pub surface_error: f32,
+    /// Box of the mesh, local frame.
+    pub bounds: [[f32; 3]; 2],
+    /// The section.
+    pub section: Vec<u8>,
+}
+
+/// What storing took and gave.
+#[derive(Clone, Debug)]
+pub struct TriboxReport {
+    /// Levels as measured, coarse to fine.
+    pub levels: Vec<Level>,
+    /// Time in all.
+    pub time: Duration,
+}
+
+/// Splits a mesh into at most `count` triboxes, and measures unions of 1, 2, 4, … of them.
+///
+/// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were: the triboxes hold the input. Any
+/// triangle soup will do; see [`Hierarchy::new`] for what they hold, and for the cost. Of a mesh without triangles the section is
+/// empty, and the blob does not open.
+///
+/// # Errors
+/// If a coordinate is not finite or beyond [`Tribox::DOMAIN`](meshsweep_core::tribox::Tribox::DOMAIN).
+///
+/// # Panics
+/// On a mesh of more than [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES).
+pub fn store(
+    mesh: &Mesh,
+    moved: f64,
+    input_triangles: usize,
+    count: u32,
+) -> Result<(TriboxTables, TriboxReport), TriboxError> {
+    let started = Instant::now();
+    let error = mesh.rounding + moved;
+    let lattice = Lattice::of(mesh, error)?;
+    if mesh.triangles.is_empty() {
+        let scale_exponent = lattice.scale_exponent;
+        let (bounds, section) = ([[0.0; 3]; 2], Vec::new());
+        let tables = TriboxTables { scale_exponent, input_triangles: 0, surface_error: 0.0, bounds, section };
+        return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
+    }
+    let bytes = box_tree(mesh);
+    let tree = Tree::open(&bytes).expect("just built");
+    let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
+    let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };
+    let hierarchy = Hierarchy::new(mesh, &tree, &options)?;
+    let counts = (0..).map(|k| 1usize << k).take_while(|&count| count < hierarchy.order.len() + 1);
+    let counts = counts.chain([hierarchy.order.len() + 1]);
+    let levels: Vec<Level> = counts.map(|count| level(&hierarchy, count, mesh, &tree)).collect();
+    let solid = hierarchy.is_solid.then(|| volume(mesh)).filter(|&volume| volume > 0.0);
+    let local = exp2(-lattice.scale_exponent);
+    let records = levels.iter().map(|level| TriboxLevel {
+        triboxes: level.triboxes as u32,
+        distance: up_to_f32((level.distance.upper + lattice.padding) * local),
+        error: up_to_f32((level.error + lattice.padding) * local),
+        // A volume that next to vanishes would give a ratio that f32 does not hold.
+        void_ratio: solid.map_or(0.0, |solid| level.void(solid).min(f64::from(f32::MAX)) as f32),
+    });
+    let whole = hierarchy.nodes[0].tribox;
+    let corner = |of: &[f32; 9]| [of[0], of[1], of[2]].map(|x| (f64::from(x) * local) as f32);
+    let tables = TriboxTables {
+        scale_exponent: lattice.scale_exponent,
+        input_triangles: input_triangles.max(mesh.triangles.len()) as u32,
+        surface_error: up_to_f32(lattice.padding * local),
+        bounds: [corner(&whole.low), corner(&whole.high)],
+        section: section(&hierarchy, &lattice, &records.collect::<Vec<_>>()),
+    };
+    Ok((tables, TriboxReport { levels, time: started.elapsed() }))
+}
+
+/// Volume that a closed mesh bounds, cubed input units.
+pub fn volume(mesh: &Mesh) -> f64 {
+    let wide = |p: [f32; 3]| glam::DVec3::from(p.map(f64::from));
+    let origin = mesh.positions.first().copied().map_or(glam::DVec3::ZERO, wide);
+    let of = |[a, b, c]: [glam::DVec3; 3]| (a - origin).cross(b - origin).dot(c - origin) / 6.0;
+    let corners = (0..mesh.triangles.len()).filter_map(|triangle| mesh.corners(triangle));
+    corners.map(|corners| of(corners.map(wide))).sum::<f64>().abs()
+}
+
+/// A node in the order of the splits.
+struct Placed {
+    /// In the hierarchy.
+    number: u32,
+    /// Splits above.
+    depth: u32,
+    split: Option<u16>,
+}
+
+fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> Vec<u8> {
+    let mut placed = vec![Placed { number: 0, depth: 0, split: None }];
+    let mut place_of = vec![0usize; hierarchy.nodes.len()];
+    let mut splits: Vec<u16> = Vec::new();
+    for (split, &number) in hierarchy.order.iter().enumerate() {
+        let place = place_of[number as usize];
+        placed[place].split = Some(split as u16);
+        splits.push(place as u16);
+        let depth = placed[place].depth + 1;
+        let node: &Node = &hierarchy.nodes[number as usize];
+        for child in node.split.iter().flat_map(|split| split.children) {
+            place_of[child as usize] = placed.len();
+            placed.push(Placed { number: child, depth, split: None });
+        }
+    }
+    let header = TriboxesHeader {
+        flags: if hierarchy.is_solid { TRIBOXES_SOLID } else { 0 },
+        grid_exponent: lattice.grid_exponent,
+        grid_origin: lattice.origin,
+        nodes: placed.len() as u32,
+        levels: levels.len() as u32,
+        depth: placed.iter().map(|placed| placed.depth).max().unwrap_or(0),
+    };
+    let mut out = header.write().to_vec();
+    for level in levels {
+        out.extend(level.triboxes.to_le_bytes());
+        // Local here.
+        [level.distance, level.error, level.void_ratio].iter().for_each(|x| out.extend(x.to_le_bytes()));
+    }
+    splits.iter().for_each(|node| out.extend(node.to_le_bytes()));
+    for Placed { number, split, .. } in placed {
+        let node = &hierarchy.nodes[number as usize];
+        let stored = lattice.stored(&node.tribox).expect("all nodes are inside of the first");
+        stored.iter().flatten().for_each(|x| out.extend(x.to_le_bytes()));
+        out.extend(split.unwrap_or(u16::MAX).to_le_bytes());
+        let error = (node.error + lattice.padding) * exp2(-lattice.scale_exponent);
+        out.extend(Radius16::round_up(error).0.to_le_bytes());
+    }
+    out
+}
+
+/// The triboxes of a blob after the finest level of at most `count`; `None` if it has none. Every table is a prefix of what it was.
+#[must_use]
+pub fn cut(model: &Model<'_>, count: u32) -> Option<TriboxTables> {
+    let triboxes = model.triboxes()?;
+    let level_count = triboxes.levels().take_while(|level| level.triboxes <= count.max(1)).count();
+    let leaves = triboxes.level(level_count.checked_sub(1)? as u32)?.triboxes;
+    let coarser = triboxes.coarser(leaves);
+    let above =
+        |node: u32| std::iter::successors(Some(node), |&node| coarser.parent(node)).count() as u32 - 1;
+    let depth = (0..coarser.node_count()).map(above).max()?;
+    let header = TriboxesHeader {
+        nodes: coarser.node_count(),
+        levels: level_count as u32,
+        depth,
+        ..*triboxes.header()
+    };
+    let place = model.sections().find(|section| section.kind == SectionKind::Triboxes)?;
+    let old = model.bytes().get(place.offset as usize..)?.get(..place.bytes as usize)?;
+    let (levels, rest) = old
+        .split_at_checked(TRIBOXES_BYTES)?
+        .1
+        .split_at_checked(triboxes.level_count() as usize * TRIBOX_LEVEL_BYTES)?;
+    let (splits, nodes) = rest.split_at_checked((triboxes.leaf_count() as usize - 1) * TRIBOX_SPLIT_BYTES)?;
+    let kept = leaves as usize - 1;
+    let mut section = header.write().to_vec();
+    section.extend(&levels[..level_count * TRIBOX_LEVEL_BYTES]);
+    section.extend(&splits[..kept * TRIBOX_SPLIT_BYTES]);
+    for (node, record) in (0..coarser.node_count()).zip(nodes.chunks(TRIBOX_BYTES)) {
+        let mut record = record.to_vec();
+        if coarser.children(node).is_none() {
+            record[2 * FACES..2 * FACES + 2].copy_from_slice(&u16::MAX.to_le_bytes());
+        }
+        section.extend(record);
+    }
+    let h = model.header();
+    let bounds = [h.surface_box.min.to_array(), h.surface_box.max.to_array()];
+    let (input_triangles, surface_error) = (h.input_triangles, h.surface_error);
+    Some(TriboxTables { scale_exponent: h.scale_exponent, input_triangles, surface_error, bounds, section })
+}

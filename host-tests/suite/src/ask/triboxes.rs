@@ -1,0 +1,214 @@
+//! Questions to the tribox hierarchy of a blob.
+
+pub use meshsweep_core::Triboxes;
+use meshsweep_core::query::QueryError;
+use meshsweep_core::query::tribox::{
+    Bound, BoundEntry, NodePair, apart, candidates as all_candidates, clip, distance, stack_entries,
+};
+use meshsweep_core::tribox::Pose;
+
+use super::{Refused, Subject, how, number, refusal, timed};
+use crate::fold::Fold;
+use crate::place::{Bounds, Motion, Placer};
+use crate::{Clock, Kind};
+
+/// Entries of the stack of pairs: more than twice most splits above a node of the suite's blobs.
+const STACK: usize = 64;
+
+/// What the queries need beside the triboxes.
+#[derive(Debug)]
+pub struct Scratch {
+    pairs: [NodePair; STACK],
+    found: [NodePair; 16],
+    stack: [BoundEntry; STACK / 2],
+}
+
+impl Scratch {
+    /// Scratch that no query has used.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            pairs: [NodePair::EMPTY; STACK],
+            found: [NodePair::EMPTY; 16],
+            stack: [BoundEntry::EMPTY; STACK / 2],
+        }
+    }
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'t> Subject<'t> for Triboxes<'t> {
+    type Scratch = Scratch;
+
+    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
+        open(bytes)
+    }
+
+    fn bounds(&self) -> Bounds {
+        bounds(self)
+    }
+
+    fn memory_suffices(&self) -> bool {
+        stack_entries(self, self) <= STACK && self.depth() as usize + 2 <= STACK / 2
+    }
+
+    /// The opened hierarchy, and the pairs that two of them ask for.
+    fn memory(&self) -> usize {
+        size_of::<Triboxes<'_>>() + stack_entries(self, self).saturating_mul(size_of::<NodePair>())
+    }
+
+    fn suits(kind: Kind) -> bool {
+        matches!(
+            kind,
+            Kind::Arith
+                | Kind::Contents
+                | Kind::TriboxesApart
+                | Kind::TriboxesCandidates
+                | Kind::TriboxesDistance
+                | Kind::TriboxesClip
+        )
+    }
+
+    fn ask(
+        &self,
+        kind: Kind,
+        place: &mut Placer,
+        scratch: &mut Scratch,
+        clock: &mut impl Clock,
+        fold: &mut Fold,
+    ) {
+        match kind {
+            Kind::Contents => contents(self, fold),
+            Kind::TriboxesApart => reject(self, &place.motion(), scratch, clock, fold),
+            Kind::TriboxesCandidates => candidates(self, &place.motion(), scratch, clock, fold),
+            Kind::TriboxesDistance => nearest(self, place.far(), scratch, clock, fold),
+            Kind::TriboxesClip => first(self, place.segment(), scratch, clock, fold),
+            _ => {}
+        }
+    }
+}
+
+/// Opens the triboxes of a blob.
+///
+/// # Errors
+/// The core's refusal.
+pub fn open(bytes: &[u8]) -> Result<Triboxes<'_>, Refused> {
+    Triboxes::open(bytes).map_err(Refused::of)
+}
+
+/// The root's box.
+#[must_use]
+pub fn bounds(triboxes: &Triboxes<'_>) -> Bounds {
+    let corner = |[x, y, z, ..]: [f32; 9]| [x, y, z];
+    triboxes.node(0).map_or([[0.0; 3]; 2], |root| [corner(root.low), corner(root.high)])
+}
+
+/// Nodes, levels, and the leaves of each.
+pub fn contents(triboxes: &Triboxes<'_>, fold: &mut Fold) {
+    for word in [triboxes.node_count(), triboxes.level_count(), triboxes.depth()] {
+        fold.word(word);
+    }
+    fold.word(u32::from(triboxes.is_solid()));
+    for node in 0..triboxes.node_count() {
+        number(fold, triboxes.parent(node));
+        triboxes.error(node).into_iter().for_each(|error| fold.f32(error));
+        triboxes.children(node).into_iter().flatten().for_each(|child| fold.word(child));
+    }
+    for level in triboxes.levels() {
+        [level.distance, level.error, level.void_ratio].into_iter().for_each(|x| fold.f32(x));
+        for (node, tribox) in triboxes.coarser(level.triboxes).leaves() {
+            fold.word(node);
+            tribox.low.iter().chain(&tribox.high).for_each(|&x| fold.f32(x));
+            tribox.boundary().vertices.iter().for_each(|&vertex| fold.point(vertex));
+        }
+    }
+}
+
+fn pose(&(rotation, translation): &Motion) -> Pose {
+    Pose { rotation, translation }
+}
+
+fn pairs(fold: &mut Fold, pairs: &[NodePair]) {
+    pairs.iter().for_each(|pair| fold.word(u32::from(pair.a) << 16 | u32::from(pair.b)));
+}
+
+/// Whether the model is apart from a copy of it that was moved.
+#[inline(never)]
+pub fn reject(
+    triboxes: &Triboxes<'_>,
+    motion: &Motion,
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let pose = pose(motion);
+    match timed(clock, || apart(triboxes, triboxes, &pose, &mut scratch.pairs)) {
+        Ok(answer) => {
+            pairs(fold, answer.may_meet.as_slice());
+            how(fold, answer.work, answer.ended);
+        }
+        Err(error) => refusal(fold, error),
+    }
+}
+
+/// Where it may meet that copy; more pairs than there are places for.
+#[inline(never)]
+pub fn candidates(
+    triboxes: &Triboxes<'_>,
+    motion: &Motion,
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let pose = pose(motion);
+    let Scratch { pairs: stack, found, .. } = scratch;
+    match timed(clock, || all_candidates(triboxes, triboxes, &pose, found, stack)) {
+        Ok(answer) => {
+            pairs(fold, found.get(..answer.stored).unwrap_or_default());
+            fold.word(answer.dropped);
+            how(fold, answer.work, answer.ended);
+        }
+        Err(error) => refusal(fold, error),
+    }
+}
+
+fn bound(fold: &mut Fold, answer: Result<Bound, QueryError>) {
+    match answer {
+        Ok(answer) => {
+            fold.f32(answer.lower);
+            number(fold, answer.node);
+            how(fold, answer.work, answer.ended);
+        }
+        Err(error) => refusal(fold, error),
+    }
+}
+
+/// A lower bound of a distance.
+#[inline(never)]
+pub fn nearest(
+    triboxes: &Triboxes<'_>,
+    point: [f32; 3],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let answer = timed(clock, || distance(triboxes, point, &mut scratch.stack));
+    bound(fold, answer);
+}
+
+/// Where a segment first enters.
+#[inline(never)]
+pub fn first(
+    triboxes: &Triboxes<'_>,
+    [a, b]: [[f32; 3]; 2],
+    scratch: &mut Scratch,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let answer = timed(clock, || clip(triboxes, a, b, &mut scratch.stack));
+    bound(fold, answer);
+}
