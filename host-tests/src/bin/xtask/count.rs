@@ -43,7 +43,7 @@ pub fn run(steps: &mut Steps) {
     table.note("far, near, path: closest point; all with the memory that the model's capacities name");
     table.note("tree: to the box tree, triboxes: to 64 of them, the others to the hull hierarchy");
     table.note(
-        "apart, candidates: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
+        "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
     );
     println!("{}", table.text());
     check_lanes(steps);

@@ -5,10 +5,14 @@ use std::hint::black_box;
 use meshsweep_alloc::emit;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Facing, TreeEntry, closest_point, first_hit, is_within};
+use meshsweep_core::query::tree::{
+    Facing, PairEntry, TreeEntry, closest_point, first_hit, is_within, overlap,
+};
 use meshsweep_core::query::{Stop, Work};
+use meshsweep_core::tribox::Pose;
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::table::{Cell, Table, fixed};
+use meshsweep_host_tests::measure::triboxes::{poses, sphere};
 use meshsweep_host_tests::measure::workload::{Points, points, segments};
 
 use super::{QUERIES, each};
@@ -17,8 +21,13 @@ use crate::valgrind::Valgrind;
 use crate::workspace;
 
 /// Questions by their words on the command line: `tree`, the fixture, the points.
-pub const QUESTIONS: [&str; 4] =
-    ["tree bracket.stl far", "tree bracket.stl near", "tree bracket.stl path", "tree bracket.stl first_hit"];
+pub const QUESTIONS: [&str; 5] = [
+    "tree bracket.stl far",
+    "tree bracket.stl near",
+    "tree bracket.stl path",
+    "tree bracket.stl first_hit",
+    "tree torus.ply overlap",
+];
 
 /// Questions by whose instructions vector code is told from scalar code, with the most instructions that a node or a leaf may take: a quarter more
 /// than it took on plain x86-64 when this was written (893, 741, 711, 692, 482, 764). Without vectors (`-C no-vectorize-loops -C no-vectorize-slp`) it
@@ -53,6 +62,14 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
         sum.splits += work.splits;
         sum.triangles += work.triangles;
     };
+    if kind == "overlap" {
+        let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+        let all: Vec<Pose> = poses(&sphere(&subject), QUERIES[1]).map(|(_, core)| core).collect();
+        for pose in all.iter().take(queries) {
+            add(black_box(overlap(&tree, &tree, pose, u32::MAX, &mut stack)).map_err(failed)?.work);
+        }
+        return Ok((sum, triangles));
+    }
     // Placed for the greater number always, so that placing them is no part of the difference.
     if let Some(kind) = Points::ALL.into_iter().find(|points| points.name() == kind) {
         let mut stack = vec![TreeEntry::EMPTY; entries];
