@@ -1,15 +1,15 @@
 //! From a mesh to its hull: a first hull that is proved to enclose it, then as few faces as wanted, then as tight as they can be.
 
 use super::obstacle::Obstacle;
-use super::options::{Goal, Options, Progress, Report, Stage, Stop, WrapError};
+use super::options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError};
 use super::polish::Polish;
 use super::rounding::Rounding;
 use super::shell::Shell;
 use super::slack::slack;
-use super::start::{First, first};
+use super::start::{First, first_box, first_closure, first_level};
 use super::work::{Shape, Work};
 use crate::mesh::{Mesh, require_closed_manifold};
-use crate::precision::store;
+use crate::precision::{Stored, store};
 use glam::DVec3;
 use std::time::Instant;
 
@@ -23,10 +23,11 @@ pub struct Hull {
 }
 
 /// Conditions while faces are plenty: the hull keeps room to move.
-pub(super) const SHAPE: Shape = Shape { min_compactness: 0.01, min_turn: 0.25, max_valence: 24 };
+pub(super) const SHAPE: Shape =
+    Shape { min_compactness: 0.01, min_turn: 0.25, upright: Some(0.05), max_valence: 24 };
 
 /// Conditions where the first get stuck: whatever is proved will do.
-const LOOSE: Shape = Shape { min_compactness: 0.001, min_turn: -0.5, max_valence: 48 };
+const LOOSE: Shape = Shape { min_compactness: 0.001, min_turn: -0.9, upright: None, max_valence: 48 };
 
 /// Faces that a stage of the way down leaves; the hull is settled before the next.
 const STAGE: f64 = 0.7;
@@ -61,21 +62,10 @@ pub fn wrap(
         obstacle: &obstacle,
         volume: solid.then_some(volume),
         options,
+        deadline: options.time_limit.map(|limit| started + limit),
         on_progress: &mut on_progress,
     };
-    let wanted = match options.goal {
-        Goal::Faces(faces) => faces,
-        Goal::Void(_) | Goal::Slack(_) => FINEST,
-    };
-    let First { shell, start, filled } =
-        first(mesh, &stored, solid, &obstacle, &rounding, wanted, builder.on_progress)?;
-    let mut work = Work::new(&obstacle, shell, rounding, SHAPE);
-    work.deadline = options.time_limit.map(|limit| started + limit);
-    builder.settle_first(&mut work);
-    let (work, stop) = match options.goal {
-        Goal::Faces(faces) => builder.with_faces(work, faces),
-        Goal::Void(_) | Goal::Slack(_) => builder.fewest(work),
-    };
+    let Done { work, start, filled, stop } = builder.build(mesh, &stored, rounding)?;
     let (at, triangles) = work.shell.compact();
     let hull_volume = work.shell.volume();
     let report = Report {
@@ -99,10 +89,38 @@ pub fn wrap(
 /// Faces that a search for the fewest begins with.
 const FINEST: usize = 2000;
 
+/// Cubes along the longest side of closures, in the order in which they are tried; `None` is the box.
+const CELLS: [Option<usize>; 4] = [Some(40), Some(16), Some(6), None];
+
+/// Faces up to which closures are tried beside the progressive hull.
+const FEW_FACES: usize = 60;
+
+/// A hull with the wanted number of faces, or as few as can be.
+struct Done<'a> {
+    work: Work<'a>,
+    start: Start,
+    filled: usize,
+    stop: Stop,
+}
+
+impl Done<'_> {
+    /// One that came down to the faces first, then the one with less volume.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let stuck = (self.stop == Stop::Stuck, other.stop == Stop::Stuck);
+        match stuck {
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) => self.work.shell.face_count() < other.work.shell.face_count(),
+            (false, false) => self.work.shell.volume() < other.work.shell.volume(),
+        }
+    }
+}
+
 struct Builder<'a, 'o, 'p> {
     obstacle: &'a Obstacle,
     volume: Option<f64>,
     options: &'o Options,
+    deadline: Option<Instant>,
     on_progress: &'p mut dyn FnMut(Progress),
 }
 
@@ -112,11 +130,86 @@ impl<'a> Builder<'a, '_, '_> {
         self.volume.unwrap_or(0.0)
     }
 
-    fn settle_first(&mut self, work: &mut Work<'a>) {
+    fn build(&mut self, mesh: &Mesh, stored: &Stored, rounding: Rounding) -> Result<Done<'a>, WrapError> {
+        if let Goal::Faces(faces) = self.options.goal {
+            let mut done = self.begin(mesh, stored, rounding, faces)?;
+            let polished = self.polish(&mut done.work, self.options.effort);
+            if done.stop == Stop::Reached {
+                done.stop = polished;
+            }
+            return Ok(done);
+        }
+        let mut faces = FINEST;
+        let mut done = self.begin(mesh, stored, rounding, faces)?;
+        while !self.is_tight(&done.work) && faces < mesh.triangles.len() && !done.work.is_late() {
+            faces = faces.saturating_mul(4);
+            done = self.begin(mesh, stored, rounding, faces)?;
+        }
+        (done.work, done.stop) = self.fewest(done.work);
+        Ok(done)
+    }
+
+    /// The hull of the best start, without polish. A mesh that bounds a volume starts from its progressive hull, any other from its closure. With few faces left, coarse
+    /// closures, which have fewer handles and narrow places, may come to less volume: then all are tried.
+    fn begin(
+        &mut self,
+        mesh: &Mesh,
+        stored: &Stored,
+        rounding: Rounding,
+        wanted: usize,
+    ) -> Result<Done<'a>, WrapError> {
+        let mut best: Option<Done<'a>> = None;
+        if self.volume.is_some() {
+            let first = first_level(mesh, stored, self.obstacle, &rounding, wanted, self.on_progress);
+            best = first.map(|first| self.prepare(first, rounding, wanted));
+        }
+        let is_few = matches!(self.options.goal, Goal::Faces(faces) if faces <= FEW_FACES);
+        let is_solid = best.is_some();
+        for cells in CELLS {
+            let late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+            let settled = is_solid && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
+            if best.is_some() && (settled || late) {
+                break;
+            }
+            let first = match cells {
+                Some(cells) => {
+                    first_closure(stored, self.obstacle, &rounding, cells, wanted, self.on_progress)
+                }
+                None => first_box(self.obstacle, &rounding),
+            };
+            let Some(first) = first else { continue };
+            let mut done = self.prepare(first, rounding, wanted);
+            match &mut best {
+                Some(best) => {
+                    done.work.add_counts(&best.work);
+                    if done.is_better_than(best) {
+                        *best = done;
+                    } else {
+                        best.work.take_counts(&done.work);
+                    }
+                }
+                None => best = Some(done),
+            }
+        }
+        best.ok_or(WrapError::NoRoom)
+    }
+
+    /// Settles a first hull and brings it to the wanted number of faces, without polish.
+    fn prepare(&mut self, first: First, rounding: Rounding, wanted: usize) -> Done<'a> {
+        let First { shell, start, filled } = first;
+        let mut work = Work::new(self.obstacle, shell, rounding, SHAPE);
+        work.deadline = self.deadline;
         for _ in 0..2 {
             work.sweep();
             work.flip_all();
         }
+        let stop = match self.options.goal {
+            Goal::Faces(_) => self.descend(&mut work, wanted),
+            Goal::Void(_) | Goal::Slack(_) => Stop::Reached,
+        };
+        work.refine(wanted);
+        work.relax(self.floor(), 1e-2, 4);
+        Done { work, start, filled, stop }
     }
 
     /// Down to so many faces, or as few as can be, without polish.
@@ -156,12 +249,6 @@ impl<'a> Builder<'a, '_, '_> {
             on_progress(Progress { stage: Stage::Polishing, done: done as usize, of: of as usize });
         });
         if work.is_late() { Stop::OutOfTime } else { Stop::Reached }
-    }
-
-    fn with_faces(&mut self, mut work: Work<'a>, faces: usize) -> (Work<'a>, Stop) {
-        let stop = self.descend(&mut work, faces);
-        let polished = self.polish(&mut work, self.options.effort);
-        (work, if stop == Stop::Reached { polished } else { stop })
     }
 
     /// Whether a hull is as tight as asked for.

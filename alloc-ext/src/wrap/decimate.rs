@@ -39,7 +39,7 @@ impl PartialEq for Candidate {
 impl Eq for Candidate {}
 
 /// A collapse may turn faces more than a vertex move.
-const COLLAPSE: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: 0.05, clearance: 0.0 };
+const COLLAPSE: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.05), clearance: 0.0 };
 
 impl Work<'_> {
     /// Collapses until at most `target` faces are left, or no collapse is legal: then false.
@@ -114,7 +114,7 @@ impl Work<'_> {
 
     fn place_collapse(&mut self, star: &[StarFace], a: u32, b: u32, steps: f64) -> Option<DVec3> {
         let centre = (self.shell.position(a) + self.shell.position(b)) * 0.5;
-        let wish = Wish { clearance: self.clearance(star, steps), ..COLLAPSE };
+        let wish = Wish { clearance: self.clearance(star, steps), upright: self.shape.upright, ..COLLAPSE };
         let x = self.placer.place(self.obstacle, star, centre, &wish)?;
         let x = self.rounding.round(x)?;
         self.is_shapely(star, x).then_some(x)

@@ -8,7 +8,7 @@ use super::work::Work;
 use glam::DVec3;
 
 /// As a collapse: new faces may stand steeply on the old ones.
-const SPLIT: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: 0.05, clearance: 0.0 };
+const SPLIT: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.05), clearance: 0.0 };
 
 /// A split is tried for a collapse if it gains this part of what that costs: the vertices around both settle afterwards and gain more.
 const HOPE: f64 = 0.5;
@@ -52,6 +52,37 @@ impl Work<'_> {
             return None;
         }
         self.shell.split(a, b, x)
+    }
+
+    /// Splits the edges that gain most until there are `target` faces, or nothing is gained.
+    pub fn refine(&mut self, target: usize) {
+        while self.shell.face_count() + 2 <= target && !self.is_late() {
+            let edges = self.shell.edges();
+            let mut splits: Vec<_> = edges.iter().filter_map(|&[a, b]| self.evaluate_split(a, b)).collect();
+            splits.sort_unstable_by(|a, b| b.cmp(a));
+            let before = self.shell.face_count();
+            let mut touched: Vec<u32> = Vec::new();
+            for split in splits.iter().filter(|split| split.cost < 0.0) {
+                if self.shell.face_count() + 2 > target {
+                    break;
+                }
+                let [a, b] = split.ends;
+                let Some(wings) = self.shell.mesh.wings(a, b) else { continue };
+                let around = [split.ends, wings.apexes].concat();
+                if around.iter().any(|v| touched.contains(v)) {
+                    continue;
+                }
+                if let Some(v) = self.split(split) {
+                    around.iter().chain([&v]).for_each(|&u| {
+                        self.settle(u);
+                    });
+                    touched.extend(around);
+                }
+            }
+            if self.shell.face_count() == before {
+                break;
+            }
+        }
     }
 
     /// Tries to exchange the best splits for the cheapest collapses; how many made the hull smaller.

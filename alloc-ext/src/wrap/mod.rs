@@ -26,6 +26,7 @@ mod exchange;
 mod flip;
 mod obstacle;
 mod options;
+mod parts;
 mod placement;
 mod polish;
 mod predicates;
@@ -39,3 +40,4 @@ mod work;
 
 pub use build::{Hull, wrap};
 pub use options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError};
+pub use parts::parts;

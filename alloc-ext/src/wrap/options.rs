@@ -50,6 +50,8 @@ pub enum Start {
         /// Cubes along the longest side of the grid.
         cells: usize,
     },
+    /// The mesh's box, with faces split where that gains most.
+    Box,
 }
 
 /// Why a hull has the faces that it has.

@@ -47,8 +47,8 @@ pub(super) struct Wish {
     pub second_term: f64,
     /// Added to the direction of least volume, as a part of its length.
     pub tilt: DVec3,
-    /// Least part of a face's area that its new face keeps when it is seen along the old normal.
-    pub upright: f64,
+    /// Least part of a face's area that its new face keeps when it is seen along the old normal; `None`: any.
+    pub upright: Option<f64>,
     /// Distance that is kept from each plane.
     pub clearance: f64,
 }
@@ -127,8 +127,8 @@ impl Placer {
             area += double_area;
             let across = (b - a).cross(face.normal);
             let length = across.length();
-            if length > LEVEL {
-                let offset = (wish.upright * double_area - cross.dot(face.normal)) / length;
+            if let Some(upright) = wish.upright.filter(|_| length > LEVEL) {
+                let offset = (upright * double_area - cross.dot(face.normal)) / length;
                 self.fixed.push(HalfSpace { normal: -across / length, offset });
             }
         }

@@ -121,7 +121,8 @@ impl Work<'_> {
         let mut around: Vec<u32> = self.shell.mesh.neighbours(v).collect();
         around.push(v);
         let before: Vec<DVec3> = around.iter().map(|&u| self.shell.position(u)).collect();
-        let wish = Wish { second_term: 0.3, tilt: dice.direction() * strength, upright: 0.1, clearance: 0.0 };
+        let wish =
+            Wish { second_term: 0.3, tilt: dice.direction() * strength, upright: Some(0.1), clearance: 0.0 };
         let Some(mut gained) = self.disturb(v, &wish) else { return false };
         for &u in &around {
             gained += self.settle(u).unwrap_or(0.0);

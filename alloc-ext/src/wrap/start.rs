@@ -7,7 +7,7 @@
 use super::boxes::{Bounds, BoxTree};
 use super::closure::closure;
 use super::obstacle::Obstacle;
-use super::options::{Progress, Stage, Start, WrapError};
+use super::options::{Progress, Stage, Start};
 use super::placement::StarFace;
 use super::predicates::{are_apart, is_degenerate, side};
 use super::rounding::Rounding;
@@ -32,44 +32,35 @@ fn plenty(wanted: usize) -> usize {
     (2 * wanted).saturating_add(800)
 }
 
-/// Levels that are tried, each with twice the faces of the one before.
-const LEVELS: usize = 4;
+/// Levels that are tried: [`plenty`] times 2 to this, in this order. Finer ones are closer to the mesh; coarser ones pass over places where the mesh
+/// crosses itself.
+const LEVELS: [i32; 7] = [0, 1, -1, 2, -2, 3, -3];
 
-/// Cubes along the longest side of a closure, by attempt.
-const CELLS: [usize; 5] = [48, 24, 12, 4, 1];
+/// Faces that no level is coarser than.
+const LEAST_FACES: usize = 40;
 
-/// The first hull that proves to be one.
-///
-/// # Errors
-/// [`WrapError::NoRoom`].
-pub(super) fn first(
+/// The first level of the progressive hull that proves to be a hull to start from.
+pub(super) fn first_level(
     mesh: &Mesh,
     stored: &Stored,
-    solid: bool,
     obstacle: &Obstacle,
     rounding: &Rounding,
     wanted: usize,
     on_progress: &mut dyn FnMut(Progress),
-) -> Result<First, WrapError> {
-    if solid {
-        let levels = levels(&stored.positions, &mesh.triangles, stored, plenty(wanted), on_progress);
-        for (positions, triangles) in levels.into_iter().rev() {
-            let mut shell = Shell::new(positions, &triangles);
-            let faces = shell.face_count();
-            lift(&mut shell, rounding);
-            let (shell, filled) = keep_outermost(shell);
-            if defects(&shell, obstacle).is_empty() {
-                return Ok(First { shell, start: Start::Progressive { faces }, filled });
-            }
-        }
-    }
-    CELLS
-        .into_iter()
-        .find_map(|cells| first_closure(stored, obstacle, rounding, cells, wanted, on_progress))
-        .ok_or(WrapError::NoRoom)
+) -> Option<First> {
+    let mut levels = levels(&stored.positions, &mesh.triangles, stored, plenty(wanted), on_progress);
+    LEVELS.into_iter().find_map(|level| {
+        let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
+        let mut shell = Shell::new(positions, &triangles);
+        let faces = shell.face_count();
+        lift(&mut shell, rounding);
+        let (shell, filled) = keep_outermost(shell);
+        let start = Start::Progressive { faces };
+        defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+    })
 }
 
-/// The closure of the mesh, or the coarsest of its progressive hulls that does not meet itself.
+/// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's levels that does not meet itself.
 pub(super) fn first_closure(
     stored: &Stored,
     obstacle: &Obstacle,
@@ -85,26 +76,53 @@ pub(super) fn first_closure(
     let start = Start::Closure { cell: closure.cell, cells: closure.cells };
     let local = exp2(-stored.scale_exponent);
     let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
-    let levels = levels(&positions, &closure.triangles, stored, plenty(wanted), on_progress);
-    levels.into_iter().rev().chain([(closure.positions, closure.triangles)]).find_map(
-        |(positions, triangles)| {
-            let (shell, filled) = keep_outermost(Shell::new(positions, &triangles));
-            defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
-        },
-    )
+    let mut levels = levels(&positions, &closure.triangles, stored, plenty(wanted), on_progress);
+    // In narrow places levels grow into each other. The closure itself never does, but each of its faces costs a collapse against the mesh.
+    let small = closure.triangles.len() <= MOST_FACES;
+    let itself = small.then_some((closure.positions, closure.triangles));
+    let in_order = LEVELS
+        .into_iter()
+        .filter(|&level| level >= 0)
+        .filter_map(|level| Some(levels.remove(levels.iter().position(|(l, _)| *l == level)?).1));
+    in_order.chain(itself).find_map(|(positions, triangles)| {
+        let (shell, filled) = keep_outermost(Shell::new(positions, &triangles));
+        defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+    })
 }
+
+/// The mesh's box, a few steps of the grid larger.
+pub(super) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<First> {
+    let bounds = obstacle.triangles().iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p));
+    let size = bounds.low.abs().max(bounds.high.abs()).max_element();
+    LIFTS.into_iter().find_map(|lift| {
+        let out = rounding.half_step(size) * lift;
+        let (low, high) = (rounding.round(bounds.low - out)?, rounding.round(bounds.high + out)?);
+        let corner = |c: u32| {
+            let pick = |bit: u32, low: f64, high: f64| if c & bit == 0 { low } else { high };
+            DVec3::new(pick(1, low.x, high.x), pick(2, low.y, high.y), pick(4, low.z, high.z))
+        };
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<[u32; 3]> =
+            quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let shell = Shell::new((0..8).map(corner).collect(), &triangles);
+        defects(&shell, obstacle).is_empty().then_some(First { shell, start: Start::Box, filled: 0 })
+    })
+}
+
+/// Faces of a closure that is a first hull itself.
+const MOST_FACES: usize = 10_000;
 
 type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
 
-/// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, fine to coarse, the last with `least` faces; the
-/// surface itself if it has no more.
+/// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, each with its number: level `n` has `least` times 2^n faces,
+/// or as few as the hull can be brought down to; level 0 may be the surface itself.
 fn levels(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     stored: &Stored,
     least: usize,
     on_progress: &mut dyn FnMut(Progress),
-) -> Vec<Surface> {
+) -> Vec<(i32, Surface)> {
     let from = triangles.len();
     let mut engine = Engine::new(positions, triangles, Conditions::default(), Priority::Program, stored.grid);
     let mut show = |progress: collapse::Progress| {
@@ -116,16 +134,16 @@ fn levels(
     };
     let scale = exp2(stored.scale_exponent);
     let mut levels = Vec::new();
-    for level in (0..LEVELS).rev() {
-        let faces = least << level;
-        if faces >= from && level > 0 {
+    for level in (-3..=3).rev() {
+        let faces = (least as f64 * exp2(level)) as usize;
+        if (faces >= from && level > 0) || (faces < LEAST_FACES && level < 0) {
             continue;
         }
         // Where it gets stuck it is a level as well.
         let _ = engine.run(faces, &mut show);
         let all: Vec<DVec3> = engine.positions().iter().map(|&p| p * scale).collect();
         let faces: Vec<[u32; 3]> = engine.faces().collect();
-        levels.push(compact(&all, &faces));
+        levels.push((level, compact(&all, &faces)));
     }
     levels
 }

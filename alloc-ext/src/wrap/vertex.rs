@@ -11,7 +11,8 @@ pub(super) const CLEARANCES: [f64; 2] = [4.0, 16.0];
 const GAIN: f64 = 1e-9;
 
 /// A plain vertex move: a pull strong enough to slide along planes, weak enough to stay near the star.
-pub(super) const SETTLE: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: 0.1, clearance: 0.0 };
+pub(super) const SETTLE: Wish =
+    Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.1), clearance: 0.0 };
 
 impl Work<'_> {
     /// Moves a vertex to where the volume is least; what is gained.

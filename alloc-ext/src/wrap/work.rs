@@ -23,6 +23,8 @@ pub(super) struct Shape {
     pub min_compactness: f64,
     /// Cosine of the largest turn of a face.
     pub min_turn: f64,
+    /// Least part of a face's area that a collapse keeps when it is seen along the old normal; `None`: any.
+    pub upright: Option<f64>,
     /// Largest valence.
     pub max_valence: usize,
 }
@@ -82,6 +84,14 @@ impl<'a> Work<'a> {
         self.placer.programs = other.placer.programs;
         self.proofs = other.proofs;
         self.refused = other.refused;
+    }
+
+    /// Adds the work of another to its own.
+    pub fn add_counts(&mut self, other: &Self) {
+        self.placer.stars += other.placer.stars;
+        self.placer.programs += other.placer.programs;
+        self.proofs += other.proofs;
+        self.refused += other.refused;
     }
 
     /// Whether `new` may take the place of the faces `dead`, the moving corner of `bases` going to `apex`. Exact.

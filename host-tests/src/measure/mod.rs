@@ -7,7 +7,8 @@
 //! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
-//!                         └─ bounds   (paper 001: triboxes) ┘
+//!                         ├─ bounds   (paper 001: triboxes) ┤
+//!                         └─ tight    (tight hulls) ────────┘
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
 //! something. Counts are exact.
@@ -23,6 +24,7 @@ pub(crate) mod stopwatch;
 mod storage;
 mod subject;
 pub mod table;
+mod tight;
 mod trade;
 mod tree;
 pub mod workload;
@@ -56,6 +58,17 @@ pub fn measure_bounds(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
     tables.extend(bounds::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures tight hulls of one mesh file, which need not be closed, and proves each.
+///
+/// # Errors
+/// The file is no mesh, or a hull is missing or not proved.
+pub fn measure_tight(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject.table()];
+    tables.extend(tight::tables(&subject)?);
     Ok(tables)
 }
 

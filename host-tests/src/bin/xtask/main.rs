@@ -46,9 +46,10 @@ cargo xtask setup                   makes sure of the cross targets, of QEMU and
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
-cargo xtask measure [--firmware] [--tree | --bounds] [--json FILE] [MESH...]
+cargo xtask measure [--firmware] [--tree | --bounds | --tight] [--json FILE] [MESH...]
                                     work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/);
-                                    --tree: only the box tree's; --bounds: how tight boxes, triboxes, hulls... are
+                                    --tree: only the box tree's; --bounds: how tight boxes, triboxes, hulls... are;
+                                    --tight: tight hulls, each proved
 cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask race [--count] [--quick] [--hull] [--json FILE] [MESH...]
                                     this library, parry3d, obvhs and a plain loop on the same queries: times or, with

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use meshsweep_host_tests::measure::{measure, measure_bounds, measure_tree};
+use meshsweep_host_tests::measure::{measure, measure_bounds, measure_tight, measure_tree};
 use serde_json::{Value, json};
 
 use crate::firmware;
@@ -16,20 +16,30 @@ pub struct Options {
     meshes: Vec<PathBuf>,
     json: Option<PathBuf>,
     firmware: bool,
-    tree: bool,
-    bounds: bool,
+    /// One part alone.
+    only: Option<Only>,
+}
+
+/// What may be measured alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Only {
+    Tree,
+    Bounds,
+    Tight,
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --bounds] [--json FILE] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --bounds | --tight] [--json FILE] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
         while let Some(&word) = words.next() {
             match word {
                 "--firmware" => options.firmware = true,
-                "--tree" if !options.bounds => options.tree = true,
-                "--bounds" if !options.tree => options.bounds = true,
+                "--tree" | "--bounds" | "--tight" if options.only.is_some() => return None,
+                "--tree" => options.only = Some(Only::Tree),
+                "--bounds" => options.only = Some(Only::Bounds),
+                "--tight" => options.only = Some(Only::Tight),
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
                 flag if flag.starts_with("--") => return None,
                 mesh => options.meshes.push(PathBuf::from(mesh)),
@@ -40,17 +50,18 @@ impl Options {
 }
 
 /// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds; and the firmware if asked to.
+/// bounds, with `--tight` only tight hulls; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
     let mut measured = Vec::new();
     for mesh in meshes {
         steps.run(&format!("measure {}", mesh.display()), || {
-            let tables = match options {
-                Options { tree: true, .. } => measure_tree(mesh)?,
-                Options { bounds: true, .. } => measure_bounds(mesh)?,
-                _ => measure(mesh)?,
+            let tables = match options.only {
+                Some(Only::Tree) => measure_tree(mesh)?,
+                Some(Only::Bounds) => measure_bounds(mesh)?,
+                Some(Only::Tight) => measure_tight(mesh)?,
+                None => measure(mesh)?,
             };
             for table in &tables {
                 print!("{}", table.text());
