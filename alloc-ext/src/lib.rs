@@ -18,3 +18,4 @@ pub mod precision;
 pub mod sweep;
 pub mod tree;
 pub mod tribox;
+pub mod wrap;

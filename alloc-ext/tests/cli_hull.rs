@@ -24,12 +24,13 @@ fn void_percent(text: &str) -> f64 {
 }
 
 #[test]
-fn a_hull_has_the_faces_and_the_void_that_are_printed() {
+fn a_nested_hull_has_the_faces_and_the_void_that_are_printed() {
     let directory = scratch("hull_of_mesh");
     let out = directory.join("hull.ply");
     for (name, priority) in [("bracket.stl", "lp"), ("torus.ply", "span"), ("groove.obj", "lp")] {
         let mesh = fixture(name);
-        let text = ok(["hull", arg(&mesh), "--faces", "150", "--priority", priority, "-o", arg(&out)]);
+        let text =
+            ok(["hull", arg(&mesh), "--nested", "--faces", "150", "--priority", priority, "-o", arg(&out)]);
         let (faces, volume) = closed(&out);
         assert!(text.contains(&format!(": {faces} faces, ")), "{text}");
         assert!(faces <= 150, "{text}");
@@ -42,12 +43,55 @@ fn a_hull_has_the_faces_and_the_void_that_are_printed() {
 }
 
 #[test]
-fn a_hull_that_stops_early_says_why() {
+fn a_nested_hull_that_stops_early_says_why() {
     let directory = scratch("hull_stuck");
     let (mesh, out) = (fixture("bracket.stl"), directory.join("hull.ply"));
-    let text = ok(["hull", arg(&mesh), "--faces", "4", "-o", arg(&out)]);
+    let text = ok(["hull", arg(&mesh), "--nested", "--faces", "4", "-o", arg(&out)]);
     assert!(text.contains("stopped before 4 faces"), "{text}");
     closed(&out);
+}
+
+#[test]
+fn a_tight_hull_has_the_faces_and_the_void_that_are_printed_and_hardly_more_than_a_nested_one() {
+    let directory = scratch("tight_hull");
+    let (tight, nested) = (directory.join("tight.ply"), directory.join("nested.ply"));
+    for name in ["bracket.stl", "torus.ply", "groove.obj"] {
+        let mesh = fixture(name);
+        let text = ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0.3", "-o", arg(&tight)]);
+        let (faces, volume) = closed(&tight);
+        assert!(text.contains(&format!(": {faces} faces, ")) && faces <= 100, "{text}");
+        let (_, solid) = closed(&mesh);
+        let void = (volume / solid - 1.0) * 100.0;
+        assert!(void > 0.0 && (void - void_percent(&text)).abs() < 1e-2, "{void} {text}");
+        ok(["hull", arg(&mesh), "--nested", "--faces", "100", "-o", arg(&nested)]);
+        // A nested hull of flat faces may be the solid itself, which a tight one may not touch.
+        assert!(volume <= closed(&nested).1 * (1.0 + 1e-3), "{name}");
+    }
+}
+
+#[test]
+fn a_slack_and_a_void_are_kept_and_printed() {
+    let directory = scratch("hull_slack");
+    let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
+    let text = ok(["hull", arg(&mesh), "--slack", "0.4", "--effort", "0.1", "-o", arg(&out)]);
+    let most: f64 = text.split("at most ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!(most <= 0.4, "{text}");
+    let text = ok(["hull", arg(&mesh), "--void", "30%", "--effort", "0.1", "-o", arg(&out)]);
+    assert!(void_percent(&text) <= 30.0, "{text}");
+    let text = ok(["hull", arg(&mesh), "--void", "0.000001", "--effort", "0", "-o", arg(&out)]);
+    assert!(text.contains("looser than asked for"), "{text}");
+}
+
+#[test]
+fn open_meshes_have_a_tight_hull_and_each_part_one_of_its_own() {
+    let directory = scratch("hull_open");
+    let (mesh, out) = (directory.join("two.obj"), directory.join("hull.ply"));
+    fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 1\nv 5 1 0\nf 1 2 3\nf 4 5 6\n").unwrap();
+    let text = ok(["hull", arg(&mesh), "--faces", "12", "-o", arg(&out)]);
+    assert!(text.contains("is not closed") && !text.contains("void space"), "{text}");
+    let text = ok(["hull", arg(&mesh), "--faces", "12", "--parts", "-o", arg(&out)]);
+    assert!(text.contains("2 hulls") && text.contains("part 1: "), "{text}");
+    assert!(closed(&out).0 <= 24);
 }
 
 #[test]
@@ -98,6 +142,16 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
     let line =
         cli_support::refused(&run(["hull", arg(&mesh), "--level", "1", "-o", arg(&out)]), 2, "bracket.stl");
     assert!(line.contains("is a mesh") && line.contains("--for hull"), "{line}");
+    let line = cli_support::refused(
+        &run(["hull", arg(&mesh), "--priority", "span", "-o", arg(&out)]),
+        2,
+        "--priority",
+    );
+    assert!(line.contains("--nested"), "{line}");
+    for pair in [["--nested", "--parts"], ["--void=3", "--slack=2"], ["--faces=9", "--void=3"]] {
+        let both = run(["hull", arg(&mesh), pair[0], pair[1], "-o", arg(&out)]);
+        assert_eq!(both.status.code(), Some(2));
+    }
     let both = run(["hull", arg(&path), "--level", "0", "--faces", "9", "-o", arg(&out)]);
     assert_eq!(both.status.code(), Some(2));
     assert!(!out.exists() && !stl.exists());
@@ -107,11 +161,15 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
 fn a_hull_on_a_grid_encloses_the_mesh_that_moved_there() {
     let directory = scratch("hull_bits");
     let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
-    let text = ok(["hull", arg(&mesh), "--vertex-bits", "16", "-o", arg(&out)]);
-    assert!(text.contains("moved to the grid by up to "), "{text}");
-    let (faces, volume) = closed(&out);
-    let (_, solid) = closed(&mesh);
-    assert!(faces <= 200 && volume > solid * (1.0 - 1e-4), "{faces} {volume} {solid}");
+    for nested in [true, false] {
+        let mut arguments = vec!["hull", arg(&mesh), "--vertex-bits", "16", "-o", arg(&out)];
+        arguments.extend(nested.then_some("--nested"));
+        let text = ok(arguments);
+        assert!(text.contains("moved to the grid by up to "), "{text}");
+        let (faces, volume) = closed(&out);
+        let (_, solid) = closed(&mesh);
+        assert!(faces <= 200 && volume > solid * (1.0 - 1e-4), "{faces} {volume} {solid}");
+    }
 }
 
 #[test]

@@ -135,6 +135,11 @@ impl Engine {
         self.history.added_volume.iter().sum()
     }
 
+    /// Positions by label, those that are gone too.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.history.positions
+    }
+
     /// Faces now, corners as labels of [`History`].
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
         let alive = (0..self.mesh.corners.len() as u32).filter(|&t| self.mesh.is_alive(t));

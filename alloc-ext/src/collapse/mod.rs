@@ -11,7 +11,7 @@ mod star;
 
 pub use engine::{Engine, Progress, Stuck};
 pub use history::{Collapse, History, VertexOrder};
-pub use star::Connectivity;
+pub use star::{Connectivity, MAX_STAR, Wings};
 
 /// How candidate edges are ordered (paper 000, 3.1.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -165,6 +165,60 @@ impl Connectivity {
             }
         }
     }
+
+    /// Flips the edge `a b` between the triangles `a b c` and `b a d`: they become `a d c` and `d b c`, in their old places, which are
+    /// returned with `c` and `d`. `None`, and nothing changes, if an end would be left with fewer than three triangles or there is an edge `c d`.
+    pub fn flip(&mut self, a: u32, b: u32) -> Option<Wings> {
+        let wings = self.wings(a, b)?;
+        let Wings { triangles: [f, g], apexes: [c, d] } = wings;
+        let is_edge = c == d || self.neighbours(c).any(|v| v == d);
+        if is_edge || self.at(a).len() <= 3 || self.at(b).len() <= 3 {
+            return None;
+        }
+        self.corners[f as usize] = [a, d, c];
+        self.corners[g as usize] = [d, b, c];
+        self.at_vertex[a as usize].retain(|&t| t != g);
+        self.at_vertex[b as usize].retain(|&t| t != f);
+        self.at_vertex[c as usize].push(g);
+        self.at_vertex[d as usize].push(f);
+        Some(wings)
+    }
+
+    /// Puts a new vertex, which is returned, on the edge `a b`: the reverse of a collapse with four triangles in the star. The new triangles are the
+    /// last two.
+    pub fn split(&mut self, a: u32, b: u32) -> Option<u32> {
+        let Wings { triangles: [f, g], apexes: [c, d] } = self.wings(a, b)?;
+        let v = self.at_vertex.len() as u32;
+        let h = self.corners.len() as u32;
+        self.corners[f as usize] = [v, c, a];
+        self.corners[g as usize] = [v, a, d];
+        self.corners.extend([[v, b, c], [v, d, b]]);
+        self.alive.extend([true, true]);
+        self.alive_count += 2;
+        self.mark.push(0);
+        self.at_vertex.push(vec![f, g, h, h + 1]);
+        self.at_vertex[b as usize].retain(|&t| t != f && t != g);
+        self.at_vertex[b as usize].extend([h, h + 1]);
+        self.at_vertex[c as usize].push(h);
+        self.at_vertex[d as usize].push(h + 1);
+        Some(v)
+    }
+
+    /// The triangles on both sides of an edge.
+    pub fn wings(&self, a: u32, b: u32) -> Option<Wings> {
+        let triangles = [self.leaving(a, b)?, self.leaving(b, a)?];
+        let apexes = [self.next_in(triangles[0], b), self.next_in(triangles[1], a)];
+        Some(Wings { triangles, apexes })
+    }
+}
+
+/// What lies on the two sides of an edge `a b`: left of it first.
+#[derive(Clone, Copy, Debug)]
+pub struct Wings {
+    /// The triangle of `a b`, and that of `b a`.
+    pub triangles: [u32; 2],
+    /// Their third corners.
+    pub apexes: [u32; 2],
 }
 
 /// The link of an edge.

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 /// A closed part, ready to be asked what lies inside.
-pub(super) struct Part {
+pub(crate) struct Part {
     /// Its triangles' corners.
     pub triangles: Vec<[[f32; 3]; 3]>,
     pub low: [f32; 3],
@@ -21,7 +21,7 @@ const STRIPS: usize = 64;
 
 impl Part {
     /// `triangles` must not be empty.
-    pub(super) fn new(triangles: Vec<[[f32; 3]; 3]>) -> Self {
+    pub(crate) fn new(triangles: Vec<[[f32; 3]; 3]>) -> Self {
         let mut low = [f32::INFINITY; 3];
         let mut high = [f32::NEG_INFINITY; 3];
         let mut extremes = vec![[0.0; 3]; 6];
@@ -46,6 +46,11 @@ impl Part {
     pub(super) fn contains(&self, inner: &Self) -> bool {
         let box_inside = (0..3).all(|k| self.low[k] <= inner.low[k] && inner.high[k] <= self.high[k]);
         box_inside && inner.extremes.iter().all(|&p| self.encloses(p))
+    }
+
+    /// Whether a point that is not on the surface lies inside. Exact; parts that overlap count by parity.
+    pub(crate) fn holds(&self, p: [f32; 3]) -> bool {
+        (0..3).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k]) && self.encloses(p)
     }
 
     /// Parity of the crossings of the ray from `p` along +z. The ray is thought to be moved by an infinitesimal step

@@ -6,6 +6,7 @@
 //! levels) are checked in `f64` with a margin for its rounding.
 
 mod bounds;
+mod enclosure;
 mod exact;
 mod levels;
 mod mesh;
@@ -13,6 +14,7 @@ mod parse;
 mod replay;
 mod tree;
 
+pub use enclosure::{EnclosureProof, Surface, check_enclosure, check_enclosure_files, read_surface};
 pub use exact::side;
 pub use parse::{Blob, Node};
 pub use tree::{TreeProof, check_tree};

@@ -9,6 +9,7 @@
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
 //!                         ├─ triboxes (their hierarchies) ──┤
+//!                         ├─ tight    (tight hulls) ────────┤
 //!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
@@ -27,6 +28,7 @@ pub(crate) mod stopwatch;
 mod storage;
 mod subject;
 pub mod table;
+mod tight;
 mod trade;
 mod tree;
 pub mod triboxes;
@@ -84,6 +86,17 @@ pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
     tables.extend(triboxes::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures tight hulls of one mesh file, which need not be closed, and proves each.
+///
+/// # Errors
+/// The file is no mesh, or a hull is missing or not proved.
+pub fn measure_tight(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject.table()];
+    tables.extend(tight::tables(&subject)?);
     Ok(tables)
 }
 

@@ -5,6 +5,7 @@ use super::served::Need;
 use meshsweep_alloc::emit::CutError;
 use meshsweep_alloc::hull::BuildError;
 use meshsweep_alloc::mesh::MeshError;
+use meshsweep_alloc::wrap::WrapError;
 use meshsweep_core::tribox::TriboxError;
 use meshsweep_core::{OpenError, QueryError};
 use std::fmt;
@@ -36,6 +37,8 @@ pub enum Failure {
     BlobForMesh { file: PathBuf },
     /// The blob was not built.
     Build { file: PathBuf, error: BuildError },
+    /// No tight hull.
+    Wrap { file: PathBuf, error: WrapError },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
     /// The blob has no such level.
@@ -181,6 +184,7 @@ impl fmt::Display for Failure {
             Failure::BlobForMesh { file } => {
                 write!(f, "{}: is a blob already; name the mesh that it was built from", file.display())
             }
+            Failure::Wrap { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Open { file, error } => write!(f, "{}: {error}; {}", file.display(), remedy(error)),
             Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),

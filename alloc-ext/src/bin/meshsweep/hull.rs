@@ -18,6 +18,8 @@ use meshsweep_core::refine::hull_faces;
 use std::path::Path;
 use std::time::Instant;
 
+mod tight;
+
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
     if !args.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) {
@@ -38,15 +40,21 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             args.input.display()
         )),
         Some(level) => of_blob(args, level),
-        None if is_blob && args.faces.is_some() => usage(format!(
-            "{}: --faces is for a mesh; choose a hull of a blob with --level",
-            args.input.display()
-        )),
+        None if is_blob && (args.faces.is_some() || args.void.is_some() || args.slack.is_some()) => {
+            usage(format!(
+                "{}: --faces, --void and --slack are for a mesh; choose a hull of a blob with --level",
+                args.input.display()
+            ))
+        }
         None if is_blob => usage(format!(
             "{}: a blob holds several hulls; choose one with --level (meshsweep info lists them)",
             args.input.display()
         )),
-        None => of_mesh(args, args.faces.unwrap_or(FACES)),
+        None if args.nested => of_mesh(args, args.faces.unwrap_or(FACES)),
+        None => match args.nested_option() {
+            Some(option) => usage(format!("{option} is for the progressive hull; give --nested too")),
+            None => tight::run(args, args.faces.unwrap_or(FACES)),
+        },
     }
 }
 

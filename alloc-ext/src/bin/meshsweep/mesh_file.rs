@@ -28,9 +28,8 @@ pub fn load(file: &Path) -> Result<Loaded, Failure> {
     repaired(file, read(file)?, 0.0, started)
 }
 
-/// Reads, moves to the hull's grid, repairs, and refuses what is not closed and manifold; the refusal says what can be
-/// had `instead`.
-pub fn load_solid(file: &Path, bits: VertexBits, instead: Option<&'static str>) -> Result<Loaded, Failure> {
+/// Reads, moves to the hull's grid, and repairs.
+pub fn load_snapped(file: &Path, bits: VertexBits) -> Result<Loaded, Failure> {
     let started = Instant::now();
     let mut raw = read(file)?;
     let mut moved = snap(&mut raw.positions, bits);
@@ -39,7 +38,12 @@ pub fn load_solid(file: &Path, bits: VertexBits, instead: Option<&'static str>) 
         let largest = raw.positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
         moved += 2.0 * f64::EPSILON * largest;
     }
-    let loaded = repaired(file, raw, moved, started)?;
+    repaired(file, raw, moved, started)
+}
+
+/// As [`load_snapped`], and refuses what is not closed and manifold; the refusal says what can be had `instead`.
+pub fn load_solid(file: &Path, bits: VertexBits, instead: Option<&'static str>) -> Result<Loaded, Failure> {
+    let loaded = load_snapped(file, bits)?;
     match mesh::require_closed_manifold(&loaded.mesh) {
         Ok(()) => Ok(loaded),
         Err(error) => {

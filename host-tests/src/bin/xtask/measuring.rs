@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use meshsweep_host_tests::measure::bounds::cost::{Cost, counted};
 use meshsweep_host_tests::measure::plot::{self, Measured};
 use meshsweep_host_tests::measure::{
-    measure, measure_bounds, measure_overlap, measure_tree, measure_triboxes,
+    measure, measure_bounds, measure_overlap, measure_tight, measure_tree, measure_triboxes,
 };
 use serde_json::{Value, json};
 
@@ -33,10 +33,11 @@ enum Part {
     Bounds,
     Overlap,
     Triboxes,
+    Tight,
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --triboxes | --overlap | --bounds [--count]] [--json FILE] [--plot FILE.svg] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE] [--plot FILE.svg] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -47,6 +48,7 @@ impl Options {
                 "--bounds" if options.part.is_none() => options.part = Some(Part::Bounds),
                 "--overlap" if options.part.is_none() => options.part = Some(Part::Overlap),
                 "--triboxes" if options.part.is_none() => options.part = Some(Part::Triboxes),
+                "--tight" if options.part.is_none() => options.part = Some(Part::Tight),
                 "--count" => options.count = true,
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
                 "--plot" => options.plot = Some(svg(words.next()?)?),
@@ -65,7 +67,7 @@ fn svg(file: &str) -> Option<PathBuf> {
 }
 
 /// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds, with `--overlap` the mesh against itself, with `--triboxes` only stored triboxes; and the firmware if asked to.
+/// bounds, with `--overlap` the mesh against itself, with `--triboxes` only stored triboxes, with `--tight` only tight hulls; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
@@ -81,6 +83,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
                 Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
+                Some(Part::Tight) => measure_tight(mesh)?,
                 None => measure(mesh)?,
             };
             for table in &tables {

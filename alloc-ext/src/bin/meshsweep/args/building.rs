@@ -1,6 +1,6 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, ratio, whole};
+use super::values::{degrees, factor, percent, positive, ratio, whole};
 use clap::{Args, ValueEnum};
 use meshsweep_alloc::collapse::{Conditions, Priority};
 use meshsweep_alloc::precision::VertexBits;
@@ -78,16 +78,7 @@ impl BuildArgs {
 
     /// The first option given that only a hull heeds.
     pub fn hull_option(&self) -> Option<&'static str> {
-        let CollapseArgs { priority, max_valence, compactness, max_normal_deviation } = &self.collapse;
-        [
-            ("--base", self.base.is_some()),
-            ("--priority", priority.is_some()),
-            ("--max-valence", max_valence.is_some()),
-            ("--compactness", compactness.is_some()),
-            ("--max-normal-deviation", max_normal_deviation.is_some()),
-        ]
-        .into_iter()
-        .find_map(|(option, given)| given.then_some(option))
+        if self.base.is_some() { Some("--base") } else { self.collapse.given() }
     }
 }
 
@@ -109,6 +100,19 @@ pub struct CollapseArgs {
 }
 
 impl CollapseArgs {
+    /// The first of these options that is given.
+    fn given(&self) -> Option<&'static str> {
+        let Self { priority, max_valence, compactness, max_normal_deviation } = self;
+        [
+            ("--priority", priority.is_some()),
+            ("--max-valence", max_valence.is_some()),
+            ("--compactness", compactness.is_some()),
+            ("--max-normal-deviation", max_normal_deviation.is_some()),
+        ]
+        .into_iter()
+        .find_map(|(option, given)| given.then_some(option))
+    }
+
     pub fn priority(&self) -> Priority {
         match self.priority {
             None | Some(PriorityName::Lp) => Priority::Program,
@@ -176,20 +180,41 @@ pub struct InfoArgs {
 
 #[derive(Debug, Args)]
 pub struct HullArgs {
-    /// Mesh file, with --faces; or blob file, with --level
+    /// Mesh file; or blob file, with --level
     pub input: PathBuf,
     /// PLY file to write
     #[arg(short, long, value_name = "PLY")]
     pub output: PathBuf,
-    /// Faces of the hull of a mesh [default: 200]
+    /// Most faces of the hull of a mesh [default: 200]
     #[arg(long, allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
     pub faces: Option<u32>,
+    /// Fewest faces that leave at most this void space, in percent of the mesh's volume
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "nested"])]
+    pub void: Option<f64>,
+    /// Fewest faces of which no point is farther than this from the mesh, in its unit
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "nested"])]
+    pub slack: Option<f64>,
+    /// One hull for each part of the mesh, all in one file
+    #[arg(long, conflicts_with = "nested")]
+    pub parts: bool,
+    /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "nested")]
+    pub effort: Option<f64>,
+    /// Stop polishing after so many seconds; the hull then depends on the machine
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "nested")]
+    pub seconds: Option<f64>,
+    /// The progressive hull: looser, but levels of a blob enclose each other so
+    #[arg(long)]
+    pub nested: bool,
     /// Level of a blob, 0 being the coarsest
     #[arg(
         long,
         allow_negative_numbers = true,
         value_parser = whole::<0, { u32::MAX }>,
-        conflicts_with_all = ["faces", "vertex_bits", "priority", "max_valence", "compactness", "max_normal_deviation"]
+        conflicts_with_all = [
+            "faces", "void", "slack", "parts", "effort", "seconds", "nested", "vertex_bits", "priority", "max_valence", "compactness",
+            "max_normal_deviation"
+        ]
     )]
     pub level: Option<u32>,
     /// Bits of a coordinate of the hull of a mesh: auto, the fewest that hold the mesh exactly; 16 or 24, on a grid, to
@@ -198,6 +223,13 @@ pub struct HullArgs {
     pub vertex_bits: StoredBits,
     #[command(flatten)]
     pub collapse: CollapseArgs,
+}
+
+impl HullArgs {
+    /// The first option given that only a nested hull heeds.
+    pub fn nested_option(&self) -> Option<&'static str> {
+        self.collapse.given()
+    }
 }
 
 #[derive(Debug, Args)]

@@ -143,10 +143,15 @@ pub const CULL: &str = "Leaves of up to eight triangles are kept or left out who
     meshsweep cull part.msw 100,-50,30\n  \
     meshsweep cull part.msw --along 0,0,-1 -o facing.csv";
 
-pub const HULL: &str = "The hull encloses the mesh: proved by exact arithmetic on the vertices that are written. --faces wants a mesh \
-    that is closed and manifold.\n\n\
+pub const HULL: &str = "The hull of a mesh is closed, does not pass through itself, and has every triangle of the mesh strictly inside: proved by exact \
+    arithmetic on the vertices that are written. The mesh may be open, or a heap of loose triangles; cavities are filled. With --void or --slack \
+    the fewest faces are searched for, which takes several times as long as a number of --faces.\n\n\
+    --nested gives the progressive hull, as the levels of a blob are: looser, at the mesh's own vertices where it can be, and only of meshes that \
+    are closed and manifold.\n\n\
     Examples:\n  \
     meshsweep hull part.stl --faces 200 -o hull.ply\n  \
+    meshsweep hull part.stl --slack 2.5 -o hull.ply\n  \
+    meshsweep hull scan.ply --faces 500 --effort 4 -o hull.ply\n  \
     meshsweep hull part.msw --level 0 -o coarsest.ply";
 
 pub const CUT: &str = "meshsweep info lists the levels. A box tree is left out: it knows the whole surface or none of it.\n\n\

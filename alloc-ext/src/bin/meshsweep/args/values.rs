@@ -76,6 +76,23 @@ fn up_to(text: &str, most: f64) -> Result<f64, String> {
     text.parse().ok().filter(|x| (0.0..=most).contains(x)).ok_or_else(wanted)
 }
 
+/// A number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let wanted = || "a number above 0 is wanted".to_owned();
+    text.parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite()).ok_or_else(wanted)
+}
+
+/// A percentage above 0, with or without its sign, as a part of 1.
+pub fn percent(text: &str) -> Result<f64, String> {
+    let wanted = || "a percentage above 0 is wanted, as 15 or 15%".to_owned();
+    positive(text.strip_suffix('%').unwrap_or(text).trim()).map(|x| x / 100.0).map_err(|_| wanted())
+}
+
+/// A factor from 0.
+pub fn factor(text: &str) -> Result<f64, String> {
+    up_to(text, 1e6)
+}
+
 pub fn ratio(text: &str) -> Result<f64, String> {
     up_to(text, 1.0)
 }
@@ -115,6 +132,20 @@ mod tests {
         }
         assert_eq!(whole::<4, { u32::MAX }>("-3").unwrap_err(), "a whole number is wanted, at least 4");
         assert!(threads("0").unwrap_err().contains("at least 1") && threads("2").is_ok());
+    }
+
+    #[test]
+    fn percentages_are_parts_above_zero() {
+        assert_eq!((percent("15"), percent("0.5 %")), (Ok(0.15), Ok(0.005)));
+        for wrong in ["", "%", "0", "-1", "nan", "inf%"] {
+            assert!(percent(wrong).is_err(), "{wrong}");
+        }
+        assert!(
+            positive("0").is_err()
+                && positive("1e-30").is_ok()
+                && factor("0").is_ok()
+                && factor("-1").is_err()
+        );
     }
 
     #[test]

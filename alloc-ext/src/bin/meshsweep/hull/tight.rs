@@ -1,0 +1,148 @@
+//! Tight hulls of a mesh, which need not be closed.
+
+use super::super::args::HullArgs;
+use super::super::counted::Counted;
+use super::super::describe::Length;
+use super::super::failure::Failure;
+use super::super::mesh_file::load_snapped;
+use super::super::output::Output;
+use super::super::progress::Bar;
+use super::write_hull;
+use meshsweep_alloc::mesh::Mesh;
+use meshsweep_alloc::wrap::{Goal, Hull, Options, Progress, Report, Stage, Start, Stop, parts, wrap};
+use std::io::{self, Write};
+use std::time::Duration;
+
+pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
+    Output::probe(&args.output)?;
+    let goal = match (args.void, args.slack) {
+        (Some(void), _) => Goal::Void(void),
+        (_, Some(slack)) => Goal::Slack(slack),
+        _ => Goal::Faces(faces as usize),
+    };
+    let options = Options {
+        goal,
+        effort: args.effort.unwrap_or(1.0),
+        time_limit: args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX)),
+        vertex_bits: args.vertex_bits.format(),
+    };
+    let loaded = load_snapped(&args.input, options.vertex_bits)?;
+    let meshes = if args.parts { parts(&loaded.mesh) } else { vec![loaded.mesh] };
+    let mut hulls = Vec::new();
+    for mesh in &meshes {
+        let mut bars = Bars::default();
+        let hull = wrap(mesh, &options, |progress| bars.show(progress));
+        hulls.push(hull.map_err(|error| Failure::Wrap { file: args.input.clone(), error })?);
+    }
+    write_hull(&args.output, &joined(&hulls))?;
+    Output::stdout().finish(|out| {
+        if !loaded.report.is_clean() {
+            writeln!(out, "{}\n  {}", args.input.display(), loaded.report)?;
+        }
+        if loaded.moved > 0.0 {
+            writeln!(out, "vertices of the mesh moved to the grid by up to {}", Length(loaded.moved))?;
+        }
+        match &hulls[..] {
+            [hull] => {
+                write!(out, "{}: ", args.output.display())?;
+                describe(out, &hull.report, goal)
+            }
+            _ => {
+                let faces: usize = hulls.iter().map(|hull| hull.report.faces).sum();
+                let count = Counted(hulls.len(), "hull");
+                writeln!(out, "{}: {count}, {} in all", args.output.display(), Counted(faces, "face"))?;
+                for (index, hull) in hulls.iter().enumerate() {
+                    write!(out, "  part {index}: ")?;
+                    describe(out, &hull.report, goal)?;
+                }
+                Ok(())
+            }
+        }
+    })
+}
+
+fn describe(out: &mut dyn Write, report: &Report, goal: Goal) -> io::Result<()> {
+    write!(out, "{}, ", Counted(report.faces, "face"))?;
+    if let Some(void) = report.void {
+        write!(out, "{:.3} % void space, ", void * 100.0)?;
+    }
+    writeln!(
+        out,
+        "at most {} from the mesh and in one place at least {}, {:.3} s",
+        Length(report.slack.upper),
+        Length(report.slack.lower),
+        report.time.as_secs_f64()
+    )?;
+    if report.void.is_none() {
+        writeln!(out, "  the mesh is not closed: there is no volume to measure void against")?;
+    }
+    if let Start::Closure { cell, .. } = report.start {
+        writeln!(
+            out,
+            "  the hull began as the outside of the cubes of edge {} that its triangles meet",
+            Length(cell)
+        )?;
+    }
+    if report.start == Start::Box {
+        writeln!(out, "  the hull began as the mesh's box")?;
+    }
+    if report.filled > 0 {
+        writeln!(out, "  {} filled: a cavity, or a part inside another", Counted(report.filled, "shell"))?;
+    }
+    match (report.stop, goal) {
+        (Stop::Reached, _) => Ok(()),
+        (Stop::Stuck, Goal::Faces(faces)) => writeln!(
+            out,
+            "  stopped before {faces} faces: no edge may collapse and leave the hull closed, clear of the mesh and of itself"
+        ),
+        (Stop::Stuck, _) => writeln!(out, "  stopped where no edge may collapse any more"),
+        (Stop::TooLoose, _) => {
+            writeln!(
+                out,
+                "  the finest hull that was tried is looser than asked for; ask for more, or give --faces"
+            )
+        }
+        (Stop::OutOfTime, _) => {
+            writeln!(out, "  stopped by --seconds: with more time the hull is tighter, or has fewer faces")
+        }
+    }
+}
+
+/// One file for all hulls.
+fn joined(hulls: &[Hull]) -> Mesh {
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    for hull in hulls {
+        let first = positions.len() as u32;
+        positions.extend_from_slice(&hull.mesh.positions);
+        triangles.extend(hull.mesh.triangles.iter().map(|t| t.map(|v| v + first)));
+    }
+    Mesh::new(positions, triangles)
+}
+
+/// One bar for each stage.
+#[derive(Default)]
+struct Bars {
+    stage: Option<(Stage, usize)>,
+    bar: Option<Bar>,
+}
+
+impl Bars {
+    fn show(&mut self, progress: Progress) {
+        let stage = (progress.stage, progress.of);
+        if self.stage != Some(stage) {
+            let (doing, things) = match progress.stage {
+                Stage::Collapsing => ("collapsing", "faces"),
+                Stage::Wrapping => ("wrapping", "faces"),
+                Stage::Polishing => ("polishing", "steps"),
+            };
+            // The old bar goes before the new one comes.
+            self.bar = None;
+            self.bar = Some(Bar::new(progress.of, doing, things));
+            self.stage = Some(stage);
+        }
+        if let Some(bar) = &self.bar {
+            bar.show(progress.done);
+        }
+    }
+}

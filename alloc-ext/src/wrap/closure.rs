@@ -1,0 +1,288 @@
+//! A closed surface around any triangles, open, crossing or loose: what a grid of cubes can tell from the outside.
+//!
+//! 1. A cube that a triangle reaches, or might by rounding, is *met*; its eight corners are inside.
+//! 2. The corners that the border reaches along edges of the grid without passing one that is inside are outside. All others are inside: what
+//!    the triangles cut off from the border is filled.
+//! 3. The surface between inside and outside, by marching tetrahedra: each cube is cut into six that share a diagonal (Kuhn), and every edge
+//!    with two different ends is cut in its middle.
+//!
+//! The surface is a closed manifold for any choice of corners, for it is a level set in a simplicial complex, and has no point in common
+//! with itself but its own edges, as each piece lies in its own tetrahedron. It lies in cubes that are not met, so it does not meet
+//! the triangles. It is nowhere farther from them than three diagonals of a cube, but where it closes a hole that no corner can be
+//! reached through.
+//!
+//! Cubes have a power of two as edge and the grid passes through the origin, so that every vertex is exact in single precision.
+
+use super::boxes::Bounds;
+use super::predicates::Triangle;
+use glam::DVec3;
+use meshsweep_core::num::exp2;
+use rustc_hash::FxHashMap;
+
+/// A surface around triangles, and the grid that it came from.
+#[derive(Clone, Debug)]
+pub(super) struct Closure {
+    pub positions: Vec<DVec3>,
+    pub triangles: Vec<[u32; 3]>,
+    /// Edge of a cube.
+    pub cell: f64,
+    /// Cubes along the longest side.
+    pub cells: usize,
+}
+
+/// Layers of cubes around the triangles: one that rounding might meet, one that nothing meets.
+const PAD: i64 = 2;
+
+/// Cubes are met if a triangle reaches them when they are larger by this: far above the rounding of the test, far below a cube.
+const GROWN: f64 = 1.0 + 1e-6;
+
+/// Half-cubes from the origin that a coordinate may be away: what single precision holds exactly.
+const MOST: f64 = 16_777_216.0;
+
+/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the triangles' longest side; with fewer where
+/// single precision has no room for more. `None` if it has none at all, or the triangles are one point.
+pub(super) fn closure(triangles: &[Triangle], cells: usize) -> Option<Closure> {
+    let bounds = triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p));
+    let extent = (bounds.high - bounds.low).max_element();
+    let farthest = bounds.low.abs().max(bounds.high.abs()).max_element();
+    if !(extent > 0.0 && farthest.is_finite()) {
+        return None;
+    }
+    let mut exponent = (extent / cells as f64).log2().floor() as i32;
+    // A quarter of the range to spare for the layers around.
+    while farthest * 2.0 > exp2(exponent) * MOST * 0.75 || exponent < -148 {
+        exponent += 1;
+    }
+    let cell = exp2(exponent);
+    let first = (bounds.low / cell).floor().as_i64vec3() - PAD;
+    let last = (bounds.high / cell).floor().as_i64vec3() + PAD + 1;
+    let grid = Grid { cell, first: first.to_array(), corners: (last - first + 1).to_array() };
+    if last.as_dvec3().abs().max_element() * cell > f64::from(f32::MAX) {
+        return None;
+    }
+    let mut inside = grid.met(triangles);
+    grid.fill(&mut inside);
+    let (positions, triangles) = grid.surface(&inside);
+    Some(Closure {
+        positions,
+        triangles,
+        cell,
+        cells: (grid.corners.into_iter().max().unwrap_or(1) - 1).unsigned_abs() as usize,
+    })
+}
+
+struct Grid {
+    cell: f64,
+    /// The least corner, in cubes from the origin.
+    first: [i64; 3],
+    /// Corners along each axis.
+    corners: [i64; 3],
+}
+
+impl Grid {
+    /// Number of a corner that is in the grid.
+    fn index(&self, [i, j, k]: [i64; 3]) -> usize {
+        ((k * self.corners[1] + j) * self.corners[0] + i).unsigned_abs() as usize
+    }
+
+    /// All corners, in the order of their numbers.
+    fn all(&self) -> Vec<[i64; 3]> {
+        let [nx, ny, nz] = self.corners;
+        let row = |j: i64, k: i64| (0..nx).map(move |i| [i, j, k]);
+        (0..nz).flat_map(|k| (0..ny).flat_map(move |j| row(j, k))).collect()
+    }
+
+    /// Corners of cubes that are met.
+    fn met(&self, triangles: &[Triangle]) -> Vec<bool> {
+        let mut met = vec![false; self.all().len()];
+        for triangle in triangles {
+            let bounds = Bounds::of(triangle);
+            // One cube more on either side: the test that follows is the one that counts.
+            let low = ((bounds.low / self.cell).floor().as_i64vec3() - 1).to_array();
+            let high = ((bounds.high / self.cell).floor().as_i64vec3() + 1).to_array();
+            let range = |axis: usize| {
+                let at = |x: i64| (x - self.first[axis]).max(0);
+                at(low[axis])..=at(high[axis]).min(self.corners[axis] - 2)
+            };
+            for k in range(2) {
+                for j in range(1) {
+                    for i in range(0) {
+                        if self.reaches(triangle, &bounds, [i, j, k]) {
+                            for corner in 0..8i64 {
+                                let at = [i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)];
+                                met[self.index(at)] = true;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        met
+    }
+
+    /// Whether a triangle's box and its plane reach a cube that is a little larger: never false for one that it meets.
+    fn reaches(&self, triangle: &Triangle, bounds: &Bounds, cube: [i64; 3]) -> bool {
+        let middle = self.at(cube.map(|c| 2 * c + 1));
+        let half = self.cell * 0.5 * GROWN;
+        let of_cube = Bounds { low: middle - half, high: middle + half };
+        if !bounds.meets(&of_cube) {
+            return false;
+        }
+        let [a, b, c] = triangle.map(|p| p - middle);
+        let (ab, ac) = (b - a, c - a);
+        let normal = ab.cross(ac);
+        let reach = half * (normal.x.abs() + normal.y.abs() + normal.z.abs());
+        let slack = 64.0 * f64::EPSILON * ab.length() * ac.length() * (a.length() + half);
+        normal.dot(a).abs() <= reach + slack
+    }
+
+    /// A point, in half-cubes from the first corner.
+    fn at(&self, halves: [i64; 3]) -> DVec3 {
+        let axis = |k: usize| (2 * self.first[k] + halves[k]) as f64 * (self.cell * 0.5);
+        DVec3::new(axis(0), axis(1), axis(2))
+    }
+
+    /// Turns into inside what the border does not reach.
+    fn fill(&self, inside: &mut [bool]) {
+        let mut outside = vec![false; inside.len()];
+        // The outermost layer is not met: all of it is connected.
+        let mut open = vec![[0i64; 3]];
+        outside[0] = true;
+        while let Some(at) = open.pop() {
+            for axis in 0..3 {
+                for step in [-1i64, 1] {
+                    let mut next = at;
+                    next[axis] += step;
+                    if next[axis] < 0 || next[axis] >= self.corners[axis] {
+                        continue;
+                    }
+                    let index = self.index(next);
+                    if !inside[index] && !outside[index] {
+                        outside[index] = true;
+                        open.push(next);
+                    }
+                }
+            }
+        }
+        for (inside, outside) in inside.iter_mut().zip(outside) {
+            *inside = !outside;
+        }
+    }
+
+    /// Marching tetrahedra.
+    fn surface(&self, inside: &[bool]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        let mut number: FxHashMap<[usize; 2], u32> = FxHashMap::default();
+        let corners = self.all();
+        let mut vertex = |p: usize, q: usize| {
+            *number.entry([p.min(q), p.max(q)]).or_insert_with(|| {
+                let (a, b) = (corners[p], corners[q]);
+                positions.push(self.at([0, 1, 2].map(|k| a[k] + b[k])));
+                positions.len() as u32 - 1
+            })
+        };
+        let [nx, ny, nz] = self.corners;
+        for k in 0..nz - 1 {
+            for j in 0..ny - 1 {
+                for i in 0..nx - 1 {
+                    let cube = [0i64, 1, 2, 3, 4, 5, 6, 7]
+                        .map(|c| self.index([i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)]));
+                    let count = cube.iter().filter(|&&c| inside[c]).count();
+                    if count == 0 || count == 8 {
+                        continue;
+                    }
+                    for tetrahedron in TETRAHEDRA {
+                        march(tetrahedron.map(|c| cube[c]), inside, &mut vertex, &mut triangles);
+                    }
+                }
+            }
+        }
+        (positions, triangles)
+    }
+}
+
+/// Kuhn's six tetrahedra of a cube, by corners whose bits are x, y, z: from 0 to 7 along one axis after the other. All are positively oriented.
+const TETRAHEDRA: [[usize; 4]; 6] =
+    [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
+
+/// The piece of the surface in one tetrahedron, counter-clockwise seen from outside.
+fn march(
+    corners: [usize; 4],
+    inside: &[bool],
+    vertex: &mut impl FnMut(usize, usize) -> u32,
+    triangles: &mut Vec<[u32; 3]>,
+) {
+    // Even permutations, which bring the corner that is alone, or the two that are inside, to the front.
+    const TO_FRONT: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
+    const PAIR_TO_FRONT: [[usize; 4]; 6] =
+        [[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [1, 2, 0, 3], [1, 3, 2, 0], [2, 3, 0, 1]];
+    let is_in = corners.map(|c| inside[c]);
+    let count = is_in.iter().filter(|&&i| i).count();
+    match count {
+        1 | 3 => {
+            let alone = is_in.iter().position(|&i| i == (count == 1)).unwrap_or_default();
+            let [a, b, c, d] = TO_FRONT[alone].map(|i| corners[i]);
+            let [p, q, r] = [vertex(a, b), vertex(a, c), vertex(a, d)];
+            triangles.push(if count == 1 { [p, q, r] } else { [p, r, q] });
+        }
+        2 => {
+            let pair = PAIR_TO_FRONT.into_iter().find(|&[a, b, ..]| is_in[a] && is_in[b]);
+            let [a, b, c, d] = pair.unwrap_or_default().map(|i| corners[i]);
+            let [p, q, r, s] = [vertex(a, c), vertex(b, c), vertex(b, d), vertex(a, d)];
+            triangles.extend([[p, r, q], [p, s, r]]);
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn volume(surface: &Closure) -> f64 {
+        let at = |v: u32| surface.positions[v as usize];
+        surface.triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
+    }
+
+    #[test]
+    fn tetrahedra_of_a_cube_fill_it_and_face_outwards() {
+        let at = |c: usize| DVec3::new((c & 1) as f64, (c >> 1 & 1) as f64, (c >> 2) as f64);
+        for [a, b, c, d] in TETRAHEDRA.map(|t| t.map(at)) {
+            assert!(((b - a).cross(c - a).dot(d - a) - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn one_triangle_is_enclosed_by_a_closed_surface_that_faces_outwards() {
+        let triangle = [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
+        for cells in [1, 2, 5, 16] {
+            let surface = closure(&[triangle], cells).unwrap();
+            assert!(volume(&surface) > 0.0);
+            let mut edges: Vec<_> =
+                surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+            edges.sort_unstable();
+            assert!(edges.windows(2).all(|w| w[0] != w[1]));
+            assert!(edges.iter().all(|&[a, b]| edges.binary_search(&[b, a]).is_ok()));
+            assert!(surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p));
+        }
+    }
+
+    #[test]
+    fn a_closed_box_is_filled() {
+        let corner = |c: usize| DVec3::new((c & 1) as f64, (c >> 1 & 1) as f64, (c >> 2) as f64);
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<Triangle> =
+            quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner))).collect();
+        let surface = closure(&triangles, 16).unwrap();
+        assert!(volume(&surface) > 1.0 && volume(&surface) < 2.0, "{}", volume(&surface));
+    }
+
+    #[test]
+    fn a_point_has_no_closure_and_far_triangles_have_larger_cubes() {
+        assert!(closure(&[[DVec3::ONE; 3]], 8).is_none());
+        let far = [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
+        let surface = closure(&[far], 64).unwrap();
+        assert!(surface.cells < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p));
+    }
+}

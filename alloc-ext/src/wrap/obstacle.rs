@@ -1,0 +1,184 @@
+//! The original mesh as that which a hull may not meet: its triangles, its vertices, and one witness of each connected part.
+
+use super::boxes::{Bounds, BoxTree, Frontier};
+use super::predicates::{Triangle, in_sunken, meet};
+use super::region::{Plane, Tetrahedron};
+use glam::DVec3;
+use meshsweep_core::geom::point_triangle;
+use std::cell::Cell;
+
+/// Any set of triangles, in its own unit.
+#[derive(Clone, Debug)]
+pub(super) struct Obstacle {
+    triangles: Vec<Triangle>,
+    triangle_tree: BoxTree,
+    points: Vec<DVec3>,
+    point_tree: BoxTree,
+    witnesses: Vec<DVec3>,
+    witness_tree: BoxTree,
+}
+
+/// Factor by which the bound of a plane's rounding exceeds `f64`'s unit: the products have eight roundings, and what is kept for nothing
+/// costs one exact test.
+const ROUNDINGS: f64 = 4096.0 * f64::EPSILON;
+
+impl Obstacle {
+    /// Of positions that are `f32` numbers.
+    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        let all: Vec<Triangle> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
+        let boxes: Vec<Bounds> = all.iter().map(|t| Bounds::of(t)).collect();
+        let (triangle_tree, order) = BoxTree::new(&boxes);
+        let triangles_in_order = order.iter().map(|&i| all[i as usize]).collect();
+        let (points, point_tree) = tree_of(positions);
+        let (witnesses, witness_tree) = tree_of(&witnesses(positions, triangles));
+        Self { triangles: triangles_in_order, triangle_tree, points, point_tree, witnesses, witness_tree }
+    }
+
+    /// All triangles.
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// One vertex of each connected part.
+    pub fn witnesses(&self) -> &[DVec3] {
+        &self.witnesses
+    }
+
+    /// Whether a face touches or crosses any triangle. Exact.
+    pub fn meets(&self, face: &Triangle) -> bool {
+        let bounds = Bounds::of(face);
+        let [a, b, c] = *face;
+        let (ab, ac) = (b - a, c - a);
+        let normal = ab.cross(ac);
+        let size = bounds.low.abs().max(bounds.high.abs()).max_element();
+        let offset = normal.dot(a);
+        // The tree's boxes that are looked at overlap the face's, but may be larger by any factor.
+        let unit = ROUNDINGS * ab.length() * ac.length();
+        let keep = |of: &Bounds| {
+            if !of.meets(&bounds) {
+                return false;
+            }
+            let slack = unit * size.max(of.low.abs().max(of.high.abs()).max_element());
+            of.support(normal) - offset >= -slack && of.support(-normal) + offset >= -slack
+        };
+        let mut met = false;
+        self.triangle_tree.visit(keep, |i| {
+            met = meet(face, &self.triangles[i]);
+            !met
+        });
+        met
+    }
+
+    /// Whether a witness lies in a tetrahedron that leaves the hull when the corner opposite to each base moves to `apex`. Exact.
+    pub fn has_witness_in(&self, bases: &[Triangle], apex: DVec3) -> bool {
+        let mut found = false;
+        for base in bases {
+            let bounds = Bounds::of(base).with(apex);
+            self.witness_tree.visit(
+                |of| of.meets(&bounds),
+                |i| {
+                    found = in_sunken(base, apex, self.witnesses[i]);
+                    !found
+                },
+            );
+            if found {
+                break;
+            }
+        }
+        found
+    }
+
+    /// Where queries in these bounds begin: among the vertices, and among the triangles.
+    pub fn frontiers(&self, bounds: &Bounds, [points, triangles]: &mut [Frontier; 2]) {
+        self.point_tree.frontier(bounds, points);
+        self.triangle_tree.frontier(bounds, triangles);
+    }
+
+    /// The highest plane that `raise` makes of the vertices in a tetrahedron; see `Search`. Not exact.
+    #[inline]
+    pub fn highest_point(
+        &self,
+        near: &Frontier,
+        tetrahedron: &Tetrahedron,
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
+        let highest = Cell::new(None::<Plane>);
+        self.point_tree.visit_from(
+            near,
+            |of| highest.get().is_none_or(|plane| plane.reaches(of)) && tetrahedron.may_meet(of),
+            |i| {
+                let p = self.points[i];
+                if highest.get().is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p) {
+                    highest.set(raise(p).or(highest.get()));
+                }
+                true
+            },
+        );
+        highest.get()
+    }
+
+    /// As [`highest_point`](Self::highest_point), of the corners of what triangles have in common with the tetrahedron.
+    #[inline]
+    pub fn highest_piece(
+        &self,
+        near: &Frontier,
+        tetrahedron: &Tetrahedron,
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
+        let highest = Cell::new(None::<Plane>);
+        self.triangle_tree.visit_from(
+            near,
+            |of| highest.get().is_none_or(|plane| plane.reaches(of)) && tetrahedron.may_meet(of),
+            |i| {
+                for p in tetrahedron.clip(&self.triangles[i]) {
+                    highest.set(raise(p).or(highest.get()));
+                }
+                true
+            },
+        );
+        highest.get()
+    }
+
+    /// The triangle nearest to a point, and bounds of the distance to all.
+    pub fn nearest(&self, p: DVec3) -> Option<(Triangle, [f64; 2])> {
+        let mut lower = f64::INFINITY;
+        let distance_sq = |i: usize| {
+            let [a, b, c] = self.triangles[i];
+            let bounds = point_triangle(p, a, b, c);
+            lower = lower.min(bounds.lower);
+            bounds.upper * bounds.upper
+        };
+        let (found, _) = self.triangle_tree.nearest(p, distance_sq)?;
+        let [a, b, c] = self.triangles[found];
+        let upper = point_triangle(p, a, b, c).upper;
+        // What the tree passed over is no nearer than that, but for the rounding of a box's distance.
+        Some((self.triangles[found], [lower.min(upper * (1.0 - 1e-12)), upper]))
+    }
+}
+
+fn tree_of(points: &[DVec3]) -> (Vec<DVec3>, BoxTree) {
+    let boxes: Vec<Bounds> = points.iter().map(|&p| Bounds { low: p, high: p }).collect();
+    let (tree, order) = BoxTree::new(&boxes);
+    (order.iter().map(|&i| points[i as usize]).collect(), tree)
+}
+
+/// The vertex with the least number of each part that is connected by shared vertices.
+fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+    let mut parent: Vec<u32> = (0..positions.len() as u32).collect();
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    for &[a, b, c] in triangles {
+        for w in [b, c] {
+            let (p, q) = (root(&mut parent, a), root(&mut parent, w));
+            parent[p.max(q) as usize] = p.min(q);
+        }
+    }
+    let mut used = vec![false; positions.len()];
+    triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    (0..positions.len()).filter(|&v| used[v] && parent[v] == v as u32).map(|v| positions[v]).collect()
+}

@@ -1,0 +1,108 @@
+//! What a move would cut off the hull, in floating point: where the planes of a program come from. Nothing is proved here.
+
+use super::boxes::Bounds;
+use super::predicates::Triangle;
+use arrayvec::ArrayVec;
+use glam::DVec3;
+
+/// A plane and the side of it that counts: `normal · p >= offset`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    pub normal: DVec3,
+    pub offset: f64,
+}
+
+impl Plane {
+    #[inline]
+    fn height(&self, p: DVec3) -> f64 {
+        self.normal.dot(p) - self.offset
+    }
+
+    /// Whether a point is on that side.
+    #[inline]
+    pub fn holds(&self, p: DVec3) -> bool {
+        self.normal.dot(p) >= self.offset
+    }
+
+    /// Whether a box has a point on that side.
+    #[inline]
+    pub fn reaches(&self, bounds: &Bounds) -> bool {
+        bounds.support(self.normal) >= self.offset
+    }
+}
+
+/// A tetrahedron between a face and an apex behind it.
+#[derive(Clone, Debug)]
+pub(super) struct Tetrahedron {
+    planes: ArrayVec<Plane, 4>,
+    bounds: Bounds,
+}
+
+/// Triangles whose corners are nearly on a line have no plane: those with less than this part of their edges' squares as area.
+const FLAT: f64 = 1e-10;
+
+/// Corners of a triangle that was cut by four planes: each adds at most one.
+pub(super) type Polygon = ArrayVec<DVec3, 8>;
+
+impl Tetrahedron {
+    /// Of a face's corners and an apex. A side without a plane is left out.
+    pub fn new(face: &Triangle, apex: DVec3) -> Self {
+        let [a, b, c] = *face;
+        let corners = [a, b, c, apex];
+        let mut planes = ArrayVec::new();
+        for (i, &opposite) in corners.iter().enumerate() {
+            let [p, q, r] = [1, 2, 3].map(|k| corners[(i + k) % 4]);
+            let (u, v) = (q - p, r - p);
+            let normal = u.cross(v);
+            let length = normal.length();
+            if length <= FLAT * (u.length_squared() + v.length_squared()) {
+                continue;
+            }
+            let mut normal = normal / length;
+            if normal.dot(opposite - p) < 0.0 {
+                normal = -normal;
+            }
+            planes.push(Plane { normal, offset: normal.dot(p) });
+        }
+        Self { planes, bounds: Bounds::of(&corners) }
+    }
+
+    /// Whether a box may have a point of it.
+    #[inline]
+    pub fn may_meet(&self, bounds: &Bounds) -> bool {
+        bounds.meets(&self.bounds) && self.planes.iter().all(|p| p.reaches(bounds))
+    }
+
+    /// Whether a point is in it.
+    #[inline]
+    pub fn holds(&self, p: DVec3) -> bool {
+        self.planes.iter().all(|plane| plane.holds(p))
+    }
+
+    /// The part of a triangle that is in it.
+    #[inline]
+    pub fn clip(&self, triangle: &Triangle) -> Polygon {
+        if self.planes.iter().any(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
+            return Polygon::new();
+        }
+        let mut polygon: Polygon = triangle.iter().copied().collect();
+        for plane in &self.planes {
+            let mut cut = Polygon::new();
+            for i in 0..polygon.len() {
+                let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+                let (of_p, of_q) = (plane.height(p), plane.height(q));
+                if of_p >= 0.0 {
+                    let _ = cut.try_push(p);
+                }
+                if (of_p > 0.0 && of_q < 0.0) || (of_p < 0.0 && of_q > 0.0) {
+                    let _ = cut.try_push(p + (q - p) * (of_p / (of_p - of_q)));
+                }
+            }
+            polygon = cut;
+            if polygon.is_empty() {
+                break;
+            }
+        }
+        polygon
+    }
+}

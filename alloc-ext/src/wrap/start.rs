@@ -1,0 +1,324 @@
+//! The first hull: one that satisfies the invariant of `work`, proved face by face.
+//!
+//! A level of the progressive hull is the best of starts, and may touch the mesh, and itself: its vertices are lifted by a few steps of the
+//! grid. If that does not prove it, a finer level may do. Where there is none, because the mesh is open, or its parts cross, the start is its
+//! closure, or a progressive hull of that.
+
+use super::boxes::{Bounds, BoxTree};
+use super::closure::closure;
+use super::obstacle::Obstacle;
+use super::options::{Progress, Stage, Start};
+use super::placement::StarFace;
+use super::predicates::{are_apart, is_degenerate, side};
+use super::rounding::Rounding;
+use super::shell::Shell;
+use crate::collapse::{self, Conditions, Engine, MAX_STAR, Priority};
+use crate::lp::{HalfSpace, minimise_bounded};
+use crate::mesh::{Enclosure, Mesh};
+use crate::precision::Stored;
+use glam::DVec3;
+use meshsweep_core::num::exp2;
+
+/// A hull to start from.
+pub(super) struct First {
+    pub shell: Shell,
+    pub start: Start,
+    /// Parts dropped.
+    pub filled: usize,
+}
+
+/// Faces of the level to start from: enough to choose from for `wanted`, and no more, for each costs a collapse.
+fn plenty(wanted: usize) -> usize {
+    (2 * wanted).saturating_add(800)
+}
+
+/// Levels that are tried: [`plenty`] times 2 to this, in this order. Finer ones are closer to the mesh; coarser ones pass over places where the mesh
+/// crosses itself.
+const LEVELS: [i32; 7] = [0, 1, -1, 2, -2, 3, -3];
+
+/// Faces that no level is coarser than.
+const LEAST_FACES: usize = 40;
+
+/// The first level of the progressive hull that proves to be a hull to start from.
+pub(super) fn first_level(
+    mesh: &Mesh,
+    stored: &Stored,
+    obstacle: &Obstacle,
+    rounding: &Rounding,
+    wanted: usize,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Option<First> {
+    let mut levels = levels(&stored.positions, &mesh.triangles, stored, plenty(wanted), on_progress);
+    LEVELS.into_iter().find_map(|level| {
+        let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
+        let mut shell = Shell::new(positions, &triangles);
+        let faces = shell.face_count();
+        lift(&mut shell, rounding);
+        let (shell, filled) = keep_outermost(shell);
+        let start = Start::Progressive { faces };
+        defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+    })
+}
+
+/// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's levels that does not meet itself.
+pub(super) fn first_closure(
+    stored: &Stored,
+    obstacle: &Obstacle,
+    rounding: &Rounding,
+    cells: usize,
+    wanted: usize,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Option<First> {
+    let closure = closure(obstacle.triangles(), cells)?;
+    if closure.positions.iter().any(|&p| rounding.round(p) != Some(p)) {
+        return None;
+    }
+    let start = Start::Closure { cell: closure.cell, cells: closure.cells };
+    let local = exp2(-stored.scale_exponent);
+    let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
+    let mut levels = levels(&positions, &closure.triangles, stored, plenty(wanted), on_progress);
+    // In narrow places levels grow into each other. The closure itself never does, but each of its faces costs a collapse against the mesh.
+    let small = closure.triangles.len() <= MOST_FACES;
+    let itself = small.then_some((closure.positions, closure.triangles));
+    let in_order = LEVELS
+        .into_iter()
+        .filter(|&level| level >= 0)
+        .filter_map(|level| Some(levels.remove(levels.iter().position(|(l, _)| *l == level)?).1));
+    in_order.chain(itself).find_map(|(positions, triangles)| {
+        let (shell, filled) = keep_outermost(Shell::new(positions, &triangles));
+        defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+    })
+}
+
+/// The mesh's box, a few steps of the grid larger.
+pub(super) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<First> {
+    let bounds = obstacle.triangles().iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p));
+    let size = bounds.low.abs().max(bounds.high.abs()).max_element();
+    LIFTS.into_iter().find_map(|lift| {
+        let out = rounding.half_step(size) * lift;
+        let (low, high) = (rounding.round(bounds.low - out)?, rounding.round(bounds.high + out)?);
+        let corner = |c: u32| {
+            let pick = |bit: u32, low: f64, high: f64| if c & bit == 0 { low } else { high };
+            DVec3::new(pick(1, low.x, high.x), pick(2, low.y, high.y), pick(4, low.z, high.z))
+        };
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<[u32; 3]> =
+            quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let shell = Shell::new((0..8).map(corner).collect(), &triangles);
+        defects(&shell, obstacle).is_empty().then_some(First { shell, start: Start::Box, filled: 0 })
+    })
+}
+
+/// Faces of a closure that is a first hull itself.
+const MOST_FACES: usize = 10_000;
+
+type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
+
+/// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, each with its number: level `n` has `least` times 2^n faces,
+/// or as few as the hull can be brought down to; level 0 may be the surface itself.
+fn levels(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    stored: &Stored,
+    least: usize,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Vec<(i32, Surface)> {
+    let from = triangles.len();
+    let mut engine = Engine::new(positions, triangles, Conditions::default(), Priority::Program, stored.grid);
+    let mut show = |progress: collapse::Progress| {
+        on_progress(Progress {
+            stage: Stage::Collapsing,
+            done: from.saturating_sub(progress.faces),
+            of: from.saturating_sub(least),
+        });
+    };
+    let scale = exp2(stored.scale_exponent);
+    let mut levels = Vec::new();
+    for level in (-3..=3).rev() {
+        let faces = (least as f64 * exp2(level)) as usize;
+        if (faces >= from && level > 0) || (faces < LEAST_FACES && level < 0) {
+            continue;
+        }
+        // Where it gets stuck it is a level as well.
+        let _ = engine.run(faces, &mut show);
+        let all: Vec<DVec3> = engine.positions().iter().map(|&p| p * scale).collect();
+        let faces: Vec<[u32; 3]> = engine.faces().collect();
+        levels.push((level, compact(&all, &faces)));
+    }
+    levels
+}
+
+/// Without positions that no triangle has.
+fn compact(positions: &[DVec3], triangles: &[[u32; 3]]) -> Surface {
+    let mut number = vec![u32::MAX; positions.len()];
+    let mut kept = Vec::new();
+    let triangles = triangles
+        .iter()
+        .map(|t| {
+            t.map(|v| {
+                let number = &mut number[v as usize];
+                if *number == u32::MAX {
+                    *number = kept.len() as u32;
+                    kept.push(positions[v as usize]);
+                }
+                *number
+            })
+        })
+        .collect();
+    (kept, triangles)
+}
+
+/// Lifts of a vertex in half-steps of the grid, until one is strictly outside of every face.
+const LIFTS: [f64; 5] = [3.0, 6.0, 12.0, 48.0, 192.0];
+
+/// Moves every vertex strictly outside of all planes of its star, by a few steps of the grid: then the hull lies strictly outside of
+/// where it was. A vertex without such a place goes into a neighbour, where the two have one together; one that has not stays.
+pub(super) fn lift(shell: &mut Shell, rounding: &Rounding) {
+    let mut star = Vec::new();
+    let mut left = Vec::new();
+    for v in 0..shell.vertex_slots() {
+        if shell.mesh.at(v).is_empty() {
+            continue;
+        }
+        shell.vertex_star(v, &mut star);
+        match lifted(&star, shell.position(v), rounding) {
+            Some(x) => shell.move_vertex(v, x),
+            None => left.push(v),
+        }
+    }
+    let mut faces = Vec::new();
+    for v in left {
+        let neighbours: Vec<u32> = shell.mesh.neighbours(v).collect();
+        for u in neighbours {
+            if !shell.mesh.collapsible_star(u, v, MAX_STAR, &mut faces) {
+                continue;
+            }
+            star.clear();
+            star.extend(faces.iter().map(|&f| shell.star_face(f, [u, v])));
+            let middle = (shell.position(u) + shell.position(v)) * 0.5;
+            if let Some(x) = lifted(&star, middle, rounding) {
+                shell.collapse(u, v, x);
+                break;
+            }
+        }
+    }
+}
+
+/// The point nearest to `from`, about, that is strictly outside of all planes of a star; exact.
+fn lifted(star: &[StarFace], from: DVec3, rounding: &Rounding) -> Option<DVec3> {
+    let unit = rounding.half_step(from.abs().max_element());
+    LIFTS.into_iter().find_map(|lift| {
+        // In half-steps, so that the program's tolerances are far below one.
+        let plane = |face: &StarFace| HalfSpace {
+            normal: face.normal,
+            offset: lift + face.normal.dot(face.corners[0] - from) / unit,
+        };
+        let mut planes: Vec<HalfSpace> = star.iter().map(plane).collect();
+        let x = minimise_bounded(DVec3::ZERO, &mut planes, 1.0)?;
+        let x = rounding.round(from + x * unit)?;
+        star.iter().all(|face| side(&face.corners, x) > 0.0).then_some(x)
+    })
+}
+
+/// The faces of each connected part of a surface, largest bounds first.
+fn parts(shell: &Shell) -> Vec<Vec<u32>> {
+    let mut part_of = vec![usize::MAX; shell.mesh.corners.len()];
+    let mut parts: Vec<Vec<u32>> = Vec::new();
+    for first in shell.alive() {
+        if part_of[first as usize] != usize::MAX {
+            continue;
+        }
+        let mut faces = vec![first];
+        part_of[first as usize] = parts.len();
+        let mut next = 0;
+        while let Some(&face) = faces.get(next) {
+            next += 1;
+            for v in shell.mesh.corners[face as usize] {
+                for &other in shell.mesh.at(v) {
+                    if part_of[other as usize] == usize::MAX {
+                        part_of[other as usize] = parts.len();
+                        faces.push(other);
+                    }
+                }
+            }
+        }
+        faces.sort_unstable();
+        parts.push(faces);
+    }
+    parts
+}
+
+fn enclosure(shell: &Shell, faces: &[u32]) -> Enclosure {
+    let single = |p: DVec3| p.as_vec3().to_array();
+    Enclosure::new(faces.iter().map(|&f| shell.triangle(f).map(single)).collect())
+}
+
+/// Drops parts of the surface that bound cavities, and parts inside others: what is left has the same outside. How many were dropped. For a
+/// surface that does not meet itself.
+pub(super) fn keep_outermost(shell: Shell) -> (Shell, usize) {
+    let all = parts(&shell);
+    if all.len() < 2 {
+        return (shell, 0);
+    }
+    let enclosures: Vec<Enclosure> = all.iter().map(|faces| enclosure(&shell, faces)).collect();
+    let inside = |i: usize| {
+        let Some(&first) = all[i].first() else { return true };
+        let p = shell.triangle(first)[0].as_vec3().to_array();
+        (0..all.len()).any(|j| j != i && enclosures[j].holds(p))
+    };
+    let kept: Vec<u32> =
+        (0..all.len()).filter(|&i| !inside(i)).flat_map(|i| all[i].iter().copied()).collect();
+    let positions: Vec<DVec3> = (0..shell.vertex_slots()).map(|v| shell.position(v)).collect();
+    let triangles: Vec<[u32; 3]> = kept.iter().map(|&f| shell.mesh.corners[f as usize]).collect();
+    let (positions, triangles) = compact(&positions, &triangles);
+    let shell = Shell::new(positions, &triangles);
+    let left = parts(&shell).len();
+    (shell, all.len() - left)
+}
+
+/// Why a surface does not satisfy the invariant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Defects {
+    /// Faces that meet each other, or have no area.
+    pub entangled: Vec<u32>,
+    /// Faces that meet the mesh.
+    pub touching: Vec<u32>,
+    /// Parts of the mesh that are outside.
+    pub outside: usize,
+}
+
+impl Defects {
+    pub fn is_empty(&self) -> bool {
+        self.entangled.is_empty() && self.touching.is_empty() && self.outside == 0
+    }
+}
+
+/// Tests the whole invariant. Exact.
+pub(super) fn defects(shell: &Shell, obstacle: &Obstacle) -> Defects {
+    let faces: Vec<u32> = shell.alive().collect();
+    let boxes: Vec<Bounds> = faces.iter().map(|&f| Bounds::of(&shell.triangle(f))).collect();
+    let (tree, order) = BoxTree::new(&boxes);
+    let mut defects = Defects::default();
+    for (i, &f) in faces.iter().enumerate() {
+        let face = shell.face(f);
+        let mut clean = !is_degenerate(&face.at);
+        tree.visit(
+            |of| of.meets(&boxes[i]),
+            |j| {
+                let other = faces[order[j] as usize];
+                clean &= other == f || are_apart(&face, &shell.face(other));
+                clean
+            },
+        );
+        if !clean {
+            defects.entangled.push(f);
+        }
+        if obstacle.meets(&face.at) {
+            defects.touching.push(f);
+        }
+    }
+    let hull = enclosure(shell, &faces);
+    let is_out = |p: &&DVec3| !hull.holds(p.as_vec3().to_array());
+    defects.outside = obstacle.witnesses().iter().filter(is_out).count();
+    defects
+}

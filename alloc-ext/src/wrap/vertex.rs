@@ -1,0 +1,87 @@
+//! Vertex moves.
+
+use super::placement::Wish;
+use super::work::Work;
+use glam::DVec3;
+
+/// Half-steps of the grid kept from planes, by attempt: rounding moves a vertex by less than two, and what the first do not prove the last may.
+pub(super) const CLEARANCES: [f64; 2] = [4.0, 16.0];
+
+/// Volumes that differ by less than this part of the star's radius cubed are equal: moves must come to an end.
+const GAIN: f64 = 1e-9;
+
+/// A plain vertex move: a pull strong enough to slide along planes, weak enough to stay near the star.
+pub(super) const SETTLE: Wish =
+    Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.1), clearance: 0.0 };
+
+impl Work<'_> {
+    /// Moves a vertex to where the volume is least; what is gained.
+    pub fn settle(&mut self, v: u32) -> Option<f64> {
+        let from = self.shell.position(v);
+        self.take_star(v);
+        let radius = self.star_radius(from);
+        let gained = self.propose(v, &SETTLE, |gain| gain > GAIN * radius * radius * radius);
+        self.star.clear();
+        gained
+    }
+
+    /// Moves a vertex where `wish` wants it, whether the volume falls or not; the volume gained, which may be negative.
+    pub fn disturb(&mut self, v: u32, wish: &Wish) -> Option<f64> {
+        self.take_star(v);
+        self.propose(v, wish, |_| true)
+    }
+
+    fn take_star(&mut self, v: u32) {
+        let mut star = std::mem::take(&mut self.star);
+        self.shell.vertex_star(v, &mut star);
+        self.star = star;
+    }
+
+    pub(super) fn star_radius(&self, centre: DVec3) -> f64 {
+        let corners = self.star.iter().flat_map(|f| f.corners);
+        corners.map(|p| (p - centre).length_squared()).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Places vertex `v` of the star at hand and proves it, if `wanted` likes what it gains.
+    fn propose(&mut self, v: u32, wish: &Wish, wanted: impl Fn(f64) -> bool) -> Option<f64> {
+        let from = self.shell.position(v);
+        let star = std::mem::take(&mut self.star);
+        let mut outcome = None;
+        for steps in CLEARANCES {
+            let clearance = self.clearance(&star, steps);
+            let wish = Wish { clearance, ..*wish };
+            let placed = self.placer.place(self.obstacle, &star, from, &wish);
+            let Some(x) = placed.and_then(|x| self.rounding.round(x)) else { break };
+            let gain = -star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0;
+            if !wanted(gain) || !self.is_shapely(&star, x) {
+                break;
+            }
+            if self.admits_vertex(v, x) {
+                self.shell.move_vertex(v, x);
+                outcome = Some(gain);
+                break;
+            }
+        }
+        self.star = star;
+        outcome
+    }
+
+    /// Whether `v` may move to `x`. Exact.
+    pub fn admits_vertex(&mut self, v: u32, x: DVec3) -> bool {
+        let dead: Vec<u32> = self.shell.mesh.at(v).to_vec();
+        let new: Vec<_> = dead.iter().filter_map(|&f| self.shell.face_after(f, [v, v], x)).collect();
+        let bases: Vec<_> = dead.iter().map(|&f| self.shell.triangle(f)).collect();
+        self.admits(&new, &dead, &bases, x)
+    }
+
+    /// Settles every vertex once; the volume gained.
+    pub fn sweep(&mut self) -> f64 {
+        let mut gained = 0.0;
+        for v in 0..self.shell.vertex_slots() {
+            if !self.shell.mesh.at(v).is_empty() {
+                gained += self.settle(v).unwrap_or(0.0);
+            }
+        }
+        gained
+    }
+}

@@ -1,0 +1,224 @@
+//! Tight hulls enclose what they were made of: proved from the two surfaces alone, by a checker that shares no code with the builder.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair};
+use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, WrapError, wrap};
+use meshsweep_host_tests::check::{Surface, check_enclosure};
+use meshsweep_host_tests::generate::evil::evil;
+use meshsweep_host_tests::generate::{
+    Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb, rough_sphere,
+    scaled, torus, transformed, two_parts,
+};
+
+fn mesh_of((positions, triangles): &Triangles) -> Mesh {
+    repair(RawMesh::from_f32(positions, triangles)).expect("a mesh").0
+}
+
+/// Little polish: what is shown here does not depend on how tight a hull is.
+fn options(faces: usize) -> Options {
+    Options { goal: Goal::Faces(faces), effort: 0.02, ..Options::default() }
+}
+
+fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
+    let hull = wrap(mesh, options, |_| {}).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let surface = |m: &Mesh| Surface::new(&m.positions, &m.triangles);
+    let proof =
+        check_enclosure(&surface(mesh), &surface(&hull.mesh)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert_eq!(proof.inside, mesh.positions.len(), "{name}");
+    assert_eq!(proof.faces, hull.report.faces, "{name}");
+    let slack = hull.report.slack;
+    assert!(0.0 <= slack.lower && slack.lower <= slack.upper && slack.upper.is_finite(), "{name}: {slack:?}");
+    hull
+}
+
+/// Turned, so that no face lies in a plane of coordinates.
+fn turned(of: &Triangles) -> Triangles {
+    let (s, c) = (0.6f32, 0.8f32);
+    transformed(of, [[c, -s, 0.0], [s * c, c * c, -s], [s * s, s * c, c]], [0.3, -0.7, 0.1])
+}
+
+/// A sphere in a cavity of a larger one.
+fn nested() -> Triangles {
+    let shell = joined(&scaled(&icosphere(3), 4.0), &inverted(&scaled(&icosphere(3), 3.0)));
+    joined(&shell, &icosphere(2))
+}
+
+/// A bowl with a narrow mouth: a sphere with a dent that is wider than its opening.
+fn pocket() -> Triangles {
+    let (n, rings) = (24usize, 30usize);
+    let mut positions = vec![[0.0f32, 0.0, -2.0]];
+    for ring in 1..rings {
+        let t = ring as f64 / rings as f64;
+        // Down the outside, over the lip, and into a chamber.
+        let (radius, height) = if t < 0.5 {
+            let a = TAU * 0.25 * (4.0 * t - 1.0);
+            (2.0 * a.cos().max(0.15), 2.0 * a.sin())
+        } else {
+            let a = TAU * 0.25 * (4.0 * t - 1.0);
+            (1.4 * (-a.cos()).max(0.1), 0.1 + 1.4 * a.sin())
+        };
+        for k in 0..n {
+            let phi = TAU * k as f64 / n as f64;
+            positions.push([(radius * phi.cos()) as f32, (radius * phi.sin()) as f32, height as f32]);
+        }
+    }
+    positions.push([0.0, 0.0, -1.3]);
+    let at = |ring: usize, k: usize| (1 + (ring - 1) * n + k % n) as u32;
+    let last = positions.len() as u32 - 1;
+    let mut triangles = Vec::new();
+    for k in 0..n {
+        triangles.push([0, at(1, k + 1), at(1, k)]);
+        triangles.push([at(rings - 1, k), at(rings - 1, k + 1), last]);
+        for ring in 1..rings - 1 {
+            triangles.push([at(ring, k), at(ring, k + 1), at(ring + 1, k + 1)]);
+            triangles.push([at(ring, k), at(ring + 1, k + 1), at(ring + 1, k)]);
+        }
+    }
+    (positions, triangles)
+}
+
+/// A plate a thousand times as wide as thick.
+fn plate() -> Triangles {
+    transformed(&cube(8), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.001]], [0.0; 3])
+}
+
+#[test]
+fn hulls_of_closed_meshes_are_proved() {
+    let meshes = [
+        ("sphere", icosphere(4)),
+        ("rough sphere", rough_sphere(4, 0.3, 7)),
+        ("torus", torus(1.0, 0.3, 60, 30)),
+        ("thin torus", torus(1.0, 0.01, 90, 12)),
+        ("bracket", bracket()),
+        ("cube", cube(6)),
+        ("turned cube", turned(&cube(6))),
+        ("groove", groove_block()),
+        ("comb", needle_comb()),
+        ("turned comb", turned(&needle_comb())),
+        ("two parts", two_parts()),
+        ("nested", nested()),
+        ("pocket", pocket()),
+        ("plate", plate()),
+        ("turned plate", turned(&plate())),
+    ];
+    for (index, (name, of)) in meshes.iter().enumerate() {
+        let faces = [150, 20][index % 2];
+        let report = proved(name, &mesh_of(of), &options(faces)).report;
+        assert!(report.faces <= faces && report.stop == Stop::Reached, "{name}: {report:?}");
+        assert!(report.void.unwrap() > 0.0, "{name}: {report:?}");
+    }
+}
+
+#[test]
+fn scale_and_place_do_not_matter() {
+    for factor in [1e-36, 1e-30, 1e-3, 1e30, 1e36] {
+        let mesh = mesh_of(&scaled(&rough_sphere(3, 0.3, 3), factor));
+        proved(&format!("times {factor:e}"), &mesh, &options(60));
+    }
+    for shift in [1e3, 1e5, 1e6] {
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let mesh = mesh_of(&transformed(&torus(1.0, 0.4, 20, 10), identity, [shift, -shift, shift]));
+        proved(&format!("moved by {shift:e}"), &mesh, &options(60));
+    }
+}
+
+#[test]
+fn triangles_of_any_kind_have_a_hull() {
+    for seed in 0..3 {
+        let mut rng = Rng::new(seed);
+        let mut positions = Vec::new();
+        for _ in 0..60 {
+            let at = rng.point_in([-1.0; 3], [1.0; 3]);
+            for _ in 0..3 {
+                let d = rng.point_in([-0.4; 3], [0.4; 3]);
+                positions.push([at[0] + d[0], at[1] + d[1], at[2] + d[2]]);
+            }
+        }
+        let triangles = (0..60).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let mesh = mesh_of(&(positions, triangles));
+        let hull = proved(&format!("soup {seed}"), &mesh, &options(100));
+        assert!(matches!(hull.report.start, Start::Closure { .. }), "{:?}", hull.report);
+        assert!(hull.report.void.is_none());
+    }
+    let (positions, mut triangles) = torus(1.0, 0.3, 40, 20);
+    triangles.truncate(1000);
+    proved("open torus", &mesh_of(&(positions, triangles)), &options(100));
+    let one = (vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
+    proved("one triangle", &mesh_of(&one), &options(20));
+    let crossing = joined(&icosphere(3), &turned(&cube(5)));
+    proved("crossing parts", &mesh_of(&crossing), &options(100));
+}
+
+#[test]
+fn evil_meshes_have_a_hull_or_a_reason() {
+    for case in evil() {
+        let Ok((mesh, _)) = read_bytes(Path::new(case.name), case.bytes).and_then(repair) else { continue };
+        match wrap(&mesh, &options(100), |_| {}) {
+            Ok(_) => {
+                proved(case.name, &mesh, &options(100));
+            }
+            Err(error) => assert_eq!(error, WrapError::NoRoom, "{}", case.name),
+        }
+    }
+}
+
+#[test]
+fn the_same_mesh_gives_the_same_hull() {
+    let mesh = mesh_of(&rough_sphere(4, 0.3, 11));
+    let once = wrap(&mesh, &options(80), |_| {}).unwrap();
+    let again = wrap(&mesh, &options(80), |_| {}).unwrap();
+    assert_eq!(once.mesh, again.mesh);
+    assert_eq!(once.report.stars, again.report.stars);
+}
+
+#[test]
+fn effort_makes_hulls_tighter() {
+    let mesh = mesh_of(&rough_sphere(4, 0.3, 5));
+    let void = |effort| proved("rough", &mesh, &Options { effort, ..options(80) }).report.void.unwrap();
+    let [none, some] = [0.0, 1.0].map(void);
+    assert!(some < 0.95 * none, "{some} {none}");
+}
+
+#[test]
+fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
+    let mesh = mesh_of(&rough_sphere(3, 0.3, 9));
+    let mut last = usize::MAX;
+    for most in [0.05, 0.2, 0.8] {
+        let hull = proved("void", &mesh, &Options { goal: Goal::Void(most), ..options(0) });
+        assert!(hull.report.void.unwrap() <= most && hull.report.stop == Stop::Reached, "{:?}", hull.report);
+        assert!(hull.report.faces <= last);
+        last = hull.report.faces;
+    }
+    last = usize::MAX;
+    for most in [0.03, 0.1, 0.4] {
+        let hull = proved("slack", &mesh, &Options { goal: Goal::Slack(most), ..options(0) });
+        assert!(hull.report.slack.upper <= most && hull.report.stop == Stop::Reached, "{:?}", hull.report);
+        assert!(hull.report.faces <= last);
+        last = hull.report.faces;
+    }
+    let (positions, triangles) = torus(1.0, 0.3, 20, 10);
+    let open = mesh_of(&(positions, triangles[..50].to_vec()));
+    let refused = wrap(&open, &Options { goal: Goal::Void(0.1), ..options(0) }, |_| {});
+    assert_eq!(refused.unwrap_err(), WrapError::NoVolume);
+}
+
+#[test]
+fn the_checker_refuses_what_is_not_proved() {
+    let of = |(p, t): &Triangles| Surface::new(p, t);
+    let ball = of(&icosphere(2));
+    let refused = |hull: &Triangles| check_enclosure(&ball, &of(hull)).unwrap_err();
+    assert!(check_enclosure(&ball, &of(&scaled(&icosphere(1), 2.0))).is_ok());
+    assert!(refused(&icosphere(2)).contains("meets"), "touching");
+    assert!(refused(&scaled(&icosphere(1), 1.01)).contains("meets"), "crossing");
+    assert!(refused(&scaled(&icosphere(2), 0.5)).contains("winds 0 times"));
+    assert!(refused(&inverted(&scaled(&icosphere(1), 2.0))).contains("winds -1 times"));
+    let twice = joined(&scaled(&icosphere(1), 2.0), &scaled(&icosphere(1), 4.0));
+    assert!(refused(&twice).contains("winds 2 times"));
+    let crossing = joined(&scaled(&icosphere(1), 2.0), &turned(&scaled(&icosphere(1), 2.0)));
+    assert!(refused(&crossing).contains("of the hull meet"));
+    let (positions, mut triangles) = scaled(&icosphere(1), 2.0);
+    triangles.pop();
+    assert!(refused(&(positions, triangles)).contains("open"));
+}
