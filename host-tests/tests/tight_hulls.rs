@@ -126,17 +126,17 @@ fn scale_and_place_do_not_matter() {
 
 #[test]
 fn triangles_of_any_kind_have_a_hull() {
-    for seed in 0..3 {
+    for seed in 0..2 {
         let mut rng = Rng::new(seed);
         let mut positions = Vec::new();
-        for _ in 0..60 {
+        for _ in 0..16 {
             let at = rng.point_in([-1.0; 3], [1.0; 3]);
             for _ in 0..3 {
                 let d = rng.point_in([-0.4; 3], [0.4; 3]);
                 positions.push([at[0] + d[0], at[1] + d[1], at[2] + d[2]]);
             }
         }
-        let triangles = (0..60).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let triangles = (0..16).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         let mesh = mesh_of(&(positions, triangles));
         let hull = proved(&format!("soup {seed}"), &mesh, &options(100));
         assert!(matches!(hull.report.start, Start::Closure { .. }), "{:?}", hull.report);
