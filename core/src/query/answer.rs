@@ -147,7 +147,7 @@ pub enum QueryError {
     /// An end of a segment is too far away: on the cover tree farther than 2^40 times the model's size from its origin, on the box tree 2^38 grid
     /// units from the model's farthest corner. Clip the segment first.
     OutOfDomain,
-    /// An entry of a pose's matrix is beyond 2, or one of two models is so much larger that the other is a point beside it: their grids differ by more than 2^40.
+    /// An entry of a pose's matrix is beyond 2, or one of two models is so much larger that the other is a point beside it: their grids differ by more than 2^40; or a blob's surface error is far larger than its model.
     PoseOutOfDomain,
     /// The caller's queue is empty.
     NoQueue,

@@ -1,7 +1,9 @@
 //! Scales, places far from the origin, and matrices that are no rotations.
 
 use super::scene::{IDENTITY, Scene, Tally, holds, motions, placed, rotation};
-use meshsweep_host_tests::generate::{Rng, rough_sphere, scaled, torus, transformed};
+use meshsweep_host_tests::generate::{
+    Rng, cube, icosphere, joined, rough_sphere, scaled, torus, transformed,
+};
 
 /// Powers of two near 1e30 and 1e-30: scaling by them is exact.
 const SCALES: [f32; 2] = [(1u128 << 99) as f32, 1.0 / (1u128 << 99) as f32];
@@ -70,4 +72,46 @@ fn matrices_need_not_be_rotations() {
         }
     }
     assert!(tallies[3].meets > 0 && tallies[3].apart > 0, "{tallies:?}");
+}
+
+#[test]
+fn matrices_with_next_to_nothing_in_a_column_part_nothing_that_meets() {
+    let grain = transformed(&scaled(&rough_sphere(2, 0.3, 3), 0.003), IDENTITY, [1.5, 0.1, 0.2]);
+    let sheet = (vec![[0.1, -1.0, -1.0], [0.2, 3.0, -1.0], [-0.3, -1.0, 3.0]], vec![[0, 1, 2]]);
+    let b = Scene::new(sheet);
+    let mut tallies: [Tally; 4] = Default::default();
+    for factor in [1.0, 1.0 / (1u64 << 38) as f32] {
+        let a = Scene::new(scaled(&joined(&cube(1), &grain), factor));
+        let mut column = f32::from_bits(1);
+        while column < 1e-2 {
+            for by in [1.500_591f32, 1.4991, 1.502] {
+                let matrix = [[column, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+                let pose =
+                    meshsweep_core::tribox::Pose { rotation: matrix, translation: [by * factor, 0.0, 0.0] };
+                holds("column", &a, &b, &pose, &mut tallies);
+            }
+            column *= 7.0;
+        }
+    }
+    assert!(tallies.iter().all(|tally| tally.apart > 0 || tally.open > 0), "{tallies:?}");
+}
+
+#[test]
+fn answers_hold_where_far_origins_cancel() {
+    let rotation = [
+        [-2.906_628_5e-7, 0.570_989_8, 0.0],
+        [-2.722_691_5e-7, -0.609_564_2, 0.0],
+        [0.0, -0.514_287_23, 1.0],
+    ];
+    let mut rng = Rng::new(6);
+    let mut tallies: [Tally; 4] = Default::default();
+    for _ in 0..60 {
+        let offset = rng.point_in([-1.6e7; 3], [1.6e7; 3]);
+        let plate = vec![[0.0, -3.0, -3.0], [0.0, 5.0, -2.0], [0.0, -1.0, 6.0]];
+        let plate = plate.into_iter().map(|p: [f32; 3]| std::array::from_fn(|k| p[k] + offset[k])).collect();
+        let b = Scene::new((plate, vec![[0, 1, 2]]));
+        let a = Scene::new(scaled(&icosphere(0), 1.0 / (1u32 << 24) as f32));
+        holds("cancelled", &a, &b, &placed(&b, rotation, [0.0; 3]), &mut tallies);
+    }
+    assert_eq!(tallies.iter().map(|tally| tally.apart + tally.meets + tally.open).sum::<usize>(), 240);
 }

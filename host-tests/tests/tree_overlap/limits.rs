@@ -53,6 +53,7 @@ fn pairs_that_do_not_fit_are_counted() {
         let mut pairs = vec![TrianglePair::EMPTY; room];
         let found = all_overlaps(&first, &second, &pose, u32::MAX, &mut pairs, &mut stack).expect("answers");
         assert_eq!((found.stored, found.dropped as usize), (room, all.len() - room));
+        assert_eq!(found.ended, Ended::Capacity);
         assert_eq!(pairs, all[..room]);
     }
 }
@@ -85,6 +86,13 @@ fn what_cannot_be_answered_is_refused() {
     let options = TreeOptions { segments: false, ..TreeOptions::default() };
     let bytes = blob(None, Some(&build(&mesh, 0.0, 12, &options).0));
     let closest_only = Tree::open(&bytes).expect("opens");
+    // A surface error beside which the model is nothing.
+    let bytes = blob(None, Some(&build(&mesh, 1e37, 12, &TreeOptions::default()).0));
+    let vague = Tree::open(&bytes).expect("opens");
+    let flat = Pose { rotation: [[0.0; 3]; 3], ..Pose::IDENTITY };
+    for pose in [Pose::IDENTITY, flat] {
+        assert_eq!(refused(&vague, &vague, pose, None), QueryError::PoseOutOfDomain);
+    }
     assert_eq!(refused(&tree, &closest_only, Pose::IDENTITY, None), QueryError::NotServed);
 }
 

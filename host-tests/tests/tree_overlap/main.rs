@@ -2,6 +2,7 @@
 
 mod extremes;
 mod limits;
+mod pairs;
 mod scene;
 mod touching;
 mod truth;

@@ -22,11 +22,21 @@ pub struct Scene {
 }
 
 impl Scene {
-    pub fn new((positions, triangles): Triangles) -> Scene {
-        let mesh = Mesh::new(positions.clone(), triangles.clone());
+    pub fn new(mesh: Triangles) -> Scene {
+        Scene::moved(mesh, 0.0, 0)
+    }
+
+    /// The blobs are of a mesh whose vertices were moved by up to `by` before, which their surface error says.
+    pub fn moved((positions, triangles): Triangles, by: f32, seed: u64) -> Scene {
+        let rng = &mut Rng::new(seed);
+        let stored = positions.iter().map(|p| {
+            let (length, way) = (0.99 * by * rng.unit_f32(), rng.direction());
+            std::array::from_fn(|k| p[k] + length * way[k])
+        });
+        let mesh = Mesh::new(stored.collect(), triangles.clone());
         let blobs = [false, true].map(|single| {
             let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
-            blob(None, Some(&build(&mesh, 0.0, triangles.len(), &options).0))
+            blob(None, Some(&build(&mesh, f64::from(by), triangles.len(), &options).0))
         });
         Scene { positions, triangles, blobs }
     }

@@ -71,3 +71,16 @@ fn models_of_very_different_size_are_told_apart() {
         assert!(tallies[3].meets > 0 && tallies[3].apart > 0, "{factor}: {tallies:?}");
     }
 }
+
+#[test]
+fn blobs_of_vertices_that_were_moved_speak_of_the_input() {
+    for (by, seed) in [(1e-2f32, 15), (1e-4, 16)] {
+        let (a, b) = (torus(2.0, 0.75, 20, 10), rough_sphere(2, 0.4, 3));
+        let (first, second) = (Scene::moved(a, by, seed), Scene::moved(b, by, seed + 10));
+        let mut tallies: [Tally; 4] = Default::default();
+        for pose in motions(&first, &second, 40, seed) {
+            holds("moved", &first, &second, &pose, &mut tallies);
+        }
+        assert!(tallies.iter().all(|tally| tally.apart > 4 && tally.meets > 4), "{by}: {tallies:?}");
+    }
+}

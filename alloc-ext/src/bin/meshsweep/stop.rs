@@ -101,7 +101,10 @@ impl fmt::Display for Tally {
             (self.tolerance, "within tolerance"),
             (self.steps, "out of steps"),
             (self.capacity, "out of stack or queue"),
-            (self.level, "left open by rounding or the blob (cut, or vertices moved to a grid)"),
+            (
+                self.level,
+                "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching",
+            ),
         ] {
             if count > 0 {
                 write!(f, ", {count} {reason}")?;

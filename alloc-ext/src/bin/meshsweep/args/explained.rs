@@ -124,8 +124,9 @@ pub fn overlap() -> String {
         "A pose moves the second mesh: p becomes R p + (x, y, z), R being the rotation of the quaternion (qw, qx, qy, qz), which need not have length 1 and may \
          not be 0. It is rounded to a matrix of f32, and what is said is about that. --matrix takes any matrix with entries up to 2 as it is.\n\n\
          The column 'contact' says apart or meets, which is proved; or open, if the surfaces touch, come nearer than rounding and the blobs' surface errors can \
-         tell, or the query ended early. Surfaces alone count: a mesh inside of another one is apart from it. first and second are triangles that meet; with --all \
-         one pair is on each line, open ones among them, and an open without triangles says that pairs may be missing. {TRIANGLES}. Poses count from 0.\n\n\
+         tell, or the query ended early. Surfaces alone count: a mesh inside of another one is apart from it. first and second are triangles that meet, counted from 0 in \
+         the order of their mesh files; with --all one pair is on each line, open ones among them, and an open without triangles says that pairs may be missing. \
+         Poses count from 0. Options with poses stand after the blobs.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep overlap part.msw part.msw --pose 30,0,0,1,0,0,0\n  \

@@ -71,25 +71,25 @@ pub struct Overlaps {
     pub dropped: u32,
     /// What it cost, as in [`Overlap::work`].
     pub work: Work,
-    /// [`Ended::Exact`]: these are the input's pairs, all of them. [`Ended::Level`]: the pairs that are not certain may not meet; no other pair does. Else
-    /// more may exist.
+    /// [`Ended::Exact`]: these are the input's pairs, all of them. [`Ended::Level`]: the pairs that are not certain may not meet; no other pair does.
+    /// [`Ended::Capacity`] if some did not fit, here or on the stack, [`Ended::Steps`]: more exist or may exist.
     pub ended: Ended,
 }
 
 /// Whether the surface of `b`, moved by `pose` from its frame to that of `a` (both in input units), meets the surface of `a`.
 ///
-/// Never a wrong "apart", and never a wrong "meets": both are proved of the input meshes, whatever grids did to vertices, with the numbers of the pose
+/// Never a wrong "apart", and never a wrong "meets": both are proved of the input meshes as they were after repair, whatever grids did to vertices, with the numbers of the pose
 /// taken as they are, in real arithmetic. Surfaces that touch without passing through each other are [`Contact::Open`], and so are such as come within
 /// rounding and the blobs' surface errors of it. Surfaces alone count: of closed meshes one may lie inside the other, which
 /// [`signed_distance`](super::signed_distance) of a vertex tells. Triangles without area are never proved to meet anything.
 ///
 /// It ends at the first pair that is proved to meet; which one that is does not depend on the target. At most `steps` pairs of nodes are opened.
-/// [`PairEntry::ENOUGH`] entries are always enough, a tenth of it nearly so; a shorter `stack` may turn an answer into `Open`, never into a wrong one.
+/// [`PairEntry::ENOUGH`] entries are always enough; a shorter `stack` may turn an answer into `Open`, never into a wrong one.
 ///
-/// Cost: what lies near the other surface: for meshes in contact, or apart, some dozens of pairs of nodes.
+/// Cost: what lies near the other surface; on scanned parts some dozens of pairs of nodes (`cargo xtask measure --overlap`).
 ///
 /// # Errors
-/// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond 2, or one grid is 2^40 times as coarse as the other;
+/// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid units;
 /// [`QueryError::NotServed`] unless both have boxes for segments; [`QueryError::NoQueue`].
 pub fn overlap(
     a: &Tree<'_>,
@@ -127,7 +127,12 @@ pub fn all_overlaps(
 ) -> Result<Overlaps, QueryError> {
     let mut all = All { a, b, pairs, stored: 0, dropped: 0, is_open: false };
     let (missed, work) = descend(a, b, pose, steps, stack, &mut all)?;
-    let ended = missed.unwrap_or(if all.is_open { Ended::Level } else { Ended::Exact });
+    let ended = match missed {
+        Some(why) => why,
+        None if all.dropped > 0 => Ended::Capacity,
+        None if all.is_open => Ended::Level,
+        None => Ended::Exact,
+    };
     Ok(Overlaps { stored: all.stored, dropped: all.dropped, work, ended })
 }
 

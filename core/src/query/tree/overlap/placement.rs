@@ -12,7 +12,7 @@ use crate::tribox::Pose;
 /// Directions along which boxes are compared: the axes of both trees' boxes.
 pub(super) const DIRECTIONS: usize = 6;
 
-/// Rounding of a box's interval, in units of [`U32`] times what both trees reach along the direction. Proved: 77 (§11).
+/// Rounding of a box's interval, in units of [`U32`] times what both trees reach along the direction. Proved: 76 (§11).
 const INTERVAL: f64 = 96.0;
 
 /// Rounding of a moved vertex, the 2-norm, in units of the roundoff times the longest way along an axis. Proved: 8.7 in f32, 19.1 in f64 (§11).
@@ -21,8 +21,12 @@ const VERTEX: f64 = 20.0;
 /// Largest ratio of the trees' grid units, 2^40: then the smaller model is a point for all that the larger one can tell.
 const RATIO: i32 = 40;
 
-/// Longest way along an axis in common units, 2^32: products of four stay in f32's range. Trees are within 2^25 of their origins, so nothing that is near gets there.
-const FARTHEST: f64 = (1u64 << 32) as f64;
+/// Longest way along an axis in common units, surface errors with it: 2^30. Products of four such lengths, and sums of some of them, stay in f32's range. Trees are within
+/// 2^25 of their origins, so only an absurd surface error gets there.
+const FARTHEST: f64 = (1u64 << 30) as f64;
+
+/// More than what underflow takes from an interval's ends, whatever the direction: terms lose 2^-150 each, which are multiplied by less than 2^30 (§11). A direction as short as that parts nothing.
+const UNDERFLOW: f64 = 1.0 / (1u128 << 100) as f64;
 
 /// A tree as the directions see it.
 #[derive(Clone, Copy, Debug)]
@@ -118,15 +122,6 @@ impl Placement {
         let directions = [x, y, z, c0, c1, c2];
         let back = directions.map(|d| columns.map(|column| dot(column, d)));
         let away = directions.map(|d| dot(d, shift_exact));
-        let mut grow = [0f32; DIRECTIONS];
-        for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
-            let both = most(d, reach_a) + most(row, reach_b);
-            let error = (error_a + error_b) * libm::sqrt(dot(d, d));
-            if away.abs() * (1.0 - 64.0 * U64) > both + error {
-                return Ok(None);
-            }
-            *grow = ((both + away.abs()) * (INTERVAL * f64::from(U32)) + error) as f32 * (1.0 + 2.0 * U32);
-        }
         // What a moved vertex, or the way to it, comes to along an axis.
         let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
             most(row, reach_b)
@@ -138,7 +133,20 @@ impl Placement {
         let far = near
             + greatest([r0, r1, r2].map(|row| most(row, from.map(|x| x * unit_b))))
             + greatest(into.map(f64::abs)) * unit_a;
-        if far > FARTHEST {
+        let errors = error_a + error_b;
+        let rounded = VERTEX * U64 * far;
+        let mut grow = [0f32; DIRECTIONS];
+        for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
+            let both = most(d, reach_a) + most(row, reach_b);
+            let error = (errors + rounded) * libm::sqrt(dot(d, d)) + UNDERFLOW;
+            if away.abs() * (1.0 - 64.0 * U64) > both + error {
+                return Ok(None);
+            }
+            *grow = ((both + away.abs()) * (INTERVAL * f64::from(U32)) + error) as f32 * (1.0 + 2.0 * U32);
+        }
+        // What is not a number is not in range either.
+        let is_in_range = far + errors <= FARTHEST;
+        if !is_in_range {
             return Err(QueryError::PoseOutOfDomain);
         }
         let narrow = |v: [f64; 3]| v.map(|x| x as f32);
@@ -163,7 +171,7 @@ impl Placement {
             shift: narrow(shift_exact),
             shift_exact,
             doubt: (larger + VERTEX * f64::from(U32) * near) as f32 * (1.0 + 2.0 * U32),
-            doubt_exact: larger + VERTEX * U64 * far,
+            doubt_exact: larger + rounded,
         }))
     }
 }
