@@ -23,6 +23,11 @@ fn options(faces: usize) -> Options {
 
 fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
     let hull = wrap(mesh, options, |_| {}).unwrap_or_else(|e| panic!("{name}: {e}"));
+    prove(name, mesh, &hull);
+    hull
+}
+
+fn prove(name: &str, mesh: &Mesh, hull: &Hull) {
     let surface = |m: &Mesh| Surface::new(&m.positions, &m.triangles);
     let proof =
         check_enclosure(&surface(mesh), &surface(&hull.mesh)).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -30,7 +35,6 @@ fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
     assert_eq!(proof.faces, hull.report.faces, "{name}");
     let slack = hull.report.slack;
     assert!(0.0 <= slack.lower && slack.lower <= slack.upper && slack.upper.is_finite(), "{name}: {slack:?}");
-    hull
 }
 
 /// Turned, so that no face lies in a plane of coordinates.
@@ -41,8 +45,8 @@ fn turned(of: &Triangles) -> Triangles {
 
 /// A sphere in a cavity of a larger one.
 fn nested() -> Triangles {
-    let shell = joined(&scaled(&icosphere(3), 4.0), &inverted(&scaled(&icosphere(3), 3.0)));
-    joined(&shell, &icosphere(2))
+    let shell = joined(&scaled(&icosphere(2), 4.0), &inverted(&scaled(&icosphere(2), 3.0)));
+    joined(&shell, &icosphere(1))
 }
 
 /// A bowl with a narrow mouth: a sphere with a dent that is wider than its opening.
@@ -87,13 +91,13 @@ fn plate() -> Triangles {
 #[test]
 fn hulls_of_closed_meshes_are_proved() {
     let meshes = [
-        ("sphere", icosphere(4)),
-        ("rough sphere", rough_sphere(4, 0.3, 7)),
-        ("torus", torus(1.0, 0.3, 60, 30)),
-        ("thin torus", torus(1.0, 0.01, 90, 12)),
+        ("sphere", icosphere(3)),
+        ("rough sphere", rough_sphere(3, 0.3, 7)),
+        ("torus", torus(1.0, 0.3, 40, 20)),
+        ("thin torus", torus(1.0, 0.01, 45, 8)),
         ("bracket", bracket()),
-        ("cube", cube(6)),
-        ("turned cube", turned(&cube(6))),
+        ("cube", cube(4)),
+        ("turned cube", turned(&cube(4))),
         ("groove", groove_block()),
         ("comb", needle_comb()),
         ("turned comb", turned(&needle_comb())),
@@ -104,7 +108,8 @@ fn hulls_of_closed_meshes_are_proved() {
         ("turned plate", turned(&plate())),
     ];
     for (index, (name, of)) in meshes.iter().enumerate() {
-        let faces = [150, 20][index % 2];
+        // With few faces all ways to begin compete, which takes longest.
+        let faces = [150, 20, 150][index % 3];
         let report = proved(name, &mesh_of(of), &options(faces)).report;
         assert!(report.faces <= faces && report.stop == Stop::Reached, "{name}: {report:?}");
         assert!(report.void.unwrap() > 0.0, "{name}: {report:?}");
@@ -113,11 +118,11 @@ fn hulls_of_closed_meshes_are_proved() {
 
 #[test]
 fn scale_and_place_do_not_matter() {
-    for factor in [1e-36, 1e-30, 1e-3, 1e30, 1e36] {
-        let mesh = mesh_of(&scaled(&rough_sphere(3, 0.3, 3), factor));
+    for factor in [1e-36, 1e-30, 1e30, 1e36] {
+        let mesh = mesh_of(&scaled(&rough_sphere(2, 0.3, 3), factor));
         proved(&format!("times {factor:e}"), &mesh, &options(60));
     }
-    for shift in [1e3, 1e5, 1e6] {
+    for shift in [1e3, 1e6] {
         let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mesh = mesh_of(&transformed(&torus(1.0, 0.4, 20, 10), identity, [shift, -shift, shift]));
         proved(&format!("moved by {shift:e}"), &mesh, &options(60));
@@ -156,9 +161,7 @@ fn evil_meshes_have_a_hull_or_a_reason() {
     for case in evil() {
         let Ok((mesh, _)) = read_bytes(Path::new(case.name), case.bytes).and_then(repair) else { continue };
         match wrap(&mesh, &options(100), |_| {}) {
-            Ok(_) => {
-                proved(case.name, &mesh, &options(100));
-            }
+            Ok(hull) => prove(case.name, &mesh, &hull),
             Err(error) => assert_eq!(error, WrapError::NoRoom, "{}", case.name),
         }
     }

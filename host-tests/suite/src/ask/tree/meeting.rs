@@ -39,7 +39,7 @@ pub fn overlap(
 }
 
 /// Pairs of nodes that a search for all pairs may open: what it needs differs by orders of magnitude.
-const STEPS: u32 = 12;
+const STEPS: u32 = 4;
 
 /// All pairs of triangles that meet, as far as a few steps go.
 #[inline(never)]
