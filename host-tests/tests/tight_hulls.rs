@@ -100,16 +100,15 @@ fn hulls_of_closed_meshes_are_proved() {
         ("turned cube", turned(&cube(4))),
         ("groove", groove_block()),
         ("comb", needle_comb()),
-        ("turned comb", turned(&needle_comb())),
         ("two parts", two_parts()),
         ("nested", nested()),
         ("pocket", pocket()),
         ("plate", plate()),
         ("turned plate", turned(&plate())),
     ];
-    for (index, (name, of)) in meshes.iter().enumerate() {
+    for (name, of) in &meshes {
         // With few faces all ways to begin compete, which takes longest.
-        let faces = [150, 20, 150][index % 3];
+        let faces = if matches!(*name, "bracket" | "groove" | "two parts") { 20 } else { 150 };
         let report = proved(name, &mesh_of(of), &options(faces)).report;
         assert!(report.faces <= faces && report.stop == Stop::Reached, "{name}: {report:?}");
         assert!(report.void.unwrap() > 0.0, "{name}: {report:?}");
