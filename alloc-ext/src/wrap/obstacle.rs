@@ -102,19 +102,11 @@ impl Obstacle {
         tetrahedron: &Tetrahedron,
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
-        let highest = Cell::new(None::<Plane>);
-        self.point_tree.visit_from(
-            near,
-            |of| highest.get().is_none_or(|plane| plane.reaches(of)) && tetrahedron.may_meet(of),
-            |i| {
-                let p = self.points[i];
-                if highest.get().is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p) {
-                    highest.set(raise(p).or(highest.get()));
-                }
-                true
-            },
-        );
-        highest.get()
+        highest(&self.point_tree, near, tetrahedron, |i, plane| {
+            let p = self.points[i];
+            let stands_out = plane.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
+            if stands_out { raise(p).or(plane) } else { plane }
+        })
     }
 
     /// As [`highest_point`](Self::highest_point), of the corners of what triangles have in common with the tetrahedron.
@@ -125,18 +117,9 @@ impl Obstacle {
         tetrahedron: &Tetrahedron,
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
-        let highest = Cell::new(None::<Plane>);
-        self.triangle_tree.visit_from(
-            near,
-            |of| highest.get().is_none_or(|plane| plane.reaches(of)) && tetrahedron.may_meet(of),
-            |i| {
-                for p in tetrahedron.clip(&self.triangles[i]) {
-                    highest.set(raise(p).or(highest.get()));
-                }
-                true
-            },
-        );
-        highest.get()
+        highest(&self.triangle_tree, near, tetrahedron, |i, plane| {
+            tetrahedron.clip(&self.triangles[i]).into_iter().fold(plane, |plane, p| raise(p).or(plane))
+        })
     }
 
     /// The triangle nearest to a point, and bounds of the distance to all.
@@ -181,4 +164,24 @@ fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
     (0..positions.len()).filter(|&v| used[v] && parent[v] == v as u32).map(|v| positions[v]).collect()
+}
+
+/// What `raise` makes of the highest plane so far and of every item that may stand above it in the tetrahedron.
+#[inline(always)]
+fn highest(
+    tree: &BoxTree,
+    near: &Frontier,
+    tetrahedron: &Tetrahedron,
+    raise: impl Fn(usize, Option<Plane>) -> Option<Plane>,
+) -> Option<Plane> {
+    let highest = Cell::new(None::<Plane>);
+    tree.visit_from(
+        near,
+        |of| highest.get().is_none_or(|plane| plane.reaches(of)) && tetrahedron.may_meet(of),
+        |i| {
+            highest.set(raise(i, highest.get()));
+            true
+        },
+    );
+    highest.get()
 }

@@ -1,32 +1,23 @@
 //! A mesh against itself in random motions: answers held to exact predicates, and time beside parry3d's.
 
-use glam::DVec3;
 use meshsweep_alloc::emit;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::Tree;
 use meshsweep_core::query::Work;
 use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
 use meshsweep_core::tribox::Pose;
-use parry3d::math::{Pose as ParryPose, Vector};
+use parry3d::math::Pose as ParryPose;
 use parry3d::query::intersection_test;
-use parry3d::shape::TriMesh;
 
 use super::Subject;
-use super::bounds::enclosing_sphere::Sphere;
+use super::bounds::contact::Surface;
 use super::bounds::pose::Pose as Motion;
 use super::stopwatch::{Stopwatch, fastest};
 use super::table::{Cell, Table, fixed, row};
-use crate::generate::Rng;
-use crate::oracle::moved::{Place, triangles_meet};
+use super::triboxes::{FARTHEST, poses, sphere};
 
 /// Motions.
 const MOTIONS: usize = 1_000;
-
-/// Greatest distance of the two spheres' centres, of the radius: a little further than spheres reach.
-const FARTHEST: f64 = 2.2;
-
-/// Boxes of parry3d's trees are grown by this much of the mesh's diagonal and distance from the origin: some ten roundings to f32.
-const GROWN: f32 = 1e-6;
 
 /// A motion as each side takes it, and what is true of ours.
 struct Case {
@@ -35,60 +26,12 @@ struct Case {
     meets: bool,
 }
 
-/// parry3d's shape of the mesh. Its tree also tells which triangles the exact predicates have to look at.
-struct Rival<'a> {
-    subject: &'a Subject,
-    shape: TriMesh,
-    reach: f32,
-}
-
-impl<'a> Rival<'a> {
-    fn new(subject: &'a Subject) -> Result<Self, String> {
-        let vertices: Vec<Vector> = subject.mesh.positions.iter().map(|p| Vector::from_array(*p)).collect();
-        let reach = vertices.iter().map(|p| p.length()).fold(subject.diagonal() as f32, f32::max);
-        let shape =
-            TriMesh::new(vertices, subject.mesh.triangles.clone()).map_err(|error| error.to_string())?;
-        Ok(Self { subject, shape, reach })
-    }
-
-    /// Whether the mesh meets itself after a motion, exactly.
-    fn truth(&self, parry: &ParryPose, pose: &Pose) -> bool {
-        let slack = GROWN * (self.reach + parry.translation.length());
-        let corners =
-            |t: u32| self.subject.mesh.triangles[t as usize].map(|v| self.subject.mesh.positions[v as usize]);
-        let mut candidates = self.shape.bvh().leaf_pairs(self.shape.bvh(), |a, b| {
-            let b = b.aabb().transform_by(parry);
-            let wide = Vector::splat(slack);
-            a.aabb().mins.cmple(b.maxs + wide).all() && (b.mins - wide).cmple(a.aabb().maxs).all()
-        });
-        candidates.any(|(a, b)| {
-            let first = corners(a).map(Place::of);
-            let second = corners(b).map(|p| Place::moved(p, &pose.rotation, pose.translation));
-            triangles_meet(first.each_ref(), second.each_ref())
-        })
-    }
-
-    fn meets(&self, parry: &ParryPose) -> Result<bool, String> {
-        intersection_test(&ParryPose::IDENTITY, &self.shape, parry, &self.shape)
-            .map(|answer| answer.intersecting)
-            .map_err(|error| error.to_string())
-    }
-}
-
-fn cases(subject: &Subject, rival: &Rival<'_>) -> Vec<Case> {
-    let points: Vec<DVec3> =
-        subject.mesh.positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-    let sphere = Sphere::enclosing(&points);
-    let mut rng = Rng::new(0x006f_7665_726c_6170);
-    let case = |_| {
-        let motion = Motion::random(&mut rng, &sphere, FARTHEST);
-        let narrow = |v: DVec3| v.to_array().map(|x| x as f32);
-        let rows = motion.rotation.transpose();
-        let rotation = [narrow(rows.x_axis), narrow(rows.y_axis), narrow(rows.z_axis)];
-        let pose = Pose { rotation, translation: narrow(motion.shift) };
-        Case { meets: rival.truth(&motion.parry, &pose), parry: motion.parry, pose }
+fn cases(subject: &Subject, surface: &Surface<'_>) -> Vec<Case> {
+    let case = |(near, pose): (Motion, Pose)| {
+        let parry = near.parry;
+        Case { meets: surface.meets_exactly(&pose, &parry), parry, pose }
     };
-    (0..MOTIONS).map(case).collect()
+    poses(&sphere(subject), MOTIONS).map(case).collect()
 }
 
 /// Answers of an engine, and nanoseconds for one: of the pairs that are apart, of those that meet.
@@ -158,10 +101,14 @@ fn ours(tree: &Tree<'_>, cases: &[Case]) -> Result<Verdicts, String> {
 /// # Errors
 /// The mesh is one that parry3d or the builder refuses, or an answer is wrong.
 pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
-    let rival = Rival::new(subject)?;
-    let cases = cases(subject, &rival);
+    let surface = Surface::new(subject)?;
+    let cases = cases(subject, &surface);
     let meeting = cases.iter().filter(|case| case.meets).count();
-    let parry = fastest_run(&cases, |case| rival.meets(&case.parry))?;
+    let parry = fastest_run(&cases, |case| {
+        intersection_test(&ParryPose::IDENTITY, surface.shape(), &case.parry, surface.shape())
+            .map(|answer| answer.intersecting)
+            .map_err(|error| error.to_string())
+    })?;
     let parry_wrong =
         cases.iter().zip(&parry.answers).filter(|(case, answer)| case.meets != **answer).count();
     let columns = [

@@ -19,8 +19,8 @@ use super::table::{Table, fixed, row};
 /// Poses of the moved mesh.
 const POSES: usize = 1_000;
 
-/// As for single bounds.
-const FARTHEST: f64 = 2.2;
+/// Greatest distance of the two spheres' centres, of the radius: as for single bounds.
+pub const FARTHEST: f64 = 2.2;
 
 /// Triboxes of the finest level.
 const TRIBOXES: u32 = 64;

@@ -4,6 +4,7 @@
 //! they meet although they do not, of one of them although a plane parts the hulls with 0.4 % of the diagonal to spare. It missed
 //! none. Here its trees only tell which triangles to look at.
 
+use meshsweep_core::tribox::Pose as CorePose;
 use parry3d::math::{Pose as ParryPose, Vector};
 use parry3d::query::details::intersection_test_support_map_support_map;
 use parry3d::shape::{SupportMap, TriMesh};
@@ -11,6 +12,7 @@ use parry3d::utils::point_cloud_support_point;
 
 use crate::measure::Subject;
 use crate::oracle::meets;
+use crate::oracle::moved::{self, Place};
 
 use super::convex_hull::ConvexHull;
 use super::pose::Pose;
@@ -42,14 +44,33 @@ impl<'a> Surface<'a> {
     /// wholly inside a part of the copy does not meet it.
     #[must_use]
     pub fn meets_moved(&self, pose: &Pose) -> bool {
-        let slack = GROWN * (self.reach + pose.parry.translation.length());
-        let mut candidates = self.tree.bvh().leaf_pairs(self.tree.bvh(), |a, b| {
-            let b = b.aabb().transform_by(&pose.parry);
-            let wide = Vector::splat(slack);
-            a.aabb().mins.cmple(b.maxs + wide).all() && (b.mins - wide).cmple(a.aabb().maxs).all()
-        });
-        candidates
+        self.candidates(&pose.parry)
             .any(|(a, b)| triangles_meet(self.corners(a), self.corners(b).map(|p| pose.apply_rounded(p))))
+    }
+
+    /// The same without rounding: every number of `core` is what it is. `parry` is the same motion up to rounding.
+    #[must_use]
+    pub fn meets_exactly(&self, core: &CorePose, parry: &ParryPose) -> bool {
+        self.candidates(parry).any(|(a, b)| {
+            let first = self.corners(a).map(Place::of);
+            let second = self.corners(b).map(|p| Place::moved(p, &core.rotation, core.translation));
+            moved::triangles_meet(first.each_ref(), second.each_ref())
+        })
+    }
+
+    /// parry3d's shape of the mesh.
+    #[must_use]
+    pub fn shape(&self) -> &TriMesh {
+        &self.tree
+    }
+
+    /// Triangles, and those of the moved copy, whose boxes meet.
+    fn candidates(&self, parry: &ParryPose) -> impl Iterator<Item = (u32, u32)> {
+        let wide = Vector::splat(GROWN * (self.reach + parry.translation.length()));
+        self.tree.bvh().leaf_pairs(self.tree.bvh(), move |a, b| {
+            let b = b.aabb().transform_by(parry);
+            a.aabb().mins.cmple(b.maxs + wide).all() && (b.mins - wide).cmple(a.aabb().maxs).all()
+        })
     }
 
     fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
