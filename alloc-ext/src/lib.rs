@@ -16,6 +16,7 @@ pub mod lp;
 pub mod mesh;
 pub mod precision;
 pub mod sweep;
+pub mod tight;
 pub mod tree;
 pub mod tribox;
 pub mod wrap;

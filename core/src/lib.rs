@@ -44,5 +44,5 @@ pub mod refine;
 pub mod tree;
 pub mod tribox;
 
-pub use blob::{Model, OpenError, Tree, Triboxes};
+pub use blob::{Model, OpenError, TightHull, TightHulls, Tree, Triboxes};
 pub use query::{QueryError, QueueEntry};

@@ -1,6 +1,7 @@
 //! Writing a blob. Same tables, same bytes.
 
 use super::tables::Tables;
+use crate::tight::TightTables;
 use crate::tree::TreeTables;
 use crate::tribox::TriboxTables;
 use glam::Vec3;
@@ -21,13 +22,15 @@ pub struct Parts<'a> {
     pub tree: Option<&'a TreeTables>,
     /// The tribox hierarchy.
     pub triboxes: Option<&'a TriboxTables>,
+    /// The tight hulls.
+    pub tight: Option<&'a TightTables>,
 }
 
 /// A blob of a hull hierarchy, a box tree, or both of the same mesh.
 ///
 /// The sections follow each other as given here; same tables, same bytes. Without either the blob does not open.
 pub fn blob(hull: Option<&Tables>, tree: Option<&TreeTables>) -> Vec<u8> {
-    assemble(&Parts { hull, tree, triboxes: None })
+    assemble(&Parts { hull, tree, ..Parts::default() })
 }
 
 /// A blob of any of its parts; without one it does not open. Same tables, same bytes.
@@ -35,7 +38,12 @@ pub fn assemble(parts: &Parts<'_>) -> Vec<u8> {
     let mut header = match *parts {
         Parts { hull: Some(tables), .. } => tables.header(),
         Parts { tree: Some(tree), .. } => tree_header(tree),
-        Parts { triboxes: Some(triboxes), .. } => triboxes_header(triboxes),
+        Parts { triboxes: Some(of), .. } => {
+            bare_header(of.scale_exponent, of.surface_error, of.input_triangles, of.bounds)
+        }
+        Parts { tight: Some(of), .. } => {
+            bare_header(of.scale_exponent, of.surface_error, of.input_triangles, of.bounds)
+        }
         _ => Tables::default().header(),
     };
     let mut bodies: Vec<(SectionKind, Vec<u8>)> = Vec::new();
@@ -51,19 +59,24 @@ pub fn assemble(parts: &Parts<'_>) -> Vec<u8> {
         debug_assert_eq!(triboxes.scale_exponent, header.scale_exponent, "of another mesh");
         bodies.push((SectionKind::Triboxes, triboxes.section.clone()));
     }
+    if let Some(tight) = parts.tight {
+        header.input_triangles = header.input_triangles.max(tight.input_triangles);
+        bodies.push((SectionKind::TightHulls, tight.section.clone()));
+    }
     bodies.retain(|(_, body)| !body.is_empty());
     join(header, &bodies)
 }
 
-/// The header of a blob that holds triboxes alone.
-fn triboxes_header(triboxes: &TriboxTables) -> Header {
-    let [min, max] = triboxes.bounds.map(Vec3::from_array);
+/// The header of a blob that holds neither hull hierarchy nor box tree.
+fn bare_header(scale_exponent: i32, surface_error: f32, input_triangles: u32, bounds: [[f32; 3]; 2]) -> Header {
+    let [min, max] = bounds.map(Vec3::from_array);
+    let bounds = Aabb { min, max };
     Header {
-        scale_exponent: triboxes.scale_exponent,
-        surface_error: triboxes.surface_error,
-        input_triangles: triboxes.input_triangles,
-        hull_box: Aabb { min, max },
-        surface_box: Aabb { min, max },
+        scale_exponent,
+        surface_error,
+        input_triangles,
+        hull_box: bounds,
+        surface_box: bounds,
         queue_capacity: 0,
         ..Tables::default().header()
     }
@@ -195,7 +208,7 @@ impl Tables {
                     }
                 }
             }
-            // Box tree and triboxes bring their own.
+            // All others bring their own.
             _ => {}
         }
         out

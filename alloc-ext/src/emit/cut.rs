@@ -3,7 +3,7 @@
 use super::bytes::{Parts, assemble};
 use super::tables::Tables;
 use crate::tree::TreeTables;
-use crate::tribox;
+use crate::{tight, tribox};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::SectionKind;
 
@@ -19,6 +19,8 @@ pub enum CutError {
     },
     /// The blob has no triboxes.
     NoTriboxes,
+    /// The blob has no tight hulls.
+    NoTightHulls,
     /// The model is not one that was opened.
     Model,
 }
@@ -35,6 +37,9 @@ impl std::fmt::Display for CutError {
             CutError::NoTriboxes => {
                 write!(f, "the blob has no triboxes to cut: build it with --for triboxes")
             }
+            CutError::NoTightHulls => {
+                write!(f, "the blob has no tight hulls to cut: build it with --for tight")
+            }
             CutError::Model => write!(f, "the blob was not opened"),
         }
     }
@@ -42,24 +47,42 @@ impl std::fmt::Display for CutError {
 
 impl std::error::Error for CutError {}
 
-/// What is left of a blob after a level of its hull hierarchy, or a level of its triboxes, the finest of at most so many; or both.
-///
-/// A box tree cannot be cut: where the hull hierarchy is, it is left out. What nothing is said of stays as it is.
+/// What to keep of a blob; what nothing is said of stays as it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Keep {
+    /// The finest level of the hull hierarchy. A box tree cannot be cut: it is left out.
+    pub level: Option<u32>,
+    /// Of the triboxes the finest level of at most so many.
+    pub triboxes: Option<u32>,
+    /// The tight hulls of at most so many faces, at least the coarsest.
+    pub tight: Option<u32>,
+}
+
+/// What is left of a blob.
 ///
 /// # Errors
 /// [`CutError`] if there is nothing of the kind to cut.
-pub fn cut_blob(model: &Model<'_>, level: Option<u32>, triboxes: Option<u32>) -> Result<Vec<u8>, CutError> {
-    let hull = match level {
+pub fn cut_blob(model: &Model<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
+    let hull = match keep.level {
         Some(level) => Some(cut(model, level)?),
         None if model.has_hull() => Some(Tables::from_model(model).ok_or(CutError::Model)?),
         None => None,
     };
-    let tree = if level.is_none() { tree(model) } else { None };
-    if triboxes.is_some() && model.triboxes().is_none() {
+    let tree = if keep.level.is_none() { tree(model) } else { None };
+    if keep.triboxes.is_some() && model.triboxes().is_none() {
         return Err(CutError::NoTriboxes);
     }
-    let triboxes = tribox::cut(model, triboxes.unwrap_or(u32::MAX));
-    Ok(assemble(&Parts { hull: hull.as_ref(), tree: tree.as_ref(), triboxes: triboxes.as_ref() }))
+    if keep.tight.is_some() && model.tight_hulls().is_none() {
+        return Err(CutError::NoTightHulls);
+    }
+    let triboxes = tribox::cut(model, keep.triboxes.unwrap_or(u32::MAX));
+    let tight = tight::cut(model, keep.tight.unwrap_or(u32::MAX));
+    Ok(assemble(&Parts {
+        hull: hull.as_ref(),
+        tree: tree.as_ref(),
+        triboxes: triboxes.as_ref(),
+        tight: tight.as_ref(),
+    }))
 }
 
 /// The box tree as it stands in a blob.

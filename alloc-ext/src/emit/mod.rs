@@ -5,5 +5,5 @@ mod cut;
 mod tables;
 
 pub use bytes::{Parts, assemble, blob};
-pub use cut::{CutError, cut, cut_blob};
+pub use cut::{CutError, Keep, cut, cut_blob};
 pub use tables::{NodeRecord, SplitRecord, Tables};

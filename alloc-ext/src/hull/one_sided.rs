@@ -13,6 +13,10 @@ use std::collections::BinaryHeap;
 /// The bound may exceed the true distance by this factor.
 const SLACK: f64 = 1.05;
 
+/// A midpoint is rounded, so the halves of a piece miss what they were cut from by up to √3·2^-53 of a coordinate. After so many cuts that this is not
+/// enough, 2^9/√3, a piece is no larger than a rounding.
+const MIDPOINTS: f64 = 1.0 / (1u64 << 44) as f64;
+
 struct Piece {
     bound: f64,
     corners: [DVec3; 3],
@@ -54,11 +58,13 @@ pub struct Farthest {
     pub upper: f64,
 }
 
-/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper` exceeds `lower` by a twentieth where 20,000 queries do for that.
+/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper` exceeds `lower` by a twentieth where 20,000 queries do for that, and by more where it
+/// is not above `enough`.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
 pub fn farthest(
     triangles: impl Iterator<Item = [DVec3; 3]>,
+    enough: f64,
     mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
 ) -> Farthest {
     let mut bound_of = |corners: [DVec3; 3], found: &mut f64| {
@@ -75,15 +81,17 @@ pub fn farthest(
     };
     let mut found = 0f64;
     let mut heap = BinaryHeap::new();
+    let mut size = 0f64;
     for corners in triangles {
+        size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
         let bound = bound_of(corners, &mut found);
         heap.push(Piece { bound, corners });
     }
     // Enough to settle any mesh at hand; what is left over keeps its bound.
     let mut budget = 20_000;
     while let Some(piece) = heap.pop() {
-        if piece.bound <= found * SLACK || budget == 0 || piece.bound == 0.0 {
-            return Farthest { lower: found, upper: piece.bound.max(found) };
+        if piece.bound <= (found * SLACK).max(enough) || budget == 0 || piece.bound == 0.0 {
+            return Farthest { lower: found, upper: piece.bound.max(found) + size * MIDPOINTS };
         }
         budget -= 1;
         for half in bisect(piece.corners) {
@@ -115,7 +123,7 @@ pub fn hull_to_surface(
             triangle: answer.triangle.and_then(&surface),
         })
     };
-    farthest(triangles, nearest).upper
+    farthest(triangles, 0.0, nearest).upper
 }
 
 /// Two halves, cut across the longest edge.

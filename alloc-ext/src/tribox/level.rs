@@ -102,7 +102,7 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Tree<'_>) -> Farthest {
             triangle: corners.map(|corners| corners.map(|p| DVec3::from(p.map(f64::from)))),
         })
     };
-    let Farthest { lower, upper } = farthest(triangles, nearest);
+    let Farthest { lower, upper } = farthest(triangles, 0.0, nearest);
     // What rounding did to the pieces, and slivers that are missing.
     Farthest { lower: (lower - margin(size)).max(0.0), upper: upper + margin(size) }
 }

@@ -9,8 +9,9 @@ use super::slack::slack;
 use super::start::{First, first_box, first_closure, first_level};
 use super::work::{Shape, Work};
 use crate::mesh::{Mesh, require_closed_manifold};
-use crate::precision::{Stored, store};
+use crate::precision::{Stored, VertexBits, store};
 use glam::DVec3;
+use meshsweep_core::num::exp2;
 use std::time::Instant;
 
 /// A hull and what is known of it.
@@ -56,6 +57,9 @@ pub fn wrap(
     }
     let stored = store(mesh, options.vertex_bits);
     let rounding = Rounding::new(stored.grid, stored.scale_exponent);
+    // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where it is.
+    let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
+    let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
     let obstacle = Obstacle::new(&positions, &mesh.triangles);
     let solid = solid && volume > 0.0;
     let mut builder = Builder {

@@ -35,9 +35,11 @@ mod rounding;
 mod shell;
 mod slack;
 mod start;
+mod surface;
 mod vertex;
 mod work;
 
 pub use build::{Hull, wrap};
 pub use options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError};
 pub use parts::parts;
+pub use surface::Surface;

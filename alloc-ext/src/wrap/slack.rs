@@ -6,7 +6,7 @@ use crate::hull::{Farthest, Nearest, farthest};
 
 /// Bounds of the largest distance from a point of the hull to the mesh. Cost: see [`farthest`].
 pub(super) fn slack(shell: &Shell, obstacle: &Obstacle) -> Farthest {
-    farthest(shell.alive().map(|f| shell.triangle(f)), |p| {
+    farthest(shell.alive().map(|f| shell.triangle(f)), 0.0, |p| {
         let (triangle, [lower, upper]) = obstacle.nearest(p)?;
         Some(Nearest { lower, upper, triangle: Some(triangle) })
     })

@@ -6,7 +6,7 @@ pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
 pub const VERSION_MAJOR: u16 = 1;
 /// A reader accepts any minor version: additions that an older reader may ignore.
-pub const VERSION_MINOR: u16 = 2;
+pub const VERSION_MINOR: u16 = 3;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
 /// Offset of the header's own CRC, which covers the header with this field skipped, and the section table.
@@ -72,6 +72,13 @@ pub const MAX_TRIBOXES: u32 = 1 << 15;
 /// Flag of the tribox hierarchy: the mesh bounds a solid, and the triboxes hold its inside too.
 pub const TRIBOXES_SOLID: u32 = 1;
 
+/// Bytes of the header of the tight hulls.
+pub const TIGHT_BYTES: usize = 8;
+/// Bytes of the record of a tight hull.
+pub const TIGHT_HULL_BYTES: usize = 24;
+/// Flag of the tight hulls: each encloses all that follow it.
+pub const TIGHT_NESTED: u32 = 1;
+
 /// What a section holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
@@ -114,11 +121,13 @@ pub enum SectionKind {
     TreeCones = 18,
     /// A hierarchy of triboxes that hold the mesh: unions of 1, 2, 4, … of them.
     Triboxes = 19,
+    /// Tight hulls of the mesh, each a blob with a box tree of its own, and how far its faces are from the mesh.
+    TightHulls = 20,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 19] = [
+    pub const ALL: [SectionKind; 20] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -138,6 +147,7 @@ impl SectionKind {
         SectionKind::TreeSource,
         SectionKind::TreeCones,
         SectionKind::Triboxes,
+        SectionKind::TightHulls,
     ];
 
     /// Whether the section belongs to the hull hierarchy.
@@ -147,7 +157,7 @@ impl SectionKind {
 
     /// Whether the section belongs to the box tree.
     pub fn is_tree(self) -> bool {
-        !self.is_hull() && self != SectionKind::Triboxes
+        !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32
     }
 
     /// The kind's name as `info` prints it.
@@ -172,6 +182,7 @@ impl SectionKind {
             SectionKind::TreeSource => "tree source numbers",
             SectionKind::TreeCones => "tree normal cones",
             SectionKind::Triboxes => "triboxes",
+            SectionKind::TightHulls => "tight hulls",
         }
     }
 }

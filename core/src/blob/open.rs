@@ -5,6 +5,7 @@ use super::layout::SectionKind;
 use super::model::{Model, Vertices, Widths};
 use super::read::Bytes;
 use super::sections::{Section, place_sections, read_header, section};
+use super::tight::TightHulls;
 use super::tree::Tree;
 use super::triboxes::Triboxes;
 
@@ -13,7 +14,8 @@ impl<'a> Model<'a> {
     /// queries rely on. Any bytes are safe to open.
     ///
     /// Cost: linear in the blob, no allocation; once per start, not per query. Alignment of `bytes` does not matter.
-    /// A program that only asks the box tree links less code with [`Tree::open`], one that only asks triboxes with [`Triboxes::open`].
+    /// A program that only asks the box tree links less code with [`Tree::open`], one that only asks triboxes with [`Triboxes::open`],
+    /// one that only asks tight hulls with [`TightHulls::open`].
     ///
     /// # Errors
     /// [`OpenError`] says what was wanted and what was found.
@@ -58,7 +60,11 @@ impl<'a> Model<'a> {
         if has(SectionKind::Triboxes) {
             Triboxes::open(bytes)?;
         }
-        if (has(SectionKind::Tree) || has(SectionKind::Triboxes)) && !model.has_hull() {
+        if has(SectionKind::TightHulls) {
+            TightHulls::open(bytes)?;
+        }
+        let others = [SectionKind::Tree, SectionKind::Triboxes, SectionKind::TightHulls];
+        if others.into_iter().any(has) && !model.has_hull() {
             model.check_without_hull()?;
         } else {
             model.check()?;
@@ -83,7 +89,13 @@ impl<'a> Model<'a> {
         Triboxes::view(self.bytes.0).ok()
     }
 
-    /// Whether the blob has a hull hierarchy and cover tree. Without, [`tree`](Self::tree) or [`triboxes`](Self::triboxes) are there.
+    /// The tight hulls, if the blob has them.
+    pub fn tight_hulls(&self) -> Option<TightHulls<'a>> {
+        // `open` has checked them.
+        TightHulls::view(self.bytes.0).ok()
+    }
+
+    /// Whether the blob has a hull hierarchy and cover tree. Without, [`tree`](Self::tree), [`triboxes`](Self::triboxes) or [`tight_hulls`](Self::tight_hulls) are there.
     pub fn has_hull(&self) -> bool {
         self.header.nodes != 0
     }

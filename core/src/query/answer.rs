@@ -58,6 +58,16 @@ pub struct Work {
 }
 
 impl Work {
+    /// What this and another search did together.
+    pub(super) fn and(self, other: Work) -> Work {
+        Work {
+            nodes: self.nodes.saturating_add(other.nodes),
+            triangles: self.triangles.saturating_add(other.triangles),
+            exact: self.exact.saturating_add(other.exact),
+            splits: self.splits.saturating_add(other.splits),
+        }
+    }
+
     /// One number for a column: everything tested and opened.
     pub fn total(&self) -> u32 {
         self.nodes.saturating_add(self.triangles).saturating_add(self.exact).saturating_add(self.splits)

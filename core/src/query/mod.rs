@@ -7,6 +7,7 @@
 //! | all hits of a segment | [`all_hits`] | cover tree |
 //! | all of these and more, faster | [`tree`] | box tree over triangle fans |
 //! | are two moved models apart; bounds without triangles | [`tribox`] | tribox hierarchy (Crosnier & Rossignac 1999, 4) |
+//! | distance of a part that is known by its hull alone | [`tight`] | box tree of a tight hull |
 //! | hits of a segment from outside | [`outer_hits`] | selectively refined hull (Platis & Theoharis 2003, 3.2) |
 
 mod answer;
@@ -15,6 +16,7 @@ mod frame;
 mod frontier;
 mod outer_hits;
 mod segment;
+pub mod tight;
 pub mod tree;
 pub mod tribox;
 

@@ -1,14 +1,16 @@
 //! `meshsweep build`: a mesh file in, a blob and a report out.
 
-use super::args::{BuildArgs, StoredBits};
+use super::args::{BuildArgs, HullServes, StoredBits};
 use super::counted::Counted;
 use super::describe;
 use super::failure::Failure;
+use super::hull::{WrapBars, write_start};
 use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
 use meshsweep_alloc::collapse::Stuck;
 use meshsweep_alloc::hull::{self, BuildError, BuildOptions, BuildReport, Built};
+use meshsweep_alloc::tight::{self, ChainOptions, HullReport, Stage, TightTables};
 use meshsweep_alloc::tree::{self, TreeOptions};
 use meshsweep_alloc::tribox::{self, TriboxReport, TriboxTables};
 use meshsweep_alloc::{emit, emit::Parts, precision::VertexBits};
@@ -34,6 +36,13 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     if args.triboxes.is_some() && !wanted.triboxes {
         return Err(Failure::Usage { what: "--triboxes is for triboxes; add triboxes to --for".to_owned() });
     }
+    if let Some(option) = args.tight_option().filter(|_| !wanted.tight) {
+        return Err(Failure::Usage { what: format!("{option} is for tight hulls; add tight to --for") });
+    }
+    if args.tight.len() > tight::MAX_HULLS {
+        let what = format!("--tight takes at most {} numbers of faces", tight::MAX_HULLS);
+        return Err(Failure::Usage { what });
+    }
     refuse_same_file(&args.output, &[&args.mesh])?;
     Output::probe(&args.output)?;
     let loaded = if wanted.hull {
@@ -50,16 +59,18 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         ..TreeOptions::default()
     };
     let triangles = loaded.mesh.triangles.len();
-    if (wanted.tree() || wanted.triboxes) && triangles > tree::MAX_TRIANGLES {
+    if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > tree::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
     let tree =
         wanted.tree().then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
     let triboxes = if wanted.triboxes { Some(build_triboxes(args, &loaded)?) } else { None };
+    let tight = if wanted.tight { Some(build_tight(args, &loaded)?) } else { None };
     let bytes = emit::assemble(&Parts {
         hull: hull.as_ref().map(|hull| &hull.tables),
         tree: tree.as_ref().map(|(tables, _)| tables),
         triboxes: triboxes.as_ref().map(|(tables, _)| tables),
+        tight: tight.as_ref().map(|(tables, _)| tables),
     });
     // What does not open must not be handed out.
     let model = Model::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
@@ -70,6 +81,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         hull: hull.as_ref().map(|hull| &hull.report),
         tree_time: tree.as_ref().map(|(_, report)| report.time),
         tribox_time: triboxes.as_ref().map(|(_, report)| report.time),
+        tight: tight.as_ref().map(|(_, reports)| reports.as_slice()),
         model: &model,
     };
     Output::stdout().finish(|out| report.write(out))
@@ -96,6 +108,25 @@ fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(TriboxTables, Tr
         .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })
 }
 
+fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(TightTables, Vec<HullReport>), Failure> {
+    let Loaded { mesh, moved, input_triangles, .. } = loaded;
+    let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
+    let options = ChainOptions {
+        faces: args.tight.iter().map(|&faces| faces as usize).collect(),
+        nested: args.nested,
+        effort: args.effort.unwrap_or(1.0),
+        vertex_bits: args.vertex_bits.format(),
+        closest: asked(HullServes::Closest),
+        segments: asked(HullServes::Segment),
+    };
+    let mut bars = WrapBars::default();
+    tight::chain(mesh, *moved, *input_triangles, &options, |stage| match stage {
+        Stage::Wrapping { progress, .. } => bars.show(progress),
+        Stage::Certifying => bars = WrapBars::default(),
+    })
+    .map_err(|error| Failure::Wrap { file: args.mesh.clone(), error })
+}
+
 fn failed(args: &BuildArgs, error: BuildError) -> Failure {
     Failure::Build { file: args.mesh.clone(), error }
 }
@@ -107,12 +138,13 @@ struct Report<'a> {
     hull: Option<&'a BuildReport>,
     tree_time: Option<Duration>,
     tribox_time: Option<Duration>,
+    tight: Option<&'a [HullReport]>,
     model: &'a Model<'a>,
 }
 
 impl Report<'_> {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Report { args, loaded, hull, tree_time, tribox_time, model } = self;
+        let Report { args, loaded, hull, tree_time, tribox_time, tight, model } = self;
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
@@ -132,6 +164,9 @@ impl Report<'_> {
             }
         }
         describe::write_blob(out, model)?;
+        for report in tight.iter().copied().flatten() {
+            write_tight(out, report)?;
+        }
         write!(out, "seconds: read and repair {:.3}", loaded.time.as_secs_f64())?;
         if let Some(report) = hull {
             write!(
@@ -149,8 +184,26 @@ impl Report<'_> {
         if let Some(time) = tribox_time {
             write!(out, ", triboxes {:.3}", time.as_secs_f64())?;
         }
+        if let Some(reports) = tight {
+            let time: Duration = reports.iter().map(|report| report.time).sum();
+            write!(out, ", tight hulls {:.3}", time.as_secs_f64())?;
+        }
         writeln!(out)
     }
+}
+
+/// What the table of tight hulls does not say.
+fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
+    if let (Some(void), Some(free)) = (report.void, report.free_void) {
+        writeln!(
+            out,
+            "  tight hull of {}: {:.3} % void space, {:.3} % if it did not enclose the finer ones",
+            Counted(report.wrapped.faces, "face"),
+            void * 100.0,
+            free * 100.0
+        )?;
+    }
+    write_start(out, &report.wrapped)
 }
 
 /// Why a hull has more faces than `wanted`.

@@ -9,6 +9,7 @@ use super::queries::Queries;
 use super::served::{self, Need};
 use super::stop::Tally;
 use super::threads;
+use meshsweep_core::query::tight;
 use meshsweep_core::query::tree::{BatchError, Hint, closest_points};
 use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Work, closest_point};
 use std::io::{self, Write};
@@ -36,12 +37,27 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let bytes = blob_file::read(blob)?;
     let model = blob_file::open(blob, &bytes)?;
     let tree_chosen = args.engine.map(|engine| engine == ClosestEngine::Tree);
-    let tree = served::choose(blob, &model, Need::Distances, tree_chosen)?;
+    let hull = match tree_chosen {
+        Some(_) => None,
+        None => served::tight_hull(blob, &model, args.tight)?,
+    };
+    let tree = match hull {
+        Some(_) => None,
+        None => served::choose(blob, &model, Need::Distances, tree_chosen)?,
+    };
     let mut points = Queries::points(&args.input.points)?;
     let output = Output::file_or_stdout(output)?;
     let stop = args.search.stop(args.rel, args.abs);
-    let asked = match tree {
-        Some(tree) => threads::ask_batches(&points, args.search.threads, BATCH, || {
+    let asked = match (hull, tree) {
+        (Some(hull), _) => threads::ask(&points, args.search.threads, || {
+            let mut stack = args.search.stack(hull.tree());
+            move |_, point, answers: &mut Vec<ClosestPoint>| {
+                let answer = tight::closest_point(&hull, point, &stop, &mut stack)?;
+                answers.push(answer);
+                Ok((answer.ended, answer.work))
+            }
+        }),
+        (None, Some(tree)) => threads::ask_batches(&points, args.search.threads, BATCH, || {
             let mut stack = args.search.stack(&tree);
             let mut order = vec![0; 2 * BATCH.min(points.rows.len())];
             move |first, rows: &[[f32; 3]], answers: &mut Vec<ClosestPoint>, tally: &mut Tally| {
@@ -57,7 +73,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
                 done.map_err(|error| refused(first, error))
             }
         }),
-        None => threads::ask(&points, args.search.threads, || {
+        (None, None) => threads::ask(&points, args.search.threads, || {
             let mut queue = args.search.queue(&model);
             let model = &model;
             move |_, point, answers: &mut Vec<ClosestPoint>| {
@@ -89,7 +105,7 @@ fn write_row(out: &mut dyn Write, [x, y, z]: &[f32; 3], answer: &ClosestPoint) -
     for number in [x, y, z, lower, upper, px, py, pz] {
         write!(out, "{},", Short(*number))?;
     }
-    // A cut blob knows no triangles of the file.
+    // A cut blob and a tight hull know no triangles of the file.
     if let Some(triangle) = triangle {
         write!(out, "{triangle}")?;
     }

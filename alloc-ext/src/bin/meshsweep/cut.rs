@@ -5,7 +5,7 @@ use super::counted::Counted;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::{blob_file, served};
-use meshsweep_alloc::emit;
+use meshsweep_alloc::emit::{self, Keep};
 use meshsweep_core::Model;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {
@@ -15,7 +15,11 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
     if args.level.is_some() {
         served::require_hull(&args.blob, &model)?;
     }
-    let cut = emit::cut_blob(&model, args.level, args.triboxes)
+    if let Some(faces) = args.tight {
+        served::require_tight(&args.blob, &model, faces)?;
+    }
+    let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
+    let cut = emit::cut_blob(&model, &keep)
         .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
     // What does not open must not be handed out.
     let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
@@ -29,6 +33,9 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         }
         if let Some(triboxes) = left.triboxes().filter(|_| args.triboxes.is_some()) {
             write!(out, ", {}", Counted(triboxes.leaf_count(), "tribox"))?;
+        }
+        if let Some(hulls) = left.tight_hulls().filter(|_| args.tight.is_some()) {
+            write!(out, ", {}", Counted(hulls.count(), "tight hull"))?;
         }
         writeln!(out)?;
         match model.tree().filter(|_| args.level.is_some()) {

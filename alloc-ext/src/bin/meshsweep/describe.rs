@@ -2,11 +2,13 @@
 
 mod hull;
 mod shape;
+mod tight;
 mod tree;
 mod triboxes;
 
 pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
 pub use shape::Shape;
+pub use tight::as_json as tight_as_json;
 pub use tree::{bounds, half_widths, stack_bytes, tree_format_name, tree_surface_error};
 pub use triboxes::as_json as triboxes_as_json;
 
@@ -60,7 +62,18 @@ fn hierarchy(kind: SectionKind) -> &'static str {
     } else if kind.is_tree() {
         "box tree"
     } else {
-        "triboxes"
+        // One section each.
+        kind.name()
+    }
+}
+
+/// The same for machines.
+pub fn hierarchy_key(kind: SectionKind) -> &'static str {
+    match hierarchy(kind) {
+        "hull hierarchy" => "hull",
+        "box tree" => "tree",
+        "tight hulls" => "tight_hulls",
+        other => other,
     }
 }
 
@@ -73,14 +86,13 @@ fn write_sections(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     let header = model.header().header_bytes as usize;
     line("header", header)?;
     let mut all = 0;
-    for title in ["hull hierarchy", "box tree", "triboxes"] {
+    for title in ["hull hierarchy", "box tree", "triboxes", "tight hulls"] {
         let of_kind = || model.sections().filter(|section| hierarchy(section.kind) == title);
         let bytes: usize = of_kind().map(|section| section.bytes as usize).sum();
         if bytes == 0 {
             continue;
         }
         line(title, bytes)?;
-        // Triboxes are one section.
         for section in of_kind().filter(|section| section.kind.name() != title) {
             line(&format!("  {}", section.kind.name()), section.bytes as usize)?;
         }
@@ -101,5 +113,8 @@ pub fn write_blob(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     if let Some(tree) = model.tree() {
         tree::write(out, &tree, diagonal(model))?;
     }
-    model.triboxes().map_or(Ok(()), |triboxes| triboxes::write(out, &triboxes))
+    if let Some(triboxes) = model.triboxes() {
+        triboxes::write(out, &triboxes)?;
+    }
+    model.tight_hulls().map_or(Ok(()), |hulls| tight::write(out, &hulls))
 }

@@ -45,6 +45,8 @@ pub enum Failure {
     Cut { file: PathBuf, error: CutError },
     /// The blob was built without what the question needs; another engine may have it.
     NotServed { file: PathBuf, need: Need, other: Option<&'static str> },
+    /// All tight hulls of the blob have more faces.
+    NoTightHull { file: PathBuf, faces: u32, least: u32 },
     /// The hull engine cannot say anything about this blob.
     HullEngine { file: PathBuf, reason: &'static str },
     /// The mesh is beyond what triboxes can hold.
@@ -196,6 +198,11 @@ impl fmt::Display for Failure {
                 write!(f, "{}: has no {part}; build it again with --for {option}", file.display())?;
                 other.map_or(Ok(()), |engine| write!(f, ", or use --engine {engine}"))
             }
+            Failure::NoTightHull { file, faces, least } => write!(
+                f,
+                "{}: has no tight hull of {faces} faces or fewer: the coarsest has {least}",
+                file.display()
+            ),
             Failure::NotClosed { file } => write!(
                 f,
                 "{}: was built from a mesh that is not closed, so inside and outside are not defined; leave out --signed",

@@ -12,6 +12,7 @@ use super::{mesh_file, served};
 use meshsweep_alloc::emit::CutError;
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, write_ply};
+use meshsweep_alloc::tight::hull_mesh as tight_mesh;
 use meshsweep_core::Model;
 use meshsweep_core::blob::{Level, VertIdx};
 use meshsweep_core::refine::hull_faces;
@@ -19,6 +20,8 @@ use std::path::Path;
 use std::time::Instant;
 
 mod tight;
+
+pub use tight::{WrapBars, write_start};
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
@@ -40,22 +43,46 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             args.input.display()
         )),
         Some(level) => of_blob(args, level),
-        None if is_blob && (args.faces.is_some() || args.void.is_some() || args.slack.is_some()) => {
-            usage(format!(
-                "{}: --faces, --void and --slack are for a mesh; choose a hull of a blob with --level",
-                args.input.display()
-            ))
-        }
-        None if is_blob => usage(format!(
-            "{}: a blob holds several hulls; choose one with --level (meshsweep info lists them)",
+        None if args.tight.is_some() && !is_blob && named_as_mesh => usage(format!(
+            "{}: is a mesh, and --tight is for a blob; give --faces",
             args.input.display()
         )),
-        None if args.nested => of_mesh(args, args.faces.unwrap_or(FACES)),
-        None => match args.nested_option() {
-            Some(option) => usage(format!("{option} is for the progressive hull; give --nested too")),
+        None if is_blob || args.tight.is_some() => blob_without_level(args),
+        None if args.progressive => of_mesh(args, args.faces.unwrap_or(FACES)),
+        None => match args.progressive_option() {
+            Some(option) => usage(format!("{option} is for the progressive hull; give --progressive too")),
             None => tight::run(args, args.faces.unwrap_or(FACES)),
         },
     }
+}
+
+/// A tight hull of a blob, or why none.
+fn blob_without_level(args: &HullArgs) -> Result<(), Failure> {
+    let usage = |what: &str| Err(Failure::Usage { what: format!("{}: {what}", args.input.display()) });
+    if let Some(faces) = args.tight {
+        return tight_of_blob(args, faces);
+    }
+    if args.faces.is_some() || args.void.is_some() || args.slack.is_some() {
+        return usage("--faces, --void and --slack are for a mesh; choose a hull of a blob with --level or --tight");
+    }
+    usage("a blob holds several hulls; choose one with --level or --tight (meshsweep info lists them)")
+}
+
+fn tight_of_blob(args: &HullArgs, faces: u32) -> Result<(), Failure> {
+    let bytes = blob_file::read(&args.input)?;
+    let model = blob_file::open(&args.input, &bytes)?;
+    let hull = served::require_tight(&args.input, &model, faces)?;
+    write_hull(&args.output, &tight_mesh(&hull))?;
+    Output::stdout().finish(|out| {
+        let record = hull.record();
+        writeln!(
+            out,
+            "{}: {}, at most {} from the mesh",
+            args.output.display(),
+            Counted(record.faces, "face"),
+            Length(record.slack)
+        )
+    })
 }
 
 fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {

@@ -60,7 +60,7 @@ fn as_json(model: &Model<'_>) -> Value {
             json!({
                 "name": s.kind.name(),
                 "kind": s.kind as u32,
-                "hierarchy": if s.kind.is_tree() { "tree" } else if s.kind.is_hull() { "hull" } else { "triboxes" },
+                "hierarchy": describe::hierarchy_key(s.kind),
                 "offset": s.offset,
                 "bytes": s.bytes,
                 "bytes_per_triangle": f64::from(s.bytes) / f64::from(describe::triangles(model)),
@@ -80,6 +80,7 @@ fn as_json(model: &Model<'_>) -> Value {
         "hull": model.has_hull().then(|| hull_as_json(model)),
         "tree": model.tree().map(|tree| tree_as_json(&tree, describe::diagonal(model))),
         "triboxes": model.triboxes().map(|triboxes| describe::triboxes_as_json(&triboxes)),
+        "tight_hulls": model.tight_hulls().map(|hulls| describe::tight_as_json(&hulls)),
     })
 }
 

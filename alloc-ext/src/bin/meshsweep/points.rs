@@ -47,21 +47,33 @@ pub trait Question: Clone + Sync {
 
 /// Asks `question` about every point of the file.
 pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, question: &Q) -> Result<(), Failure> {
-    let output = search.output.as_deref();
-    if let Some(output) = output {
-        refuse_same_file(output, &input.files())?;
-    }
+    refuse_blob_as_output(input, search)?;
     let bytes = blob_file::read(&input.blob)?;
     let model = blob_file::open(&input.blob, &bytes)?;
     let tree = served::require_tree(&input.blob, &model, Need::Distances)?;
+    ask(input, search, &tree, question)
+}
+
+pub fn refuse_blob_as_output(input: &PointArgs, search: &SearchArgs) -> Result<(), Failure> {
+    search.output.as_deref().map_or(Ok(()), |output| refuse_same_file(output, &input.files()))
+}
+
+/// The same of a tree that was chosen before.
+pub fn ask<Q: Question>(
+    input: &PointArgs,
+    search: &SearchArgs,
+    tree: &Tree<'_>,
+    question: &Q,
+) -> Result<(), Failure> {
+    let output = search.output.as_deref();
     let mut points = Queries::points(&input.points)?;
     let output = Output::file_or_stdout(output)?;
     let stop = search.stop(0.0, 0.0);
     let asked = threads::ask(&points, search.threads, || {
         let mut question = question.clone();
-        let mut stack = search.stack(&tree);
+        let mut stack = search.stack(tree);
         move |_, point, answers: &mut Vec<Q::Answer>| {
-            let answer = question.ask(&tree, point, &stop, &mut stack)?;
+            let answer = question.ask(tree, point, &stop, &mut stack)?;
             let outcome = Q::outcome(&answer);
             answers.push(answer);
             Ok(outcome)
@@ -73,7 +85,7 @@ pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, question: &Q) ->
         let mut rows = points.rows.iter().zip(&asked.answers).enumerate();
         rows.try_for_each(|(query, (point, answer))| question.write(out, query, point, answer))
     })?;
-    question.remark(&input.blob, &tree);
+    question.remark(&input.blob, tree);
     search.note(&asked);
     Ok(())
 }

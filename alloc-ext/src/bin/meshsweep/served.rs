@@ -1,7 +1,7 @@
 //! Which questions a blob answers, and by which of its hierarchies.
 
 use super::failure::Failure;
-use meshsweep_core::{Model, Tree};
+use meshsweep_core::{Model, TightHull, Tree};
 use std::path::Path;
 
 /// Names of the questions that `model` serves, as the commands are called.
@@ -10,9 +10,10 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
     let tree = tree.as_ref();
     let distances = tree.is_some_and(Tree::serves_distances);
     let hull = model.has_hull();
+    let tight = finest_tight(model).is_some_and(|hull| hull.tree().serves_distances());
     [
-        ("closest", distances || hull),
-        ("within", distances),
+        ("closest", distances || hull || tight),
+        ("within", distances || tight),
         ("nearest", distances),
         ("field", distances),
         ("signed", distances && tree.is_some_and(|tree| tree.header().is_closed())),
@@ -20,8 +21,9 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
         ("overlap", tree.is_some_and(Tree::serves_segments)),
         ("cull", tree.is_some_and(Tree::serves_culling)),
         ("hull --level", hull),
+        ("hull --tight", model.tight_hulls().is_some()),
         ("triboxes", model.triboxes().is_some()),
-        ("cut", hull || model.triboxes().is_some()),
+        ("cut", hull || model.triboxes().is_some() || model.tight_hulls().is_some()),
     ]
     .into_iter()
     .filter_map(|(question, serves)| serves.then_some(question))
@@ -35,6 +37,7 @@ pub enum Need {
     Segments,
     Culling,
     Hull,
+    Tight,
 }
 
 impl Need {
@@ -45,6 +48,7 @@ impl Need {
             Need::Segments => "box tree for segments",
             Need::Culling => "box tree with normal cones",
             Need::Hull => "hull hierarchy",
+            Need::Tight => "tight hulls",
         }
     }
 
@@ -55,6 +59,7 @@ impl Need {
             Need::Segments => "segment",
             Need::Culling => "cull",
             Need::Hull => "hull",
+            Need::Tight => "tight",
         }
     }
 }
@@ -65,13 +70,42 @@ pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Tree<'a>> {
         Need::Distances => tree.serves_distances(),
         Need::Segments => tree.serves_segments(),
         Need::Culling => tree.serves_culling(),
-        Need::Hull => false,
+        Need::Hull | Need::Tight => false,
     })
 }
 
 /// The blob's tree for `need`.
 pub fn require_tree<'a>(file: &Path, model: &Model<'a>, need: Need) -> Result<Tree<'a>, Failure> {
     tree(model, need).ok_or_else(|| Failure::NotServed { file: file.to_owned(), need, other: None })
+}
+
+fn finest_tight<'a>(model: &Model<'a>) -> Option<TightHull<'a>> {
+    model.tight_hulls()?.finest()
+}
+
+/// The finest tight hull of at most so many faces. Where nothing is said of faces, the finest of all if nothing else in the blob knows distances.
+pub fn tight_hull<'a>(
+    file: &Path,
+    model: &Model<'a>,
+    faces: Option<u32>,
+) -> Result<Option<TightHull<'a>>, Failure> {
+    let Some(faces) = faces else {
+        let others = model.has_hull() || tree(model, Need::Distances).is_some();
+        return Ok(finest_tight(model).filter(|_| !others));
+    };
+    require_tight(file, model, faces).map(Some)
+}
+
+/// The finest tight hull of at most so many faces.
+pub fn require_tight<'a>(file: &Path, model: &Model<'a>, faces: u32) -> Result<TightHull<'a>, Failure> {
+    let refuse = || Failure::NotServed { file: file.to_owned(), need: Need::Tight, other: None };
+    let hulls = model.tight_hulls().ok_or_else(refuse)?;
+    let count = hulls.records().take_while(|record| record.faces <= faces).count();
+    let Some(index) = count.checked_sub(1) else {
+        let least = hulls.records().next().map_or(0, |record| record.faces);
+        return Err(Failure::NoTightHull { file: file.to_owned(), faces, least });
+    };
+    hulls.get(index as u32).ok_or_else(refuse)
 }
 
 /// That the blob has a hull hierarchy.

@@ -4,10 +4,14 @@ use super::args::WithinArgs;
 use super::csv::Short;
 use super::failure::Failure;
 use super::points::{self, Question};
-use meshsweep_core::Tree;
+use super::{blob_file, served};
+use meshsweep_core::query::tight;
 use meshsweep_core::query::tree::{AllWithin, Near, TreeEntry, Verdict, Within, all_within, is_within};
 use meshsweep_core::query::{Ended, QueryError, Stop, Work};
+use meshsweep_core::{TightHull, Tree};
 use std::io::{self, Write};
+
+const HEADER: &str = "x,y,z,within,triangle,work";
 
 /// Triangles that fit at first; a point with more is asked again with as much room as it needs.
 const TRIANGLES: usize = 64;
@@ -18,7 +22,63 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
         let found = vec![Near::EMPTY; TRIANGLES];
         points::run(&args.input, &args.search, &All { distance, found })
     } else {
-        points::run(&args.input, &args.search, &Any { distance })
+        let blob = &args.input.blob;
+        points::refuse_blob_as_output(&args.input, &args.search)?;
+        let bytes = blob_file::read(blob)?;
+        let model = blob_file::open(blob, &bytes)?;
+        match served::tight_hull(blob, &model, args.tight)? {
+            Some(hull) => points::ask(&args.input, &args.search, hull.tree(), &ByHull { hull, distance }),
+            None => points::ask(
+                &args.input,
+                &args.search,
+                &served::require_tree(blob, &model, served::Need::Distances)?,
+                &Any { distance },
+            ),
+        }
+    }
+}
+
+/// Whether the part that a tight hull encloses is within the distance.
+#[derive(Clone)]
+struct ByHull<'a> {
+    hull: TightHull<'a>,
+    distance: f32,
+}
+
+impl Question for ByHull<'_> {
+    type Answer = tight::Within;
+
+    fn header(&self) -> &'static str {
+        HEADER
+    }
+
+    fn ask(
+        &mut self,
+        _: &Tree<'_>,
+        point: [f32; 3],
+        stop: &Stop,
+        stack: &mut [TreeEntry],
+    ) -> Result<tight::Within, QueryError> {
+        tight::is_within(&self.hull, point, self.distance, stop, stack)
+    }
+
+    fn outcome(answer: &tight::Within) -> (Ended, Work) {
+        (answer.ended, answer.work)
+    }
+
+    fn write(
+        &self,
+        out: &mut dyn Write,
+        _: usize,
+        [x, y, z]: &[f32; 3],
+        answer: &tight::Within,
+    ) -> io::Result<()> {
+        let verdict = match answer.verdict {
+            tight::Verdict::Yes => "yes",
+            tight::Verdict::No => "no",
+            tight::Verdict::Unknown => "unknown",
+        };
+        writeln!(out, "{},{},{},{verdict},,{}", Short(*x), Short(*y), Short(*z), answer.work.total())
     }
 }
 
@@ -32,7 +92,7 @@ impl Question for Any {
     type Answer = Within;
 
     fn header(&self) -> &'static str {
-        "x,y,z,within,triangle,work"
+        HEADER
     }
 
     fn ask(

@@ -58,6 +58,10 @@ pub struct ClosestArgs {
     /// tree, the box tree; or cover (hull does as well), the hull hierarchy's cover tree [default: tree if the blob has one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<ClosestEngine>,
+    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh within [default: the finest of all, if
+    /// the blob knows distances by nothing else]
+    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "engine")]
+    pub tight: Option<u32>,
     #[command(flatten)]
     pub search: SearchArgs,
 }
@@ -80,6 +84,10 @@ pub struct WithinArgs {
     /// (from 0) in front
     #[arg(long)]
     pub all: bool,
+    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh within [default: the finest of all, if
+    /// the blob knows distances by nothing else]
+    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "all")]
+    pub tight: Option<u32>,
     #[command(flatten)]
     pub search: SearchArgs,
 }

@@ -31,8 +31,32 @@ pub struct BuildArgs {
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, MAX_TRIBOXES>)]
     pub triboxes: Option<u32>,
+    /// Faces of each tight hull, with --for tight [default: 200]
+    #[arg(long, value_name = "FACES", value_delimiter = ',', allow_negative_numbers = true, value_parser = whole::<4, MAX_TIGHT>)]
+    pub tight: Vec<u32>,
+    /// Each tight hull encloses all finer ones
+    #[arg(long)]
+    pub nested: bool,
+    /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default: 1]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor)]
+    pub effort: Option<f64>,
+    /// What tight hulls will be asked themselves [default: closest,segment]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "QUESTIONS")]
+    pub tight_for: Vec<HullServes>,
     #[command(flatten)]
     pub collapse: CollapseArgs,
+}
+
+/// Most faces of a tight hull that is stored.
+const MAX_TIGHT: u32 = 1_000_000;
+
+/// Questions to a tight hull.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum HullServes {
+    /// Distances of the mesh within
+    Closest,
+    /// Segments, and overlap of hulls
+    Segment,
 }
 
 /// Most triboxes that are worth the time.
@@ -45,6 +69,7 @@ pub enum Serves {
     Hull,
     Cull,
     Triboxes,
+    Tight,
 }
 
 /// What a blob has to serve.
@@ -55,6 +80,7 @@ pub struct Wanted {
     pub hull: bool,
     pub cull: bool,
     pub triboxes: bool,
+    pub tight: bool,
 }
 
 impl Wanted {
@@ -73,7 +99,20 @@ impl BuildArgs {
             hull: has(Serves::Hull),
             cull: has(Serves::Cull),
             triboxes: has(Serves::Triboxes),
+            tight: has(Serves::Tight),
         }
+    }
+
+    /// The first option given that only tight hulls heed.
+    pub fn tight_option(&self) -> Option<&'static str> {
+        [
+            ("--tight", !self.tight.is_empty()),
+            ("--nested", self.nested),
+            ("--effort", self.effort.is_some()),
+            ("--tight-for", !self.tight_for.is_empty()),
+        ]
+        .into_iter()
+        .find_map(|(option, given)| given.then_some(option))
     }
 
     /// The first option given that only a hull heeds.
@@ -180,7 +219,7 @@ pub struct InfoArgs {
 
 #[derive(Debug, Args)]
 pub struct HullArgs {
-    /// Mesh file; or blob file, with --level
+    /// Mesh file; or blob file, with --level or --tight
     pub input: PathBuf,
     /// PLY file to write
     #[arg(short, long, value_name = "PLY")]
@@ -189,34 +228,46 @@ pub struct HullArgs {
     #[arg(long, allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
     pub faces: Option<u32>,
     /// Fewest faces that leave at most this void space, in percent of the mesh's volume
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "nested"])]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "progressive"])]
     pub void: Option<f64>,
     /// Fewest faces of which no point is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "nested"])]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "progressive"])]
     pub slack: Option<f64>,
     /// One hull for each part of the mesh, all in one file
-    #[arg(long, conflicts_with = "nested")]
+    #[arg(long, conflicts_with = "progressive")]
     pub parts: bool,
     /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "nested")]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
     /// Stop polishing after so many seconds; the hull then depends on the machine
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "nested")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
-    /// The progressive hull: looser, but levels of a blob enclose each other so
+    /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so
     #[arg(long)]
-    pub nested: bool,
+    pub progressive: bool,
     /// Level of a blob, 0 being the coarsest
     #[arg(
         long,
         allow_negative_numbers = true,
         value_parser = whole::<0, { u32::MAX }>,
         conflicts_with_all = [
-            "faces", "void", "slack", "parts", "effort", "seconds", "nested", "vertex_bits", "priority", "max_valence", "compactness",
+            "faces", "void", "slack", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence", "compactness",
             "max_normal_deviation"
         ]
     )]
     pub level: Option<u32>,
+    /// The finest tight hull of a blob of at most so many faces
+    #[arg(
+        long,
+        value_name = "FACES",
+        allow_negative_numbers = true,
+        value_parser = whole::<4, { u32::MAX }>,
+        conflicts_with_all = [
+            "level", "faces", "void", "slack", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence",
+            "compactness", "max_normal_deviation"
+        ]
+    )]
+    pub tight: Option<u32>,
     /// Bits of a coordinate of the hull of a mesh: auto, the fewest that hold the mesh exactly; 16 or 24, on a grid, to
     /// which the mesh moves; 32, single precision
     #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
@@ -226,22 +277,25 @@ pub struct HullArgs {
 }
 
 impl HullArgs {
-    /// The first option given that only a nested hull heeds.
-    pub fn nested_option(&self) -> Option<&'static str> {
+    /// The first option given that only a progressive hull heeds.
+    pub fn progressive_option(&self) -> Option<&'static str> {
         self.collapse.given()
     }
 }
 
 #[derive(Debug, Args)]
 pub struct CutArgs {
-    /// Blob file, built --for hull or triboxes
+    /// Blob file, built --for hull, triboxes or tight
     pub blob: PathBuf,
     /// Finest level of the hull hierarchy to keep, 0 being the coarsest
-    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>, required_unless_present = "triboxes")]
+    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>, required_unless_present_any = ["triboxes", "tight"])]
     pub level: Option<u32>,
     /// Keep the finest level of at most so many triboxes
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { u32::MAX }>)]
     pub triboxes: Option<u32>,
+    /// Keep the tight hulls of at most so many faces
+    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
+    pub tight: Option<u32>,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]
     pub output: PathBuf,

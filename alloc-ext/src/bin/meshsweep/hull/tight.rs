@@ -30,7 +30,7 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     let meshes = if args.parts { parts(&loaded.mesh) } else { vec![loaded.mesh] };
     let mut hulls = Vec::new();
     for mesh in &meshes {
-        let mut bars = Bars::default();
+        let mut bars = WrapBars::default();
         let hull = wrap(mesh, &options, |progress| bars.show(progress));
         hulls.push(hull.map_err(|error| Failure::Wrap { file: args.input.clone(), error })?);
     }
@@ -76,19 +76,7 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal) -> io::Result<()> 
     if report.void.is_none() {
         writeln!(out, "  the mesh is not closed: there is no volume to measure void against")?;
     }
-    if let Start::Closure { cell, .. } = report.start {
-        writeln!(
-            out,
-            "  the hull began as the outside of the cubes of edge {} that its triangles meet",
-            Length(cell)
-        )?;
-    }
-    if report.start == Start::Box {
-        writeln!(out, "  the hull began as the mesh's box")?;
-    }
-    if report.filled > 0 {
-        writeln!(out, "  {} filled: a cavity, or a part inside another", Counted(report.filled, "shell"))?;
-    }
+    write_start(out, report)?;
     match (report.stop, goal) {
         (Stop::Reached, _) => Ok(()),
         (Stop::Stuck, Goal::Faces(faces)) => writeln!(
@@ -108,6 +96,24 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal) -> io::Result<()> 
     }
 }
 
+/// What a hull was made from, if not from the mesh's progressive hull, and what it filled.
+pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    if let Start::Closure { cell, .. } = report.start {
+        writeln!(
+            out,
+            "  the hull began as the outside of the cubes of edge {} that its triangles meet",
+            Length(cell)
+        )?;
+    }
+    if report.start == Start::Box {
+        writeln!(out, "  the hull began as the mesh's box")?;
+    }
+    if report.filled > 0 {
+        writeln!(out, "  {} filled: a cavity, or a part inside another", Counted(report.filled, "shell"))?;
+    }
+    Ok(())
+}
+
 /// One file for all hulls.
 fn joined(hulls: &[Hull]) -> Mesh {
     let mut positions = Vec::new();
@@ -122,13 +128,13 @@ fn joined(hulls: &[Hull]) -> Mesh {
 
 /// One bar for each stage.
 #[derive(Default)]
-struct Bars {
+pub struct WrapBars {
     stage: Option<(Stage, usize)>,
     bar: Option<Bar>,
 }
 
-impl Bars {
-    fn show(&mut self, progress: Progress) {
+impl WrapBars {
+    pub fn show(&mut self, progress: Progress) {
         let stage = (progress.stage, progress.of);
         if self.stage != Some(stage) {
             let (doing, things) = match progress.stage {

@@ -1,0 +1,156 @@
+//! From a mesh to the hulls of a chain.
+
+use super::distances::{Distances, distances};
+use super::store::{Stored, TightTables};
+use crate::mesh::Mesh;
+use crate::precision::VertexBits;
+use crate::wrap::{self, Goal, Hull, Options, WrapError, wrap};
+use meshsweep_core::blob::layout::MAX_LEVELS;
+use std::time::{Duration, Instant};
+
+/// Most hulls of a blob.
+pub const MAX_HULLS: usize = MAX_LEVELS as usize;
+
+/// Which hulls to make, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainOptions {
+    /// Most faces of each hull, in any order.
+    pub faces: Vec<usize>,
+    /// Whether each hull shall enclose all finer ones.
+    pub nested: bool,
+    /// How long to polish; see [`Options::effort`].
+    pub effort: f64,
+    /// Bits of a hull vertex. The mesh is not moved: only the hull's vertices lie on a grid. [`VertexBits::Auto`] takes 16 bits, which is what a leaf of a box tree
+    /// stores, where the mesh leaves room for them.
+    pub vertex_bits: VertexBits,
+    /// Boxes for distances, which the hull's tree needs for questions about the mesh.
+    pub closest: bool,
+    /// Boxes for segments and overlap with the hull.
+    pub segments: bool,
+}
+
+impl Default for ChainOptions {
+    fn default() -> Self {
+        Self {
+            faces: vec![200],
+            nested: false,
+            effort: 1.0,
+            vertex_bits: VertexBits::Auto,
+            closest: true,
+            segments: true,
+        }
+    }
+}
+
+/// Where the work stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// A hull, counted from 0 in the order in which they are made, is being wrapped.
+    Wrapping {
+        /// Number of the hull.
+        hull: usize,
+        /// Hulls to be made.
+        of: usize,
+        /// What is being done to it.
+        progress: wrap::Progress,
+    },
+    /// Distances between a hull and the mesh are being certified.
+    Certifying,
+}
+
+/// A hull of the chain, and what it took.
+#[derive(Clone, Debug)]
+pub struct HullReport {
+    /// What `wrap` says; of a nested hull its `slack` is measured to the next finer hull, and so is its `void`.
+    pub wrapped: wrap::Report,
+    /// Both ways between hull and mesh, input units.
+    pub distances: Distances,
+    /// Volume beyond that of the mesh as a part of it; `None` if the mesh bounds no volume.
+    pub void: Option<f64>,
+    /// The same of a hull with as many faces that need not enclose the finer ones; `None` where nothing was nested.
+    pub free_void: Option<f64>,
+    /// Bytes in the blob.
+    pub bytes: usize,
+    /// Time, the free hull's among it.
+    pub time: Duration,
+}
+
+/// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out.
+///
+/// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were. The hulls enclose the mesh
+/// where it is now, and what the blob answers holds for where it was. Cost: that of [`wrap`] for each hull, twice for nested ones; some hundred distance queries for each
+/// triangle of the hulls, one for each triangle of the mesh. On a mesh, or hull, of more than [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES) it panics.
+///
+/// # Errors
+/// [`WrapError`].
+pub fn chain(
+    mesh: &Mesh,
+    moved: f64,
+    input_triangles: usize,
+    options: &ChainOptions,
+    mut on_progress: impl FnMut(Stage),
+) -> Result<(TightTables, Vec<HullReport>), WrapError> {
+    let mut faces = options.faces.clone();
+    faces.sort_unstable();
+    faces.dedup();
+    // A mesh that is to have no hull has the one that is made unless told otherwise.
+    let faces: Vec<usize> = if faces.is_empty() { ChainOptions::default().faces } else { faces };
+    let of = faces.len();
+    let wrap_options = |faces: usize| Options {
+        goal: Goal::Faces(faces),
+        effort: options.effort,
+        vertex_bits: match options.vertex_bits {
+            VertexBits::Auto => VertexBits::Grid16,
+            bits => bits,
+        },
+        ..Options::default()
+    };
+    // Fine to coarse: a nested hull needs the one that it encloses.
+    let mut made: Vec<(Hull, HullReport)> = Vec::new();
+    let mut volume = None;
+    for (index, &faces) in faces.iter().rev().enumerate() {
+        let started = Instant::now();
+        let options_here = wrap_options(faces);
+        let mut show = |progress| on_progress(Stage::Wrapping { hull: index, of, progress });
+        let free = wrap(mesh, &options_here, &mut show)?;
+        if index == 0 {
+            volume = free.report.void.map(|void| free.report.volume / (1.0 + void));
+        }
+        let finer = made.last().filter(|_| options.nested);
+        let (hull, free_void) = match finer {
+            Some((finer, _)) => {
+                let hull = wrap(&finer.mesh, &options_here, &mut show)?;
+                (hull, free.report.void)
+            }
+            None => (free, None),
+        };
+        if made.last().is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len()) {
+            continue;
+        }
+        on_progress(Stage::Certifying);
+        let distances = distances(&hull.mesh, mesh);
+        let void = volume.map(|volume| hull.report.volume / volume - 1.0);
+        let report = HullReport {
+            wrapped: hull.report,
+            distances,
+            void,
+            free_void,
+            bytes: 0,
+            time: started.elapsed(),
+        };
+        made.push((hull, report));
+    }
+    made.reverse();
+    let stored: Vec<Stored> = made
+        .iter_mut()
+        .map(|(hull, report)| {
+            // What `mesh` lost when it was read is a part of how far the hull may be from the input.
+            hull.mesh.rounding = mesh.rounding;
+            let stored = Stored::new(&hull.mesh, moved, report, options);
+            report.bytes = stored.bytes();
+            stored
+        })
+        .collect();
+    let tables = TightTables::new(mesh, moved, input_triangles, options.nested, &stored);
+    Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
+}
