@@ -124,7 +124,7 @@ fn a_hull_of_a_mesh_with_holes_is_refused_in_one_line_with_places_and_a_way_out(
         assert!(line.contains("--for closest,segment needs no closed mesh"), "{line}");
     }
     let (mesh, ply) = (fixture("evil/stuck_cap.obj"), directory.join("out.ply"));
-    let line = refused(&run(["hull", arg(&mesh), "--nested", "-o", arg(&ply)]), 1, "stuck_cap.obj");
+    let line = refused(&run(["hull", arg(&mesh), "--progressive", "-o", arg(&ply)]), 1, "stuck_cap.obj");
     assert!(line.contains("zero-area triangle") && !line.contains("--for"), "{line}");
 }
 

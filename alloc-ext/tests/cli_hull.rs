@@ -30,7 +30,7 @@ fn a_nested_hull_has_the_faces_and_the_void_that_are_printed() {
     for (name, priority) in [("bracket.stl", "lp"), ("torus.ply", "span"), ("groove.obj", "lp")] {
         let mesh = fixture(name);
         let text =
-            ok(["hull", arg(&mesh), "--nested", "--faces", "150", "--priority", priority, "-o", arg(&out)]);
+            ok(["hull", arg(&mesh), "--progressive", "--faces", "150", "--priority", priority, "-o", arg(&out)]);
         let (faces, volume) = closed(&out);
         assert!(text.contains(&format!(": {faces} faces, ")), "{text}");
         assert!(faces <= 150, "{text}");
@@ -46,7 +46,7 @@ fn a_nested_hull_has_the_faces_and_the_void_that_are_printed() {
 fn a_nested_hull_that_stops_early_says_why() {
     let directory = scratch("hull_stuck");
     let (mesh, out) = (fixture("bracket.stl"), directory.join("hull.ply"));
-    let text = ok(["hull", arg(&mesh), "--nested", "--faces", "4", "-o", arg(&out)]);
+    let text = ok(["hull", arg(&mesh), "--progressive", "--faces", "4", "-o", arg(&out)]);
     assert!(text.contains("stopped before 4 faces"), "{text}");
     closed(&out);
 }
@@ -63,7 +63,7 @@ fn a_tight_hull_has_the_faces_and_the_void_that_are_printed_and_hardly_more_than
         let (_, solid) = closed(&mesh);
         let void = (volume / solid - 1.0) * 100.0;
         assert!(void > 0.0 && (void - void_percent(&text)).abs() < 1e-2, "{void} {text}");
-        ok(["hull", arg(&mesh), "--nested", "--faces", "100", "-o", arg(&nested)]);
+        ok(["hull", arg(&mesh), "--progressive", "--faces", "100", "-o", arg(&nested)]);
         // A nested hull of flat faces may be the solid itself, which a tight one may not touch.
         assert!(volume <= closed(&nested).1 * (1.0 + 1e-3), "{name}");
     }
@@ -147,8 +147,8 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
         2,
         "--priority",
     );
-    assert!(line.contains("--nested"), "{line}");
-    for pair in [["--nested", "--parts"], ["--void=3", "--slack=2"], ["--faces=9", "--void=3"]] {
+    assert!(line.contains("--progressive"), "{line}");
+    for pair in [["--progressive", "--parts"], ["--void=3", "--slack=2"], ["--faces=9", "--void=3"]] {
         let both = run(["hull", arg(&mesh), pair[0], pair[1], "-o", arg(&out)]);
         assert_eq!(both.status.code(), Some(2));
     }
@@ -163,7 +163,7 @@ fn a_hull_on_a_grid_encloses_the_mesh_that_moved_there() {
     let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
     for nested in [true, false] {
         let mut arguments = vec!["hull", arg(&mesh), "--vertex-bits", "16", "-o", arg(&out)];
-        arguments.extend(nested.then_some("--nested"));
+        arguments.extend(nested.then_some("--progressive"));
         let text = ok(arguments);
         assert!(text.contains("moved to the grid by up to "), "{text}");
         let (faces, volume) = closed(&out);

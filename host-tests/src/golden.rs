@@ -2,13 +2,14 @@
 
 use meshsweep_alloc::emit::{self, Parts};
 use meshsweep_alloc::mesh::Mesh;
+use meshsweep_alloc::tight::{ChainOptions, chain};
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_alloc::tribox::store;
-use meshsweep_suite::ask::{Refused, Subject, hull, tree, triboxes};
+use meshsweep_suite::ask::{Refused, Subject, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
-use crate::generate::{groove_block, torus};
+use crate::generate::{bracket, groove_block, torus};
 
 /// The box tree of `groove_block()`, with every section that a tree can have.
 #[must_use]
@@ -30,6 +31,20 @@ pub fn torus_triboxes() -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
     let (tables, _) = store(&mesh, 0.0, mesh.triangles.len(), 64).expect("in the domain");
     emit::assemble(&Parts { triboxes: Some(&tables), ..Parts::default() })
+}
+
+/// Tight hulls of the bracket, and nothing else.
+///
+/// # Panics
+/// Never: there is room around the bracket.
+#[must_use]
+pub fn bracket_hulls() -> Vec<u8> {
+    let (positions, triangles) = bracket();
+    let mesh = Mesh::new(positions, triangles);
+    // Little polish: a test makes them again.
+    let options = ChainOptions { faces: vec![64, 160], effort: 0.1, ..ChainOptions::default() };
+    let (tables, _) = chain(&mesh, 0.0, mesh.triangles.len(), &options, |_| {}).expect("room around it");
+    emit::assemble(&Parts { tight: Some(&tables), ..Parts::default() })
 }
 
 /// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash of all answers' bits.
@@ -54,6 +69,14 @@ pub fn tree_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
 /// The core's refusal of the blob.
 pub fn tribox_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
     answers::<triboxes::Triboxes<'_>>(name, blob, &mut triboxes::Scratch::new())
+}
+
+/// The same for the finest of a blob's tight hulls.
+///
+/// # Errors
+/// The core's refusal of the blob.
+pub fn tight_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    answers::<tight::Hulls<'_>>(name, blob, &mut tight::Scratch::new())
 }
 
 fn answers<'t, S: Subject<'t>>(

@@ -1,9 +1,11 @@
-//! The committed box tree, triboxes and answers: what the builder makes, and what this machine computes.
+//! The committed box tree, triboxes, tight hulls and answers: what the builder makes, and what this machine computes.
 
 use std::path::{Path, PathBuf};
 
-use meshsweep_core::{Tree, Triboxes};
-use meshsweep_host_tests::golden::{groove_tree, hull_answers, torus_triboxes, tree_answers, tribox_answers};
+use meshsweep_core::{TightHulls, Tree, Triboxes};
+use meshsweep_host_tests::golden::{
+    bracket_hulls, groove_tree, hull_answers, tight_answers, torus_triboxes, tree_answers, tribox_answers,
+};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
@@ -39,10 +41,19 @@ fn committed_triboxes_are_what_the_builder_makes() {
 }
 
 #[test]
+fn committed_hulls_are_what_the_builder_makes() {
+    let bytes = read("hulls.msw");
+    assert!(bytes == bracket_hulls(), "fixtures/hulls.msw is out of date: run `cargo xtask fixtures`");
+    let hulls = TightHulls::open(&bytes).expect("opens");
+    assert!(hulls.records().map(|record| record.faces).eq([64, 160]) && !hulls.is_nested());
+}
+
+#[test]
 fn answers_have_the_committed_bits() {
     let here = hull_answers("bracket.msw", &read("bracket.msw")).expect("opens")
         + &tree_answers("groove.msw", &read("groove.msw")).expect("opens")
-        + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens");
+        + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens")
+        + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens");
     let committed = String::from_utf8(read("answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
         assert_eq!(here, committed, "other bits; if they are meant to be, run `cargo xtask fixtures`");

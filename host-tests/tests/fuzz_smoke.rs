@@ -1,7 +1,7 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, open, outer, random_input, segment, tree_closest, tree_open, tree_overlap, tree_segment,
+    closest, open, outer, random_input, segment, tight, tree_closest, tree_open, tree_overlap, tree_segment,
     tree_session, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
@@ -72,4 +72,9 @@ fn tree_overlap_survives_seeded_edits() {
 #[test]
 fn triboxes_survive_seeded_edits() {
     drive(11, triboxes);
+}
+
+#[test]
+fn tight_hulls_survive_seeded_edits() {
+    drive(12, tight);
 }

@@ -68,7 +68,12 @@ pub fn assemble(parts: &Parts<'_>) -> Vec<u8> {
 }
 
 /// The header of a blob that holds neither hull hierarchy nor box tree.
-fn bare_header(scale_exponent: i32, surface_error: f32, input_triangles: u32, bounds: [[f32; 3]; 2]) -> Header {
+fn bare_header(
+    scale_exponent: i32,
+    surface_error: f32,
+    input_triangles: u32,
+    bounds: [[f32; 3]; 2],
+) -> Header {
     let [min, max] = bounds.map(Vec3::from_array);
     let bounds = Aabb { min, max };
     Header {

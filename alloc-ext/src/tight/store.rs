@@ -6,9 +6,7 @@ use crate::mesh::Mesh;
 use crate::precision::{VertexBits, scale_exponent};
 use crate::tree::{self, TreeOptions, TreeTables};
 use meshsweep_core::blob::TightRecord;
-use meshsweep_core::blob::layout::{
-    SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED,
-};
+use meshsweep_core::blob::layout::{SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED};
 use meshsweep_core::num::{Radius16, down_to_f32, exp2, up_to_f32};
 use meshsweep_core::{Model, TightHull, TightHulls};
 use std::collections::BTreeMap;
@@ -61,8 +59,12 @@ fn hull_tree(hull: &Mesh, moved: f64, options: &ChainOptions) -> TreeTables {
     let of = |single: bool, moved: f64, rounding: f64| {
         let hull = Mesh { rounding, ..hull.clone() };
         let faces = hull.triangles.len();
-        let options =
-            TreeOptions { closest: options.closest, segments: options.segments, single, ..Default::default() };
+        let options = TreeOptions {
+            closest: options.closest,
+            segments: options.segments,
+            single,
+            ..Default::default()
+        };
         tree::build(&hull, moved, faces, &options).0
     };
     let wide = matches!(options.vertex_bits, VertexBits::Grid24 | VertexBits::F32);

@@ -1,12 +1,14 @@
 //! Opening the tight hulls of a blob, and what is made sure of.
 
+use super::Header;
 use super::OpenError;
-use super::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED};
+use super::layout::{
+    MAX_LEVELS, SECTION_ALIGNMENT, SectionKind, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED,
+};
 use super::read::Bytes;
 use super::sections::{place_sections, read_header};
 use super::tight::{TightHulls, read};
 use super::tree::Tree;
-use super::Header;
 use crate::num::Radius16;
 
 impl<'a> TightHulls<'a> {

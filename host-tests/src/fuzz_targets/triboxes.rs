@@ -35,7 +35,7 @@ fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> 
     let all = mesh.triangles.len();
     let (tables, _) = store(&mesh, 0.0, all, count).expect("in the domain");
     let tree = beside_a_tree.then(|| build(&mesh, 0.0, all, &TreeOptions::default()).0);
-    assemble(&Parts { hull: None, tree: tree.as_ref(), triboxes: Some(&tables) })
+    assemble(&Parts { tree: tree.as_ref(), triboxes: Some(&tables), ..Parts::default() })
 }
 
 /// Looks at everything of two opened hierarchies and asks everything, at ordinary places and at hostile ones.

@@ -35,7 +35,7 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
         readme.push_str(&format!("| `{name}` | {what} |\n"));
     }
     readme.push_str(
-        "\n`bracket.msw` holds the split hierarchy of `bracket.stl`, `groove.msw` the box tree of `groove.obj`, `torus.msw` triboxes of `torus.ply`. `answers.txt` has a \
+        "\n`bracket.msw` holds the split hierarchy of `bracket.stl`, `groove.msw` the box tree of `groove.obj`, `torus.msw` triboxes of `torus.ply`, `hulls.msw` tight hulls of `bracket.stl`. `answers.txt` has a \
          hash of the\nanswers to each kind of query to them: a machine that computes other bits is noticed.\n\
          \n## evil/\n\n\
          What must be refused, by the named variant of `MeshError`, or mended. \"No solid\" means that `repair` takes the\n\

@@ -213,6 +213,7 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
             hull: has(0).then_some(&hull),
             tree: has(1).then_some(&tree),
             triboxes: has(2).then_some(&triboxes),
+            ..Parts::default()
         });
         let model = Model::open(&bytes).expect("opens");
         assert_eq!(
@@ -233,7 +234,7 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
     }
     assert!(Model::open(&assemble(&Parts::default())).is_err());
     // A section that a tree's reader does not look at may hold anything.
-    let mut bytes = assemble(&Parts { tree: Some(&tree), triboxes: Some(&triboxes), hull: None });
+    let mut bytes = assemble(&Parts { tree: Some(&tree), triboxes: Some(&triboxes), ..Parts::default() });
     let at = entry(&bytes, SectionKind::Triboxes as u32).offset as usize;
     bytes[at + 50] ^= 1;
     assert!(Tree::open(&bytes).is_ok() && Model::open(&bytes).is_err());
@@ -264,5 +265,5 @@ fn every_cut_is_the_blob_that_the_prefix_of_splits_makes() {
     // Between two levels, the coarser; below all, the first; without a limit, what it was.
     let leaves = |count: u32| word(&cut(&model, count).expect("there").section, 20).expect("nodes") / 2 + 1;
     assert_eq!([leaves(0), leaves(1), leaves(7), leaves(u32::MAX)], [1, 1, 4, 24]);
-    assert_eq!(emit::cut_blob(&model, None, None).expect("a blob"), bytes);
+    assert_eq!(emit::cut_blob(&model, &emit::Keep::default()).expect("a blob"), bytes);
 }

@@ -19,8 +19,8 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         served::require_tight(&args.blob, &model, faces)?;
     }
     let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
-    let cut = emit::cut_blob(&model, &keep)
-        .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
+    let cut =
+        emit::cut_blob(&model, &keep).map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
     // What does not open must not be handed out.
     let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;

@@ -43,10 +43,9 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             args.input.display()
         )),
         Some(level) => of_blob(args, level),
-        None if args.tight.is_some() && !is_blob && named_as_mesh => usage(format!(
-            "{}: is a mesh, and --tight is for a blob; give --faces",
-            args.input.display()
-        )),
+        None if args.tight.is_some() && !is_blob && named_as_mesh => {
+            usage(format!("{}: is a mesh, and --tight is for a blob; give --faces", args.input.display()))
+        }
         None if is_blob || args.tight.is_some() => blob_without_level(args),
         None if args.progressive => of_mesh(args, args.faces.unwrap_or(FACES)),
         None => match args.progressive_option() {
@@ -63,7 +62,9 @@ fn blob_without_level(args: &HullArgs) -> Result<(), Failure> {
         return tight_of_blob(args, faces);
     }
     if args.faces.is_some() || args.void.is_some() || args.slack.is_some() {
-        return usage("--faces, --void and --slack are for a mesh; choose a hull of a blob with --level or --tight");
+        return usage(
+            "--faces, --void and --slack are for a mesh; choose a hull of a blob with --level or --tight",
+        );
     }
     usage("a blob holds several hulls; choose one with --level or --tight (meshsweep info lists them)")
 }

@@ -103,7 +103,7 @@ impl fmt::Display for Tally {
             (self.capacity, "out of stack or queue"),
             (
                 self.level,
-                "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching",
+                "left open by rounding or the blob (cut, only a hull, or vertices moved to a grid), or for touching",
             ),
         ] {
             if count > 0 {

@@ -6,7 +6,7 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::{hull, tree, tribox, triboxes};
+use meshsweep_suite::ask::{hull, tight, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
@@ -232,5 +232,31 @@ extern "C" fn ask_triboxes_distance(input: &Input<'_>, scratch: &mut triboxes::S
 extern "C" fn ask_triboxes_clip(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
     if let Ok(opened) = triboxes::open(input.blob) {
         triboxes::first(&opened, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tight_open(input: &Input<'_>, fold: &mut Fold) {
+    match tight::open(input.blob) {
+        Ok(opened) => {
+            fold.point(tight::bounds(&opened)[0]);
+            tight::contents(&opened, fold);
+        }
+        Err(refused) => fold.word(refused.0),
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tight_closest(input: &Input<'_>, scratch: &mut tight::Scratch, fold: &mut Fold) {
+    if let Ok(opened) = tight::open(input.blob) {
+        tight::closest(&opened, input.a, scratch, &mut (), fold);
+        tight::stopped(&opened, input.a, input.b[0], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_tight_is_within(input: &Input<'_>, scratch: &mut tight::Scratch, fold: &mut Fold) {
+    if let Ok(opened) = tight::open(input.blob) {
+        tight::is_within(&opened, input.a, input.b[0], scratch, &mut (), fold);
     }
 }

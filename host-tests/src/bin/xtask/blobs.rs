@@ -10,7 +10,7 @@ use meshsweep_alloc::precision::VertexBits;
 use meshsweep_alloc::tree::{self, TreeOptions};
 use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{Triangles, bracket, torus};
-use meshsweep_host_tests::golden::torus_triboxes;
+use meshsweep_host_tests::golden::{bracket_hulls, torus_triboxes};
 
 use crate::boards::Flash;
 use crate::images::Profile;
@@ -39,14 +39,16 @@ pub enum Blob {
     SoupTree,
     /// 64 triboxes of a finer torus.
     Triboxes,
+    /// Tight hulls of the bracket.
+    Tight,
 }
 
 impl Blob {
-    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box tree of one mesh, and triboxes.
-    pub const fn standard(flash: Flash) -> [Self; 3] {
+    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box tree of one mesh, triboxes, and tight hulls.
+    pub const fn standard(flash: Flash) -> [Self; 4] {
         match flash {
-            Flash::Small => [Self::Torus, Self::TorusTree, Self::Triboxes],
-            Flash::Large => [Self::Bracket, Self::BracketTree, Self::Triboxes],
+            Flash::Small => [Self::Torus, Self::TorusTree, Self::Triboxes, Self::Tight],
+            Flash::Large => [Self::Bracket, Self::BracketTree, Self::Triboxes, Self::Tight],
         }
     }
 
@@ -65,6 +67,7 @@ impl Blob {
             Self::SingleTree => "single_tree",
             Self::SoupTree => "soup_tree",
             Self::Triboxes => "triboxes",
+            Self::Tight => "tight",
         }
     }
 
@@ -74,6 +77,7 @@ impl Blob {
             Self::Torus | Self::Bracket | Self::Grid16 | Self::Grid24 | Self::Cut => "suite_hull",
             Self::TorusTree | Self::BracketTree | Self::SingleTree | Self::SoupTree => "suite_tree",
             Self::Triboxes => "suite_triboxes",
+            Self::Tight => "suite_tight",
         }
     }
 
@@ -118,6 +122,7 @@ impl Blob {
                 Ok(box_tree(torus(2.0, 0.75, 16, 10), &TreeOptions { single: true, ..default }))
             }
             Self::Triboxes => Ok(torus_triboxes()),
+            Self::Tight => Ok(bracket_hulls()),
             Self::SoupTree => Ok(box_tree(soup(), &TreeOptions { cull: true, ..default })),
         }
     }
@@ -168,6 +173,7 @@ mod tests {
     use meshsweep_core::blob::layout::VertexFormat;
     use meshsweep_core::{Model, Tree, Triboxes};
     use meshsweep_suite::Subject;
+    use meshsweep_suite::ask::tight::Hulls;
 
     const HULLS: [Blob; 5] = [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut];
     const TREES: [Blob; 4] = [Blob::TorusTree, Blob::BracketTree, Blob::SingleTree, Blob::SoupTree];
@@ -184,6 +190,8 @@ mod tests {
         }
         let bytes = Blob::Triboxes.bytes().expect("a blob");
         assert!(Triboxes::open(&bytes).expect("opens").memory_suffices());
+        let bytes = Blob::Tight.bytes().expect("a blob");
+        assert!(Hulls::open(&bytes).expect("opens").memory_suffices());
     }
 
     #[test]

@@ -79,7 +79,7 @@ fn compared(cross: &Cross, qemu: &Qemu, board: &Board, blob: Blob) -> Result<Rea
 }
 
 fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
-    const QUESTIONS: [&str; 10] = [
+    const QUESTIONS: [&str; 11] = [
         "open",
         "closest",
         "segment",
@@ -90,6 +90,7 @@ fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
         "tree_segment",
         "tree_session",
         "triboxes",
+        "tight",
     ];
     let mut added = Vec::new();
     for profile in Profile::ALL {

@@ -3,7 +3,9 @@
 use std::fs;
 
 use meshsweep_host_tests::generate::fixtures::write_fixtures;
-use meshsweep_host_tests::golden::{groove_tree, hull_answers, torus_triboxes, tree_answers, tribox_answers};
+use meshsweep_host_tests::golden::{
+    bracket_hulls, groove_tree, hull_answers, tight_answers, torus_triboxes, tree_answers, tribox_answers,
+};
 use meshsweep_host_tests::measure::Subject;
 
 use meshsweep_alloc::hull::BuildOptions;
@@ -36,12 +38,17 @@ pub fn write(steps: &mut Steps) {
         let bytes = torus_triboxes();
         put("torus.msw", &bytes).map(|()| bytes)
     });
-    if let (Some(hull), Some(tree), Some(triboxes)) = (hull, tree, triboxes) {
+    let tight = steps.run("fixtures/hulls.msw", || {
+        let bytes = bracket_hulls();
+        put("hulls.msw", &bytes).map(|()| bytes)
+    });
+    if let (Some(hull), Some(tree), Some(triboxes), Some(tight)) = (hull, tree, triboxes, tight) {
         steps.run("fixtures/answers.txt", || {
             let refused = |refused| format!("the core refuses the blob: {refused:?}");
             let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
                 + &tree_answers("groove.msw", &tree).map_err(refused)?
-                + &tribox_answers("torus.msw", &triboxes).map_err(refused)?;
+                + &tribox_answers("torus.msw", &triboxes).map_err(refused)?
+                + &tight_answers("hulls.msw", &tight).map_err(refused)?;
             put("answers.txt", answers.as_bytes())
         });
     }

@@ -9,7 +9,7 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 31] = [
+const QUESTIONS: [&str; 34] = [
     "ask_hull_open",
     "ask_hull_closest",
     "ask_hull_first_hit",
@@ -41,6 +41,9 @@ const QUESTIONS: [&str; 31] = [
     "ask_triboxes_candidates",
     "ask_triboxes_distance",
     "ask_triboxes_clip",
+    "ask_tight_open",
+    "ask_tight_closest",
+    "ask_tight_is_within",
 ];
 
 /// Links the proof image.

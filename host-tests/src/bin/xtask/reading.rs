@@ -1,6 +1,6 @@
 //! What the suite yields: on a board as printed lines, on the host by running it.
 
-use meshsweep_suite::ask::{Refused, hull, tree, triboxes};
+use meshsweep_suite::ask::{Refused, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
@@ -81,13 +81,16 @@ impl Reading {
         if done { Ok(reading) } else { Err(format!("the image stopped before it was done:\n{printed}")) }
     }
 
-    /// Runs the suite here: on the blob's box tree if it has one, or its triboxes, else on its split hierarchy.
+    /// Runs the suite here: on the blob's box tree if it has one, its triboxes, or its tight hulls, else on its split hierarchy.
     pub fn of_host(blob: &[u8]) -> Result<Self, String> {
         let mut here = Here { blocks: Vec::new() };
         let plan = Plan::STANDARD;
         let mut ran = run::<tree::Tree<'_>>(blob, plan, &mut tree::Scratch::new(), &mut here);
         if ran == Err(Refused::NO_SECTION) {
             ran = run::<triboxes::Triboxes<'_>>(blob, plan, &mut triboxes::Scratch::new(), &mut here);
+        }
+        if ran == Err(Refused::NO_SECTION) {
+            ran = run::<tight::Hulls<'_>>(blob, plan, &mut tight::Scratch::new(), &mut here);
         }
         if ran == Err(Refused::NO_SECTION) {
             ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut here);

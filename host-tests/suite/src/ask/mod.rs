@@ -4,6 +4,7 @@
 //! indexes: the proof image links these functions, and they may not bring a panic of their own.
 
 pub mod hull;
+pub mod tight;
 pub mod tree;
 pub mod tribox;
 pub mod triboxes;

@@ -24,13 +24,15 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
     hull      hull --level, cut, and closest and segment with --engine cover or hull: 35 to 50 bytes a triangle more\n  \
-    triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 82 bytes a tribox\n\
+    triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 bytes a tribox\n  \
+    tight     closest and within, by an interval, and hull --tight: hulls of few faces, 18 to 26 bytes a face\n\
     The first three share a box tree, which any mesh will do for, open or not, manifold or not, and which takes a second for a \
     hundred thousand triangles. hull is the progressive hull with its split tables; it needs a closed manifold mesh and takes far \
-    longer. triboxes will do with any mesh; if it is closed they hold its inside too. They take as long as the command tribox.\n\n\
+    longer. triboxes will do with any mesh; if it is closed they hold its inside too. They take as long as the command tribox. tight wraps the mesh in hulls of \
+    --tight faces, as the command hull does: each encloses it, and knows how far its faces are from the mesh. They too will do with any mesh, and take some seconds each.\n\n\
     What --vertex-bits means:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
-    16     vertices move to a grid of 16 bits an axis\n  \
+    16     vertices move to a grid of 16 bits an axis; tight hulls: their own, the mesh does not\n  \
     24     hull: a grid of 24 bits an axis; box tree: 32\n  \
     32     single precision; box tree: 8 bytes a triangle more, and no hit is left open for the vertices' sake\n\
     Whatever moves is in every answer's interval; the report says how far. With 32 nothing moves, but intervals still carry the rounding \
@@ -39,7 +41,8 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     meshsweep build part.stl -o part.msw\n  \
     meshsweep build scan.ply -o scan.msw --for closest\n  \
     meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500\n  \
-    meshsweep build part.stl -o proxy.msw --for triboxes --triboxes 16";
+    meshsweep build part.stl -o proxy.msw --for triboxes --triboxes 16\n  \
+    meshsweep build part.stl -o hulls.msw --for tight --tight 50,200,1000";
 
 pub const INFO: &str = "Examples:\n  \
     meshsweep info part.msw\n  \
@@ -51,6 +54,7 @@ pub fn closest() -> String {
          most upper away; {TRIANGLES}; work counts boxes and triangles that were looked at, \
          and depends on the queries beside it: without --rel, --abs, --steps and --queue the box tree takes thousands at once, in an \
          order in which each begins where a neighbour ended.\n\n\
+         A tight hull gives an interval as wide as it stands off from the mesh; px, py, pz are then the closest point of the hull, and there is no triangle.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep closest part.msw 10,4.5,7 -1,2,3\n  \
@@ -65,6 +69,7 @@ pub fn within() -> String {
         "The column 'within' says yes or no, which is proved; or unknown, if the distance differs from D by less than rounding and the \
          surface error of the blob, or the query ended early. 'triangle' is one that is near enough; {TRIANGLES}. With --all a last row of unknown \
          without a triangle says that the query ended early, and triangles may be missing.\n\n\
+         By a tight hull, no holds for a solid with its inside; unknown is between hull and mesh, where a tighter hull may tell.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep within part.msw 10,4.5,7 --distance 2\n  \
@@ -147,19 +152,21 @@ pub const CULL: &str = "Leaves of up to eight triangles are kept or left out who
 pub const HULL: &str = "The hull of a mesh is closed, does not pass through itself, and has every triangle of the mesh strictly inside: proved by exact \
     arithmetic on the vertices that are written. The mesh may be open, or a heap of loose triangles; cavities are filled. With --void or --slack \
     the fewest faces are searched for, which takes several times as long as a number of --faces.\n\n\
-    --nested gives the progressive hull, as the levels of a blob are: looser, at the mesh's own vertices where it can be, and only of meshes that \
+    --progressive gives the progressive hull, as the levels of a blob's hull hierarchy are: looser, at the mesh's own vertices where it can be, and only of meshes that \
     are closed and manifold.\n\n\
     Examples:\n  \
     meshsweep hull part.stl --faces 200 -o hull.ply\n  \
     meshsweep hull part.stl --slack 2.5 -o hull.ply\n  \
     meshsweep hull scan.ply --faces 500 --effort 4 -o hull.ply\n  \
-    meshsweep hull part.msw --level 0 -o coarsest.ply";
+    meshsweep hull part.msw --level 0 -o coarsest.ply\n  \
+    meshsweep hull hulls.msw --tight 200 -o hull.ply";
 
 pub const CUT: &str = "meshsweep info lists the levels. A box tree is left out: it knows the whole surface or none of it.\n\n\
-    Triboxes stay as they are unless --triboxes is given; without --level all else stays.\n\n\
+    Triboxes stay as they are unless --triboxes is given, and tight hulls unless --tight is; without --level all else stays.\n\n\
     Examples:\n  \
     meshsweep cut part.msw --level 2 -o small.msw\n  \
-    meshsweep cut part.msw --triboxes 8 -o small.msw";
+    meshsweep cut part.msw --triboxes 8 -o small.msw\n  \
+    meshsweep cut hulls.msw --tight 200 -o small.msw";
 
 pub const TRIBOX: &str = "A tribox is what nine slabs have in common, along the axes and the diagonals of the coordinate planes: a box whose twelve edges are \
     chamfered. Each level holds the mesh; if it is closed, its inside too. Triboxes of a level do not overlap, unless --simplify moves their planes.\n\n\

@@ -21,7 +21,10 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     let nested = if hulls.is_nested() { ", each encloses the next" } else { "" };
     writeln!(out, "tight hulls")?;
     writeln!(out, "  {}{nested}: each encloses the mesh", Counted(hulls.count(), "hull"))?;
-    writeln!(out, "     faces    void %     bytes  stack bytes  coordinates  farthest from the mesh, farthest of the mesh")?;
+    writeln!(
+        out,
+        "     faces    void %     bytes  stack bytes  coordinates  farthest from the mesh, farthest of the mesh"
+    )?;
     for hull in all(hulls) {
         let record = hull.record();
         writeln!(

@@ -1,0 +1,103 @@
+//! The target for tight hulls of blobs.
+
+use super::input::Input;
+use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
+use meshsweep_alloc::emit::{Parts, assemble};
+use meshsweep_alloc::mesh::Mesh;
+use meshsweep_alloc::precision::VertexBits;
+use meshsweep_alloc::tight::{ChainOptions, chain};
+use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep_core::query::tight::{Verdict, closest_point, is_within};
+use meshsweep_core::query::tree::TreeEntry;
+use meshsweep_core::query::{Ended, QueryError, Stop};
+use meshsweep_core::{Model, TightHull, TightHulls};
+use std::sync::OnceLock;
+
+/// Small valid blobs of tight hulls: one and several, closed and open, nested, on a grid and not, one beside a box tree.
+///
+/// # Panics
+/// If one of them cannot be built.
+pub fn tight_seeds() -> &'static [Vec<u8>] {
+    static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
+    SEEDS.get_or_init(|| {
+        let options =
+            |faces: &[usize]| ChainOptions { faces: faces.to_vec(), effort: 0.0, ..Default::default() };
+        let mut open = rough_sphere(1, 0.4, 5);
+        open.1.truncate(50);
+        vec![
+            blob(&cube(1), &options(&[64]), false),
+            blob(&torus(2.0, 0.75, 10, 6), &ChainOptions { nested: true, ..options(&[64, 76]) }, false),
+            blob(&open, &ChainOptions { vertex_bits: VertexBits::F32, ..options(&[64]) }, false),
+            blob(&icosphere(1), &options(&[64, 70]), true),
+        ]
+    })
+}
+
+fn blob((positions, triangles): &Triangles, options: &ChainOptions, beside_a_tree: bool) -> Vec<u8> {
+    let mesh = Mesh::new(positions.clone(), triangles.clone());
+    let all = mesh.triangles.len();
+    let (tables, _) = chain(&mesh, 0.0, all, options, |_| {}).expect("room around it");
+    let tree = beside_a_tree.then(|| build(&mesh, 0.0, all, &TreeOptions::default()).0);
+    assemble(&Parts { tree: tree.as_ref(), tight: Some(&tables), ..Parts::default() })
+}
+
+/// Looks at all hulls and asks each everything, at ordinary places and at hostile ones.
+///
+/// # Panics
+/// If an answer is out of range or took too long.
+pub fn ask_tight(hulls: &TightHulls<'_>) {
+    assert_eq!(hulls.records().count() as u32, hulls.count());
+    assert!(hulls.get(hulls.count()).is_none());
+    for index in 0..hulls.count() {
+        let hull = hulls.get(index).expect("a hull");
+        let record = hull.record();
+        let fine = |slack: f32| (0.0..=record.slack).contains(&slack);
+        assert!((0..record.faces).all(|face| hull.slack(face).is_some_and(fine)));
+        assert!(hull.slack(record.faces).is_none());
+        for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0], [1e36, -1e36, 1e36], [1e-40, 0.0, -0.0]] {
+            ask(&hull, p, 0.5, &Stop::EXACT, 64);
+            ask(&hull, p, 1e30, &Stop { steps: 2, relative: 0.1, absolute: 1.0 }, 1);
+        }
+    }
+}
+
+fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Stop, entries: usize) {
+    let mut stack = vec![TreeEntry::EMPTY; entries];
+    let closest = closest_point(hull, p, stop, &mut stack);
+    let within = is_within(hull, p, distance, stop, &mut stack);
+    match (closest, within) {
+        (Ok(closest), Ok(within)) => {
+            assert!(closest.lower >= 0.0 && closest.lower <= closest.upper, "{closest:?}");
+            assert!(closest.triangle.is_none() && closest.ended != Ended::Exact);
+            assert_eq!(within.ended == Ended::Exact, within.verdict != Verdict::Unknown);
+            // A side may be asked from nearer by, from several places.
+            let most = 64 * (u64::from(hull.tree().header().nodes) + u64::from(hull.record().faces) + 1);
+            assert!(u64::from(closest.work.total()) <= most && u64::from(within.work.total()) <= 2 * most);
+        }
+        (first, second) => {
+            for error in [first.err(), second.err()].into_iter().flatten() {
+                assert_ne!(error, QueryError::Model);
+            }
+        }
+    }
+}
+
+/// Opens raw bytes, then an edit of a blob, and asks about any point.
+pub fn tight(data: &[u8]) {
+    if let Ok(hulls) = TightHulls::open(data) {
+        ask_tight(&hulls);
+    }
+    let mut input = Input(data);
+    let bytes = input.blob(tight_seeds());
+    let opened = TightHulls::open(&bytes);
+    // The same bytes as a model: all of them are checked, the hulls among them. An edit may have made a section of an unknown kind of them.
+    if let Ok(model) = Model::open(&bytes) {
+        assert_eq!(model.tight_hulls().is_some(), opened.is_ok(), "{opened:?}");
+    }
+    let Ok(hulls) = opened else { return };
+    ask_tight(&hulls);
+    let stop = Stop { relative: input.float(), absolute: input.float(), steps: input.u32() };
+    if let Some(hull) = hulls.finest() {
+        ask(&hull, input.point(), input.float(), &stop, usize::from(input.byte()));
+    }
+}
