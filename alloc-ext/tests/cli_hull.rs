@@ -29,8 +29,17 @@ fn a_nested_hull_has_the_faces_and_the_void_that_are_printed() {
     let out = directory.join("hull.ply");
     for (name, priority) in [("bracket.stl", "lp"), ("torus.ply", "span"), ("groove.obj", "lp")] {
         let mesh = fixture(name);
-        let text =
-            ok(["hull", arg(&mesh), "--progressive", "--faces", "150", "--priority", priority, "-o", arg(&out)]);
+        let text = ok([
+            "hull",
+            arg(&mesh),
+            "--progressive",
+            "--faces",
+            "150",
+            "--priority",
+            priority,
+            "-o",
+            arg(&out),
+        ]);
         let (faces, volume) = closed(&out);
         assert!(text.contains(&format!(": {faces} faces, ")), "{text}");
         assert!(faces <= 150, "{text}");

@@ -1,8 +1,9 @@
 //! How far the hull can be from the surface: a certified bound of the one-sided Hausdorff distance from triangles to a model.
 //!
 //! Branch and bound. The distance to the surface is 1-Lipschitz, so a triangle is bounded from its centre; the distance to
-//! one surface triangle is convex, so it is also bounded from its corners. The larger half is split until the bound is
-//! within a few percent of a distance that was found.
+//! one surface triangle is convex, so it is also bounded from its corners. Until the bound is
+//! within a few percent of a distance that was found, the worst piece is split: in halves, or, if it is many times as large as it is far away, where it reaches
+//! beyond the surface triangle next to it. A hull that all but lies on a flat wall is so cut into what lies over each of the wall's triangles.
 
 use glam::DVec3;
 use meshsweep_core::geom::point_triangle;
@@ -13,14 +14,19 @@ use std::collections::BinaryHeap;
 /// The bound may exceed the true distance by this factor.
 const SLACK: f64 = 1.05;
 
-/// A midpoint is rounded, so the halves of a piece miss what they were cut from by up to √3·2^-53 of a coordinate. After so many cuts that this is not
-/// enough, 2^9/√3, a piece is no larger than a rounding.
+/// Where a piece is cut is rounded, so the parts miss what they were cut from by some 2^-52 of a coordinate. After so many cuts that this is not
+/// enough a piece is no larger than a rounding.
 const MIDPOINTS: f64 = 1.0 / (1u64 << 44) as f64;
 
 struct Piece {
     bound: f64,
     corners: [DVec3; 3],
+    /// The surface triangle that it is to be cut along, not halved.
+    along: Option<[DVec3; 3]>,
 }
+
+/// Sizes of a piece in its distance from the surface beyond which halving would take too many steps.
+const WIDE: f64 = 4.0;
 
 impl Ord for Piece {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
@@ -67,25 +73,25 @@ pub fn farthest(
     enough: f64,
     mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
 ) -> Farthest {
-    let mut bound_of = |corners: [DVec3; 3], found: &mut f64| {
+    let mut piece_of = |corners: [DVec3; 3], found: &mut f64| {
         let [a, b, c] = corners;
         let centre = (a + b + c) / 3.0;
-        let Some(near) = nearest(centre) else { return f64::INFINITY };
+        let Some(near) = nearest(centre) else { return Piece { bound: f64::INFINITY, corners, along: None } };
         *found = found.max(near.lower);
         let reach = corners.iter().map(|p| (*p - centre).length()).fold(0.0, f64::max);
         let lipschitz = near.upper + reach;
         let convex = near.triangle.map_or(f64::INFINITY, |[p, q, r]| {
             corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
         });
-        lipschitz.min(convex) * (1.0 + 1e-12)
+        let along = near.triangle.filter(|_| reach > WIDE * near.upper);
+        Piece { bound: lipschitz.min(convex) * (1.0 + 1e-12), corners, along }
     };
     let mut found = 0f64;
     let mut heap = BinaryHeap::new();
     let mut size = 0f64;
     for corners in triangles {
         size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
-        let bound = bound_of(corners, &mut found);
-        heap.push(Piece { bound, corners });
+        heap.push(piece_of(corners, &mut found));
     }
     // Enough to settle any mesh at hand; what is left over keeps its bound.
     let mut budget = 20_000;
@@ -94,9 +100,11 @@ pub fn farthest(
             return Farthest { lower: found, upper: piece.bound.max(found) + size * MIDPOINTS };
         }
         budget -= 1;
-        for half in bisect(piece.corners) {
-            let bound = bound_of(half, &mut found).min(piece.bound);
-            heap.push(Piece { bound, corners: half });
+        let parts = piece.along.and_then(|along| cut(piece.corners, along));
+        let halves = || bisect(piece.corners).to_vec();
+        for part in parts.map_or_else(halves, |parts| parts.to_vec()) {
+            let part = piece_of(part, &mut found);
+            heap.push(Piece { bound: part.bound.min(piece.bound), ..part });
         }
     }
     Farthest { lower: found, upper: found }
@@ -125,6 +133,35 @@ pub fn hull_to_surface(
     };
     farthest(triangles, 0.0, nearest).upper
 }
+
+/// What of a piece lies on this and on that side of an edge of `along`, as seen along its normal: of the edge that it reaches over farthest; `None` if it reaches over none.
+fn cut(corners: [DVec3; 3], along: [DVec3; 3]) -> Option<[[DVec3; 3]; 3]> {
+    let [p, q, r] = along;
+    let normal = (q - p).cross(r - p);
+    let over = |(from, to): (DVec3, DVec3)| {
+        let out = (to - from).cross(normal).normalize_or_zero();
+        let heights = corners.map(|v| out.dot(v - from));
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        (high.min(-low), heights)
+    };
+    let edges = [(p, q), (q, r), (r, p)].map(over);
+    let (most, heights) = edges.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let size = (corners[1] - corners[0]).abs().max((corners[2] - corners[0]).abs()).max_element();
+    if most.is_nan() || most <= SHAVING * size {
+        return None;
+    }
+    // The corner that is alone on its side.
+    let alone = (0..3).find(|&k| (0..3).all(|i| i == k || (heights[i] > 0.0) != (heights[k] > 0.0)))?;
+    let [a, b, c] = [0, 1, 2].map(|k| corners[(alone + k) % 3]);
+    let [ha, hb, hc] = [0, 1, 2].map(|k| heights[(alone + k) % 3]);
+    let x = a + (b - a) * (ha / (ha - hb)).clamp(0.0, 1.0);
+    let y = a + (c - a) * (ha / (ha - hc)).clamp(0.0, 1.0);
+    Some([[a, x, y], [x, b, c], [x, c, y]])
+}
+
+/// Part of a piece's size that is too little to cut off.
+const SHAVING: f64 = 1e-6;
 
 /// Two halves, cut across the longest edge.
 fn bisect([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 2] {

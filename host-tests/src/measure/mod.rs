@@ -28,7 +28,7 @@ pub(crate) mod stopwatch;
 mod storage;
 mod subject;
 pub mod table;
-mod tight;
+pub mod tight;
 mod trade;
 mod tree;
 pub mod triboxes;

@@ -15,7 +15,7 @@ use super::table::{Cell, Table, fixed, row};
 use crate::check::{Surface, check_enclosure};
 
 /// Faces of the hulls.
-const FACES: [usize; 7] = [20, 50, 100, 200, 500, 1_000, 2_000];
+pub const FACES: [usize; 7] = [20, 50, 100, 200, 500, 1_000, 2_000];
 
 /// The tables.
 ///

@@ -38,6 +38,7 @@ pub enum Need {
     Culling,
     Hull,
     Tight,
+    TightDistances,
 }
 
 impl Need {
@@ -49,6 +50,7 @@ impl Need {
             Need::Culling => "box tree with normal cones",
             Need::Hull => "hull hierarchy",
             Need::Tight => "tight hulls",
+            Need::TightDistances => "tight hull for distances",
         }
     }
 
@@ -60,6 +62,7 @@ impl Need {
             Need::Culling => "cull",
             Need::Hull => "hull",
             Need::Tight => "tight",
+            Need::TightDistances => "tight --tight-for closest",
         }
     }
 }
@@ -70,7 +73,7 @@ pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Tree<'a>> {
         Need::Distances => tree.serves_distances(),
         Need::Segments => tree.serves_segments(),
         Need::Culling => tree.serves_culling(),
-        Need::Hull | Need::Tight => false,
+        Need::Hull | Need::Tight | Need::TightDistances => false,
     })
 }
 
@@ -91,9 +94,18 @@ pub fn tight_hull<'a>(
 ) -> Result<Option<TightHull<'a>>, Failure> {
     let Some(faces) = faces else {
         let others = model.has_hull() || tree(model, Need::Distances).is_some();
-        return Ok(finest_tight(model).filter(|_| !others));
+        let finest = finest_tight(model).filter(|_| !others);
+        return finest.map(|hull| for_distances(file, hull)).transpose();
     };
-    require_tight(file, model, faces).map(Some)
+    require_tight(file, model, faces).and_then(|hull| for_distances(file, hull)).map(Some)
+}
+
+fn for_distances<'a>(file: &Path, hull: TightHull<'a>) -> Result<TightHull<'a>, Failure> {
+    if hull.tree().serves_distances() {
+        Ok(hull)
+    } else {
+        Err(Failure::NotServed { file: file.to_owned(), need: Need::TightDistances, other: None })
+    }
 }
 
 /// The finest tight hull of at most so many faces.

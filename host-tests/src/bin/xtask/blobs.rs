@@ -94,11 +94,7 @@ impl Blob {
 
     /// Writes the blob; its path.
     pub fn file(self) -> Result<PathBuf, String> {
-        let folder = workspace::target().join("blobs");
-        fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
-        let path = folder.join(self.name()).with_extension("msw");
-        write_if_changed(&path, &self.bytes()?)?;
-        Ok(path)
+        write(self.name(), &self.bytes()?)
     }
 
     fn bytes(self) -> Result<Vec<u8>, String> {
@@ -157,6 +153,15 @@ fn whole(
     let built =
         build(&mesh, 0.0, mesh.triangles.len(), &options, |_| {}).map_err(|error| error.to_string())?;
     Ok(built.bytes)
+}
+
+/// Writes a blob for an image to carry; its path.
+pub fn write(name: &str, bytes: &[u8]) -> Result<PathBuf, String> {
+    let folder = workspace::target().join("blobs");
+    fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+    let path = folder.join(name).with_extension("msw");
+    write_if_changed(&path, bytes)?;
+    Ok(path)
 }
 
 /// So that cargo does not build again what has not changed.

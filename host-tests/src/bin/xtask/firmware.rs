@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::blobs::Blob;
+use crate::blobs::{self, Blob};
 use crate::boards::{BOARDS, Board};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
@@ -70,9 +70,32 @@ fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
 /// Runs the suite on a board; its answers are the host's bit by bit, or it is an error.
 fn compared(cross: &Cross, qemu: &Qemu, board: &Board, blob: Blob) -> Result<Reading, String> {
     let file = blob.file()?;
-    let bytes = fs::read(&file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
-    let profile = blob.profile(board.flash);
-    let image = images::suite(cross, board.target, profile, blob.image(), &file)?;
+    run_image(cross, qemu, board, blob.profile(board.flash), blob.image(), &file)
+}
+
+/// The same of any blob.
+pub fn reading(
+    tools: &Tools,
+    board: &Board,
+    profile: Profile,
+    image: &str,
+    name: &str,
+    blob: &[u8],
+) -> Result<Reading, String> {
+    let file = blobs::write(name, blob)?;
+    run_image(&tools.cross, &tools.qemu, board, profile, image, &file)
+}
+
+fn run_image(
+    cross: &Cross,
+    qemu: &Qemu,
+    board: &Board,
+    profile: Profile,
+    image: &str,
+    blob: &Path,
+) -> Result<Reading, String> {
+    let bytes = fs::read(blob).map_err(|error| format!("cannot read {}: {error}", blob.display()))?;
+    let image = images::suite(cross, board.target, profile, image, blob)?;
     let reading = Reading::parse(&qemu.run(board.machine, &image)?, board)?;
     reading.compare(&Reading::of_host(&bytes)?)?;
     Ok(reading)

@@ -11,6 +11,7 @@ use meshsweep_host_tests::measure::{
 use serde_json::{Value, json};
 
 use crate::firmware;
+use crate::hulls;
 use crate::steps::Steps;
 use crate::valgrind::Valgrind;
 use crate::workspace;
@@ -67,11 +68,13 @@ fn svg(file: &str) -> Option<PathBuf> {
 }
 
 /// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds, with `--overlap` the mesh against itself, with `--triboxes` only stored triboxes, with `--tight` only tight hulls; and the firmware if asked to.
+/// bounds, with `--overlap` the mesh against itself, with `--triboxes` only stored triboxes, with `--tight` only tight hulls, on a board if the firmware is asked for; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
     let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
     let valgrind = if options.count { Valgrind::find() } else { None };
+    let hulls_on_board = options.firmware && options.part == Some(Part::Tight);
+    let tools = if hulls_on_board { firmware::setup(steps) } else { None };
     let (mut written, mut plotted) = (Vec::new(), Vec::new());
     for mesh in meshes {
         let counts = valgrind.as_ref().and_then(|valgrind| {
@@ -83,7 +86,10 @@ pub fn run(steps: &mut Steps, options: &Options) {
                 Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
-                Some(Part::Tight) => measure_tight(mesh)?,
+                Some(Part::Tight) => match &tools {
+                    Some(tools) => vec![hulls::table(tools, mesh)?],
+                    None => measure_tight(mesh)?,
+                },
                 None => measure(mesh)?,
             };
             for table in &tables {
@@ -105,6 +111,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
         steps.run("plot", || text(file, &plot::svg(&plotted)?));
     }
     if options.firmware
+        && !hulls_on_board
         && let Some(tools) = firmware::setup(steps)
     {
         firmware::run(steps, &tools, None);

@@ -1,0 +1,159 @@
+//! `build --for tight` and who asks it: what is said of the mesh by a hull alone is true of the mesh.
+
+mod cli_support;
+
+use cli_support::{
+    arg, blob, distance, fixture, info, number, ok, parse_csv, random_queries, refused, run, scratch,
+    triangles, wide, write_csv,
+};
+use serde_json::Value;
+use std::fs;
+
+/// Little polish, faces enough for a quick start.
+const TIGHT: [&str; 6] = ["--for", "tight", "--tight", "150,70", "--effort", "0.02"];
+
+fn hulls(info: &Value) -> &Vec<Value> {
+    info["tight_hulls"]["hulls"].as_array().expect("there are hulls")
+}
+
+#[test]
+fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
+    let directory = scratch("tight_queries");
+    let mesh = fixture("torus.ply");
+    let path = blob(&directory, "torus.ply", &TIGHT);
+    let surface = triangles(&mesh);
+    let points = directory.join("points.csv");
+    let queries: Vec<[f32; 3]> = random_queries(&surface, 300);
+    write_csv(&points, &queries);
+    let mut widths = Vec::new();
+    for choice in [&["--tight", "70"][..], &["--tight", "149"], &["--tight", "150"], &[]] {
+        let text = ok([&["closest", arg(&path), arg(&points)], choice].concat());
+        let rows = parse_csv(&text, "x,y,z,lower,upper,px,py,pz,triangle,work");
+        assert_eq!(rows.len(), queries.len());
+        let mut width = 0.0;
+        for (row, query) in rows.iter().zip(&queries) {
+            let real = distance(wide(query), &surface);
+            let (lower, upper) = (number(&row[3]), number(&row[4]));
+            assert!(
+                lower <= real * (1.0 + 1e-6) + 1e-9 && upper >= real * (1.0 - 1e-6) - 1e-9,
+                "{row:?} {real}"
+            );
+            assert!(row[8].is_empty(), "a hull knows no triangles: {row:?}");
+            width += upper - lower;
+        }
+        widths.push(width);
+        let text = ok([&["within", arg(&path), arg(&points), "--distance", "0.5"], choice].concat());
+        let rows = parse_csv(&text, "x,y,z,within,triangle,work");
+        for (row, query) in rows.iter().zip(&queries) {
+            let real = distance(wide(query), &surface);
+            match row[3].as_str() {
+                "yes" => assert!(real <= 0.5 + 1e-6, "{row:?} {real}"),
+                "no" => assert!(real >= 0.5 - 1e-6, "{row:?} {real}"),
+                other => assert_eq!(other, "unknown"),
+            }
+        }
+        let count = |verdict: &str| rows.iter().filter(|row| row[3] == verdict).count();
+        assert!(count("yes") > 10 && count("no") > 10, "{} {}", count("yes"), count("no"));
+    }
+    // 149 faces are too few for the finer hull, and it is what is asked unless told otherwise.
+    assert!(widths[0] == widths[1] && widths[2] == widths[3] && widths[2] < 0.9 * widths[0], "{widths:?}");
+}
+
+#[test]
+fn a_blob_tells_its_hulls_and_gives_them_back() {
+    let directory = scratch("tight_info");
+    let path = blob(&directory, "torus.ply", &TIGHT);
+    let before = info(&path);
+    assert_eq!(before["tight_hulls"]["is_nested"], false);
+    assert_eq!(before["serves"], serde_json::json!(["closest", "within", "hull --tight", "cut"]));
+    let faces: Vec<u64> = hulls(&before).iter().map(|hull| hull["faces"].as_u64().unwrap()).collect();
+    assert_eq!(faces, [70, 150]);
+    let solid: f64 = volume(&triangles(&fixture("torus.ply")));
+    for hull in hulls(&before) {
+        let faces = hull["faces"].as_u64().unwrap().to_string();
+        let out = directory.join("hull.ply");
+        let text = ok(["hull", arg(&path), "--tight", &faces, "-o", arg(&out)]);
+        assert!(text.contains(&format!("{faces} faces")), "{text}");
+        let void = volume(&triangles(&out)) / solid - 1.0;
+        assert!((void - hull["void_ratio"].as_f64().unwrap()).abs() < 1e-4, "{void}");
+        let slack = hull["slack"].as_f64().unwrap();
+        let surface = triangles(&fixture("torus.ply"));
+        for corner in triangles(&out).iter().flatten() {
+            assert!(distance(*corner, &surface) <= slack * (1.0 + 1e-6));
+        }
+    }
+    let small = directory.join("small.msw");
+    let text = ok(["cut", arg(&path), "--tight", "100", "-o", arg(&small)]);
+    assert!(text.contains("1 tight hull"), "{text}");
+    assert_eq!(hulls(&info(&small)), &hulls(&before)[..1]);
+    assert!(fs::metadata(&small).unwrap().len() < fs::metadata(&path).unwrap().len() / 2);
+}
+
+fn volume(triangles: &[cli_support::Triangle]) -> f64 {
+    let of = |&[[a, b, c], [d, e, f], [g, h, i]]: &cli_support::Triangle| {
+        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
+    };
+    triangles.iter().map(of).sum()
+}
+
+#[test]
+fn nested_hulls_say_what_nesting_costs_and_questions_decide_what_is_stored() {
+    let directory = scratch("tight_nested");
+    let (mesh, out) = (fixture("torus.ply"), directory.join("nested.msw"));
+    let mut arguments =
+        [&["build", arg(&mesh), "-o", arg(&out), "--nested", "--tight-for", "closest"], &TIGHT[..]];
+    let text = ok(arguments.concat());
+    assert!(text.contains("if it did not enclose the finer ones"), "{text}");
+    let nested = info(&out);
+    assert_eq!(nested["tight_hulls"]["is_nested"], true);
+    assert!(hulls(&nested).iter().all(|hull| hull["serves_segments"] == false));
+    let segments = ["build", arg(&mesh), "-o", arg(&out), "--tight-for", "segment"];
+    arguments[0] = &segments;
+    ok(arguments.concat());
+    assert!(hulls(&info(&out)).iter().all(|hull| hull["serves_distances"] == false));
+    let line = refused(&run(["closest", arg(&out), "1,2,3"]), 1, "nested.msw");
+    assert!(line.contains("--for"), "{line}");
+}
+
+#[test]
+fn a_box_tree_is_asked_unless_a_hull_is_named() {
+    let directory = scratch("tight_beside");
+    let beside = ["--for", "closest,tight", "--tight", "70", "--effort", "0"];
+    let path = blob(&directory, "torus.ply", &beside);
+    let row = |text: String| parse_csv(&text, "x,y,z,lower,upper,px,py,pz,triangle,work").remove(0);
+    let exact = row(ok(["closest", arg(&path), "3,1,2"]));
+    assert!(!exact[8].is_empty());
+    let by_hull = row(ok(["closest", arg(&path), "3,1,2", "--tight", "70"]));
+    assert!(by_hull[8].is_empty() && number(&by_hull[3]) <= number(&exact[4]));
+    assert!(number(&by_hull[4]) >= number(&exact[3]));
+}
+
+#[test]
+fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
+    let directory = scratch("tight_usage");
+    let (mesh, out) = (fixture("torus.ply"), directory.join("out.msw"));
+    for option in [&["--tight", "50"][..], &["--nested"], &["--effort", "1"], &["--tight-for", "closest"]] {
+        let output = run([&["build", arg(&mesh), "-o", arg(&out)], option].concat());
+        let line = refused(&output, 2, option[0]);
+        assert!(line.contains("add tight to --for"), "{line}");
+    }
+    let many: Vec<String> = (100..133).map(|faces: u32| faces.to_string()).collect();
+    let output = run(["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", &many.join(",")]);
+    assert!(refused(&output, 2, "--tight").contains("at most 32"));
+    assert!(!out.exists());
+    let path = blob(&directory, "torus.ply", &["--for", "tight", "--tight", "70", "--effort", "0"]);
+    for command in ["closest", "within"] {
+        let mut arguments = vec![command, arg(&path), "1,2,3", "--tight", "69"];
+        arguments.extend((command == "within").then_some("--distance=1"));
+        let line = refused(&run(arguments), 1, "torus.msw");
+        assert!(line.contains("the coarsest has 70"), "{line}");
+    }
+    let ply = directory.join("hull.ply");
+    refused(&run(["hull", arg(&path), "-o", arg(&ply)]), 2, "--tight");
+    refused(&run(["hull", arg(&mesh), "--tight", "70", "-o", arg(&ply)]), 2, "torus.ply");
+    refused(&run(["hull", arg(&path), "--tight", "20", "-o", arg(&ply)]), 1, "torus.msw");
+    refused(&run(["segment", arg(&path), "0,0,9,0,0,-9"]), 1, "torus.msw");
+    let plain = blob(&directory, "groove.obj", &["--for", "closest"]);
+    refused(&run(["closest", arg(&plain), "1,2,3", "--tight", "70"]), 1, "groove.msw");
+    refused(&run(["cut", arg(&plain), "--tight", "70", "-o", arg(&out)]), 1, "groove.msw");
+}
