@@ -57,20 +57,6 @@ pub(super) struct BoxTree {
     nodes: Vec<Node>,
 }
 
-/// Nodes of a tree that, with all below them, hold what queries in some bounds are about.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Frontier(Vec<u32>);
-
-impl Frontier {
-    /// The root: queries anywhere.
-    pub fn whole() -> Self {
-        Self(vec![0])
-    }
-}
-
-/// Nodes of a frontier, about: more of them save no descent.
-const FRONTIER: usize = 24;
-
 /// Items of a leaf: where testing one more box costs what testing them does.
 const LEAF: usize = 4;
 
@@ -118,52 +104,8 @@ impl BoxTree {
     /// Calls `visit` with every item (by its place in the tree's order) of every leaf whose box and whose ancestors' boxes pass
     /// `keep`, until it returns false.
     #[inline]
-    pub fn visit(&self, keep: impl Fn(&Bounds) -> bool, visit: impl FnMut(usize) -> bool) {
-        self.visit_below(0, &keep, &mut { visit });
-    }
-
-    /// Some nodes that hold every item whose box meets `bounds`: where many queries in these bounds begin.
-    pub fn frontier(&self, bounds: &Bounds, frontier: &mut Frontier) {
-        let open = &mut frontier.0;
-        open.clear();
-        open.push(0);
-        let mut next = 0;
-        while let Some(&index) = open.get(next) {
-            let node = &self.nodes[index as usize];
-            if !node.bounds.meets(bounds) {
-                open.swap_remove(next);
-            } else if node.count > 0 || node.first == 0 || open.len() >= FRONTIER {
-                next += 1;
-            } else {
-                open[next] = node.first;
-                open.push(node.first + 1);
-            }
-        }
-    }
-
-    /// As [`visit`](Self::visit), below a frontier only.
-    #[inline]
-    pub fn visit_from(
-        &self,
-        frontier: &Frontier,
-        keep: impl Fn(&Bounds) -> bool,
-        mut visit: impl FnMut(usize) -> bool,
-    ) {
-        for &root in &frontier.0 {
-            if !self.visit_below(root, &keep, &mut visit) {
-                break;
-            }
-        }
-    }
-
-    #[inline]
-    fn visit_below(
-        &self,
-        root: u32,
-        keep: &impl Fn(&Bounds) -> bool,
-        visit: &mut impl FnMut(usize) -> bool,
-    ) -> bool {
-        let mut stack = [root; DEPTH];
+    pub fn visit(&self, keep: impl Fn(&Bounds) -> bool, mut visit: impl FnMut(usize) -> bool) {
+        let mut stack = [0u32; DEPTH];
         let mut height = 1;
         while height > 0 {
             height -= 1;
@@ -174,7 +116,7 @@ impl BoxTree {
             if node.count > 0 {
                 for item in node.first..node.first + node.count {
                     if !visit(item as usize) {
-                        return false;
+                        return;
                     }
                 }
             } else if node.first > 0 {
@@ -183,7 +125,6 @@ impl BoxTree {
                 height += 2;
             }
         }
-        true
     }
 
     /// The item with the least distance, which `distance_sq` gives, and that square; `None` without items.

@@ -6,7 +6,7 @@ use super::polish::Polish;
 use super::rounding::Rounding;
 use super::shell::Shell;
 use super::slack::slack;
-use super::start::{First, first_box, first_closure, first_level};
+use super::start::{First, first_box, first_closure, first_levels};
 use super::work::{Shape, Work};
 use crate::mesh::{Mesh, require_closed_manifold};
 use crate::precision::{Stored, VertexBits, store};
@@ -55,7 +55,12 @@ pub fn wrap(
     if matches!(options.goal, Goal::Void(_)) && volume <= 0.0 {
         return Err(WrapError::NoVolume);
     }
-    let stored = store(mesh, options.vertex_bits);
+    // A hull keeps some steps of its grid off the mesh: a coarse one that holds the mesh is no reason to store the hull on it.
+    let bits = match options.vertex_bits {
+        VertexBits::Auto => VertexBits::F32,
+        bits => bits,
+    };
+    let stored = store(mesh, bits);
     let rounding = Rounding::new(stored.grid, stored.scale_exponent);
     // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where it is.
     let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
@@ -120,6 +125,21 @@ impl Done<'_> {
     }
 }
 
+/// Keeps the better of two, and the counts of both.
+fn better<'a>(best: &mut Option<Done<'a>>, mut done: Done<'a>) {
+    match best {
+        Some(best) => {
+            done.work.add_counts(&best.work);
+            if done.is_better_than(best) {
+                *best = done;
+            } else {
+                best.work.take_counts(&done.work);
+            }
+        }
+        None => *best = Some(done),
+    }
+}
+
 struct Builder<'a, 'o, 'p> {
     obstacle: &'a Obstacle,
     volume: Option<f64>,
@@ -164,8 +184,11 @@ impl<'a> Builder<'a, '_, '_> {
     ) -> Result<Done<'a>, WrapError> {
         let mut best: Option<Done<'a>> = None;
         if self.volume.is_some() {
-            let first = first_level(mesh, stored, self.obstacle, &rounding, wanted, self.on_progress);
-            best = first.map(|first| self.prepare(first, rounding, wanted));
+            let first = first_levels(mesh, stored, self.obstacle, &rounding, wanted, self.on_progress);
+            for first in [first.plenty, first.wanted].into_iter().flatten() {
+                let done = self.prepare(first, rounding, wanted);
+                better(&mut best, done);
+            }
         }
         let is_few = matches!(self.options.goal, Goal::Faces(faces) if faces <= FEW_FACES);
         let is_solid = best.is_some();
@@ -182,18 +205,8 @@ impl<'a> Builder<'a, '_, '_> {
                 None => first_box(self.obstacle, &rounding),
             };
             let Some(first) = first else { continue };
-            let mut done = self.prepare(first, rounding, wanted);
-            match &mut best {
-                Some(best) => {
-                    done.work.add_counts(&best.work);
-                    if done.is_better_than(best) {
-                        *best = done;
-                    } else {
-                        best.work.take_counts(&done.work);
-                    }
-                }
-                None => best = Some(done),
-            }
+            let done = self.prepare(first, rounding, wanted);
+            better(&mut best, done);
         }
         best.ok_or(WrapError::NoRoom)
     }

@@ -1,5 +1,6 @@
 //! Edge collapses, cheapest first, each placed against the original mesh.
 
+use super::memo::{Key, Question};
 use super::placement::{StarFace, Wish};
 use super::vertex::CLEARANCES;
 use super::work::Work;
@@ -88,11 +89,18 @@ impl Work<'_> {
     /// What an edge's collapse would cost; `None` if it is not legal.
     pub(super) fn evaluate(&mut self, a: u32, b: u32, time: u32) -> Option<Candidate> {
         let star = self.edge_star(a, b)?;
-        let position = self.place_collapse(&star, a, b, CLEARANCES[0]);
+        let key = Key::new(Question::Collapse, self.shape.max_valence, &star);
+        let answer = match self.memo.get(key) {
+            Some(answer) => answer,
+            None => {
+                let placed = self.place_collapse(&star, a, b, CLEARANCES[0]);
+                let answer = placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
+                self.memo.put(key, answer);
+                answer
+            }
+        };
         self.star = star;
-        let position = position?;
-        let cost = self.star.iter().map(|f| f.added(position)).sum::<f64>() / 6.0;
-        Some(Candidate { cost, ends: [a, b], time, position })
+        answer.map(|(position, cost)| Candidate { cost, ends: [a, b], time, position })
     }
 
     fn edge_star(&mut self, a: u32, b: u32) -> Option<Vec<StarFace>> {

@@ -2,6 +2,7 @@
 
 use super::decimate::Candidate;
 use super::flip::LEAST_GAIN;
+use super::memo::{Key, Question};
 use super::placement::{StarFace, Wish};
 use super::vertex::CLEARANCES;
 use super::work::Work;
@@ -29,12 +30,21 @@ impl Work<'_> {
             [[pc, pa], [pb, pc], [pd, pb], [pa, pd]]
                 .map(|ring| StarFace::new([middle, ring[0], ring[1]], Some(ring))),
         );
-        let wish = Wish { clearance: self.clearance(&star, CLEARANCES[0]), ..SPLIT };
-        let placed = self.placer.place(self.obstacle, &star, middle, &wish);
-        let position = placed.and_then(|x| self.rounding.round(x)).filter(|&x| self.is_shapely(&star, x));
-        let cost = position.map(|x| star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0);
+        let key = Key::new(Question::Split, self.shape.max_valence, &star);
+        let answer = match self.memo.get(key) {
+            Some(answer) => answer,
+            None => {
+                let wish = Wish { clearance: self.clearance(&star, CLEARANCES[0]), ..SPLIT };
+                let placed = self.placer.place(self.obstacle, &star, middle, &wish);
+                let placed = placed.and_then(|x| self.rounding.round(x));
+                let placed = placed.filter(|&x| self.is_shapely(&star, x));
+                let answer = placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
+                self.memo.put(key, answer);
+                answer
+            }
+        };
         self.star = star;
-        Some(Candidate { cost: cost?, ends: [a, b], time: 0, position: position? })
+        answer.map(|(position, cost)| Candidate { cost, ends: [a, b], time: 0, position })
     }
 
     /// Splits an edge, if that can be proved; the new vertex.

@@ -1,5 +1,7 @@
 //! Edge flips.
 
+use super::memo::{Key, Question};
+use super::placement::StarFace;
 use super::predicates::{Face, side};
 use super::work::{Work, compactness};
 
@@ -87,6 +89,17 @@ impl Work<'_> {
             normal.dot(middle) >= self.shape.min_turn * normal.length() * middle.length()
         };
         // The tetrahedron that the flip cuts off or adds is that of either old face and the other's third corner.
-        new.iter().all(upright) && self.admits(&new, &wings.triangles, &old[..1], pd) && self.shell.flip(a, b)
+        if !new.iter().all(upright) {
+            return false;
+        }
+        let key = Key::new(Question::Flip, self.shape.max_valence, &old.map(|t| StarFace::new(t, None)));
+        if self.memo.get(key).is_some() {
+            return false;
+        }
+        if !self.admits(&new, &wings.triangles, &old[..1], pd) {
+            self.memo.put(key, None);
+            return false;
+        }
+        self.shell.flip(a, b)
     }
 }

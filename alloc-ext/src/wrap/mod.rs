@@ -20,10 +20,12 @@
 
 mod boxes;
 mod build;
+mod cells;
 mod closure;
 mod decimate;
 mod exchange;
 mod flip;
+mod memo;
 mod obstacle;
 mod options;
 mod parts;

@@ -1,19 +1,20 @@
 //! The original mesh as that which a hull may not meet: its triangles, its vertices, and one witness of each connected part.
 
-use super::boxes::{Bounds, BoxTree, Frontier};
+use super::boxes::{Bounds, BoxTree};
+use super::cells::{CellTree, Frontier};
 use super::predicates::{Triangle, in_sunken, meet};
 use super::region::{Plane, Tetrahedron};
 use glam::DVec3;
 use meshsweep_core::geom::point_triangle;
-use std::cell::Cell;
 
 /// Any set of triangles, in its own unit.
 #[derive(Clone, Debug)]
 pub(super) struct Obstacle {
     triangles: Vec<Triangle>,
     triangle_tree: BoxTree,
+    triangle_cells: CellTree,
     points: Vec<DVec3>,
-    point_tree: BoxTree,
+    point_cells: CellTree,
     witnesses: Vec<DVec3>,
     witness_tree: BoxTree,
 }
@@ -28,10 +29,22 @@ impl Obstacle {
         let all: Vec<Triangle> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
         let boxes: Vec<Bounds> = all.iter().map(|t| Bounds::of(t)).collect();
         let (triangle_tree, order) = BoxTree::new(&boxes);
-        let triangles_in_order = order.iter().map(|&i| all[i as usize]).collect();
-        let (points, point_tree) = tree_of(positions);
+        let triangles_in_order: Vec<Triangle> = order.iter().map(|&i| all[i as usize]).collect();
+        let triangle_cells =
+            CellTree::new(&triangles_in_order.iter().map(|t| Bounds::of(t)).collect::<Vec<_>>());
+        let points = positions.to_vec();
+        let point_cells =
+            CellTree::new(&points.iter().map(|&p| Bounds { low: p, high: p }).collect::<Vec<_>>());
         let (witnesses, witness_tree) = tree_of(&witnesses(positions, triangles));
-        Self { triangles: triangles_in_order, triangle_tree, points, point_tree, witnesses, witness_tree }
+        Self {
+            triangles: triangles_in_order,
+            triangle_tree,
+            triangle_cells,
+            points,
+            point_cells,
+            witnesses,
+            witness_tree,
+        }
     }
 
     /// All triangles.
@@ -90,8 +103,8 @@ impl Obstacle {
 
     /// Where queries in these bounds begin: among the vertices, and among the triangles.
     pub fn frontiers(&self, bounds: &Bounds, [points, triangles]: &mut [Frontier; 2]) {
-        self.point_tree.frontier(bounds, points);
-        self.triangle_tree.frontier(bounds, triangles);
+        self.point_cells.frontier(bounds, points);
+        self.triangle_cells.frontier(bounds, triangles);
     }
 
     /// The highest plane that `raise` makes of the vertices in a tetrahedron; see `Search`. Not exact.
@@ -102,11 +115,16 @@ impl Obstacle {
         tetrahedron: &Tetrahedron,
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
-        highest(&self.point_tree, near, tetrahedron, |i, plane| {
+        let mut highest = None::<Plane>;
+        let probe = self.point_cells.probe(tetrahedron.bounds(), tetrahedron.planes());
+        self.point_cells.visit(near, probe, |i| {
             let p = self.points[i];
-            let stands_out = plane.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
-            if stands_out { raise(p).or(plane) } else { plane }
-        })
+            let stands_out = highest.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
+            let raised = if stands_out { raise(p) } else { None };
+            highest = raised.or(highest);
+            raised
+        });
+        highest
     }
 
     /// As [`highest_point`](Self::highest_point), of the corners of what triangles have in common with the tetrahedron.
@@ -117,9 +135,19 @@ impl Obstacle {
         tetrahedron: &Tetrahedron,
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
-        highest(&self.triangle_tree, near, tetrahedron, |i, plane| {
-            tetrahedron.clip(&self.triangles[i]).into_iter().fold(plane, |plane, p| raise(p).or(plane))
-        })
+        let mut highest = None::<Plane>;
+        let probe = self.triangle_cells.probe(tetrahedron.bounds(), tetrahedron.planes());
+        self.triangle_cells.visit(near, probe, |i| {
+            let triangle = &self.triangles[i];
+            if highest.is_some_and(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
+                return None;
+            }
+            let mut raised = None;
+            tetrahedron.clip(triangle, |p| raised = raise(p).or(raised));
+            highest = raised.or(highest);
+            raised
+        });
+        highest
     }
 
     /// The triangle nearest to a point, and bounds of the distance to all.
@@ -164,24 +192,4 @@ fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
     (0..positions.len()).filter(|&v| used[v] && parent[v] == v as u32).map(|v| positions[v]).collect()
-}
-
-/// What `raise` makes of the highest plane so far and of every item that may stand above it in the tetrahedron.
-#[inline(always)]
-fn highest(
-    tree: &BoxTree,
-    near: &Frontier,
-    tetrahedron: &Tetrahedron,
-    raise: impl Fn(usize, Option<Plane>) -> Option<Plane>,
-) -> Option<Plane> {
-    let highest = Cell::new(None::<Plane>);
-    tree.visit_from(
-        near,
-        |of| highest.get().is_none_or(|plane| plane.reaches(of)) && tetrahedron.may_meet(of),
-        |i| {
-            highest.set(raise(i, highest.get()));
-            true
-        },
-    );
-    highest.get()
 }

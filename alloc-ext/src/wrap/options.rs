@@ -25,7 +25,7 @@ pub struct Options {
     pub effort: f64,
     /// When to stop polishing; what is had by then depends on the machine. `None`: never.
     pub time_limit: Option<Duration>,
-    /// Coordinate format of the vertices.
+    /// Coordinate format of the vertices. [`VertexBits::Auto`]: single precision, whatever the mesh would do with.
     pub vertex_bits: VertexBits,
 }
 

@@ -7,7 +7,8 @@
 //!
 //! All is floating point: what is found here is proved, or refused, in `accept`.
 
-use super::boxes::{Bounds, Frontier};
+use super::boxes::Bounds;
+use super::cells::Frontier;
 use super::obstacle::Obstacle;
 use super::predicates::Triangle;
 use super::region::{Plane, Tetrahedron};

@@ -1,6 +1,7 @@
 //! Perturb and settle again: what a hull of a given number of faces can still lose.
 
 use super::placement::Wish;
+use super::vertex::GAIN;
 use super::work::Work;
 use glam::DVec3;
 
@@ -40,7 +41,7 @@ pub(super) struct Polish {
 const STARS: f64 = 10_000.0;
 
 /// Stars for each face beyond that.
-const STARS_PER_FACE: f64 = 15.0;
+const STARS_PER_FACE: f64 = 10.0;
 
 /// Polishing ends when this many rounds together gain less than [`TOO_LITTLE`] of the void.
 const IDLE_ROUNDS: usize = 3;
@@ -124,10 +125,11 @@ impl Work<'_> {
         let wish =
             Wish { second_term: 0.3, tilt: dice.direction() * strength, upright: Some(0.1), clearance: 0.0 };
         let Some(mut gained) = self.disturb(v, &wish) else { return false };
+        let radius = self.star_radius(before[before.len() - 1]);
         for &u in &around {
             gained += self.settle(u).unwrap_or(0.0);
         }
-        let better = gained > 0.0;
+        let better = gained > GAIN * radius * radius * radius;
         if !better {
             for (&u, &at) in around.iter().zip(&before) {
                 self.shell.move_vertex(u, at);

@@ -13,9 +13,24 @@ fn coord(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
 
+/// Part of a determinant's size, as the product of the sums of its rows' entries, that its rounding stays below.
+///
+/// Each entry is a difference of coordinates, rounded once; the determinant is three sums of three products, each of which is off by less
+/// than eight roundings of its size, and nothing underflows.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Positive where `p` is in front of the triangle's plane, 0 on it. Only the sign means anything.
 #[inline]
 pub(super) fn side([a, b, c]: &Triangle, p: DVec3) -> f64 {
+    let sum = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
+    let (ab, ac, ap) = (*b - *a, *c - *a, p - *a);
+    let height = ab.cross(ac).dot(ap);
+    if height.abs() > ROUNDING * sum(ab) * sum(ac) * sum(ap) { height } else { exact_side(a, b, c, p) }
+}
+
+#[cold]
+#[inline(never)]
+fn exact_side(a: &DVec3, b: &DVec3, c: &DVec3, p: DVec3) -> f64 {
     -orient3d(coord(*a), coord(*b), coord(*c), coord(p))
 }
 

@@ -23,18 +23,13 @@ impl Plane {
     pub fn holds(&self, p: DVec3) -> bool {
         self.normal.dot(p) >= self.offset
     }
-
-    /// Whether a box has a point on that side.
-    #[inline]
-    pub fn reaches(&self, bounds: &Bounds) -> bool {
-        bounds.support(self.normal) >= self.offset
-    }
 }
 
 /// A tetrahedron between a face and an apex behind it.
 #[derive(Clone, Debug)]
 pub(super) struct Tetrahedron {
     planes: ArrayVec<Plane, 4>,
+    corners: [DVec3; 4],
     bounds: Bounds,
 }
 
@@ -42,7 +37,7 @@ pub(super) struct Tetrahedron {
 const FLAT: f64 = 1e-10;
 
 /// Corners of a triangle that was cut by four planes: each adds at most one.
-pub(super) type Polygon = ArrayVec<DVec3, 8>;
+type Polygon = ArrayVec<DVec3, 8>;
 
 impl Tetrahedron {
     /// Of a face's corners and an apex. A side without a plane is left out.
@@ -64,13 +59,17 @@ impl Tetrahedron {
             }
             planes.push(Plane { normal, offset: normal.dot(p) });
         }
-        Self { planes, bounds: Bounds::of(&corners) }
+        Self { planes, corners, bounds: Bounds::of(&corners) }
     }
 
-    /// Whether a box may have a point of it.
-    #[inline]
-    pub fn may_meet(&self, bounds: &Bounds) -> bool {
-        bounds.meets(&self.bounds) && self.planes.iter().all(|p| p.reaches(bounds))
+    /// What its points satisfy.
+    pub fn planes(&self) -> &[Plane] {
+        &self.planes
+    }
+
+    /// Its box.
+    pub fn bounds(&self) -> &Bounds {
+        &self.bounds
     }
 
     /// Whether a point is in it.
@@ -79,30 +78,44 @@ impl Tetrahedron {
         self.planes.iter().all(|plane| plane.holds(p))
     }
 
-    /// The part of a triangle that is in it.
+    /// Whether all of a triangle is on the wrong side of a plane, or all of the tetrahedron on one side of the triangle.
     #[inline]
-    pub fn clip(&self, triangle: &Triangle) -> Polygon {
-        if self.planes.iter().any(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
-            return Polygon::new();
+    fn misses(&self, triangle: &Triangle) -> bool {
+        let [a, b, c] = *triangle;
+        if self.planes.iter().any(|plane| !plane.holds(a) && !plane.holds(b) && !plane.holds(c)) {
+            return true;
         }
-        let mut polygon: Polygon = triangle.iter().copied().collect();
+        let normal = (b - a).cross(c - a);
+        let heights = self.corners.map(|p| normal.dot(p - a));
+        heights.iter().all(|&h| h > 0.0) || heights.iter().all(|&h| h < 0.0)
+    }
+
+    /// Calls `visit` with the corners of the part of a triangle that is in it.
+    #[inline]
+    pub fn clip(&self, triangle: &Triangle, visit: impl FnMut(DVec3)) {
+        if self.misses(triangle) {
+            return;
+        }
+        let mut polygons = [Polygon::new(), Polygon::new()];
+        let [polygon, cut] = &mut polygons;
+        let (mut polygon, mut cut) = (polygon, cut);
+        polygon.extend(*triangle);
         for plane in &self.planes {
-            let mut cut = Polygon::new();
-            for i in 0..polygon.len() {
-                let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);
-                let (of_p, of_q) = (plane.height(p), plane.height(q));
-                if of_p >= 0.0 {
-                    let _ = cut.try_push(p);
-                }
+            cut.clear();
+            let Some(&last) = polygon.last() else { return };
+            let (mut p, mut of_p) = (last, plane.height(last));
+            for &q in polygon.iter() {
+                let of_q = plane.height(q);
                 if (of_p > 0.0 && of_q < 0.0) || (of_p < 0.0 && of_q > 0.0) {
                     let _ = cut.try_push(p + (q - p) * (of_p / (of_p - of_q)));
                 }
+                if of_q >= 0.0 {
+                    let _ = cut.try_push(q);
+                }
+                (p, of_p) = (q, of_q);
             }
-            polygon = cut;
-            if polygon.is_empty() {
-                break;
-            }
+            std::mem::swap(&mut polygon, &mut cut);
         }
-        polygon
+        polygon.iter().copied().for_each(visit);
     }
 }

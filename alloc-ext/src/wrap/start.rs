@@ -29,7 +29,7 @@ pub(super) struct First {
 
 /// Faces of the level to start from: enough to choose from for `wanted`, and no more, for each costs a collapse.
 fn plenty(wanted: usize) -> usize {
-    (2 * wanted).saturating_add(800)
+    (wanted + wanted / 2).saturating_add(800)
 }
 
 /// Levels that are tried: [`plenty`] times 2 to this, in this order. Finer ones are closer to the mesh; coarser ones pass over places where the mesh
@@ -39,17 +39,26 @@ const LEVELS: [i32; 7] = [0, 1, -1, 2, -2, 3, -3];
 /// Faces that no level is coarser than.
 const LEAST_FACES: usize = 40;
 
-/// The first level of the progressive hull that proves to be a hull to start from.
-pub(super) fn first_level(
+/// Hulls to start from that come of the progressive hull.
+#[derive(Default)]
+pub(super) struct Levels {
+    /// The first of [`LEVELS`] that proves to be one: the choice where the mesh is round.
+    pub plenty: Option<First>,
+    /// The level with the wanted faces, if it proves to be one: the choice where that is the solid itself, as it may be on blocks with few flat faces.
+    pub wanted: Option<First>,
+}
+
+/// The levels of the progressive hull that are hulls to start from.
+pub(super) fn first_levels(
     mesh: &Mesh,
     stored: &Stored,
     obstacle: &Obstacle,
     rounding: &Rounding,
     wanted: usize,
     on_progress: &mut dyn FnMut(Progress),
-) -> Option<First> {
-    let mut levels = levels(&stored.positions, &mesh.triangles, stored, plenty(wanted), on_progress);
-    LEVELS.into_iter().find_map(|level| {
+) -> Levels {
+    let mut levels = levels(&stored.positions, &mesh.triangles, stored, wanted, on_progress);
+    let mut first = |level: Option<i32>| {
         let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
         let mut shell = Shell::new(positions, &triangles);
         let faces = shell.face_count();
@@ -57,7 +66,8 @@ pub(super) fn first_level(
         let (shell, filled) = keep_outermost(shell);
         let start = Start::Progressive { faces };
         defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
-    })
+    };
+    Levels { wanted: first(None), plenty: LEVELS.into_iter().find_map(|level| first(Some(level))) }
 }
 
 /// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's levels that does not meet itself.
@@ -76,14 +86,14 @@ pub(super) fn first_closure(
     let start = Start::Closure { cell: closure.cell, cells: closure.cells };
     let local = exp2(-stored.scale_exponent);
     let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
-    let mut levels = levels(&positions, &closure.triangles, stored, plenty(wanted), on_progress);
+    let mut levels = levels(&positions, &closure.triangles, stored, wanted, on_progress);
     // In narrow places levels grow into each other. The closure itself never does, but each of its faces costs a collapse against the mesh.
     let small = closure.triangles.len() <= MOST_FACES;
     let itself = small.then_some((closure.positions, closure.triangles));
     let in_order = LEVELS
         .into_iter()
         .filter(|&level| level >= 0)
-        .filter_map(|level| Some(levels.remove(levels.iter().position(|(l, _)| *l == level)?).1));
+        .filter_map(|level| Some(levels.remove(levels.iter().position(|(l, _)| *l == Some(level))?).1));
     in_order.chain(itself).find_map(|(positions, triangles)| {
         let (shell, filled) = keep_outermost(Shell::new(positions, &triangles));
         defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
@@ -114,31 +124,35 @@ const MOST_FACES: usize = 10_000;
 
 type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
 
-/// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, each with its number: level `n` has `least` times 2^n faces,
-/// or as few as the hull can be brought down to; level 0 may be the surface itself.
+/// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, each with its number: level `n` has [`plenty`] times 2^n faces,
+/// the one without number has `wanted`, or as few as the hull can be brought down to; level 0 and that without number may be the surface itself.
 fn levels(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     stored: &Stored,
-    least: usize,
+    wanted: usize,
     on_progress: &mut dyn FnMut(Progress),
-) -> Vec<(i32, Surface)> {
+) -> Vec<(Option<i32>, Surface)> {
     let from = triangles.len();
     let mut engine = Engine::new(positions, triangles, Conditions::default(), Priority::Program, stored.grid);
     let mut show = |progress: collapse::Progress| {
         on_progress(Progress {
             stage: Stage::Collapsing,
             done: from.saturating_sub(progress.faces),
-            of: from.saturating_sub(least),
+            of: from.saturating_sub(wanted),
         });
     };
     let scale = exp2(stored.scale_exponent);
     let mut levels = Vec::new();
-    for level in (-3..=3).rev() {
-        let faces = (least as f64 * exp2(level)) as usize;
-        if (faces >= from && level > 0) || (faces < LEAST_FACES && level < 0) {
-            continue;
-        }
+    let mut counts: Vec<(Option<i32>, usize)> = (-3..=3)
+        .map(|level| (Some(level), (plenty(wanted) as f64 * exp2(level)) as usize))
+        .filter(|&(level, faces)| {
+            !(faces >= from && level > Some(0) || faces < LEAST_FACES && level < Some(0))
+        })
+        .chain([(None, wanted)])
+        .collect();
+    counts.sort_unstable_by_key(|&(level, faces)| (std::cmp::Reverse(faces), level));
+    for (level, faces) in counts {
         // Where it gets stuck it is a level as well.
         let _ = engine.run(faces, &mut show);
         let all: Vec<DVec3> = engine.positions().iter().map(|&p| p * scale).collect();

@@ -1,5 +1,6 @@
 //! Vertex moves.
 
+use super::memo::{Key, Question};
 use super::placement::Wish;
 use super::work::Work;
 use glam::DVec3;
@@ -7,8 +8,9 @@ use glam::DVec3;
 /// Half-steps of the grid kept from planes, by attempt: rounding moves a vertex by less than two, and what the first do not prove the last may.
 pub(super) const CLEARANCES: [f64; 2] = [4.0, 16.0];
 
-/// Volumes that differ by less than this part of the star's radius cubed are equal: moves must come to an end.
-const GAIN: f64 = 1e-9;
+/// Volumes that differ by less than this part of the star's radius cubed are equal: moves must come to an end, and each makes the stars around ask
+/// anew. With a thousandth of it half the answers are asked for again.
+pub(super) const GAIN: f64 = 1e-6;
 
 /// A plain vertex move: a pull strong enough to slide along planes, weak enough to stay near the star.
 pub(super) const SETTLE: Wish =
@@ -19,9 +21,15 @@ impl Work<'_> {
     pub fn settle(&mut self, v: u32) -> Option<f64> {
         let from = self.shell.position(v);
         self.take_star(v);
+        let key = Key::new(Question::Settle, self.shape.max_valence, &self.star);
+        if self.memo.get(key).is_some() {
+            return None;
+        }
         let radius = self.star_radius(from);
         let gained = self.propose(v, &SETTLE, |gain| gain > GAIN * radius * radius * radius);
-        self.star.clear();
+        if gained.is_none() {
+            self.memo.put(key, None);
+        }
         gained
     }
 

@@ -8,6 +8,7 @@
 //! witness changes only if it lies in one of the tetrahedra between old faces and the new vertex, and falls only for one that is cut off.
 
 use super::boxes::Bounds;
+use super::memo::Memo;
 use super::obstacle::Obstacle;
 use super::placement::{Placer, StarFace};
 use super::predicates::{Face, Triangle, are_apart, is_degenerate};
@@ -49,6 +50,7 @@ pub(super) struct Work<'a> {
     pub deadline: Option<Instant>,
     pub star: Vec<StarFace>,
     pub dead: Vec<u32>,
+    pub memo: Memo,
 }
 
 impl<'a> Work<'a> {
@@ -65,6 +67,7 @@ impl<'a> Work<'a> {
             deadline: None,
             star: Vec::new(),
             dead: Vec::new(),
+            memo: Memo::default(),
         }
     }
 

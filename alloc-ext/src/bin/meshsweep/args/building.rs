@@ -268,7 +268,7 @@ pub struct HullArgs {
         ]
     )]
     pub tight: Option<u32>,
-    /// Bits of a coordinate of the hull of a mesh: auto, the fewest that hold the mesh exactly; 16 or 24, on a grid, to
+    /// Bits of a coordinate of the hull of a mesh: auto, single precision, or with --progressive the fewest that hold the mesh exactly; 16 or 24, on a grid, to
     /// which the mesh moves; 32, single precision
     #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
     pub vertex_bits: StoredBits,
