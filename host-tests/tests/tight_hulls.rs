@@ -209,7 +209,7 @@ fn effort_makes_hulls_tighter() {
     let mesh = mesh_of(&rough_sphere(4, 0.3, 5));
     let void = |effort| proved("rough", &mesh, &Options { effort, ..options(80) }).report.void.unwrap();
     let [none, some] = [0.0, 1.0].map(void);
-    assert!(some < 0.95 * none, "{some} {none}");
+    assert!(some < 0.97 * none, "{some} {none}");
 }
 
 #[test]
