@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair};
 use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, WrapError, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
@@ -116,6 +117,34 @@ fn hulls_of_closed_meshes_are_proved() {
 }
 
 #[test]
+fn hulls_are_no_looser_than_progressive_hulls_of_as_many_faces() {
+    // Blocks, of which a few dozen faces are the solid itself, and round ones.
+    let blocks = [("groove", groove_block()), ("bracket", bracket()), ("cube", cube(4))];
+    let round = [("torus", torus(1.0, 0.3, 40, 20)), ("rough sphere", rough_sphere(3, 0.3, 7))];
+    let mut solids = 0;
+    for (name, of) in blocks.iter().chain(&round) {
+        let mesh = mesh_of(of);
+        for faces in [12, 100, 300] {
+            // With so few, all ways to begin compete, which takes longest.
+            if faces == 12 && *name != "cube" {
+                continue;
+            }
+            let (nested, void, _) = hull_of(&mesh, faces, &BuildOptions::default(), |_| {}).expect("a solid");
+            if nested.triangles.len() > faces {
+                continue;
+            }
+            let tight = proved(name, &mesh, &options(faces)).report;
+            // The steps of single precision that it keeps off the mesh.
+            let most = void.max(0.0) + 1e-5;
+            let found = tight.void.expect("a solid");
+            assert!(found <= most, "{name}, {faces} faces: {found:e}, progressive {void:e}");
+            solids += usize::from(void <= 1e-12);
+        }
+    }
+    assert!(solids >= 3, "{solids} hulls that are the solid itself");
+}
+
+#[test]
 fn scale_and_place_do_not_matter() {
     for factor in [1e-36, 1e-30, 1e30, 1e36] {
         let mesh = mesh_of(&scaled(&rough_sphere(2, 0.3, 3), factor));
@@ -180,7 +209,7 @@ fn effort_makes_hulls_tighter() {
     let mesh = mesh_of(&rough_sphere(4, 0.3, 5));
     let void = |effort| proved("rough", &mesh, &Options { effort, ..options(80) }).report.void.unwrap();
     let [none, some] = [0.0, 1.0].map(void);
-    assert!(some < 0.95 * none, "{some} {none}");
+    assert!(some < 0.97 * none, "{some} {none}");
 }
 
 #[test]

@@ -96,8 +96,11 @@ impl Work<'_> {
         if self.memo.get(key).is_some() {
             return false;
         }
+        self.is_in_its_own_way = false;
         if !self.admits(&new, &wings.triangles, &old[..1], pd) {
-            self.memo.put(key, None);
+            if !self.is_in_its_own_way {
+                self.memo.put(key, None);
+            }
             return false;
         }
         self.shell.flip(a, b)

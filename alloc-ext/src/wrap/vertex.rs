@@ -26,8 +26,9 @@ impl Work<'_> {
             return None;
         }
         let radius = self.star_radius(from);
+        self.is_in_its_own_way = false;
         let gained = self.propose(v, &SETTLE, |gain| gain > GAIN * radius * radius * radius);
-        if gained.is_none() {
+        if gained.is_none() && !self.is_in_its_own_way {
             self.memo.put(key, None);
         }
         gained

@@ -44,6 +44,8 @@ pub(super) struct Work<'a> {
     /// Moves that had to be proved, and those that could not.
     pub proofs: u64,
     pub refused: u64,
+    /// Whether a move was refused because of the hull, which changes, since this was last set to false.
+    pub is_in_its_own_way: bool,
     /// Stars after which no new move of a polish begins.
     pub limit: Option<u64>,
     /// When to stop, if at all.
@@ -63,6 +65,7 @@ impl<'a> Work<'a> {
             shape,
             proofs: 0,
             refused: 0,
+            is_in_its_own_way: false,
             limit: None,
             deadline: None,
             star: Vec::new(),
@@ -100,7 +103,9 @@ impl<'a> Work<'a> {
     /// Whether `new` may take the place of the faces `dead`, the moving corner of `bases` going to `apex`. Exact.
     pub fn admits(&mut self, new: &[Face], dead: &[u32], bases: &[Triangle], apex: DVec3) -> bool {
         self.proofs += 1;
-        let admitted = self.keeps_embedded(new, dead)
+        let embedded = self.keeps_embedded(new, dead);
+        self.is_in_its_own_way |= !embedded;
+        let admitted = embedded
             && !new.iter().any(|face| self.obstacle.meets(&face.at))
             && !self.obstacle.has_witness_in(bases, apex);
         self.refused += u64::from(!admitted);

@@ -9,7 +9,7 @@
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
 //!                         ├─ triboxes (their hierarchies) ──┤
-//!                         ├─ tight    (tight hulls) ────────┤
+//!                         ├─ tight    (tight hulls, drawn) ─┤
 //!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
 //! ```
 //! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
@@ -89,15 +89,16 @@ pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
     Ok(tables)
 }
 
-/// Measures tight hulls of one mesh file, which need not be closed, and proves each.
+/// Measures tight hulls of one mesh file, which need not be closed, and proves each; the tables, and pictures of hulls.
 ///
 /// # Errors
 /// The file is no mesh, or a hull is missing or not proved.
-pub fn measure_tight(file: &Path) -> Result<Vec<Table>, String> {
+pub fn measure_tight(file: &Path) -> Result<(Vec<Table>, tight::picture::Gallery), String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject.table()];
-    tables.extend(tight::tables(&subject)?);
-    Ok(tables)
+    let (measured, hulls) = tight::tables(&subject)?;
+    tables.extend(measured);
+    Ok((tables, tight::picture::Gallery::new(&subject.name, &subject.mesh, &hulls)))
 }
 
 /// Measures the hull hierarchy and the box tree of one mesh file; the tables in the order in which they should be read.

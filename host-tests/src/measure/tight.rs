@@ -1,14 +1,15 @@
 //! Tight hulls: void, distance, time and proof for some numbers of faces, beside other bounds of the same mesh.
 
+mod beside;
+mod cluster;
+pub mod picture;
+
 use glam::DVec3;
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
-use meshsweep_alloc::mesh::require_closed_manifold;
+use meshsweep_alloc::mesh::{Mesh, require_closed_manifold};
 use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, wrap};
 
 use super::Subject;
-use super::bounds::convex_hull::ConvexHull;
-use super::bounds::dop::{Dop, Slabs};
-use super::bounds::enclosing_sphere::Sphere;
 use super::paper::STRATEGIES;
 use super::stopwatch::Stopwatch;
 use super::table::{Cell, Table, fixed, row};
@@ -17,18 +18,35 @@ use crate::check::{Surface, check_enclosure};
 /// Faces of the hulls.
 pub const FACES: [usize; 7] = [20, 50, 100, 200, 500, 1_000, 2_000];
 
-/// The tables.
+/// A hull that was measured.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Faces that were asked for.
+    pub asked: usize,
+    /// Volume beyond that of the mesh as a part of it, if it bounds one.
+    pub void: Option<f64>,
+    /// The hull.
+    pub hull: Mesh,
+}
+
+/// The tables, and the hulls that they are about.
 ///
 /// # Errors
 /// A hull is missing, or the checker does not prove it.
-pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
+pub fn tables(subject: &Subject) -> Result<(Vec<Table>, Vec<Measured>), String> {
     let volume = require_closed_manifold(&subject.mesh).is_ok().then(|| volume_of(subject));
-    let mut tables = vec![hulls(subject, volume)?];
-    tables.extend(volume.and_then(|volume| convex(subject, volume)));
-    Ok(tables)
+    let mut measured = Vec::new();
+    let table = hulls(subject, volume, &mut measured)?;
+    let mut tables = vec![table];
+    if let Some(volume) = volume.filter(|&volume| volume > 0.0) {
+        let beside = beside::table(subject, volume)?;
+        tables.extend([beside::trade(&tables[0], &beside), beside]);
+        tables.swap(1, 2);
+    }
+    Ok((tables, measured))
 }
 
-fn hulls(subject: &Subject, volume: Option<f64>) -> Result<Table, String> {
+fn hulls(subject: &Subject, volume: Option<f64>, measured: &mut Vec<Measured>) -> Result<Table, String> {
     let mut table = Table::new(
         "tight",
         "Tight hulls, each proved by the checker, beside progressive hulls of as many faces",
@@ -37,9 +55,11 @@ fn hulls(subject: &Subject, volume: Option<f64>) -> Result<Table, String> {
             "faces",
             "void %",
             "distance",
+            "at least",
             "of diagonal",
             "seconds",
             "stars",
+            "programs",
             "start",
             "stop",
             "void %, lp",
@@ -52,7 +72,7 @@ fn hulls(subject: &Subject, volume: Option<f64>) -> Result<Table, String> {
         let Hull { mesh, report } =
             wrap(&subject.mesh, &options, |_| {}).map_err(|error| error.to_string())?;
         let seconds = begun.seconds();
-        let surface = |m: &meshsweep_alloc::mesh::Mesh| Surface::new(&m.positions, &m.triangles);
+        let surface = |m: &Mesh| Surface::new(&m.positions, &m.triangles);
         check_enclosure(&surface(&subject.mesh), &surface(&mesh))
             .map_err(|error| format!("the hull of {faces} faces is not proved: {error}"))?;
         let nested = STRATEGIES.map(|(priority, _)| {
@@ -79,34 +99,21 @@ fn hulls(subject: &Subject, volume: Option<f64>) -> Result<Table, String> {
             report.faces,
             report.void.map_or(Cell::Empty, |void| fixed(100.0 * void, 2)),
             fixed(report.slack.upper, 4),
+            fixed(report.slack.lower, 4),
             fixed(report.slack.upper / subject.diagonal(), 4),
             fixed(seconds, 2),
-            report.stars as usize,
+            report.stars,
+            report.programs,
             start,
             stop,
             lp,
             span,
         ]);
+        measured.push(Measured { asked: faces, void: report.void, hull: mesh });
     }
-    table.note("distance: no point of the hull is farther from the mesh; input units; seconds of processor time from the mesh in memory");
+    table.note("distance: no point of the hull is farther from the mesh, and one is at least so far; input units; seconds of processor time from the mesh in memory");
     table.note("lp, span: progressive hulls by the two priorities of paper 000; empty if they do not come down to so few faces");
     Ok(table)
-}
-
-/// What bounds that are convex leave of the mesh's own volume.
-fn convex(subject: &Subject, volume: f64) -> Option<Table> {
-    let points: Vec<DVec3> =
-        subject.mesh.positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-    let hull = ConvexHull::new(&points)?;
-    let sphere = Sphere::enclosing(&hull.points);
-    let mut table = Table::new("tight_convex", "Void of convex bounds", &["bound", "faces", "void %"]);
-    let void = |bound: f64| fixed(100.0 * (bound / volume - 1.0), 1);
-    for slabs in Slabs::all() {
-        let solid = Dop::of(&slabs, hull.points.iter().copied()).solid(&slabs, sphere.centre, sphere.radius);
-        table.push(row![slabs.name, solid.faces.len(), void(solid.volume())]);
-    }
-    table.push(row!["convex hull", hull.triangles.len(), void(hull.volume())]);
-    Some(table)
 }
 
 /// Around a vertex of the mesh, so that nothing cancels on a part far from the origin.

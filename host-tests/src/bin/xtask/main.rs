@@ -47,10 +47,10 @@ cargo xtask setup                   makes sure of the cross targets, of QEMU and
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
-cargo xtask measure [--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE] [--plot FILE.svg] [MESH...]
+cargo xtask measure [--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE] [--plot FILE.svg] [--picture FILE.svg] [MESH...]
                                     work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/);
                                     --tree: only the box tree's; --triboxes: the stored ones; --overlap: the mesh
-                                    against itself; --tight: tight hulls, each proved, with --firmware on a Cortex-M4F; --bounds: how tight boxes,
+                                    against itself; --tight: tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware; --bounds: how tight boxes,
                                     triboxes, hulls... are and what they cost, with --count in instructions too; --plot: error against cost
 cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask race [--count] [--quick] [--hull] [--json FILE] [MESH...]

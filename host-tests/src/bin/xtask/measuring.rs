@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use meshsweep_host_tests::measure::bounds::cost::{Cost, counted};
 use meshsweep_host_tests::measure::plot::{self, Measured};
+use meshsweep_host_tests::measure::tight::picture;
 use meshsweep_host_tests::measure::{
     measure, measure_bounds, measure_overlap, measure_tight, measure_tree, measure_triboxes,
 };
@@ -22,6 +23,7 @@ pub struct Options {
     meshes: Vec<PathBuf>,
     json: Option<PathBuf>,
     plot: Option<PathBuf>,
+    picture: Option<PathBuf>,
     firmware: bool,
     part: Option<Part>,
     count: bool,
@@ -38,7 +40,7 @@ enum Part {
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE] [--plot FILE.svg] [MESH…]`; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -53,11 +55,14 @@ impl Options {
                 "--count" => options.count = true,
                 "--json" => options.json = Some(PathBuf::from(words.next()?)),
                 "--plot" => options.plot = Some(svg(words.next()?)?),
+                "--picture" => options.picture = Some(svg(words.next()?)?),
                 flag if flag.starts_with("--") => return None,
                 mesh => options.meshes.push(PathBuf::from(mesh)),
             }
         }
-        (options.part == Some(Part::Bounds) || !options.count).then_some(options)
+        let is_counted_rightly = options.part == Some(Part::Bounds) || !options.count;
+        let is_drawn_rightly = options.part == Some(Part::Tight) || options.picture.is_none();
+        (is_counted_rightly && is_drawn_rightly).then_some(options)
     }
 }
 
@@ -75,7 +80,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
     let valgrind = if options.count { Valgrind::find() } else { None };
     let hulls_on_board = options.firmware && options.part == Some(Part::Tight);
     let tools = if hulls_on_board { firmware::setup(steps) } else { None };
-    let (mut written, mut plotted) = (Vec::new(), Vec::new());
+    let (mut written, mut plotted, mut drawn) = (Vec::new(), Vec::new(), Vec::new());
     for mesh in meshes {
         let counts = valgrind.as_ref().and_then(|valgrind| {
             steps.run(&format!("count bounds of {}", mesh.display()), || count(valgrind, mesh))
@@ -88,7 +93,11 @@ pub fn run(steps: &mut Steps, options: &Options) {
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
                 Some(Part::Tight) => match &tools {
                     Some(tools) => vec![hulls::table(tools, mesh)?],
-                    None => measure_tight(mesh)?,
+                    None => {
+                        let (tables, gallery) = measure_tight(mesh)?;
+                        drawn.push(gallery);
+                        tables
+                    }
                 },
                 None => measure(mesh)?,
             };
@@ -109,6 +118,9 @@ pub fn run(steps: &mut Steps, options: &Options) {
     }
     if let Some(file) = &options.plot {
         steps.run("plot", || text(file, &plot::svg(&plotted)?));
+    }
+    if let Some(file) = &options.picture {
+        steps.run("draw the hulls", || text(file, &picture::svg(&drawn)?));
     }
     if options.firmware
         && !hulls_on_board
@@ -175,6 +187,9 @@ mod tests {
         assert!(options.count && options.part == Some(super::Part::Bounds));
         assert_eq!(Options::parse(&["--plot", "trade.png"]), None);
         assert_eq!(Options::parse(&["--plot"]), None);
+        let options = Options::parse(&["--tight", "--picture", "hulls.svg"]).expect("fine");
+        assert_eq!(options.picture, Some(PathBuf::from("hulls.svg")));
+        assert_eq!(Options::parse(&["--bounds", "--picture", "hulls.svg"]), None);
         assert_eq!(Options::parse(&["--count"]), None);
         assert_eq!(Options::parse(&["--tree", "--count"]), None);
     }

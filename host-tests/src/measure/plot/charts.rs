@@ -114,7 +114,7 @@ const TIME: [&str; 2] = ["to move it and test it once, ns (log)", "both ns"];
 const WORK: [&str; 2] = ["to move it and test it once, instructions (log)", "both instructions"];
 
 /// In the order of the panels.
-const VIEWS: [View; 9] = [
+const VIEWS: [View; 10] = [
     bounds(INSTRUCTIONS, WORK, false),
     bounds(INSTRUCTIONS, WORK, true),
     bounds("bounds_time", TIME, false),
@@ -134,6 +134,17 @@ const VIEWS: [View; 9] = [
     },
     closest("tree_tolerance", "box tree, closest point within a tolerance", "found", ["tolerance %", " %"]),
     closest("tree_steps", "box tree, closest point after so many nodes", "found", ["steps", ""]),
+    View {
+        table: "tight_trade",
+        title: "void of hulls and other bounds",
+        x: ["faces (log)", "faces"],
+        y: "void, % of the mesh's volume (log)",
+        is_log: true,
+        is_line: true,
+        legend: "",
+        split: Split::Names("bound", "void %"),
+        label: ["label", ""],
+    },
 ];
 
 /// The charts of a mesh's tables. Where instructions were counted, times are left out: those are noise.
