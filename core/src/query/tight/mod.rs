@@ -8,6 +8,19 @@
 //! *The side.* A point outside of the hull tree's box, and farther from the hull than it was moved when it was stored, is outside. Else
 //! [`signed_distance`](super::tree::signed_distance) proves it; what it leaves open counts as inside.
 
+//!
+//! ```
+//! use meshsweep_core::{TightHulls, query::{Stop, tight::is_within, tree::TreeEntry}};
+//! # fn probe(blob: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
+//! let hulls = TightHulls::open(blob)?; // of a blob built with `meshsweep build part.stl --for tight --tight 70,200`
+//! if let Some(hull) = hulls.finest() {
+//!     let mut stack = [TreeEntry::EMPTY; 64]; // `hull.tree().header().stack_entries` says what this hull needs
+//!     let near = is_within(&hull, [0.1, 0.2, 0.3], 0.5, &Stop::EXACT, &mut stack)?;
+//!     if near.is_clear() { /* proved: the part is farther than 0.5 */ }
+//! }
+//! # Ok(()) }
+//! ```
+
 mod closest;
 mod side;
 mod within;

@@ -26,7 +26,7 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let [board, ..] = BOARDS;
     let mut table = Table::new(
         "tight_firmware",
-        &format!("Tight hulls on a {}: instructions a question, mean and most", board.cpu),
+        format!("Tight hulls on a {}: instructions a question, mean and most", board.cpu),
         &[
             "faces",
             "bytes",
