@@ -129,6 +129,17 @@ fn a_box_tree_is_asked_unless_a_hull_is_named() {
 }
 
 #[test]
+fn hulls_that_come_to_no_fewer_faces_are_named() {
+    let directory = scratch("tight_left_out");
+    let out = directory.join("out.msw");
+    // A closed hull has an even number of faces: at most 67 are 66.
+    let asked = ["--for", "tight", "--tight", "66,67", "--effort", "0"];
+    let text = ok([&["build", arg(&fixture("torus.ply")), "-o", arg(&out)], &asked[..]].concat());
+    assert!(text.contains("no tight hull of 66 faces"), "{text}");
+    assert_eq!(hulls(&info(&out)).len(), 1);
+}
+
+#[test]
 fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
     let directory = scratch("tight_usage");
     let (mesh, out) = (fixture("torus.ply"), directory.join("out.msw"));

@@ -61,6 +61,8 @@ pub enum Stage {
 /// A hull of the chain, and what it took.
 #[derive(Clone, Debug)]
 pub struct HullReport {
+    /// Faces asked for.
+    pub asked: usize,
     /// What `wrap` says; of a nested hull its `slack` is measured to the next finer hull, and so is its `void`.
     pub wrapped: wrap::Report,
     /// Both ways between hull and mesh, input units.
@@ -75,7 +77,7 @@ pub struct HullReport {
     pub time: Duration,
 }
 
-/// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out.
+/// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out: what was asked for and no report names is one of these.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were. The hulls enclose the mesh
 /// where it is now, and what the blob answers holds for where it was. Cost: that of [`wrap`] for each hull, twice for nested ones; some hundred distance queries for each
@@ -131,6 +133,7 @@ pub fn chain(
         let distances = distances(&hull.mesh, mesh);
         let void = volume.map(|volume| hull.report.volume / volume - 1.0);
         let report = HullReport {
+            asked: faces,
             wrapped: hull.report,
             distances,
             void,

@@ -164,8 +164,9 @@ impl Report<'_> {
             }
         }
         describe::write_blob(out, model)?;
-        for report in tight.iter().copied().flatten() {
-            write_tight(out, report)?;
+        if let Some(reports) = tight {
+            write_left_out(out, args, reports)?;
+            reports.iter().try_for_each(|report| write_tight(out, report))?;
         }
         write!(out, "seconds: read and repair {:.3}", loaded.time.as_secs_f64())?;
         if let Some(report) = hull {
@@ -192,6 +193,18 @@ impl Report<'_> {
     }
 }
 
+/// Which tight hulls are not there.
+fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport]) -> io::Result<()> {
+    let mut asked: Vec<u32> = args.tight.clone();
+    asked.sort_unstable();
+    asked.dedup();
+    asked.retain(|&faces| reports.iter().all(|report| report.asked != faces as usize));
+    for faces in asked {
+        writeln!(out, "  no tight hull of {faces} faces: it came to no fewer than the next finer one")?;
+    }
+    Ok(())
+}
+
 /// What the table of tight hulls does not say.
 fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
     if let (Some(void), Some(free)) = (report.void, report.free_void) {
@@ -201,6 +214,14 @@ fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
             Counted(report.wrapped.faces, "face"),
             void * 100.0,
             free * 100.0
+        )?;
+    }
+    if report.wrapped.faces > report.asked {
+        writeln!(
+            out,
+            "  tight hull of {}: stopped before {}, where no edge may collapse and leave it closed, clear of the mesh and of itself",
+            Counted(report.wrapped.faces, "face"),
+            report.asked
         )?;
     }
     write_start(out, &report.wrapped)
