@@ -98,8 +98,15 @@ pub fn wrap(
 /// Faces that a search for the fewest begins with.
 const FINEST: usize = 2000;
 
-/// Cubes along the longest side of closures, in the order in which they are tried; `None` is the box.
-const CELLS: [Option<usize>; 4] = [Some(40), Some(16), Some(6), None];
+/// Cubes along the longest side of closures, in the order in which they are tried after the [`finest`]; `None` is the box.
+const COARSER: [Option<usize>; 4] = [Some(40), Some(16), Some(6), None];
+
+/// Cubes along the longest side of the finest closure for so many faces: gaps of a cube are filled for good, and faces that could follow them would be
+/// there for nothing. Beyond 160 the grid takes more time than the hull.
+fn finest(wanted: usize) -> usize {
+    let cells = (40.0 * (wanted as f64 / 200.0).sqrt()) as usize;
+    cells.clamp(40, 160)
+}
 
 /// Faces up to which closures are tried beside the progressive hull.
 const FEW_FACES: usize = 60;
@@ -192,7 +199,8 @@ impl<'a> Builder<'a, '_, '_> {
         }
         let is_few = matches!(self.options.goal, Goal::Faces(faces) if faces <= FEW_FACES);
         let is_solid = best.is_some();
-        for cells in CELLS {
+        let finest = Some(finest(wanted));
+        for cells in [finest].into_iter().chain(COARSER.into_iter().filter(|&cells| cells != finest)) {
             let late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
             let settled = is_solid && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
             if best.is_some() && (settled || late) {
