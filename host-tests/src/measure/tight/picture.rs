@@ -54,14 +54,14 @@ pub fn svg(galleries: &[Gallery]) -> Result<String, String> {
     }
     let mut text = String::new();
     {
-        let size = ((PANEL * columns as i32) as u32, (PANEL * galleries.len() as i32) as u32);
-        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        let size = [columns, galleries.len()].map(|panels| PANEL.unsigned_abs() * panels as u32);
+        let root = SVGBackend::with_string(&mut text, size.into()).into_drawing_area();
         let drawn = root.fill(&WHITE).map_err(|error| error.to_string());
         drawn?;
-        for (row, gallery) in galleries.iter().enumerate() {
+        for (row, gallery) in (0i32..).zip(galleries) {
             let view = View::new(gallery);
-            for (column, (title, hull)) in gallery.hulls.iter().enumerate() {
-                let corner = (PANEL * column as i32, PANEL * row as i32);
+            for (column, (title, hull)) in (0i32..).zip(&gallery.hulls) {
+                let corner = (PANEL * column, PANEL * row);
                 let draw = || {
                     view.mesh(&root, corner, &gallery.mesh)?;
                     view.hull(&root, corner, hull)?;
@@ -81,6 +81,8 @@ pub fn svg(galleries: &[Gallery]) -> Result<String, String> {
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+/// A triangle's depth, the cosine between view and normal, its corners.
+type Seen = (f64, f64, Vec<(i32, i32)>);
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 /// A direction to look along, and what of the scene is the panel.
@@ -117,7 +119,7 @@ impl View {
 
     /// Triangles as they are seen, the farthest first, with the cosine between view and normal.
     fn seen(&self, triangles: &[[DVec3; 3]], corner: (i32, i32)) -> Vec<(f64, Vec<(i32, i32)>)> {
-        let mut seen: Vec<(f64, f64, Vec<(i32, i32)>)> = Vec::new();
+        let mut seen: Vec<Seen> = Vec::new();
         for triangle in triangles {
             let at = triangle.map(|p| self.rotation * p - self.centre);
             let facing = (at[1] - at[0]).cross(at[2] - at[0]).normalize_or_zero().z;
