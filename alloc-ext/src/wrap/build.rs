@@ -9,7 +9,7 @@ use super::slack::slack;
 use super::start::{First, first_box, first_closure, first_level};
 use super::work::{Shape, Work};
 use crate::mesh::{Mesh, require_closed_manifold};
-use crate::precision::{Stored, store};
+use crate::precision::{Stored, VertexBits, store};
 use glam::DVec3;
 use std::time::Instant;
 
@@ -47,6 +47,12 @@ pub fn wrap(
     if mesh.triangles.is_empty() {
         return Err(WrapError::Empty);
     }
+    if !(options.margin >= 0.0 && options.margin.is_finite()) {
+        return Err(WrapError::BadMargin);
+    }
+    if matches!(options.goal, Goal::Slack(most) if most <= options.margin) {
+        return Err(WrapError::SlackWithinMargin);
+    }
     let positions: Vec<DVec3> =
         mesh.positions.iter().map(|&[x, y, z]| glam::Vec3::new(x, y, z).as_dvec3()).collect();
     let solid = require_closed_manifold(mesh).is_ok();
@@ -55,8 +61,8 @@ pub fn wrap(
         return Err(WrapError::NoVolume);
     }
     let stored = store(mesh, options.vertex_bits);
-    let rounding = Rounding::new(stored.grid, stored.scale_exponent);
-    let obstacle = Obstacle::new(&positions, &mesh.triangles);
+    let obstacle = Obstacle::new(&positions, &mesh.triangles).with_margin(options.margin);
+    let around = with_margin(&stored, &obstacle, options.vertex_bits)?;
     let solid = solid && volume > 0.0;
     let mut builder = Builder {
         obstacle: &obstacle,
@@ -65,11 +71,12 @@ pub fn wrap(
         deadline: options.time_limit.map(|limit| started + limit),
         on_progress: &mut on_progress,
     };
-    let Done { work, start, filled, stop } = builder.build(mesh, &stored, rounding)?;
+    let Done { work, start, filled, stop } = builder.build(mesh, &stored, &around)?;
     let (at, triangles) = work.shell.compact();
     let hull_volume = work.shell.volume();
     let report = Report {
         faces: triangles.len(),
+        margin: options.margin,
         volume: hull_volume,
         void: solid.then(|| hull_volume / volume - 1.0),
         slack: slack(&work.shell, &obstacle),
@@ -84,6 +91,21 @@ pub fn wrap(
     };
     let single = at.iter().map(|p| p.as_vec3().to_array()).collect();
     Ok(Hull { mesh: Mesh::new(single, triangles), report })
+}
+
+/// The frame and the format of the hull's coordinates: the mesh's own, or such as hold the mesh's box with the margin around it.
+fn with_margin(stored: &Stored, obstacle: &Obstacle, bits: VertexBits) -> Result<Stored, WrapError> {
+    if obstacle.margin() <= 0.0 {
+        return Ok(stored.clone());
+    }
+    let bounds = obstacle.bounds().grown(obstacle.margin());
+    let corners = [bounds.low, bounds.high].map(|p| p.as_vec3());
+    if !corners.iter().all(|p| p.is_finite()) {
+        return Err(WrapError::MarginTooLarge);
+    }
+    // The mesh's own grid says nothing about the places that a margin asks for.
+    let bits = if bits == VertexBits::Auto { VertexBits::F32 } else { bits };
+    Ok(store(&Mesh::new(corners.map(|p| p.to_array()).to_vec(), Vec::new()), bits))
 }
 
 /// Faces that a search for the fewest begins with.
@@ -130,9 +152,10 @@ impl<'a> Builder<'a, '_, '_> {
         self.volume.unwrap_or(0.0)
     }
 
-    fn build(&mut self, mesh: &Mesh, stored: &Stored, rounding: Rounding) -> Result<Done<'a>, WrapError> {
+    /// `around` is how the hull is stored.
+    fn build(&mut self, mesh: &Mesh, stored: &Stored, around: &Stored) -> Result<Done<'a>, WrapError> {
         if let Goal::Faces(faces) = self.options.goal {
-            let mut done = self.begin(mesh, stored, rounding, faces)?;
+            let mut done = self.begin(mesh, stored, around, faces)?;
             let polished = self.polish(&mut done.work, self.options.effort);
             if done.stop == Stop::Reached {
                 done.stop = polished;
@@ -140,10 +163,10 @@ impl<'a> Builder<'a, '_, '_> {
             return Ok(done);
         }
         let mut faces = FINEST;
-        let mut done = self.begin(mesh, stored, rounding, faces)?;
+        let mut done = self.begin(mesh, stored, around, faces)?;
         while !self.is_tight(&done.work) && faces < mesh.triangles.len() && !done.work.is_late() {
             faces = faces.saturating_mul(4);
-            done = self.begin(mesh, stored, rounding, faces)?;
+            done = self.begin(mesh, stored, around, faces)?;
         }
         (done.work, done.stop) = self.fewest(done.work);
         Ok(done)
@@ -155,9 +178,10 @@ impl<'a> Builder<'a, '_, '_> {
         &mut self,
         mesh: &Mesh,
         stored: &Stored,
-        rounding: Rounding,
+        around: &Stored,
         wanted: usize,
     ) -> Result<Done<'a>, WrapError> {
+        let rounding = Rounding::new(around.grid, around.scale_exponent);
         let mut best: Option<Done<'a>> = None;
         if self.volume.is_some() {
             let first = first_level(mesh, stored, self.obstacle, &rounding, wanted, self.on_progress);
@@ -173,7 +197,7 @@ impl<'a> Builder<'a, '_, '_> {
             }
             let first = match cells {
                 Some(cells) => {
-                    first_closure(stored, self.obstacle, &rounding, cells, wanted, self.on_progress)
+                    first_closure(around, self.obstacle, &rounding, cells, wanted, self.on_progress)
                 }
                 None => first_box(self.obstacle, &rounding),
             };
@@ -191,7 +215,8 @@ impl<'a> Builder<'a, '_, '_> {
                 None => best = Some(done),
             }
         }
-        best.ok_or(WrapError::NoRoom)
+        let margin = self.obstacle.margin();
+        best.ok_or(if margin > 0.0 { WrapError::MarginTooLarge } else { WrapError::NoRoom })
     }
 
     /// Settles a first hull and brings it to the wanted number of faces, without polish.

@@ -11,9 +11,12 @@
 //! the triangles. It is nowhere farther from them than three diagonals of a cube, but where it closes a hole that no corner can be
 //! reached through.
 //!
+//! With a margin, a cube is met if the mesh may come within the margin of it, by the distance from its middle: then all of the surface keeps it.
+//!
 //! Cubes have a power of two as edge and the grid passes through the origin, so that every vertex is exact in single precision.
 
 use super::boxes::Bounds;
+use super::obstacle::Obstacle;
 use super::predicates::Triangle;
 use glam::DVec3;
 use meshsweep_core::num::exp2;
@@ -39,10 +42,10 @@ const GROWN: f64 = 1.0 + 1e-6;
 /// Half-cubes from the origin that a coordinate may be away: what single precision holds exactly.
 const MOST: f64 = 16_777_216.0;
 
-/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the triangles' longest side; with fewer where
-/// single precision has no room for more. `None` if it has none at all, or the triangles are one point.
-pub(super) fn closure(triangles: &[Triangle], cells: usize) -> Option<Closure> {
-    let bounds = triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p));
+/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the longest side of the mesh and its margin; with fewer where
+/// single precision has no room for more. `None` if it has none at all, or mesh and margin are one point.
+pub(super) fn closure(obstacle: &Obstacle, cells: usize) -> Option<Closure> {
+    let bounds = obstacle.bounds().grown(obstacle.margin());
     let extent = (bounds.high - bounds.low).max_element();
     let farthest = bounds.low.abs().max(bounds.high.abs()).max_element();
     if !(extent > 0.0 && farthest.is_finite()) {
@@ -60,7 +63,8 @@ pub(super) fn closure(triangles: &[Triangle], cells: usize) -> Option<Closure> {
     if last.as_dvec3().abs().max_element() * cell > f64::from(f32::MAX) {
         return None;
     }
-    let mut inside = grid.met(triangles);
+    let mut inside =
+        if obstacle.margin() > 0.0 { grid.near(obstacle) } else { grid.met(obstacle.triangles()) };
     grid.fill(&mut inside);
     let (positions, triangles) = grid.surface(&inside);
     Some(Closure {
@@ -118,6 +122,36 @@ impl Grid {
             }
         }
         met
+    }
+
+    /// Corners of cubes that the mesh may come within the margin of.
+    fn near(&self, obstacle: &Obstacle) -> Vec<bool> {
+        let mut near = vec![false; self.all().len()];
+        // A cube's corner is no farther from its middle than this.
+        let half_diagonal = self.cell * 0.75f64.sqrt() * GROWN;
+        let most = obstacle.margin() * GROWN + half_diagonal;
+        let [nx, ny, nz] = self.corners.map(|n| n - 1);
+        for k in 0..nz {
+            for j in 0..ny {
+                let mut i = 0;
+                while i < nx {
+                    let middle = self.at([i, j, k].map(|c| 2 * c + 1));
+                    let Some((_, [lower, upper])) = obstacle.nearest(middle) else { return near };
+                    // The distance changes by no more than one walks: the next cubes are known as well.
+                    let is_near = lower <= most;
+                    let known = if is_near { most - upper } else { lower - most };
+                    let same = 1 + (known / (self.cell * GROWN)).clamp(0.0, 1e9) as i64;
+                    for i in (i..(i + same).min(nx)).take_while(|_| is_near) {
+                        for corner in 0..8i64 {
+                            let at = [i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)];
+                            near[self.index(at)] = true;
+                        }
+                    }
+                    i += same;
+                }
+            }
+        }
+        near
     }
 
     /// Whether a triangle's box and its plane reach a cube that is a little larger: never false for one that it meets.
@@ -240,6 +274,13 @@ fn march(
 mod tests {
     use super::*;
 
+    fn around(triangles: &[Triangle]) -> Obstacle {
+        let corners: Vec<DVec3> = triangles.concat();
+        let numbers: Vec<[u32; 3]> =
+            (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        Obstacle::new(&corners, &numbers)
+    }
+
     fn volume(surface: &Closure) -> f64 {
         let at = |v: u32| surface.positions[v as usize];
         surface.triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
@@ -257,7 +298,7 @@ mod tests {
     fn one_triangle_is_enclosed_by_a_closed_surface_that_faces_outwards() {
         let triangle = [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
         for cells in [1, 2, 5, 16] {
-            let surface = closure(&[triangle], cells).unwrap();
+            let surface = closure(&around(&[triangle]), cells).unwrap();
             assert!(volume(&surface) > 0.0);
             let mut edges: Vec<_> =
                 surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
@@ -274,15 +315,15 @@ mod tests {
         let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles: Vec<Triangle> =
             quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner))).collect();
-        let surface = closure(&triangles, 16).unwrap();
+        let surface = closure(&around(&triangles), 16).unwrap();
         assert!(volume(&surface) > 1.0 && volume(&surface) < 2.0, "{}", volume(&surface));
     }
 
     #[test]
     fn a_point_has_no_closure_and_far_triangles_have_larger_cubes() {
-        assert!(closure(&[[DVec3::ONE; 3]], 8).is_none());
+        assert!(closure(&around(&[[DVec3::ONE; 3]]), 8).is_none());
         let far = [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
-        let surface = closure(&[far], 64).unwrap();
+        let surface = closure(&around(&[far]), 64).unwrap();
         assert!(surface.cells < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p));
     }
 }

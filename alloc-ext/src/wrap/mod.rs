@@ -18,10 +18,12 @@
 //!
 //! After Platis & Theoharis 2003 for the first hull and its program; the shrinking is our own.
 
+mod apart;
 mod boxes;
 mod build;
 mod closure;
 mod decimate;
+mod distance;
 mod exchange;
 mod flip;
 mod obstacle;

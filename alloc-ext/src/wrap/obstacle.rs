@@ -1,6 +1,7 @@
 //! The original mesh as that which a hull may not meet: its triangles, its vertices, and one witness of each connected part.
 
 use super::boxes::{Bounds, BoxTree, Frontier};
+use super::distance::Reach;
 use super::predicates::{Triangle, in_sunken, meet};
 use super::region::{Plane, Tetrahedron};
 use glam::DVec3;
@@ -16,6 +17,8 @@ pub(super) struct Obstacle {
     point_tree: BoxTree,
     witnesses: Vec<DVec3>,
     witness_tree: BoxTree,
+    /// Distance within which nothing may come, if it is above 0.
+    margin: f64,
 }
 
 /// Factor by which the bound of a plane's rounding exceeds `f64`'s unit: the products have eight roundings, and what is kept for nothing
@@ -31,7 +34,23 @@ impl Obstacle {
         let triangles_in_order = order.iter().map(|&i| all[i as usize]).collect();
         let (points, point_tree) = tree_of(positions);
         let (witnesses, witness_tree) = tree_of(&witnesses(positions, triangles));
-        Self { triangles: triangles_in_order, triangle_tree, points, point_tree, witnesses, witness_tree }
+        let triangles = triangles_in_order;
+        Self { triangles, triangle_tree, points, point_tree, witnesses, witness_tree, margin: 0.0 }
+    }
+
+    /// The same, with a distance that nothing may come within.
+    pub fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// See [`with_margin`](Self::with_margin).
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// The box of all triangles.
+    pub fn bounds(&self) -> Bounds {
+        self.triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p))
     }
 
     /// All triangles.
@@ -44,8 +63,28 @@ impl Obstacle {
         &self.witnesses
     }
 
-    /// Whether a face touches or crosses any triangle. Exact.
+    /// Whether a face touches or crosses any triangle: exact; or is not certainly farther from it than the margin.
     pub fn meets(&self, face: &Triangle) -> bool {
+        if self.margin > 0.0 { self.is_near(face) } else { self.touches(face) }
+    }
+
+    fn is_near(&self, face: &Triangle) -> bool {
+        let reach = Reach::new(self.margin);
+        let bounds = Bounds::of(face);
+        let [a, b, c] = *face;
+        let normal = (b - a).cross(c - a);
+        let mut near = false;
+        self.triangle_tree.visit(
+            |of| !reach.parts_box(face, &bounds, normal, of),
+            |i| {
+                near = !reach.parts(face, normal, &self.triangles[i]);
+                !near
+            },
+        );
+        near
+    }
+
+    fn touches(&self, face: &Triangle) -> bool {
         let bounds = Bounds::of(face);
         let [a, b, c] = *face;
         let (ab, ac) = (b - a, c - a);
@@ -120,6 +159,29 @@ impl Obstacle {
         highest(&self.triangle_tree, near, tetrahedron, |i, plane| {
             tetrahedron.clip(&self.triangles[i]).into_iter().fold(plane, |plane, p| raise(p).or(plane))
         })
+    }
+
+    /// Calls `visit` with the vertices in all boxes that pass `keep`, and perhaps others.
+    #[inline]
+    pub fn visit_points(&self, near: &Frontier, keep: impl Fn(&Bounds) -> bool, visit: impl Fn(DVec3)) {
+        self.point_tree.visit_from(near, keep, |i| {
+            visit(self.points[i]);
+            true
+        });
+    }
+
+    /// As [`visit_points`](Self::visit_points), with the triangles.
+    #[inline]
+    pub fn visit_triangles(
+        &self,
+        near: &Frontier,
+        keep: impl Fn(&Bounds) -> bool,
+        visit: impl Fn(&Triangle),
+    ) {
+        self.triangle_tree.visit_from(near, keep, |i| {
+            visit(&self.triangles[i]);
+            true
+        });
     }
 
     /// The triangle nearest to a point, and bounds of the distance to all.

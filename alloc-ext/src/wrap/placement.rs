@@ -7,6 +7,7 @@
 //!
 //! All is floating point: what is found here is proved, or refused, in `accept`.
 
+use super::apart::Sweep;
 use super::boxes::{Bounds, Frontier};
 use super::obstacle::Obstacle;
 use super::predicates::Triangle;
@@ -68,6 +69,8 @@ pub(super) struct Placer {
     pub programs: u64,
     fixed: Vec<HalfSpace>,
     cuts: Vec<Option<HalfSpace>>,
+    /// See [`apart`](super::apart).
+    pushes: Vec<HalfSpace>,
     planes: Vec<HalfSpace>,
 }
 
@@ -90,20 +93,27 @@ impl Placer {
         let objective = self.open(star, &frame, wish)?;
         let reach = star.iter().flat_map(|f| f.corners).fold(Bounds::EMPTY, Bounds::with);
         let mut near = <[Frontier; 2]>::default();
-        obstacle.frontiers(&reach, &mut near);
+        let margin = obstacle.margin();
+        obstacle.frontiers(&reach.grown(margin + wish.clearance), &mut near);
         let everywhere = [Frontier::whole(), Frontier::whole()];
         for _ in 0..ROUNDS {
             self.programs += 1;
             self.planes.clear();
             self.planes.extend(self.cuts.iter().flatten());
+            self.planes.extend(&self.pushes);
             self.planes.extend(&self.fixed);
             let x = minimise_bounded(objective, &mut self.planes, wish.second_term)?;
             let x = centre + x * radius;
             // Vertices of the mesh are cheap to look for and find nearly every plane; edges are looked at once no vertex is in the way.
             let near = if reach.with(x) == reach { &near } else { &everywhere };
-            let clear = [false, true]
-                .into_iter()
-                .all(|edges| self.cut(star, &frame, x, wish.clearance, &Search { obstacle, near, edges }));
+            let clear = [false, true].into_iter().all(|edges| {
+                let search = Search { obstacle, near, edges };
+                if margin > 0.0 {
+                    self.cut_apart(star, &frame, x, wish.clearance, &search)
+                } else {
+                    self.cut(star, &frame, x, wish.clearance, &search)
+                }
+            });
             if clear {
                 return Some(x);
             }
@@ -114,6 +124,7 @@ impl Placer {
     /// Sets up the constraints that do not depend on the mesh; the objective.
     fn open(&mut self, star: &[StarFace], frame: &Frame, wish: &Wish) -> Option<DVec3> {
         self.fixed.clear();
+        self.pushes.clear();
         self.cuts.clear();
         self.cuts.resize(star.len(), None);
         let mut objective = DVec3::ZERO;
@@ -177,22 +188,7 @@ impl Placer {
                         HalfSpace { normal: plane.normal, offset }
                     })
                 }
-                None => {
-                    let below = face.normal.dot(x);
-                    let height = Cell::new(tolerance);
-                    let raised = |q: DVec3| {
-                        let offset = face.normal.dot(q);
-                        (offset - below > height.get()).then(|| {
-                            height.set(offset - below);
-                            Plane { normal: face.normal, offset }
-                        })
-                    };
-                    search.highest(&tetrahedron, raised).map(|plane| {
-                        let normal = plane.normal;
-                        let offset = normal.dot(frame.local(x)) + height.get() / frame.radius + clearance;
-                        HalfSpace { normal, offset }
-                    })
-                }
+                None => raised(&tetrahedron, face, frame, x, clearance, search),
             };
             if found.is_some() {
                 *cut = found;
@@ -201,6 +197,64 @@ impl Placer {
         }
         clear
     }
+
+    /// As [`cut`](Self::cut), where a margin is kept.
+    fn cut_apart(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        x: DVec3,
+        clearance: f64,
+        search: &Search<'_>,
+    ) -> bool {
+        let Self { cuts, pushes, .. } = self;
+        let tolerance = LEVEL * frame.radius;
+        let margin = search.obstacle.margin();
+        let mut clear = true;
+        for (face, cut) in star.iter().zip(cuts) {
+            let [touching, pushing] = match face.ring {
+                Some(ring) => {
+                    let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+                    if search.edges { sweep.pieces(&search.near[1]) } else { sweep.points(&search.near[0]) }
+                }
+                None if face.normal.dot(x - face.corners[0]) >= -tolerance => [None; 2],
+                None => {
+                    let tetrahedron = Tetrahedron::new(&face.corners, x);
+                    let clearance = (margin + clearance) / frame.radius;
+                    [raised(&tetrahedron, face, frame, x, clearance, search), None]
+                }
+            };
+            clear &= touching.is_none() && pushing.is_none();
+            *cut = touching.or(*cut);
+            pushes.extend(pushing);
+        }
+        clear
+    }
+}
+
+/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` in the frame's unit.
+fn raised(
+    tetrahedron: &Tetrahedron,
+    face: &StarFace,
+    frame: &Frame,
+    x: DVec3,
+    clearance: f64,
+    search: &Search<'_>,
+) -> Option<HalfSpace> {
+    let below = face.normal.dot(x);
+    let height = Cell::new(LEVEL * frame.radius);
+    let raised = |q: DVec3| {
+        let offset = face.normal.dot(q);
+        (offset - below > height.get()).then(|| {
+            height.set(offset - below);
+            Plane { normal: face.normal, offset }
+        })
+    };
+    search.highest(tetrahedron, raised).map(|plane| {
+        let normal = plane.normal;
+        let offset = normal.dot(frame.local(x)) + height.get() / frame.radius + clearance;
+        HalfSpace { normal, offset }
+    })
 }
 
 /// Where planes are looked for.
@@ -224,13 +278,13 @@ impl Search<'_> {
 }
 
 /// The frame of a program: origin in the star, its radius as unit.
-struct Frame {
+pub(super) struct Frame {
     centre: DVec3,
-    radius: f64,
+    pub radius: f64,
 }
 
 impl Frame {
-    fn local(&self, p: DVec3) -> DVec3 {
+    pub fn local(&self, p: DVec3) -> DVec3 {
         (p - self.centre) / self.radius
     }
 }

@@ -73,6 +73,13 @@ impl Tetrahedron {
         bounds.meets(&self.bounds) && self.planes.iter().all(|p| p.reaches(bounds))
     }
 
+    /// Whether a box may have a point that is no farther from it than `distance`.
+    #[inline]
+    pub fn may_come_near(&self, bounds: &Bounds, distance: f64) -> bool {
+        bounds.meets(&self.bounds.grown(distance))
+            && self.planes.iter().all(|p| bounds.support(p.normal) >= p.offset - distance)
+    }
+
     /// Whether a point is in it.
     #[inline]
     pub fn holds(&self, p: DVec3) -> bool {

@@ -53,7 +53,7 @@ pub(super) fn first_level(
         let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
         let mut shell = Shell::new(positions, &triangles);
         let faces = shell.face_count();
-        lift(&mut shell, rounding);
+        lift(&mut shell, rounding, obstacle.margin());
         let (shell, filled) = keep_outermost(shell);
         let start = Start::Progressive { faces };
         defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
@@ -69,7 +69,7 @@ pub(super) fn first_closure(
     wanted: usize,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Option<First> {
-    let closure = closure(obstacle.triangles(), cells)?;
+    let closure = closure(obstacle, cells)?;
     if closure.positions.iter().any(|&p| rounding.round(p) != Some(p)) {
         return None;
     }
@@ -92,7 +92,7 @@ pub(super) fn first_closure(
 
 /// The mesh's box, a few steps of the grid larger.
 pub(super) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<First> {
-    let bounds = obstacle.triangles().iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p));
+    let bounds = obstacle.bounds().grown(obstacle.margin());
     let size = bounds.low.abs().max(bounds.high.abs()).max_element();
     LIFTS.into_iter().find_map(|lift| {
         let out = rounding.half_step(size) * lift;
@@ -171,17 +171,19 @@ fn compact(positions: &[DVec3], triangles: &[[u32; 3]]) -> Surface {
 /// Lifts of a vertex in half-steps of the grid, until one is strictly outside of every face.
 const LIFTS: [f64; 5] = [3.0, 6.0, 12.0, 48.0, 192.0];
 
-/// Moves every vertex strictly outside of all planes of its star, by a few steps of the grid: then the hull lies strictly outside of
+/// Moves every vertex strictly outside of all planes of its star, by the margin and a few steps of the grid: then the hull lies strictly outside of
 /// where it was. A vertex without such a place goes into a neighbour, where the two have one together; one that has not stays.
-pub(super) fn lift(shell: &mut Shell, rounding: &Rounding) {
+pub(super) fn lift(shell: &mut Shell, rounding: &Rounding, margin: f64) {
     let mut star = Vec::new();
     let mut left = Vec::new();
+    // Planes that were lifted already would lift by the margin again; steps of the grid do no harm.
+    let before = if margin > 0.0 { Some(shell.clone()) } else { None };
     for v in 0..shell.vertex_slots() {
         if shell.mesh.at(v).is_empty() {
             continue;
         }
-        shell.vertex_star(v, &mut star);
-        match lifted(&star, shell.position(v), rounding) {
+        before.as_ref().unwrap_or(shell).vertex_star(v, &mut star);
+        match lifted(&star, shell.position(v), rounding, margin) {
             Some(x) => shell.move_vertex(v, x),
             None => left.push(v),
         }
@@ -196,7 +198,7 @@ pub(super) fn lift(shell: &mut Shell, rounding: &Rounding) {
             star.clear();
             star.extend(faces.iter().map(|&f| shell.star_face(f, [u, v])));
             let middle = (shell.position(u) + shell.position(v)) * 0.5;
-            if let Some(x) = lifted(&star, middle, rounding) {
+            if let Some(x) = lifted(&star, middle, rounding, margin) {
                 shell.collapse(u, v, x);
                 break;
             }
@@ -204,14 +206,19 @@ pub(super) fn lift(shell: &mut Shell, rounding: &Rounding) {
     }
 }
 
-/// The point nearest to `from`, about, that is strictly outside of all planes of a star; exact.
-fn lifted(star: &[StarFace], from: DVec3, rounding: &Rounding) -> Option<DVec3> {
-    let unit = rounding.half_step(from.abs().max_element());
+/// The point nearest to `from`, about, that is strictly outside of all planes of a star, and farther by the margin, about; the first is exact.
+fn lifted(star: &[StarFace], from: DVec3, rounding: &Rounding, margin: f64) -> Option<DVec3> {
+    let step = rounding.half_step(from.abs().max_element());
     LIFTS.into_iter().find_map(|lift| {
-        // In half-steps, so that the program's tolerances are far below one.
+        // In half-steps, so that the program's tolerances are far below one; where there is a margin, in what is near it.
+        let (unit, height) = if margin > 0.0 {
+            (step + margin, (step * lift + margin) / (step + margin))
+        } else {
+            (step, lift)
+        };
         let plane = |face: &StarFace| HalfSpace {
             normal: face.normal,
-            offset: lift + face.normal.dot(face.corners[0] - from) / unit,
+            offset: height + face.normal.dot(face.corners[0] - from) / unit,
         };
         let mut planes: Vec<HalfSpace> = star.iter().map(plane).collect();
         let x = minimise_bounded(DVec3::ZERO, &mut planes, 1.0)?;

@@ -1,6 +1,6 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, factor, percent, positive, ratio, whole};
+use super::values::{degrees, factor, length, percent, positive, ratio, whole};
 use clap::{Args, ValueEnum};
 use meshsweep_alloc::collapse::{Conditions, Priority};
 use meshsweep_alloc::precision::VertexBits;
@@ -194,6 +194,9 @@ pub struct HullArgs {
     /// Fewest faces of which no point is farther than this from the mesh, in its unit
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "nested"])]
     pub slack: Option<f64>,
+    /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are inside [default: 0]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length, conflicts_with = "nested")]
+    pub margin: Option<f64>,
     /// One hull for each part of the mesh, all in one file
     #[arg(long, conflicts_with = "nested")]
     pub parts: bool,
@@ -212,7 +215,7 @@ pub struct HullArgs {
         allow_negative_numbers = true,
         value_parser = whole::<0, { u32::MAX }>,
         conflicts_with_all = [
-            "faces", "void", "slack", "parts", "effort", "seconds", "nested", "vertex_bits", "priority", "max_valence", "compactness",
+            "faces", "void", "slack", "margin", "parts", "effort", "seconds", "nested", "vertex_bits", "priority", "max_valence", "compactness",
             "max_normal_deviation"
         ]
     )]

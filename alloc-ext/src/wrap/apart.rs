@@ -1,0 +1,183 @@
+//! Planes of a program where the hull keeps a margin from the mesh.
+//!
+//! What a new face may not pass is the mesh grown by the margin: a ball around each of its points. In the way are points that are cut off, in the
+//! tetrahedron between an old face and the new vertex, and points that the new face is too near to. A ball below the face adds the plane about the ring edge
+//! that touches it; of those planes the steepest is kept, as without a margin. A ball beside the face, near an edge that moves or near the vertex, has no
+//! such plane, or one that asks too much: there the face's nearest point is pushed away along the line to the mesh, and it moves as the vertex
+//! does, times its weight. Such planes are only right where they were made, so all are kept.
+//!
+//! All is floating point, as in `placement`.
+
+use super::boxes::{Bounds, Frontier};
+use super::distance::Nearest;
+use super::obstacle::Obstacle;
+use super::placement::{Frame, StarFace};
+use super::predicates::Triangle;
+use super::region::{Plane, Tetrahedron};
+use crate::lp::HalfSpace;
+use glam::DVec3;
+use meshsweep_core::geom::point_triangle;
+use std::cell::Cell;
+
+/// Weights below this are rounding: the point does not move with the vertex.
+const LIGHT: f64 = 1e-6;
+
+/// Part of the clearance that may be lost before a point counts as too near.
+const HALF: f64 = 0.5;
+
+/// A new face, and the region that its vertex sweeps.
+pub(super) struct Sweep<'a> {
+    obstacle: &'a Obstacle,
+    frame: &'a Frame,
+    ring: [DVec3; 2],
+    /// The new face: its vertex first.
+    face: Triangle,
+    normal: DVec3,
+    tetrahedron: Tetrahedron,
+    clearance: f64,
+    tolerance: f64,
+    /// The highest plane that touches a ball, how far the vertex is below it, and the plane above which the centres of higher ones are.
+    touching: Cell<Option<(Plane, Plane)>>,
+    height: Cell<f64>,
+    /// The plane that pushes the nearest point away, and its distance.
+    pushing: Cell<Option<HalfSpace>>,
+    distance: Cell<f64>,
+}
+
+impl<'a> Sweep<'a> {
+    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit, heights up to `tolerance` are rounding.
+    pub fn new(
+        obstacle: &'a Obstacle,
+        frame: &'a Frame,
+        old: &StarFace,
+        ring: [DVec3; 2],
+        x: DVec3,
+        clearance: f64,
+        tolerance: f64,
+    ) -> Self {
+        let face = [x, ring[0], ring[1]];
+        Self {
+            obstacle,
+            frame,
+            ring,
+            face,
+            normal: (ring[0] - x).cross(ring[1] - x).normalize_or_zero(),
+            tetrahedron: Tetrahedron::new(&old.corners, x),
+            clearance,
+            tolerance,
+            touching: Cell::new(None),
+            height: Cell::new(tolerance),
+            pushing: Cell::new(None),
+            distance: Cell::new(f64::INFINITY),
+        }
+    }
+
+    /// Planes for the vertices of the mesh that are in the way.
+    pub fn points(&self, near: &Frontier) -> [Option<HalfSpace>; 2] {
+        self.obstacle.visit_points(
+            near,
+            |of| self.reaches(of),
+            |q| {
+                let inside = self.tetrahedron.holds(q);
+                let [x, a, b] = self.face;
+                let near = point_triangle(q, x, a, b);
+                let weights = [1.0 - near.u - near.v, near.u, near.v];
+                let p = x * weights[0] + a * weights[1] + b * weights[2];
+                self.avoid(q, p, weights, inside);
+            },
+        );
+        self.planes()
+    }
+
+    /// Planes for the triangles that are in the way.
+    pub fn pieces(&self, near: &Frontier) -> [Option<HalfSpace>; 2] {
+        let margin = self.obstacle.margin();
+        self.obstacle.visit_triangles(
+            near,
+            |of| self.reaches(of),
+            |triangle| {
+                let cut_off = self.tetrahedron.clip(triangle);
+                for &q in &cut_off {
+                    self.touch(q);
+                }
+                let heights = triangle.map(|q| self.normal.dot(q - self.face[0]));
+                let far = margin + self.clearance;
+                if !cut_off.is_empty()
+                    || heights.iter().all(|h| *h < -far)
+                    || heights.iter().all(|h| *h > far)
+                {
+                    return;
+                }
+                if let Some(near) = Nearest::of(&self.face, triangle) {
+                    self.avoid(near.q, near.p, near.weights, false);
+                }
+            },
+        );
+        self.planes()
+    }
+
+    /// Whether a box may hold what is in the way.
+    fn reaches(&self, of: &Bounds) -> bool {
+        let margin = self.obstacle.margin() + self.clearance;
+        self.touching.get().is_none_or(|(_, plane)| plane.reaches(of))
+            && self.tetrahedron.may_come_near(of, margin)
+    }
+
+    /// Looks at a point of the mesh, the face's nearest point being `p`.
+    fn avoid(&self, q: DVec3, p: DVec3, weights: [f64; 3], cut_off: bool) {
+        let margin = self.obstacle.margin();
+        let distance = (p - q).length();
+        let light = weights[0] <= LIGHT;
+        let is_near = distance < margin + HALF * weights[0] * self.clearance;
+        let below = weights.iter().all(|&w| w > LIGHT);
+        if (cut_off || (is_near && below)) && self.touch(q) {
+            return;
+        }
+        if light || !(cut_off || is_near) || distance >= self.distance.get() {
+            return;
+        }
+        // A point that is cut off has the face on its wrong side.
+        let away = if cut_off { q - p } else { p - q };
+        let away = if away.length() > self.tolerance { away.normalize() } else { self.normal };
+        let [_, a, b] = self.face.map(|corner| self.frame.local(corner));
+        let rest = a * weights[1] + b * weights[2] - self.frame.local(q);
+        let radius = self.frame.radius;
+        let offset = (margin / radius - away.dot(rest)) / weights[0] + self.clearance / radius;
+        self.distance.set(distance);
+        self.pushing.set(Some(HalfSpace { normal: away, offset }));
+    }
+
+    /// Turns the plane about the ring edge until it touches the ball around `q`; whether there is such a plane.
+    fn touch(&self, q: DVec3) -> bool {
+        let [a, b] = self.ring;
+        let edge = b - a;
+        let normal = edge.cross(q - a);
+        let length = normal.length();
+        let from_edge = length / edge.length();
+        let sine = self.obstacle.margin() / from_edge;
+        if !(from_edge > 10.0 * self.tolerance && sine < 1.0) {
+            return false;
+        }
+        let normal = normal / length;
+        // From the ball's centre to the edge.
+        let out = normal.cross(edge) / edge.length();
+        let normal = normal * (1.0 - sine * sine).sqrt() + out * sine;
+        let above = normal.dot(a - self.face[0]);
+        if above > self.height.get() {
+            self.height.set(above);
+            let offset = normal.dot(a);
+            let centres = Plane { normal, offset: offset - self.obstacle.margin() };
+            self.touching.set(Some((Plane { normal, offset }, centres)));
+        }
+        true
+    }
+
+    fn planes(&self) -> [Option<HalfSpace>; 2] {
+        let clearance = self.clearance / self.frame.radius;
+        let touching = self.touching.get().map(|(plane, _)| {
+            let offset = plane.normal.dot(self.frame.local(self.ring[0])) + clearance;
+            HalfSpace { normal: plane.normal, offset }
+        });
+        [touching, self.pushing.get()]
+    }
+}
