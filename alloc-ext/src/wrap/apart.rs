@@ -160,7 +160,7 @@ impl<'a> Sweep<'a> {
         }
         let normal = normal / length;
         // From the ball's centre to the edge.
-        let out = normal.cross(edge) / edge.length();
+        let out = edge.cross(normal) / edge.length();
         let normal = normal * (1.0 - sine * sine).sqrt() + out * sine;
         let above = normal.dot(a - self.face[0]);
         if above > self.height.get() {
