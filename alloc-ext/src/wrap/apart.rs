@@ -4,7 +4,7 @@
 //! tetrahedron between an old face and the new vertex, and points that the new face is too near to. A ball below the face adds the plane about the ring edge
 //! that touches it; of those planes the steepest is kept, as without a margin. A ball beside the face, near an edge that moves or near the vertex, has no
 //! such plane, or one that asks too much: there the face's nearest point is pushed away along the line to the mesh, and it moves as the vertex
-//! does, times its weight. Such planes are only right where they were made, so all are kept.
+//! does, times its weight. Such planes are only right near where they were made: they are looked for last, and all are kept.
 //!
 //! All is floating point, as in `placement`.
 
@@ -72,48 +72,52 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Planes for the vertices of the mesh that are in the way.
-    pub fn points(&self, near: &Frontier) -> [Option<HalfSpace>; 2] {
+    /// The plane for the vertices of the mesh that are in the way.
+    pub fn points(&self, near: &Frontier) -> Option<HalfSpace> {
         self.obstacle.visit_points(
             near,
             |of| self.reaches(of),
             |q| {
-                let inside = self.tetrahedron.holds(q);
                 let [x, a, b] = self.face;
-                let near = point_triangle(q, x, a, b);
-                let weights = [1.0 - near.u - near.v, near.u, near.v];
-                let p = x * weights[0] + a * weights[1] + b * weights[2];
-                self.avoid(q, p, weights, inside);
+                let found = point_triangle(q, x, a, b);
+                let weights = [1.0 - found.u - found.v, found.u, found.v];
+                let under = weights.iter().all(|&w| w > LIGHT);
+                if (under && self.is_near(found.distance_sq.sqrt(), weights[0])) || self.tetrahedron.holds(q)
+                {
+                    self.touch(q);
+                }
             },
         );
-        self.planes()
+        self.touching()
     }
 
-    /// Planes for the triangles that are in the way.
-    pub fn pieces(&self, near: &Frontier) -> [Option<HalfSpace>; 2] {
-        let margin = self.obstacle.margin();
+    /// The plane for the triangles that are in the way, once no vertex is.
+    pub fn pieces(&self, near: &Frontier) -> Option<HalfSpace> {
+        self.obstacle.visit_triangles(
+            near,
+            |of| self.reaches(of),
+            |triangle| self.tetrahedron.clip(triangle).into_iter().for_each(|q| self.touch(q)),
+        );
+        self.touching()
+    }
+
+    /// The plane for the nearest triangle beside the face, once nothing is cut off.
+    pub fn beside(&self, near: &Frontier) -> Option<HalfSpace> {
         self.obstacle.visit_triangles(
             near,
             |of| self.reaches(of),
             |triangle| {
-                let cut_off = self.tetrahedron.clip(triangle);
-                for &q in &cut_off {
-                    self.touch(q);
-                }
                 let heights = triangle.map(|q| self.normal.dot(q - self.face[0]));
-                let far = margin + self.clearance;
-                if !cut_off.is_empty()
-                    || heights.iter().all(|h| *h < -far)
-                    || heights.iter().all(|h| *h > far)
-                {
+                let far = self.obstacle.margin() + self.clearance;
+                if heights.iter().all(|h| *h < -far) || heights.iter().all(|h| *h > far) {
                     return;
                 }
-                if let Some(near) = Nearest::of(&self.face, triangle) {
-                    self.avoid(near.q, near.p, near.weights, false);
+                if let Some(found) = Nearest::of(&self.face, triangle) {
+                    self.push(&found);
                 }
             },
         );
-        self.planes()
+        self.pushing.get()
     }
 
     /// Whether a box may hold what is in the way.
@@ -123,32 +127,28 @@ impl<'a> Sweep<'a> {
             && self.tetrahedron.may_come_near(of, margin)
     }
 
-    /// Looks at a point of the mesh, the face's nearest point being `p`.
-    fn avoid(&self, q: DVec3, p: DVec3, weights: [f64; 3], cut_off: bool) {
-        let margin = self.obstacle.margin();
-        let distance = (p - q).length();
-        let light = weights[0] <= LIGHT;
-        let is_near = distance < margin + HALF * weights[0] * self.clearance;
-        let below = weights.iter().all(|&w| w > LIGHT);
-        if (cut_off || (is_near && below)) && self.touch(q) {
+    fn is_near(&self, distance: f64, weight: f64) -> bool {
+        distance < self.obstacle.margin() + HALF * weight * self.clearance
+    }
+
+    /// Pushes the face's nearest point away from a triangle's.
+    fn push(&self, found: &Nearest) {
+        let Nearest { p, weights, q, distance, .. } = *found;
+        if weights[0] <= LIGHT || distance >= self.distance.get() || !self.is_near(distance, weights[0]) {
             return;
         }
-        if light || !(cut_off || is_near) || distance >= self.distance.get() {
-            return;
-        }
-        // A point that is cut off has the face on its wrong side.
-        let away = if cut_off { q - p } else { p - q };
-        let away = if away.length() > self.tolerance { away.normalize() } else { self.normal };
+        let away = if distance > self.tolerance { (p - q) / distance } else { self.normal };
         let [_, a, b] = self.face.map(|corner| self.frame.local(corner));
         let rest = a * weights[1] + b * weights[2] - self.frame.local(q);
         let radius = self.frame.radius;
-        let offset = (margin / radius - away.dot(rest)) / weights[0] + self.clearance / radius;
+        let offset =
+            (self.obstacle.margin() / radius - away.dot(rest)) / weights[0] + self.clearance / radius;
         self.distance.set(distance);
         self.pushing.set(Some(HalfSpace { normal: away, offset }));
     }
 
-    /// Turns the plane about the ring edge until it touches the ball around `q`; whether there is such a plane.
-    fn touch(&self, q: DVec3) -> bool {
+    /// Turns the plane about the ring edge until it touches the ball around `q`, if it can.
+    fn touch(&self, q: DVec3) {
         let [a, b] = self.ring;
         let edge = b - a;
         let normal = edge.cross(q - a);
@@ -156,7 +156,7 @@ impl<'a> Sweep<'a> {
         let from_edge = length / edge.length();
         let sine = self.obstacle.margin() / from_edge;
         if !(from_edge > 10.0 * self.tolerance && sine < 1.0) {
-            return false;
+            return;
         }
         let normal = normal / length;
         // From the ball's centre to the edge.
@@ -169,15 +169,13 @@ impl<'a> Sweep<'a> {
             let centres = Plane { normal, offset: offset - self.obstacle.margin() };
             self.touching.set(Some((Plane { normal, offset }, centres)));
         }
-        true
     }
 
-    fn planes(&self) -> [Option<HalfSpace>; 2] {
-        let clearance = self.clearance / self.frame.radius;
-        let touching = self.touching.get().map(|(plane, _)| {
-            let offset = plane.normal.dot(self.frame.local(self.ring[0])) + clearance;
+    fn touching(&self) -> Option<HalfSpace> {
+        self.touching.get().map(|(plane, _)| {
+            let offset =
+                plane.normal.dot(self.frame.local(self.ring[0])) + self.clearance / self.frame.radius;
             HalfSpace { normal: plane.normal, offset }
-        });
-        [touching, self.pushing.get()]
+        })
     }
 }

@@ -106,14 +106,17 @@ impl Placer {
             let x = centre + x * radius;
             // Vertices of the mesh are cheap to look for and find nearly every plane; edges are looked at once no vertex is in the way.
             let near = if reach.with(x) == reach { &near } else { &everywhere };
-            let clear = [false, true].into_iter().all(|edges| {
-                let search = Search { obstacle, near, edges };
+            let search = |edges: bool| Search { obstacle, near, edges };
+            let mut clear = [false, true].into_iter().all(|edges| {
                 if margin > 0.0 {
-                    self.cut_apart(star, &frame, x, wish.clearance, &search)
+                    self.cut_apart(star, &frame, x, wish.clearance, &search(edges))
                 } else {
-                    self.cut(star, &frame, x, wish.clearance, &search)
+                    self.cut(star, &frame, x, wish.clearance, &search(edges))
                 }
             });
+            if margin > 0.0 && clear {
+                clear = self.push_apart(star, &frame, x, wish.clearance, &search(true));
+            }
             if clear {
                 return Some(x);
             }
@@ -207,28 +210,44 @@ impl Placer {
         clearance: f64,
         search: &Search<'_>,
     ) -> bool {
-        let Self { cuts, pushes, .. } = self;
         let tolerance = LEVEL * frame.radius;
         let margin = search.obstacle.margin();
         let mut clear = true;
-        for (face, cut) in star.iter().zip(cuts) {
-            let [touching, pushing] = match face.ring {
+        for (face, cut) in star.iter().zip(&mut self.cuts) {
+            let found = match face.ring {
                 Some(ring) => {
                     let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
                     if search.edges { sweep.pieces(&search.near[1]) } else { sweep.points(&search.near[0]) }
                 }
-                None if face.normal.dot(x - face.corners[0]) >= -tolerance => [None; 2],
+                None if face.normal.dot(x - face.corners[0]) >= -tolerance => None,
                 None => {
                     let tetrahedron = Tetrahedron::new(&face.corners, x);
-                    let clearance = (margin + clearance) / frame.radius;
-                    [raised(&tetrahedron, face, frame, x, clearance, search), None]
+                    raised(&tetrahedron, face, frame, x, (margin + clearance) / frame.radius, search)
                 }
             };
-            clear &= touching.is_none() && pushing.is_none();
-            *cut = touching.or(*cut);
-            pushes.extend(pushing);
+            clear &= found.is_none();
+            *cut = found.or(*cut);
         }
         clear
+    }
+
+    /// Adds a plane for every new face that the mesh comes near from the side, and says whether there was none.
+    fn push_apart(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        x: DVec3,
+        clearance: f64,
+        search: &Search<'_>,
+    ) -> bool {
+        let before = self.pushes.len();
+        for face in star {
+            let Some(ring) = face.ring else { continue };
+            let tolerance = LEVEL * frame.radius;
+            let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+            self.pushes.extend(sweep.beside(&search.near[1]));
+        }
+        self.pushes.len() == before
     }
 }
 
