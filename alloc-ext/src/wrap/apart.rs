@@ -78,14 +78,14 @@ impl<'a> Sweep<'a> {
             near,
             |of| self.reaches(of),
             |q| {
+                if self.tetrahedron.holds(q) {
+                    return self.touch(q, true);
+                }
                 let [x, a, b] = self.face;
                 let found = point_triangle(q, x, a, b);
                 let weights = [1.0 - found.u - found.v, found.u, found.v];
                 let under = weights.iter().all(|&w| w > LIGHT);
-                if (under && self.is_near(found.distance_sq.sqrt(), weights[0])) || self.tetrahedron.holds(q)
-                {
-                    self.touch(q);
-                }
+                self.touch(q, under && self.is_near(found.distance_sq.sqrt(), weights[0]));
             },
         );
         self.touching()
@@ -96,7 +96,7 @@ impl<'a> Sweep<'a> {
         self.obstacle.visit_triangles(
             near,
             |of| self.reaches(of),
-            |triangle| self.tetrahedron.clip(triangle).into_iter().for_each(|q| self.touch(q)),
+            |triangle| self.tetrahedron.clip(triangle).into_iter().for_each(|q| self.touch(q, true)),
         );
         self.touching()
     }
@@ -147,8 +147,8 @@ impl<'a> Sweep<'a> {
         self.pushing.set(Some(HalfSpace { normal: away, offset }));
     }
 
-    /// Turns the plane about the ring edge until it touches the ball around `q`, if it can.
-    fn touch(&self, q: DVec3) {
+    /// Turns the plane about the ring edge until it touches the ball around `q`, if it can, and if it touches it in the tetrahedron or anyway.
+    fn touch(&self, q: DVec3, anyway: bool) {
         let [a, b] = self.ring;
         let edge = b - a;
         let normal = edge.cross(q - a);
@@ -163,7 +163,9 @@ impl<'a> Sweep<'a> {
         let out = edge.cross(normal) / edge.length();
         let normal = normal * (1.0 - sine * sine).sqrt() + out * sine;
         let above = normal.dot(a - self.face[0]);
-        if above > self.height.get() {
+        if above > self.height.get()
+            && (anyway || self.tetrahedron.holds(q + normal * self.obstacle.margin()))
+        {
             self.height.set(above);
             let offset = normal.dot(a);
             let centres = Plane { normal, offset: offset - self.obstacle.margin() };
