@@ -114,6 +114,9 @@ const FINEST: usize = 2000;
 /// Cubes along the longest side of closures, in the order in which they are tried; `None` is the box.
 const CELLS: [Option<usize>; 4] = [Some(40), Some(16), Some(6), None];
 
+/// Part of the mesh's longest side from which on a margin is round: a few cubes of the first closure.
+const ROUND: f64 = 0.02;
+
 /// Faces up to which closures are tried beside the progressive hull.
 const FEW_FACES: usize = 60;
 
@@ -172,6 +175,13 @@ impl<'a> Builder<'a, '_, '_> {
         Ok(done)
     }
 
+    /// Whether the margin is so large that the mesh's own shape says less than what is left of it at that distance.
+    fn is_round(&self) -> bool {
+        let margin = self.obstacle.margin();
+        let bounds = self.obstacle.bounds();
+        margin > ROUND * (bounds.high - bounds.low).max_element()
+    }
+
     /// The hull of the best start, without polish. A mesh that bounds a volume starts from its progressive hull, any other from its closure. With few faces left, coarse
     /// closures, which have fewer handles and narrow places, may come to less volume: then all are tried.
     fn begin(
@@ -183,12 +193,12 @@ impl<'a> Builder<'a, '_, '_> {
     ) -> Result<Done<'a>, WrapError> {
         let rounding = Rounding::new(around.grid, around.scale_exponent);
         let mut best: Option<Done<'a>> = None;
-        if self.volume.is_some() {
+        if self.volume.is_some() && !self.is_round() {
             let first = first_level(mesh, stored, self.obstacle, &rounding, wanted, self.on_progress);
             best = first.map(|first| self.prepare(first, rounding, wanted));
         }
         let is_few = matches!(self.options.goal, Goal::Faces(faces) if faces <= FEW_FACES);
-        let is_solid = best.is_some();
+        let is_solid = best.is_some() || self.is_round();
         for cells in CELLS {
             let late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
             let settled = is_solid && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);

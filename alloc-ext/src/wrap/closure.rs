@@ -11,9 +11,10 @@
 //! the triangles. It is nowhere farther from them than three diagonals of a cube, but where it closes a hole that no corner can be
 //! reached through.
 //!
-//! With a margin, a cube is met if the mesh may come within the margin of it, by the distance from its middle: then all of the surface keeps it.
+//! With a margin, corners are inside where the mesh is no farther than that, and some more for what triangles cut off a ball; edges are cut where the distance is that,
+//! not in their middle. The surface is then near all that has to be enclosed, if cubes are small beside the margin; it is a hull only if it proves to be.
 //!
-//! Cubes have a power of two as edge and the grid passes through the origin, so that every vertex is exact in single precision.
+//! Cubes have a power of two as edge and the grid passes through the origin, so that the middle of every edge is exact in single precision.
 
 use super::boxes::Bounds;
 use super::obstacle::Obstacle;
@@ -75,6 +76,30 @@ pub(super) fn closure(obstacle: &Obstacle, cells: usize) -> Option<Closure> {
     })
 }
 
+/// Parts of an edge from its inner end between which it is cut: pieces of surface are neither needles nor points.
+const ENDS: [f64; 2] = [0.05, 0.995];
+
+/// Halvings of an edge to find where it is cut.
+const HALVINGS: usize = 5;
+
+/// The point between two corners at which the mesh is as far as `level`, on the outer side; in single precision.
+fn crossing(obstacle: &Obstacle, level: f64, inner: DVec3, outer: DVec3) -> DVec3 {
+    let [mut low, mut high] = ENDS;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        match distance(obstacle, inner.lerp(outer, middle)) {
+            Some(distance) if distance < level => low = middle,
+            _ => high = middle,
+        }
+    }
+    inner.lerp(outer, high).as_vec3().as_dvec3()
+}
+
+/// Not exact.
+fn distance(obstacle: &Obstacle, p: DVec3) -> Option<f64> {
+    obstacle.nearest(p).map(|(_, [_, upper])| upper)
+}
+
 struct Grid {
     cell: f64,
     /// The least corner, in cubes from the origin.
@@ -124,28 +149,28 @@ impl Grid {
         met
     }
 
-    /// Corners of cubes that the mesh may come within the margin of.
-    fn near(&self, obstacle: &Obstacle) -> Vec<bool> {
+    /// Distance from the mesh at which the surface is put to keep a margin: a ball of that radius loses to triangles with circles as large as a cube
+    /// what is added first, and to [`ENDS`] the rest.
+    fn level(&self, margin: f64) -> Option<f64> {
+        let flattened = (self.cell * self.cell / (2.0 * margin)).min(2.0 * self.cell);
+        (margin > 0.0).then(|| margin + flattened + 2.0 * (1.0 - ENDS[1]) * self.cell)
+    }
+
+    /// Corners that are no farther from the mesh than `level`, about.
+    fn near(&self, obstacle: &Obstacle, level: f64) -> Vec<bool> {
         let mut near = vec![false; self.all().len()];
-        // A cube's corner is no farther from its middle than this.
-        let half_diagonal = self.cell * 0.75f64.sqrt() * GROWN;
-        let most = obstacle.margin() * GROWN + half_diagonal;
-        let [nx, ny, nz] = self.corners.map(|n| n - 1);
+        let [nx, ny, nz] = self.corners;
         for k in 0..nz {
             for j in 0..ny {
                 let mut i = 0;
                 while i < nx {
-                    let middle = self.at([i, j, k].map(|c| 2 * c + 1));
-                    let Some((_, [lower, upper])) = obstacle.nearest(middle) else { return near };
-                    // The distance changes by no more than one walks: the next cubes are known as well.
-                    let is_near = lower <= most;
-                    let known = if is_near { most - upper } else { lower - most };
-                    let same = 1 + (known / (self.cell * GROWN)).clamp(0.0, 1e9) as i64;
-                    for i in (i..(i + same).min(nx)).take_while(|_| is_near) {
-                        for corner in 0..8i64 {
-                            let at = [i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)];
-                            near[self.index(at)] = true;
-                        }
+                    let Some(distance) = distance(obstacle, self.at([2 * i, 2 * j, 2 * k])) else {
+                        return near;
+                    };
+                    // The distance changes by no more than one walks: the next corners are known as well.
+                    let same = 1 + ((distance - level).abs() / (self.cell * GROWN)).min(1e9) as i64;
+                    for i in (i..(i + same).min(nx)).take_while(|_| distance <= level) {
+                        near[self.index([i, j, k])] = true;
                     }
                     i += same;
                 }
@@ -204,15 +229,16 @@ impl Grid {
     }
 
     /// Marching tetrahedra.
-    fn surface(&self, inside: &[bool]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    fn surface(&self, inside: &[bool], cut: impl Fn(DVec3, DVec3) -> DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         let mut number: FxHashMap<[usize; 2], u32> = FxHashMap::default();
         let corners = self.all();
         let mut vertex = |p: usize, q: usize| {
             *number.entry([p.min(q), p.max(q)]).or_insert_with(|| {
-                let (a, b) = (corners[p], corners[q]);
-                positions.push(self.at([0, 1, 2].map(|k| a[k] + b[k])));
+                let [inner, outer] = if inside[p] { [p, q] } else { [q, p] };
+                let [inner, outer] = [inner, outer].map(|c| self.at(corners[c].map(|n| 2 * n)));
+                positions.push(cut(inner, outer));
                 positions.len() as u32 - 1
             })
         };

@@ -69,7 +69,11 @@ pub(super) fn first_closure(
     wanted: usize,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Option<First> {
-    let closure = closure(obstacle, cells)?;
+    let mut closure = closure(obstacle, cells)?;
+    if obstacle.margin() > 0.0 {
+        closure.positions =
+            closure.positions.iter().map(|&p| rounding.round(p)).collect::<Option<Vec<DVec3>>>()?;
+    }
     if closure.positions.iter().any(|&p| rounding.round(p) != Some(p)) {
         return None;
     }
