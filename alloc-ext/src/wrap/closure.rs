@@ -64,10 +64,16 @@ pub(super) fn closure(obstacle: &Obstacle, cells: usize) -> Option<Closure> {
     if last.as_dvec3().abs().max_element() * cell > f64::from(f32::MAX) {
         return None;
     }
-    let mut inside =
-        if obstacle.margin() > 0.0 { grid.near(obstacle) } else { grid.met(obstacle.triangles()) };
+    let level = grid.level(obstacle.margin());
+    let mut inside = match level {
+        Some(level) => grid.near(obstacle, level),
+        None => grid.met(obstacle.triangles()),
+    };
     grid.fill(&mut inside);
-    let (positions, triangles) = grid.surface(&inside);
+    let (positions, triangles) = grid.surface(&inside, |inner, outer| match level {
+        Some(level) => crossing(obstacle, level, inner, outer),
+        None => (inner + outer) * 0.5,
+    });
     Some(Closure {
         positions,
         triangles,
@@ -237,7 +243,7 @@ impl Grid {
         let mut vertex = |p: usize, q: usize| {
             *number.entry([p.min(q), p.max(q)]).or_insert_with(|| {
                 let [inner, outer] = if inside[p] { [p, q] } else { [q, p] };
-                let [inner, outer] = [inner, outer].map(|c| self.at(corners[c].map(|n| 2 * n)));
+                let [inner, outer] = [inner, outer].map(|c| self.at(corners[c].map(|n: i64| 2 * n)));
                 positions.push(cut(inner, outer));
                 positions.len() as u32 - 1
             })
