@@ -9,7 +9,7 @@
 //! All is floating point, as in `placement`.
 
 use super::boxes::{Bounds, Frontier};
-use super::distance::Nearest;
+use super::distance::{Nearest, Reach};
 use super::obstacle::Obstacle;
 use super::placement::{Frame, StarFace};
 use super::predicates::Triangle;
@@ -74,10 +74,15 @@ impl<'a> Sweep<'a> {
 
     /// The plane for the vertices of the mesh that are in the way.
     pub fn points(&self, near: &Frontier) -> Option<HalfSpace> {
+        let far = self.obstacle.margin() + self.clearance;
         self.obstacle.visit_points(
             near,
             |of| self.reaches(of),
             |q| {
+                // All of the tetrahedron is above the new face.
+                if self.normal.dot(q - self.face[0]) < -far {
+                    return;
+                }
                 if self.tetrahedron.holds(q) {
                     return self.touch(q, true);
                 }
@@ -103,13 +108,13 @@ impl<'a> Sweep<'a> {
 
     /// The plane for the nearest triangle beside the face, once nothing is cut off.
     pub fn beside(&self, near: &Frontier) -> Option<HalfSpace> {
+        let reach = Reach::new(self.obstacle.margin() + self.clearance);
+        let bounds = Bounds::of(&self.face);
         self.obstacle.visit_triangles(
             near,
-            |of| self.reaches(of),
+            |of| !reach.parts_box(&self.face, &bounds, self.normal, of),
             |triangle| {
-                let heights = triangle.map(|q| self.normal.dot(q - self.face[0]));
-                let far = self.obstacle.margin() + self.clearance;
-                if heights.iter().all(|h| *h < -far) || heights.iter().all(|h| *h > far) {
+                if reach.parts_plainly(&self.face, self.normal, triangle) {
                     return;
                 }
                 if let Some(found) = Nearest::of(&self.face, triangle) {

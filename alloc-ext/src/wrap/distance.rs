@@ -65,11 +65,20 @@ impl Reach {
 
     /// Whether a triangle with area is certainly farther from another, which may have none.
     pub fn parts(&self, face: &Triangle, normal: DVec3, triangle: &Triangle) -> bool {
-        if self.clears(normal, face, triangle) {
+        if self.parts_plainly(face, normal, triangle) {
             return true;
         }
         let Some(near) = Nearest::of(face, triangle) else { return false };
         self.clears(near.direction, face, triangle) || self.clears(near.p - near.q, face, triangle)
+    }
+
+    /// As [`parts`](Self::parts), along two directions that are found at once: those that are far apart are told so.
+    pub fn parts_plainly(&self, face: &Triangle, normal: DVec3, triangle: &Triangle) -> bool {
+        if self.clears(normal, face, triangle) {
+            return true;
+        }
+        let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+        self.clears(towards(face, middle), face, triangle)
     }
 
     /// Whether a triangle is certainly farther from all that a box holds.
@@ -78,11 +87,14 @@ impl Reach {
         if self.parts_boxes(bounds, below) || self.clears_box(normal, face, below) {
             return true;
         }
-        let middle = (below.low + below.high) * 0.5;
-        let [a, b, c] = *face;
-        let near = point_triangle(middle, a, b, c);
-        self.clears_box(a + (b - a) * near.u + (c - a) * near.v - middle, face, below)
+        self.clears_box(towards(face, (below.low + below.high) * 0.5), face, below)
     }
+}
+
+/// From a point to the nearest of a triangle.
+fn towards([a, b, c]: &Triangle, p: DVec3) -> DVec3 {
+    let near = point_triangle(p, *a, *b, *c);
+    *a + (b - a) * near.u + (c - a) * near.v - p
 }
 
 fn unit(direction: DVec3) -> Option<DVec3> {
