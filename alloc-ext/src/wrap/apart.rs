@@ -80,7 +80,7 @@ impl<'a> Sweep<'a> {
             |of| self.reaches(of),
             |q| {
                 // All of the tetrahedron is above the new face.
-                if self.normal.dot(q - self.face[0]) < -far {
+                if self.is_lower(q) || self.normal.dot(q - self.face[0]) < -far {
                     return;
                 }
                 if self.tetrahedron.holds(q) {
@@ -101,7 +101,11 @@ impl<'a> Sweep<'a> {
         self.obstacle.visit_triangles(
             near,
             |of| self.reaches(of),
-            |triangle| self.tetrahedron.clip(triangle).into_iter().for_each(|q| self.touch(q, true)),
+            |triangle| {
+                if !triangle.iter().all(|&q| self.is_lower(q)) {
+                    self.tetrahedron.clip(triangle).into_iter().for_each(|q| self.touch(q, true));
+                }
+            },
         );
         self.touching()
     }
@@ -123,6 +127,11 @@ impl<'a> Sweep<'a> {
             },
         );
         self.pushing.get()
+    }
+
+    /// Whether the ball around a point is below the plane that touches another.
+    fn is_lower(&self, q: DVec3) -> bool {
+        self.touching.get().is_some_and(|(_, centres)| !centres.holds(q))
     }
 
     /// Whether a box may hold what is in the way.
