@@ -68,10 +68,15 @@ pub fn wrap(
         obstacle: &obstacle,
         volume: solid.then_some(volume),
         options,
-        deadline: options.time_limit.map(|limit| started + limit),
+        // A limit that the clock has no number for is none.
+        deadline: options.time_limit.and_then(|limit| started.checked_add(limit)),
+        is_hurried: false,
         on_progress: &mut on_progress,
     };
-    let Done { work, start, filled, stop } = builder.build(mesh, &stored, &around)?;
+    let Done { work, start, filled, mut stop } = builder.build(mesh, &stored, &around)?;
+    if builder.is_hurried && stop == Stop::Reached {
+        stop = Stop::OutOfTime;
+    }
     let (at, triangles) = work.shell.compact();
     let hull_volume = work.shell.volume();
     let report = Report {
@@ -117,6 +122,9 @@ const CELLS: [Option<usize>; 4] = [Some(40), Some(16), Some(6), None];
 /// Part of the mesh's longest side from which on a margin is round: a few cubes of the first closure.
 const ROUND: f64 = 0.02;
 
+/// Least and most cubes along its longest side.
+const ROUND_CELLS: [usize; 2] = [12, 40];
+
 /// Faces up to which closures are tried beside the progressive hull.
 const FEW_FACES: usize = 60;
 
@@ -146,6 +154,8 @@ struct Builder<'a, 'o, 'p> {
     volume: Option<f64>,
     options: &'o Options,
     deadline: Option<Instant>,
+    /// Whether the best start was given up for lack of time.
+    is_hurried: bool,
     on_progress: &'p mut dyn FnMut(Progress),
 }
 
@@ -175,11 +185,14 @@ impl<'a> Builder<'a, '_, '_> {
         Ok(done)
     }
 
-    /// Whether the margin is so large that the mesh's own shape says less than what is left of it at that distance.
-    fn is_round(&self) -> bool {
+    /// Cubes of the first closure where the margin is so large that the mesh's own shape says less than what is left of it at that distance: then cubes
+    /// of half the margin show it all.
+    fn round_cells(&self) -> Option<usize> {
         let margin = self.obstacle.margin();
         let bounds = self.obstacle.bounds();
-        margin > ROUND * (bounds.high - bounds.low).max_element()
+        let longest = (bounds.high - bounds.low).max_element();
+        let cells = (longest + 2.0 * margin) / (0.5 * margin);
+        (margin > ROUND * longest).then(|| (cells as usize).clamp(ROUND_CELLS[0], ROUND_CELLS[1]))
     }
 
     /// The hull of the best start, without polish. A mesh that bounds a volume starts from its progressive hull, any other from its closure. With few faces left, coarse
@@ -193,15 +206,28 @@ impl<'a> Builder<'a, '_, '_> {
     ) -> Result<Done<'a>, WrapError> {
         let rounding = Rounding::new(around.grid, around.scale_exponent);
         let mut best: Option<Done<'a>> = None;
-        if self.volume.is_some() && !self.is_round() {
-            let first = first_level(mesh, stored, self.obstacle, &rounding, wanted, self.on_progress);
+        let round = self.round_cells();
+        if self.volume.is_some() && round.is_none() {
+            // The other half of the time is for what there is instead.
+            let half = self.deadline.map(|deadline| {
+                let now = Instant::now();
+                now + deadline.saturating_duration_since(now) / 2
+            });
+            let first = first_level(mesh, stored, self.obstacle, &rounding, wanted, half, self.on_progress);
             best = first.map(|first| self.prepare(first, rounding, wanted));
+            self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
         }
         let is_few = matches!(self.options.goal, Goal::Faces(faces) if faces <= FEW_FACES);
-        let is_solid = best.is_some() || self.is_round();
-        for cells in CELLS {
+        let is_enough = best.is_some() || round.is_some();
+        let skipped = usize::from(self.is_hurried);
+        let round = round.into_iter().map(Some);
+        for cells in round.chain(CELLS.into_iter().skip(skipped)) {
             let late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
-            let settled = is_solid && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
+            if late && best.is_none() && cells.is_some() {
+                self.is_hurried = true;
+                continue;
+            }
+            let settled = is_enough && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
             if best.is_some() && (settled || late) {
                 break;
             }
@@ -265,6 +291,9 @@ impl<'a> Builder<'a, '_, '_> {
                 });
             };
             let mut reached = work.decimate(next, &mut show);
+            if !reached && work.is_late() {
+                return Stop::OutOfTime;
+            }
             if !reached && work.shape != LOOSE {
                 work.shape = LOOSE;
                 reached = work.decimate(next, &mut show);

@@ -18,6 +18,7 @@ use crate::mesh::{Enclosure, Mesh};
 use crate::precision::Stored;
 use glam::DVec3;
 use meshsweep_core::num::exp2;
+use std::time::Instant;
 
 /// A hull to start from.
 pub(super) struct First {
@@ -39,16 +40,18 @@ const LEVELS: [i32; 7] = [0, 1, -1, 2, -2, 3, -3];
 /// Faces that no level is coarser than.
 const LEAST_FACES: usize = 40;
 
-/// The first level of the progressive hull that proves to be a hull to start from.
+/// The first level of the progressive hull that proves to be a hull to start from, if that is found before the deadline.
 pub(super) fn first_level(
     mesh: &Mesh,
     stored: &Stored,
     obstacle: &Obstacle,
     rounding: &Rounding,
     wanted: usize,
+    deadline: Option<Instant>,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Option<First> {
-    let mut levels = levels(&stored.positions, &mesh.triangles, stored, plenty(wanted), on_progress);
+    let mut levels =
+        levels(&stored.positions, &mesh.triangles, stored, plenty(wanted), deadline, on_progress)?;
     LEVELS.into_iter().find_map(|level| {
         let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
         let mut shell = Shell::new(positions, &triangles);
@@ -80,7 +83,7 @@ pub(super) fn first_closure(
     let start = Start::Closure { cell: closure.cell, cells: closure.cells };
     let local = exp2(-stored.scale_exponent);
     let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
-    let mut levels = levels(&positions, &closure.triangles, stored, plenty(wanted), on_progress);
+    let mut levels = levels(&positions, &closure.triangles, stored, plenty(wanted), None, on_progress)?;
     // In narrow places levels grow into each other. The closure itself never does, but each of its faces costs a collapse against the mesh.
     let small = closure.triangles.len() <= MOST_FACES;
     let itself = small.then_some((closure.positions, closure.triangles));
@@ -113,20 +116,28 @@ pub(super) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<Firs
     })
 }
 
+/// Faces that are collapsed between two looks at the clock.
+const SLICE: usize = 1000;
+
 /// Faces of a closure that is a first hull itself.
 const MOST_FACES: usize = 10_000;
 
 type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
 
 /// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, each with its number: level `n` has `least` times 2^n faces,
-/// or as few as the hull can be brought down to; level 0 may be the surface itself.
+/// or as few as the hull can be brought down to; level 0 may be the surface itself. `None` if the deadline passes first.
 fn levels(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     stored: &Stored,
     least: usize,
+    deadline: Option<Instant>,
     on_progress: &mut dyn FnMut(Progress),
-) -> Vec<(i32, Surface)> {
+) -> Option<Vec<(i32, Surface)>> {
+    let is_late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    if is_late() {
+        return None;
+    }
     let from = triangles.len();
     let mut engine = Engine::new(positions, triangles, Conditions::default(), Priority::Program, stored.grid);
     let mut show = |progress: collapse::Progress| {
@@ -144,12 +155,20 @@ fn levels(
             continue;
         }
         // Where it gets stuck it is a level as well.
-        let _ = engine.run(faces, &mut show);
+        while engine.progress().faces > faces && !is_late() {
+            let next = engine.progress().faces.saturating_sub(SLICE).max(faces);
+            if engine.run(next, &mut show).is_some() {
+                break;
+            }
+        }
+        if is_late() {
+            return None;
+        }
         let all: Vec<DVec3> = engine.positions().iter().map(|&p| p * scale).collect();
         let faces: Vec<[u32; 3]> = engine.faces().collect();
         levels.push((level, compact(&all, &faces)));
     }
-    levels
+    Some(levels)
 }
 
 /// Without positions that no triangle has.
