@@ -24,6 +24,11 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
+    /// Larger by a distance on all sides, up to rounding.
+    pub fn grown(self, distance: f64) -> Self {
+        Self { low: self.low - distance, high: self.high + distance }
+    }
+
     pub fn meets(&self, other: &Self) -> bool {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }

@@ -48,6 +48,12 @@ pub fn wrap(
     if mesh.triangles.is_empty() {
         return Err(WrapError::Empty);
     }
+    if !(options.margin >= 0.0 && options.margin.is_finite()) {
+        return Err(WrapError::BadMargin);
+    }
+    if matches!(options.goal, Goal::Slack(most) if most <= options.margin) {
+        return Err(WrapError::SlackWithinMargin);
+    }
     let positions: Vec<DVec3> =
         mesh.positions.iter().map(|&[x, y, z]| glam::Vec3::new(x, y, z).as_dvec3()).collect();
     let solid = require_closed_manifold(mesh).is_ok();
@@ -61,24 +67,30 @@ pub fn wrap(
         bits => bits,
     };
     let stored = store(mesh, bits);
-    let rounding = Rounding::new(stored.grid, stored.scale_exponent);
+    let obstacle = Obstacle::new(&positions, &mesh.triangles).with_margin(options.margin);
+    let around = with_margin(&stored, &obstacle, bits)?;
     // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where it is.
     let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
     let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
-    let obstacle = Obstacle::new(&positions, &mesh.triangles);
     let solid = solid && volume > 0.0;
     let mut builder = Builder {
         obstacle: &obstacle,
         volume: solid.then_some(volume),
         options,
-        deadline: options.time_limit.map(|limit| started + limit),
+        // A limit that the clock has no number for is none.
+        deadline: options.time_limit.and_then(|limit| started.checked_add(limit)),
+        is_hurried: false,
         on_progress: &mut on_progress,
     };
-    let Done { work, start, filled, stop } = builder.build(mesh, &stored, rounding)?;
+    let Done { work, start, filled, mut stop } = builder.build(mesh, &stored, &around)?;
+    if builder.is_hurried && stop == Stop::Reached {
+        stop = Stop::OutOfTime;
+    }
     let (at, triangles) = work.shell.compact();
     let hull_volume = work.shell.volume();
     let report = Report {
         faces: triangles.len(),
+        margin: options.margin,
         volume: hull_volume,
         void: solid.then(|| hull_volume / volume - 1.0),
         slack: slack(&work.shell, &obstacle),
@@ -95,6 +107,21 @@ pub fn wrap(
     Ok(Hull { mesh: Mesh::new(single, triangles), report })
 }
 
+/// The frame and the format of the hull's coordinates: the mesh's own, or such as hold the mesh's box with the margin around it.
+fn with_margin(stored: &Stored, obstacle: &Obstacle, bits: VertexBits) -> Result<Stored, WrapError> {
+    if obstacle.margin() <= 0.0 {
+        return Ok(stored.clone());
+    }
+    let bounds = obstacle.bounds().grown(obstacle.margin());
+    let corners = [bounds.low, bounds.high].map(|p| p.as_vec3());
+    if !corners.iter().all(|p| p.is_finite()) {
+        return Err(WrapError::MarginTooLarge);
+    }
+    // The mesh's own grid says nothing about the places that a margin asks for.
+    let bits = if bits == VertexBits::Auto { VertexBits::F32 } else { bits };
+    Ok(store(&Mesh::new(corners.map(|p| p.to_array()).to_vec(), Vec::new()), bits))
+}
+
 /// Faces that a search for the fewest begins with.
 const FINEST: usize = 2000;
 
@@ -107,6 +134,12 @@ fn finest(wanted: usize) -> usize {
     let cells = (40.0 * (wanted as f64 / 200.0).sqrt()) as usize;
     cells.clamp(40, 160)
 }
+
+/// Part of the mesh's longest side from which on a margin is round: a few cubes of the first closure.
+const ROUND: f64 = 0.02;
+
+/// Least and most cubes along its longest side.
+const ROUND_CELLS: [usize; 2] = [10, 32];
 
 /// Faces up to which closures are tried beside the progressive hull.
 const FEW_FACES: usize = 60;
@@ -152,6 +185,8 @@ struct Builder<'a, 'o, 'p> {
     volume: Option<f64>,
     options: &'o Options,
     deadline: Option<Instant>,
+    /// Whether the best start was given up for lack of time.
+    is_hurried: bool,
     on_progress: &'p mut dyn FnMut(Progress),
 }
 
@@ -161,9 +196,10 @@ impl<'a> Builder<'a, '_, '_> {
         self.volume.unwrap_or(0.0)
     }
 
-    fn build(&mut self, mesh: &Mesh, stored: &Stored, rounding: Rounding) -> Result<Done<'a>, WrapError> {
+    /// `around` is how the hull is stored.
+    fn build(&mut self, mesh: &Mesh, stored: &Stored, around: &Stored) -> Result<Done<'a>, WrapError> {
         if let Goal::Faces(faces) = self.options.goal {
-            let mut done = self.begin(mesh, stored, rounding, faces)?;
+            let mut done = self.begin(mesh, stored, around, faces)?;
             let polished = self.polish(&mut done.work, self.options.effort);
             if done.stop == Stop::Reached {
                 done.stop = polished;
@@ -171,13 +207,23 @@ impl<'a> Builder<'a, '_, '_> {
             return Ok(done);
         }
         let mut faces = FINEST;
-        let mut done = self.begin(mesh, stored, rounding, faces)?;
+        let mut done = self.begin(mesh, stored, around, faces)?;
         while !self.is_tight(&done.work) && faces < mesh.triangles.len() && !done.work.is_late() {
             faces = faces.saturating_mul(4);
-            done = self.begin(mesh, stored, rounding, faces)?;
+            done = self.begin(mesh, stored, around, faces)?;
         }
         (done.work, done.stop) = self.fewest(done.work);
         Ok(done)
+    }
+
+    /// Cubes of the first closure where the margin is so large that the mesh's own shape says less than what is left of it at that distance: then cubes
+    /// no larger than the margin show it all.
+    fn round_cells(&self) -> Option<usize> {
+        let margin = self.obstacle.margin();
+        let bounds = self.obstacle.bounds();
+        let longest = (bounds.high - bounds.low).max_element();
+        let cells = (longest + 2.0 * margin) / margin;
+        (margin > ROUND * longest).then(|| (cells as usize).clamp(ROUND_CELLS[0], ROUND_CELLS[1]))
     }
 
     /// The hull of the best start, without polish. A mesh that bounds a volume starts from its progressive hull, any other from its closure. With few faces left, coarse
@@ -186,29 +232,43 @@ impl<'a> Builder<'a, '_, '_> {
         &mut self,
         mesh: &Mesh,
         stored: &Stored,
-        rounding: Rounding,
+        around: &Stored,
         wanted: usize,
     ) -> Result<Done<'a>, WrapError> {
+        let rounding = Rounding::new(around.grid, around.scale_exponent);
         let mut best: Option<Done<'a>> = None;
-        if self.volume.is_some() {
-            let first = first_levels(mesh, stored, self.obstacle, &rounding, wanted, self.on_progress);
+        let round = self.round_cells();
+        if self.volume.is_some() && round.is_none() {
+            // The other half of the time is for what there is instead.
+            let half = self.deadline.map(|deadline| {
+                let now = Instant::now();
+                now + deadline.saturating_duration_since(now) / 2
+            });
+            let first = first_levels(mesh, stored, self.obstacle, &rounding, wanted, half, self.on_progress);
             for first in [first.plenty, first.wanted].into_iter().flatten() {
                 let done = self.prepare(first, rounding, wanted);
                 better(&mut best, done);
             }
+            self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
         }
         let is_few = matches!(self.options.goal, Goal::Faces(faces) if faces <= FEW_FACES);
-        let is_solid = best.is_some();
+        let is_enough = best.is_some() || round.is_some();
         let finest = Some(finest(wanted));
-        for cells in [finest].into_iter().chain(COARSER.into_iter().filter(|&cells| cells != finest)) {
+        let coarser = COARSER.into_iter().filter(|&cells| cells != finest);
+        let first = if self.is_hurried { None } else { Some(finest) };
+        for cells in round.map(Some).into_iter().chain(first).chain(coarser) {
             let late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
-            let settled = is_solid && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
+            if late && best.is_none() && cells.is_some() {
+                self.is_hurried = true;
+                continue;
+            }
+            let settled = is_enough && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
             if best.is_some() && (settled || late) {
                 break;
             }
             let first = match cells {
                 Some(cells) => {
-                    first_closure(stored, self.obstacle, &rounding, cells, wanted, self.on_progress)
+                    first_closure(around, self.obstacle, &rounding, cells, wanted, self.on_progress)
                 }
                 None => first_box(self.obstacle, &rounding),
             };
@@ -216,7 +276,8 @@ impl<'a> Builder<'a, '_, '_> {
             let done = self.prepare(first, rounding, wanted);
             better(&mut best, done);
         }
-        best.ok_or(WrapError::NoRoom)
+        let margin = self.obstacle.margin();
+        best.ok_or(if margin > 0.0 { WrapError::MarginTooLarge } else { WrapError::NoRoom })
     }
 
     /// Settles a first hull and brings it to the wanted number of faces, without polish.
@@ -255,6 +316,9 @@ impl<'a> Builder<'a, '_, '_> {
                 });
             };
             let mut reached = work.decimate(next, &mut show);
+            if !reached && work.is_late() {
+                return Stop::OutOfTime;
+            }
             if !reached && work.shape != LOOSE {
                 work.shape = LOOSE;
                 reached = work.decimate(next, &mut show);

@@ -162,6 +162,30 @@ impl CellTree {
         }
     }
 
+    /// Calls `visit` with every item below a frontier whose box passes `keep`, in the mesh's frame, and perhaps others.
+    pub fn visit_kept(&self, near: &Frontier, keep: impl Fn(&Bounds) -> bool, mut visit: impl FnMut(usize)) {
+        let mut stack = near.0.clone();
+        while let Some(node) = stack.pop() {
+            let node = &self.nodes[node as usize];
+            for lane in 0..WIDTH {
+                if node.half[0][lane] < 0.0 || !keep(&self.in_mesh_frame(node, lane)) {
+                    continue;
+                }
+                let entry = node.entry[lane];
+                if entry & ITEM == 0 { stack.push(entry) } else { visit((entry ^ ITEM) as usize) }
+            }
+        }
+    }
+
+    fn in_mesh_frame(&self, node: &Node, lane: usize) -> Bounds {
+        let of = |axes: &[[f32; WIDTH]; 3]| DVec3::from(axes.map(|axis| f64::from(axis[lane])));
+        let (middle, half) = (of(&node.middle), of(&node.half) + SLACK);
+        Bounds {
+            low: self.origin + (middle - half) / self.scale,
+            high: self.origin + (middle + half) / self.scale,
+        }
+    }
+
     /// Calls `visit` with every item below a frontier whose box a probe reaches; what it returns is raised in the probe.
     #[inline]
     pub fn visit(&self, near: &Frontier, mut probe: Probe, mut visit: impl FnMut(usize) -> Option<Plane>) {

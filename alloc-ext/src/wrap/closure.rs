@@ -11,9 +11,13 @@
 //! the triangles. It is nowhere farther from them than three diagonals of a cube, but where it closes a hole that no corner can be
 //! reached through.
 //!
-//! Cubes have a power of two as edge and the grid passes through the origin, so that every vertex is exact in single precision.
+//! With a margin, corners are inside where the mesh is no farther than that, and some more for what triangles cut off a ball; edges are cut where the distance is that,
+//! not in their middle. The surface is then near all that has to be enclosed, if cubes are small beside the margin; it is a hull only if it proves to be.
+//!
+//! Cubes have a power of two as edge and the grid passes through the origin, so that the middle of every edge is exact in single precision.
 
 use super::boxes::Bounds;
+use super::obstacle::Obstacle;
 use super::predicates::Triangle;
 use glam::DVec3;
 use meshsweep_core::num::exp2;
@@ -39,10 +43,10 @@ const GROWN: f64 = 1.0 + 1e-6;
 /// Half-cubes from the origin that a coordinate may be away: what single precision holds exactly.
 const MOST: f64 = 16_777_216.0;
 
-/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the triangles' longest side; with fewer where
-/// single precision has no room for more. `None` if it has none at all, or the triangles are one point.
-pub(super) fn closure(triangles: &[Triangle], cells: usize) -> Option<Closure> {
-    let bounds = triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p));
+/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the longest side of the mesh and its margin; with fewer where
+/// single precision has no room for more. `None` if it has none at all, or mesh and margin are one point.
+pub(super) fn closure(obstacle: &Obstacle, cells: usize) -> Option<Closure> {
+    let bounds = obstacle.bounds().grown(obstacle.margin());
     let extent = (bounds.high - bounds.low).max_element();
     let farthest = bounds.low.abs().max(bounds.high.abs()).max_element();
     if !(extent > 0.0 && farthest.is_finite()) {
@@ -60,15 +64,46 @@ pub(super) fn closure(triangles: &[Triangle], cells: usize) -> Option<Closure> {
     if last.as_dvec3().abs().max_element() * cell > f64::from(f32::MAX) {
         return None;
     }
-    let mut inside = grid.met(triangles);
+    let level = grid.level(obstacle.margin());
+    let mut inside = match level {
+        Some(level) => grid.near(obstacle, level),
+        None => grid.met(obstacle.triangles()),
+    };
     grid.fill(&mut inside);
-    let (positions, triangles) = grid.surface(&inside);
+    let (positions, triangles) = grid.surface(&inside, |inner, outer| match level {
+        Some(level) => crossing(obstacle, level, inner, outer),
+        None => (inner + outer) * 0.5,
+    });
     Some(Closure {
         positions,
         triangles,
         cell,
         cells: (grid.corners.into_iter().max().unwrap_or(1) - 1).unsigned_abs() as usize,
     })
+}
+
+/// Parts of an edge from its inner end between which it is cut: pieces of surface are neither needles nor points.
+const ENDS: [f64; 2] = [0.05, 0.995];
+
+/// Halvings of an edge to find where it is cut.
+const HALVINGS: usize = 5;
+
+/// The point between two corners at which the mesh is as far as `level`, on the outer side; in single precision.
+fn crossing(obstacle: &Obstacle, level: f64, inner: DVec3, outer: DVec3) -> DVec3 {
+    let [mut low, mut high] = ENDS;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        match distance(obstacle, inner.lerp(outer, middle)) {
+            Some(distance) if distance < level => low = middle,
+            _ => high = middle,
+        }
+    }
+    inner.lerp(outer, high).as_vec3().as_dvec3()
+}
+
+/// Not exact.
+fn distance(obstacle: &Obstacle, p: DVec3) -> Option<f64> {
+    obstacle.nearest(p).map(|(_, [_, upper])| upper)
 }
 
 struct Grid {
@@ -118,6 +153,36 @@ impl Grid {
             }
         }
         met
+    }
+
+    /// Distance from the mesh at which the surface is put to keep a margin: a ball of that radius loses to triangles with circles as large as a cube
+    /// what is added first, and to [`ENDS`] the rest.
+    fn level(&self, margin: f64) -> Option<f64> {
+        let flattened = (self.cell * self.cell / (2.0 * margin)).min(2.0 * self.cell);
+        (margin > 0.0).then(|| margin + flattened + 2.0 * (1.0 - ENDS[1]) * self.cell)
+    }
+
+    /// Corners that are no farther from the mesh than `level`, about.
+    fn near(&self, obstacle: &Obstacle, level: f64) -> Vec<bool> {
+        let mut near = vec![false; self.all().len()];
+        let [nx, ny, nz] = self.corners;
+        for k in 0..nz {
+            for j in 0..ny {
+                let mut i = 0;
+                while i < nx {
+                    let Some(distance) = distance(obstacle, self.at([2 * i, 2 * j, 2 * k])) else {
+                        return near;
+                    };
+                    // The distance changes by no more than one walks: the next corners are known as well.
+                    let same = 1 + ((distance - level).abs() / (self.cell * GROWN)).min(1e9) as i64;
+                    for i in (i..(i + same).min(nx)).take_while(|_| distance <= level) {
+                        near[self.index([i, j, k])] = true;
+                    }
+                    i += same;
+                }
+            }
+        }
+        near
     }
 
     /// Whether a triangle's box and its plane reach a cube that is a little larger: never false for one that it meets.
@@ -170,15 +235,16 @@ impl Grid {
     }
 
     /// Marching tetrahedra.
-    fn surface(&self, inside: &[bool]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    fn surface(&self, inside: &[bool], cut: impl Fn(DVec3, DVec3) -> DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         let mut number: FxHashMap<[usize; 2], u32> = FxHashMap::default();
         let corners = self.all();
         let mut vertex = |p: usize, q: usize| {
             *number.entry([p.min(q), p.max(q)]).or_insert_with(|| {
-                let (a, b) = (corners[p], corners[q]);
-                positions.push(self.at([0, 1, 2].map(|k| a[k] + b[k])));
+                let [inner, outer] = if inside[p] { [p, q] } else { [q, p] };
+                let [inner, outer] = [inner, outer].map(|c| self.at(corners[c].map(|n: i64| 2 * n)));
+                positions.push(cut(inner, outer));
                 positions.len() as u32 - 1
             })
         };
@@ -240,6 +306,13 @@ fn march(
 mod tests {
     use super::*;
 
+    fn around(triangles: &[Triangle]) -> Obstacle {
+        let corners: Vec<DVec3> = triangles.concat();
+        let numbers: Vec<[u32; 3]> =
+            (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        Obstacle::new(&corners, &numbers)
+    }
+
     fn volume(surface: &Closure) -> f64 {
         let at = |v: u32| surface.positions[v as usize];
         surface.triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
@@ -257,7 +330,7 @@ mod tests {
     fn one_triangle_is_enclosed_by_a_closed_surface_that_faces_outwards() {
         let triangle = [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
         for cells in [1, 2, 5, 16] {
-            let surface = closure(&[triangle], cells).unwrap();
+            let surface = closure(&around(&[triangle]), cells).unwrap();
             assert!(volume(&surface) > 0.0);
             let mut edges: Vec<_> =
                 surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
@@ -274,15 +347,15 @@ mod tests {
         let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles: Vec<Triangle> =
             quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner))).collect();
-        let surface = closure(&triangles, 16).unwrap();
+        let surface = closure(&around(&triangles), 16).unwrap();
         assert!(volume(&surface) > 1.0 && volume(&surface) < 2.0, "{}", volume(&surface));
     }
 
     #[test]
     fn a_point_has_no_closure_and_far_triangles_have_larger_cubes() {
-        assert!(closure(&[[DVec3::ONE; 3]], 8).is_none());
+        assert!(closure(&around(&[[DVec3::ONE; 3]]), 8).is_none());
         let far = [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
-        let surface = closure(&[far], 64).unwrap();
+        let surface = closure(&around(&[far]), 64).unwrap();
         assert!(surface.cells < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p));
     }
 }

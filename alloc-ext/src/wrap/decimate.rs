@@ -43,13 +43,16 @@ impl Eq for Candidate {}
 const COLLAPSE: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.05), clearance: 0.0 };
 
 impl Work<'_> {
-    /// Collapses until at most `target` faces are left, or no collapse is legal: then false.
+    /// Collapses until at most `target` faces are left, or no collapse is legal or the time is up: then false.
     pub fn decimate(&mut self, target: usize, mut on_progress: impl FnMut(usize)) -> bool {
         let mut queue = BinaryHeap::new();
         let mut changed = vec![0u32; self.shell.vertex_slots() as usize];
         let mut now = 0;
         let mut refill = true;
         while self.shell.face_count() > target {
+            if self.is_late() {
+                return false;
+            }
             let Some(candidate) = queue.pop() else {
                 // Edges that were refused may be legal now that others are gone.
                 if !refill {

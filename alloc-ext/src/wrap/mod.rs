@@ -18,11 +18,13 @@
 //!
 //! After Platis & Theoharis 2003 for the first hull and its program; the shrinking is our own.
 
+mod apart;
 mod boxes;
 mod build;
 mod cells;
 mod closure;
 mod decimate;
+mod distance;
 mod exchange;
 mod flip;
 mod memo;

@@ -2,6 +2,7 @@
 
 use super::boxes::{Bounds, BoxTree};
 use super::cells::{CellTree, Frontier};
+use super::distance::Reach;
 use super::predicates::{Triangle, in_sunken, meet};
 use super::region::{Plane, Tetrahedron};
 use glam::DVec3;
@@ -17,6 +18,8 @@ pub(super) struct Obstacle {
     point_cells: CellTree,
     witnesses: Vec<DVec3>,
     witness_tree: BoxTree,
+    /// Distance within which nothing may come, if it is above 0.
+    margin: f64,
 }
 
 /// Factor by which the bound of a plane's rounding exceeds `f64`'s unit: the products have eight roundings, and what is kept for nothing
@@ -44,7 +47,23 @@ impl Obstacle {
             point_cells,
             witnesses,
             witness_tree,
+            margin: 0.0,
         }
+    }
+
+    /// The same, with a distance that nothing may come within.
+    pub fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// See [`with_margin`](Self::with_margin).
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// The box of all triangles.
+    pub fn bounds(&self) -> Bounds {
+        self.triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p))
     }
 
     /// All triangles.
@@ -57,8 +76,28 @@ impl Obstacle {
         &self.witnesses
     }
 
-    /// Whether a face touches or crosses any triangle. Exact.
+    /// Whether a face touches or crosses any triangle: exact; or is not certainly farther from it than the margin.
     pub fn meets(&self, face: &Triangle) -> bool {
+        if self.margin > 0.0 { self.is_near(face) } else { self.touches(face) }
+    }
+
+    fn is_near(&self, face: &Triangle) -> bool {
+        let reach = Reach::new(self.margin);
+        let bounds = Bounds::of(face);
+        let [a, b, c] = *face;
+        let normal = (b - a).cross(c - a);
+        let mut near = false;
+        self.triangle_tree.visit(
+            |of| !reach.parts_box(face, &bounds, normal, of),
+            |i| {
+                near = !reach.parts(face, normal, &self.triangles[i]);
+                !near
+            },
+        );
+        near
+    }
+
+    fn touches(&self, face: &Triangle) -> bool {
         let bounds = Bounds::of(face);
         let [a, b, c] = *face;
         let (ab, ac) = (b - a, c - a);
@@ -148,6 +187,23 @@ impl Obstacle {
             raised
         });
         highest
+    }
+
+    /// Calls `visit` with the vertices in all boxes that pass `keep`, and perhaps others.
+    #[inline]
+    pub fn visit_points(&self, near: &Frontier, keep: impl Fn(&Bounds) -> bool, visit: impl Fn(DVec3)) {
+        self.point_cells.visit_kept(near, keep, |i| visit(self.points[i]));
+    }
+
+    /// As [`visit_points`](Self::visit_points), with the triangles.
+    #[inline]
+    pub fn visit_triangles(
+        &self,
+        near: &Frontier,
+        keep: impl Fn(&Bounds) -> bool,
+        visit: impl Fn(&Triangle),
+    ) {
+        self.triangle_cells.visit_kept(near, keep, |i| visit(&self.triangles[i]));
     }
 
     /// The triangle nearest to a point, and bounds of the distance to all.

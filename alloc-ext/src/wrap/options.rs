@@ -9,9 +9,9 @@ use std::time::Duration;
 pub enum Goal {
     /// At most so many faces, and as little volume as can be had with them.
     Faces(usize),
-    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it. For closed meshes.
+    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it; a margin counts as volume beyond. For closed meshes.
     Void(f64),
-    /// The fewest faces found of which no point is farther than this from the mesh, in its unit.
+    /// The fewest faces found of which no point is farther than this from the mesh, in its unit; more than the margin.
     Slack(f64),
 }
 
@@ -20,6 +20,9 @@ pub enum Goal {
 pub struct Options {
     /// What to reach.
     pub goal: Goal,
+    /// Distance from the mesh that no point of the hull comes within, in its unit; finite and at least 0. With more than 0 every point that is
+    /// no farther from the mesh is inside the hull.
+    pub margin: f64,
     /// How long to polish, as a factor of what suffices for the numbers in `core/DESIGN.md`. The result depends on it and on nothing
     /// else that is not an input.
     pub effort: f64,
@@ -31,7 +34,13 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { goal: Goal::Faces(200), effort: 1.0, time_limit: None, vertex_bits: VertexBits::Auto }
+        Self {
+            goal: Goal::Faces(200),
+            margin: 0.0,
+            effort: 1.0,
+            time_limit: None,
+            vertex_bits: VertexBits::Auto,
+        }
     }
 }
 
@@ -72,6 +81,8 @@ pub enum Stop {
 pub struct Report {
     /// Faces.
     pub faces: usize,
+    /// The margin that was asked for.
+    pub margin: f64,
     /// Volume, in the mesh's unit.
     pub volume: f64,
     /// Volume beyond that of the mesh as a part of it; `None` if the mesh does not bound a volume.
@@ -128,6 +139,12 @@ pub enum WrapError {
     /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the mesh is as small as the steps of its
     /// coordinates.
     NoRoom,
+    /// The margin is negative or not a finite number.
+    BadMargin,
+    /// With its margin the mesh does not fit in single precision's range.
+    MarginTooLarge,
+    /// A slack was asked for that is not more than the margin.
+    SlackWithinMargin,
 }
 
 impl std::fmt::Display for WrapError {
@@ -139,6 +156,13 @@ impl std::fmt::Display for WrapError {
             }
             WrapError::NoRoom => {
                 "there are no coordinates of single precision around the mesh to put a hull on; move or scale it"
+            }
+            WrapError::BadMargin => "a margin is a finite number, at least 0",
+            WrapError::MarginTooLarge => {
+                "the mesh and its margin leave the range of single precision, 3.4e38; ask for less, or scale both down"
+            }
+            WrapError::SlackWithinMargin => {
+                "no hull can be within the slack, which is not more than the margin; ask for a larger slack"
             }
         })
     }

@@ -7,6 +7,7 @@
 //!
 //! All is floating point: what is found here is proved, or refused, in `accept`.
 
+use super::apart::Sweep;
 use super::boxes::Bounds;
 use super::cells::Frontier;
 use super::obstacle::Obstacle;
@@ -69,6 +70,8 @@ pub(super) struct Placer {
     pub programs: u64,
     fixed: Vec<HalfSpace>,
     cuts: Vec<Option<HalfSpace>>,
+    /// See [`apart`](super::apart).
+    pushes: Vec<HalfSpace>,
     planes: Vec<HalfSpace>,
 }
 
@@ -91,20 +94,30 @@ impl Placer {
         let objective = self.open(star, &frame, wish)?;
         let reach = star.iter().flat_map(|f| f.corners).fold(Bounds::EMPTY, Bounds::with);
         let mut near = <[Frontier; 2]>::default();
-        obstacle.frontiers(&reach, &mut near);
+        let margin = obstacle.margin();
+        obstacle.frontiers(&reach.grown(margin + wish.clearance), &mut near);
         let everywhere = [Frontier::whole(), Frontier::whole()];
         for _ in 0..ROUNDS {
             self.programs += 1;
             self.planes.clear();
             self.planes.extend(self.cuts.iter().flatten());
+            self.planes.extend(&self.pushes);
             self.planes.extend(&self.fixed);
             let x = minimise_bounded(objective, &mut self.planes, wish.second_term)?;
             let x = centre + x * radius;
             // Vertices of the mesh are cheap to look for and find nearly every plane; edges are looked at once no vertex is in the way.
             let near = if reach.with(x) == reach { &near } else { &everywhere };
-            let clear = [false, true]
-                .into_iter()
-                .all(|edges| self.cut(star, &frame, x, wish.clearance, &Search { obstacle, near, edges }));
+            let search = |edges: bool| Search { obstacle, near, edges };
+            let mut clear = [false, true].into_iter().all(|edges| {
+                if margin > 0.0 {
+                    self.cut_apart(star, &frame, x, wish.clearance, &search(edges))
+                } else {
+                    self.cut(star, &frame, x, wish.clearance, &search(edges))
+                }
+            });
+            if margin > 0.0 && clear {
+                clear = self.push_apart(star, &frame, x, wish.clearance, &search(true));
+            }
             if clear {
                 return Some(x);
             }
@@ -115,6 +128,7 @@ impl Placer {
     /// Sets up the constraints that do not depend on the mesh; the objective.
     fn open(&mut self, star: &[StarFace], frame: &Frame, wish: &Wish) -> Option<DVec3> {
         self.fixed.clear();
+        self.pushes.clear();
         self.cuts.clear();
         self.cuts.resize(star.len(), None);
         let mut objective = DVec3::ZERO;
@@ -178,22 +192,7 @@ impl Placer {
                         HalfSpace { normal: plane.normal, offset }
                     })
                 }
-                None => {
-                    let below = face.normal.dot(x);
-                    let height = Cell::new(tolerance);
-                    let raised = |q: DVec3| {
-                        let offset = face.normal.dot(q);
-                        (offset - below > height.get()).then(|| {
-                            height.set(offset - below);
-                            Plane { normal: face.normal, offset }
-                        })
-                    };
-                    search.highest(&tetrahedron, raised).map(|plane| {
-                        let normal = plane.normal;
-                        let offset = normal.dot(frame.local(x)) + height.get() / frame.radius + clearance;
-                        HalfSpace { normal, offset }
-                    })
-                }
+                None => raised(&tetrahedron, face, frame, x, clearance, search),
             };
             if found.is_some() {
                 *cut = found;
@@ -202,6 +201,80 @@ impl Placer {
         }
         clear
     }
+
+    /// As [`cut`](Self::cut), where a margin is kept.
+    fn cut_apart(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        x: DVec3,
+        clearance: f64,
+        search: &Search<'_>,
+    ) -> bool {
+        let tolerance = LEVEL * frame.radius;
+        let margin = search.obstacle.margin();
+        let mut clear = true;
+        for (face, cut) in star.iter().zip(&mut self.cuts) {
+            let found = match face.ring {
+                Some(ring) => {
+                    let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+                    if search.edges { sweep.pieces(&search.near[1]) } else { sweep.points(&search.near[0]) }
+                }
+                None if face.normal.dot(x - face.corners[0]) >= -tolerance => None,
+                None => {
+                    let tetrahedron = Tetrahedron::new(&face.corners, x);
+                    raised(&tetrahedron, face, frame, x, (margin + clearance) / frame.radius, search)
+                }
+            };
+            clear &= found.is_none();
+            *cut = found.or(*cut);
+        }
+        clear
+    }
+
+    /// Adds a plane for every new face that the mesh comes near from the side, and says whether there was none.
+    fn push_apart(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        x: DVec3,
+        clearance: f64,
+        search: &Search<'_>,
+    ) -> bool {
+        let before = self.pushes.len();
+        for face in star {
+            let Some(ring) = face.ring else { continue };
+            let tolerance = LEVEL * frame.radius;
+            let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+            self.pushes.extend(sweep.beside(&search.near[1]));
+        }
+        self.pushes.len() == before
+    }
+}
+
+/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` in the frame's unit.
+fn raised(
+    tetrahedron: &Tetrahedron,
+    face: &StarFace,
+    frame: &Frame,
+    x: DVec3,
+    clearance: f64,
+    search: &Search<'_>,
+) -> Option<HalfSpace> {
+    let below = face.normal.dot(x);
+    let height = Cell::new(LEVEL * frame.radius);
+    let raised = |q: DVec3| {
+        let offset = face.normal.dot(q);
+        (offset - below > height.get()).then(|| {
+            height.set(offset - below);
+            Plane { normal: face.normal, offset }
+        })
+    };
+    search.highest(tetrahedron, raised).map(|plane| {
+        let normal = plane.normal;
+        let offset = normal.dot(frame.local(x)) + height.get() / frame.radius + clearance;
+        HalfSpace { normal, offset }
+    })
 }
 
 /// Where planes are looked for.
@@ -225,13 +298,13 @@ impl Search<'_> {
 }
 
 /// The frame of a program: origin in the star, its radius as unit.
-struct Frame {
+pub(super) struct Frame {
     centre: DVec3,
-    radius: f64,
+    pub radius: f64,
 }
 
 impl Frame {
-    fn local(&self, p: DVec3) -> DVec3 {
+    pub fn local(&self, p: DVec3) -> DVec3 {
         (p - self.centre) / self.radius
     }
 }

@@ -23,6 +23,12 @@ impl Plane {
     pub fn holds(&self, p: DVec3) -> bool {
         self.normal.dot(p) >= self.offset
     }
+
+    /// Whether a box has a point on that side.
+    #[inline]
+    pub fn reaches(&self, bounds: &Bounds) -> bool {
+        bounds.support(self.normal) >= self.offset
+    }
 }
 
 /// A tetrahedron between a face and an apex behind it.
@@ -70,6 +76,18 @@ impl Tetrahedron {
     /// Its box.
     pub fn bounds(&self) -> &Bounds {
         &self.bounds
+    }
+
+    /// Whether a box may have a point of it.
+    pub fn may_meet(&self, bounds: &Bounds) -> bool {
+        bounds.meets(&self.bounds) && self.planes.iter().all(|p| p.reaches(bounds))
+    }
+
+    /// Whether a box may have a point that is no farther from it than `distance`.
+    #[inline]
+    pub fn may_come_near(&self, bounds: &Bounds, distance: f64) -> bool {
+        bounds.meets(&self.bounds.grown(distance))
+            && self.planes.iter().all(|p| bounds.support(p.normal) >= p.offset - distance)
     }
 
     /// Whether a point is in it.

@@ -18,6 +18,7 @@ use crate::mesh::{Enclosure, Mesh};
 use crate::precision::Stored;
 use glam::DVec3;
 use meshsweep_core::num::exp2;
+use std::time::Instant;
 
 /// A hull to start from.
 pub(super) struct First {
@@ -48,21 +49,23 @@ pub(super) struct Levels {
     pub wanted: Option<First>,
 }
 
-/// The levels of the progressive hull that are hulls to start from.
+/// The levels of the progressive hull that are hulls to start from, if they are found before the deadline.
 pub(super) fn first_levels(
     mesh: &Mesh,
     stored: &Stored,
     obstacle: &Obstacle,
     rounding: &Rounding,
     wanted: usize,
+    deadline: Option<Instant>,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Levels {
-    let mut levels = levels(&stored.positions, &mesh.triangles, stored, wanted, on_progress);
+    let mut levels =
+        levels(&stored.positions, &mesh.triangles, stored, wanted, deadline, on_progress).unwrap_or_default();
     let mut first = |level: Option<i32>| {
         let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
         let mut shell = Shell::new(positions, &triangles);
         let faces = shell.face_count();
-        lift(&mut shell, rounding);
+        lift(&mut shell, rounding, obstacle.margin());
         let (shell, filled) = keep_outermost(shell);
         let start = Start::Progressive { faces };
         defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
@@ -79,14 +82,18 @@ pub(super) fn first_closure(
     wanted: usize,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Option<First> {
-    let closure = closure(obstacle.triangles(), cells)?;
+    let mut closure = closure(obstacle, cells)?;
+    if obstacle.margin() > 0.0 {
+        closure.positions =
+            closure.positions.iter().map(|&p| rounding.round(p)).collect::<Option<Vec<DVec3>>>()?;
+    }
     if closure.positions.iter().any(|&p| rounding.round(p) != Some(p)) {
         return None;
     }
     let start = Start::Closure { cell: closure.cell, cells: closure.cells };
     let local = exp2(-stored.scale_exponent);
     let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
-    let mut levels = levels(&positions, &closure.triangles, stored, wanted, on_progress);
+    let mut levels = levels(&positions, &closure.triangles, stored, wanted, None, on_progress)?;
     // In narrow places levels grow into each other. The closure itself never does, but each of its faces costs a collapse against the mesh.
     let small = closure.triangles.len() <= MOST_FACES;
     let itself = small.then_some((closure.positions, closure.triangles));
@@ -102,7 +109,7 @@ pub(super) fn first_closure(
 
 /// The mesh's box, a few steps of the grid larger.
 pub(super) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<First> {
-    let bounds = obstacle.triangles().iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p));
+    let bounds = obstacle.bounds().grown(obstacle.margin());
     let size = bounds.low.abs().max(bounds.high.abs()).max_element();
     LIFTS.into_iter().find_map(|lift| {
         let out = rounding.half_step(size) * lift;
@@ -119,20 +126,28 @@ pub(super) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<Firs
     })
 }
 
+/// Faces that are collapsed between two looks at the clock.
+const SLICE: usize = 1000;
+
 /// Faces of a closure that is a first hull itself.
 const MOST_FACES: usize = 10_000;
 
 type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
 
 /// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, each with its number: level `n` has [`plenty`] times 2^n faces,
-/// the one without number has `wanted`, or as few as the hull can be brought down to; level 0 and that without number may be the surface itself.
+/// the one without number has `wanted`, or as few as the hull can be brought down to; level 0 and that without number may be the surface itself. `None` if the deadline passes first.
 fn levels(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     stored: &Stored,
     wanted: usize,
+    deadline: Option<Instant>,
     on_progress: &mut dyn FnMut(Progress),
-) -> Vec<(Option<i32>, Surface)> {
+) -> Option<Vec<(Option<i32>, Surface)>> {
+    let is_late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+    if is_late() {
+        return None;
+    }
     let from = triangles.len();
     let mut engine = Engine::new(positions, triangles, Conditions::default(), Priority::Program, stored.grid);
     let mut show = |progress: collapse::Progress| {
@@ -154,12 +169,20 @@ fn levels(
     counts.sort_unstable_by_key(|&(level, faces)| (std::cmp::Reverse(faces), level));
     for (level, faces) in counts {
         // Where it gets stuck it is a level as well.
-        let _ = engine.run(faces, &mut show);
+        while engine.progress().faces > faces && !is_late() {
+            let next = engine.progress().faces.saturating_sub(SLICE).max(faces);
+            if engine.run(next, &mut show).is_some() {
+                break;
+            }
+        }
+        if is_late() {
+            return None;
+        }
         let all: Vec<DVec3> = engine.positions().iter().map(|&p| p * scale).collect();
         let faces: Vec<[u32; 3]> = engine.faces().collect();
         levels.push((level, compact(&all, &faces)));
     }
-    levels
+    Some(levels)
 }
 
 /// Without positions that no triangle has.
@@ -185,17 +208,19 @@ fn compact(positions: &[DVec3], triangles: &[[u32; 3]]) -> Surface {
 /// Lifts of a vertex in half-steps of the grid, until one is strictly outside of every face.
 const LIFTS: [f64; 5] = [3.0, 6.0, 12.0, 48.0, 192.0];
 
-/// Moves every vertex strictly outside of all planes of its star, by a few steps of the grid: then the hull lies strictly outside of
+/// Moves every vertex strictly outside of all planes of its star, by the margin and a few steps of the grid: then the hull lies strictly outside of
 /// where it was. A vertex without such a place goes into a neighbour, where the two have one together; one that has not stays.
-pub(super) fn lift(shell: &mut Shell, rounding: &Rounding) {
+pub(super) fn lift(shell: &mut Shell, rounding: &Rounding, margin: f64) {
     let mut star = Vec::new();
     let mut left = Vec::new();
+    // Planes that were lifted already would lift by the margin again; steps of the grid do no harm.
+    let before = if margin > 0.0 { Some(shell.clone()) } else { None };
     for v in 0..shell.vertex_slots() {
         if shell.mesh.at(v).is_empty() {
             continue;
         }
-        shell.vertex_star(v, &mut star);
-        match lifted(&star, shell.position(v), rounding) {
+        before.as_ref().unwrap_or(shell).vertex_star(v, &mut star);
+        match lifted(&star, shell.position(v), rounding, margin) {
             Some(x) => shell.move_vertex(v, x),
             None => left.push(v),
         }
@@ -210,7 +235,7 @@ pub(super) fn lift(shell: &mut Shell, rounding: &Rounding) {
             star.clear();
             star.extend(faces.iter().map(|&f| shell.star_face(f, [u, v])));
             let middle = (shell.position(u) + shell.position(v)) * 0.5;
-            if let Some(x) = lifted(&star, middle, rounding) {
+            if let Some(x) = lifted(&star, middle, rounding, margin) {
                 shell.collapse(u, v, x);
                 break;
             }
@@ -218,14 +243,19 @@ pub(super) fn lift(shell: &mut Shell, rounding: &Rounding) {
     }
 }
 
-/// The point nearest to `from`, about, that is strictly outside of all planes of a star; exact.
-fn lifted(star: &[StarFace], from: DVec3, rounding: &Rounding) -> Option<DVec3> {
-    let unit = rounding.half_step(from.abs().max_element());
+/// The point nearest to `from`, about, that is strictly outside of all planes of a star, and farther by the margin, about; the first is exact.
+fn lifted(star: &[StarFace], from: DVec3, rounding: &Rounding, margin: f64) -> Option<DVec3> {
+    let step = rounding.half_step(from.abs().max_element());
     LIFTS.into_iter().find_map(|lift| {
-        // In half-steps, so that the program's tolerances are far below one.
+        // In half-steps, so that the program's tolerances are far below one; where there is a margin, in what is near it.
+        let (unit, height) = if margin > 0.0 {
+            (step + margin, (step * lift + margin) / (step + margin))
+        } else {
+            (step, lift)
+        };
         let plane = |face: &StarFace| HalfSpace {
             normal: face.normal,
-            offset: lift + face.normal.dot(face.corners[0] - from) / unit,
+            offset: height + face.normal.dot(face.corners[0] - from) / unit,
         };
         let mut planes: Vec<HalfSpace> = star.iter().map(plane).collect();
         let x = minimise_bounded(DVec3::ZERO, &mut planes, 1.0)?;

@@ -87,6 +87,9 @@ impl Work<'_> {
     pub fn sweep(&mut self) -> f64 {
         let mut gained = 0.0;
         for v in 0..self.shell.vertex_slots() {
+            if self.is_late() {
+                break;
+            }
             if !self.shell.mesh.at(v).is_empty() {
                 gained += self.settle(v).unwrap_or(0.0);
             }

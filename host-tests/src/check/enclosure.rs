@@ -6,7 +6,13 @@
 //! 3. the hull winds exactly once around every vertex of the mesh.
 //!
 //! By the second, a triangle of the mesh is inside as a whole if one vertex is. The mesh may be anything: it is taken as loose triangles.
+//!
+//! With a margin above 0, [`check_margin`] proves moreover that
+//! 4. no point of the hull is as near to the mesh as the margin, or nearer.
+//!
+//! So every point within the margin of the mesh is inside: the way to it from the mesh is no longer than the margin and does not meet the hull.
 
+mod distance;
 mod files;
 mod meeting;
 mod winding;
@@ -38,6 +44,33 @@ pub fn check_enclosure_files(mesh: &[u8], hull: &[u8]) -> Result<EnclosureProof,
     let mesh = read_surface(mesh).map_err(|e| format!("mesh: {e}"))?;
     let hull = read_surface(hull).map_err(|e| format!("hull: {e}"))?;
     check_enclosure(&mesh, &hull)
+}
+
+/// Proves it of two surfaces, with a margin in their unit; `pairs` counts those that are nearer than that in each coordinate.
+///
+/// # Errors
+/// What does not hold, in words.
+pub fn check_margin(mesh: &Surface, hull: &Surface, margin: f64) -> Result<EnclosureProof, String> {
+    let mut proof = check_enclosure(mesh, hull)?;
+    if !(margin >= 0.0 && margin.is_finite()) {
+        return Err(format!("{margin} is no margin"));
+    }
+    if margin > 0.0 {
+        let triangles: Vec<_> = mesh.triangles.iter().map(|&t| mesh.corners(t)).collect();
+        let faces: Vec<_> = hull.triangles.iter().map(|&t| hull.corners(t)).collect();
+        let exact = distance::Margin::new(margin);
+        for (t, f) in near(&triangles, &faces, margin) {
+            proof.pairs += 1;
+            let apart = distance::is_beyond(&triangles[t], &faces[f], margin)
+                || exact.is_kept(&triangles[t], &faces[f]);
+            if !apart {
+                return Err(format!(
+                    "face {f} of the hull is not farther than {margin:e} from triangle {t} of the mesh"
+                ));
+            }
+        }
+    }
+    Ok(proof)
 }
 
 /// Proves it.
@@ -104,13 +137,25 @@ fn clear_of(mesh: &Surface, hull: &Surface) -> Result<usize, String> {
 
 type Corners = [[f64; 3]; 3];
 
-/// Pairs whose boxes overlap or touch: a sweep along x.
+/// Pairs whose boxes overlap or touch.
 fn overlapping(first: &[Corners], second: &[Corners]) -> Vec<(usize, usize)> {
+    near(first, second, 0.0)
+}
+
+/// Pairs whose boxes, the first being larger by a margin on all sides, overlap or touch: a sweep along x.
+fn near(first: &[Corners], second: &[Corners], margin: f64) -> Vec<(usize, usize)> {
     let bounds = |t: &Corners| {
         let pick = |k: usize, least: fn(f64, f64) -> f64| least(least(t[0][k], t[1][k]), t[2][k]);
         ([0, 1, 2].map(|k| pick(k, f64::min)), [0, 1, 2].map(|k| pick(k, f64::max)))
     };
-    let boxes = [first, second].map(|all| all.iter().map(bounds).collect::<Vec<_>>());
+    let mut boxes = [first, second].map(|all| all.iter().map(bounds).collect::<Vec<_>>());
+    if margin > 0.0 {
+        for (low, high) in &mut boxes[0] {
+            // Rounding is undone by one step.
+            *low = low.map(|x| (x - margin).next_down());
+            *high = high.map(|x| (x + margin).next_up());
+        }
+    }
     let mut starts: Vec<(f64, usize, usize)> = Vec::new();
     for (side, all) in boxes.iter().enumerate() {
         starts.extend(all.iter().enumerate().map(|(i, (low, _))| (low[0], side, i)));

@@ -14,7 +14,9 @@ mod parse;
 mod replay;
 mod tree;
 
-pub use enclosure::{EnclosureProof, Surface, check_enclosure, check_enclosure_files, read_surface};
+pub use enclosure::{
+    EnclosureProof, Surface, check_enclosure, check_enclosure_files, check_margin, read_surface,
+};
 pub use exact::side;
 pub use parse::{Blob, Node};
 pub use tree::{TreeProof, check_tree};

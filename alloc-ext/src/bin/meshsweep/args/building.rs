@@ -1,6 +1,6 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, factor, percent, positive, ratio, whole};
+use super::values::{degrees, factor, length, percent, positive, ratio, whole};
 use clap::{Args, ValueEnum};
 use meshsweep_alloc::collapse::{Conditions, Priority};
 use meshsweep_alloc::precision::VertexBits;
@@ -233,6 +233,9 @@ pub struct HullArgs {
     /// Fewest faces of which no point is farther than this from the mesh, in its unit
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "progressive"])]
     pub slack: Option<f64>,
+    /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are inside [default: 0]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length, conflicts_with = "progressive")]
+    pub margin: Option<f64>,
     /// One hull for each part of the mesh, all in one file
     #[arg(long, conflicts_with = "progressive")]
     pub parts: bool,
@@ -251,7 +254,7 @@ pub struct HullArgs {
         allow_negative_numbers = true,
         value_parser = whole::<0, { u32::MAX }>,
         conflicts_with_all = [
-            "faces", "void", "slack", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence", "compactness",
+            "faces", "void", "slack", "margin", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence", "compactness",
             "max_normal_deviation"
         ]
     )]
@@ -263,7 +266,7 @@ pub struct HullArgs {
         allow_negative_numbers = true,
         value_parser = whole::<4, { u32::MAX }>,
         conflicts_with_all = [
-            "level", "faces", "void", "slack", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence",
+            "level", "faces", "void", "slack", "margin", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence",
             "compactness", "max_normal_deviation"
         ]
     )]

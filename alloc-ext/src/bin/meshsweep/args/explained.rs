@@ -152,11 +152,14 @@ pub const CULL: &str = "Leaves of up to eight triangles are kept or left out who
 pub const HULL: &str = "The hull of a mesh is closed, does not pass through itself, and has every triangle of the mesh strictly inside: proved by exact \
     arithmetic on the vertices that are written. The mesh may be open, or a heap of loose triangles; cavities are filled. With --void or --slack \
     the fewest faces are searched for, which takes several times as long as a number of --faces.\n\n\
+    With --margin the hull has no point as near to the mesh as that, so that everything within the margin is inside: proved too, and for the mesh as the file \
+    has it, before its vertices were rounded. --void then counts the margin's volume as well, and --slack, which is measured from the mesh, must be more.\n\n\
     --progressive gives the progressive hull, as the levels of a blob's hull hierarchy are: looser, at the mesh's own vertices where it can be, and only of meshes that \
     are closed and manifold.\n\n\
     Examples:\n  \
     meshsweep hull part.stl --faces 200 -o hull.ply\n  \
     meshsweep hull part.stl --slack 2.5 -o hull.ply\n  \
+    meshsweep hull part.stl --margin 0.5 -o hull.ply\n  \
     meshsweep hull scan.ply --faces 500 --effort 4 -o hull.ply\n  \
     meshsweep hull part.msw --level 0 -o coarsest.ply\n  \
     meshsweep hull hulls.msw --tight 200 -o hull.ply";

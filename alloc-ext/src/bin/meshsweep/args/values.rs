@@ -82,6 +82,12 @@ pub fn positive(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite()).ok_or_else(wanted)
 }
 
+/// A length from 0, in the mesh's unit.
+pub fn length(text: &str) -> Result<f64, String> {
+    let wanted = || "a finite number from 0 is wanted, in the mesh's unit".to_owned();
+    text.parse().ok().filter(|x: &f64| *x >= 0.0 && x.is_finite()).ok_or_else(wanted)
+}
+
 /// A percentage above 0, with or without its sign, as a part of 1.
 pub fn percent(text: &str) -> Result<f64, String> {
     let wanted = || "a percentage above 0 is wanted, as 15 or 15%".to_owned();
@@ -146,6 +152,14 @@ mod tests {
                 && factor("0").is_ok()
                 && factor("-1").is_err()
         );
+    }
+
+    #[test]
+    fn lengths_are_finite_and_not_negative() {
+        assert_eq!((length("0"), length("2.5e-30"), length("1e39")), (Ok(0.0), Ok(2.5e-30), Ok(1e39)));
+        for wrong in ["", "-1", "-1e-300", "nan", "inf", "1e999", "2%"] {
+            assert!(length(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -20,13 +20,18 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         (_, Some(slack)) => Goal::Slack(slack),
         _ => Goal::Faces(faces as usize),
     };
-    let options = Options {
+    let mut options = Options {
         goal,
+        margin: args.margin.unwrap_or(0.0),
         effort: args.effort.unwrap_or(1.0),
         time_limit: args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX)),
         vertex_bits: args.vertex_bits.format(),
     };
     let loaded = load_snapped(&args.input, options.vertex_bits)?;
+    if options.margin > 0.0 {
+        // The file's vertices, decimal or not on the grid, have the margin around them too.
+        options.margin += (loaded.moved + loaded.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
+    }
     let meshes = if args.parts { parts(&loaded.mesh) } else { vec![loaded.mesh] };
     let mut hulls = Vec::new();
     for mesh in &meshes {
@@ -73,6 +78,9 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal) -> io::Result<()> 
         Length(report.slack.lower),
         report.time.as_secs_f64()
     )?;
+    if report.margin > 0.0 {
+        writeln!(out, "  all points within {} of the mesh are inside", Length(report.margin))?;
+    }
     if report.void.is_none() {
         writeln!(out, "  the mesh is not closed: there is no volume to measure void against")?;
     }
