@@ -193,16 +193,16 @@ impl Probe {
     #[inline]
     fn hits(&self, node: &Node) -> u32 {
         let mut out = [f32::NEG_INFINITY; WIDTH];
-        for k in 0..WIDTH {
+        for (k, out) in out.iter_mut().enumerate() {
             let off = |axis: usize| {
                 (node.middle[axis][k] - self.middle[axis]).abs() - node.half[axis][k] - self.half[axis]
             };
             let (x, y, z) = (off(0), off(1), off(2));
             let xy = if x > y { x } else { y };
-            out[k] = if xy > z { xy } else { z };
+            *out = if xy > z { xy } else { z };
         }
         for cut in &self.cuts {
-            for k in 0..WIDTH {
+            for (k, out) in out.iter_mut().enumerate() {
                 let reach = cut.normal[0] * node.middle[0][k]
                     + cut.normal[1] * node.middle[1][k]
                     + cut.normal[2] * node.middle[2][k]
@@ -210,7 +210,7 @@ impl Probe {
                     + cut.along[1] * node.half[1][k]
                     + cut.along[2] * node.half[2][k];
                 let below = cut.offset - reach;
-                out[k] = if out[k] > below { out[k] } else { below };
+                *out = if *out > below { *out } else { below };
             }
         }
         let mut hits = 0;

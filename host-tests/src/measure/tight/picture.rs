@@ -54,14 +54,13 @@ pub fn svg(galleries: &[Gallery]) -> Result<String, String> {
     }
     let mut text = String::new();
     {
-        let size = ((PANEL * columns as i32) as u32, (PANEL * galleries.len() as i32) as u32);
+        let size = (PANEL.unsigned_abs() * columns as u32, PANEL.unsigned_abs() * galleries.len() as u32);
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        let drawn = root.fill(&WHITE).map_err(|error| error.to_string());
-        drawn?;
-        for (row, gallery) in galleries.iter().enumerate() {
+        root.fill(&WHITE).map_err(|error| error.to_string())?;
+        for (row, gallery) in (0..).zip(galleries) {
             let view = View::new(gallery);
-            for (column, (title, hull)) in gallery.hulls.iter().enumerate() {
-                let corner = (PANEL * column as i32, PANEL * row as i32);
+            for (column, (title, hull)) in (0..).zip(&gallery.hulls) {
+                let corner = (PANEL * column, PANEL * row);
                 let draw = || {
                     view.mesh(&root, corner, &gallery.mesh)?;
                     view.hull(&root, corner, hull)?;
@@ -82,6 +81,8 @@ pub fn svg(galleries: &[Gallery]) -> Result<String, String> {
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+type Pixel = (i32, i32);
 
 /// A direction to look along, and what of the scene is the panel.
 struct View {
@@ -116,8 +117,8 @@ impl View {
     }
 
     /// Triangles as they are seen, the farthest first, with the cosine between view and normal.
-    fn seen(&self, triangles: &[[DVec3; 3]], corner: (i32, i32)) -> Vec<(f64, Vec<(i32, i32)>)> {
-        let mut seen: Vec<(f64, f64, Vec<(i32, i32)>)> = Vec::new();
+    fn seen(&self, triangles: &[[DVec3; 3]], corner: Pixel) -> Vec<(f64, Vec<Pixel>)> {
+        let mut seen: Vec<(f64, f64, Vec<Pixel>)> = Vec::new();
         for triangle in triangles {
             let at = triangle.map(|p| self.rotation * p - self.centre);
             let facing = (at[1] - at[0]).cross(at[2] - at[0]).normalize_or_zero().z;
@@ -137,7 +138,7 @@ impl View {
     }
 
     /// Solid; both sides of a triangle, as the mesh may be open.
-    fn mesh(&self, root: &Area<'_>, corner: (i32, i32), triangles: &[[DVec3; 3]]) -> Drawn {
+    fn mesh(&self, root: &Area<'_>, corner: Pixel, triangles: &[[DVec3; 3]]) -> Drawn {
         for (facing, corners) in self.seen(triangles, corner) {
             let grey = (95.0 + 135.0 * facing.abs()) as u8;
             root.draw(&Polygon::new(corners, RGBColor(grey, grey, grey).filled()))?;
@@ -146,7 +147,7 @@ impl View {
     }
 
     /// Its front, as glass with edges.
-    fn hull(&self, root: &Area<'_>, corner: (i32, i32), triangles: &[[DVec3; 3]]) -> Drawn {
+    fn hull(&self, root: &Area<'_>, corner: Pixel, triangles: &[[DVec3; 3]]) -> Drawn {
         let glass = RGBColor(0, 114, 178);
         for (_, corners) in self.seen(triangles, corner).into_iter().filter(|(facing, _)| *facing > 0.0) {
             let outline: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
