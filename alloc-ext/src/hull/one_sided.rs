@@ -14,9 +14,11 @@ use std::collections::BinaryHeap;
 /// The bound may exceed the true distance by this factor.
 const SLACK: f64 = 1.05;
 
-/// Where a piece is cut is rounded, so the parts miss what they were cut from by some 2^-52 of a coordinate. After so many cuts that this is not
-/// enough a piece is no larger than a rounding.
-const MIDPOINTS: f64 = 1.0 / (1u64 << 44) as f64;
+/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2^-51 of a coordinate: this for [`BUDGET`] cuts, one in another.
+const MIDPOINTS: f64 = 1.0 / (1u64 << 36) as f64;
+
+/// Enough to settle any mesh at hand; what is left over keeps its bound.
+const BUDGET: usize = 20_000;
 
 struct Piece {
     bound: f64,
@@ -84,7 +86,10 @@ pub fn farthest(
             corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
         });
         let along = near.triangle.filter(|_| reach > WIDE * near.upper);
-        Piece { bound: lipschitz.min(convex) * (1.0 + 1e-12), corners, along }
+        let bound = lipschitz.min(convex) * (1.0 + 1e-12);
+        // What is no number is no bound.
+        let bound = if bound.is_nan() || reach.is_nan() { f64::INFINITY } else { bound };
+        Piece { bound, corners, along }
     };
     let mut found = 0f64;
     let mut heap = BinaryHeap::new();
@@ -93,8 +98,7 @@ pub fn farthest(
         size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
         heap.push(piece_of(corners, &mut found));
     }
-    // Enough to settle any mesh at hand; what is left over keeps its bound.
-    let mut budget = 20_000;
+    let mut budget = BUDGET;
     while let Some(piece) = heap.pop() {
         if piece.bound <= (found * SLACK).max(enough) || budget == 0 || piece.bound == 0.0 {
             return Farthest { lower: found, upper: piece.bound.max(found) + size * MIDPOINTS };

@@ -6,6 +6,7 @@ use crate::mesh::Mesh;
 use crate::precision::VertexBits;
 use crate::wrap::{self, Goal, Hull, Options, WrapError, wrap};
 use meshsweep_core::blob::layout::MAX_LEVELS;
+use meshsweep_core::num::Radius16;
 use std::time::{Duration, Instant};
 
 /// Most hulls of a blob.
@@ -131,6 +132,9 @@ pub fn chain(
         }
         on_progress(Stage::Certifying);
         let distances = distances(&hull.mesh, mesh);
+        if !fits(&distances) {
+            return Err(WrapError::NoRoom);
+        }
         let void = volume.map(|volume| hull.report.volume / volume - 1.0);
         let report = HullReport {
             asked: faces,
@@ -156,4 +160,10 @@ pub fn chain(
         .collect();
     let tables = TightTables::new(mesh, moved, input_triangles, options.nested, &stored);
     Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
+}
+
+/// Whether all distances are numbers of the format. Two bytes end a little before single precision does.
+fn fits(distances: &Distances) -> bool {
+    let all = distances.slacks.iter().chain([&distances.slack.upper, &distances.depth.upper]);
+    all.into_iter().all(|&distance| Radius16::round_up(distance).get().is_finite())
 }

@@ -82,7 +82,8 @@ pub fn wrap(
         is_hurried: false,
         on_progress: &mut on_progress,
     };
-    let Done { work, start, filled, mut stop } = builder.build(mesh, &stored, &around)?;
+    let Done { mut work, start, filled, mut stop } = builder.build(mesh, &stored, &around)?;
+    work.drop_swallowed();
     if builder.is_hurried && stop == Stop::Reached {
         stop = Stop::OutOfTime;
     }
@@ -95,7 +96,7 @@ pub fn wrap(
         void: solid.then(|| hull_volume / volume - 1.0),
         slack: slack(&work.shell, &obstacle),
         start,
-        filled,
+        filled: filled + work.swallowed,
         stop,
         stars: work.placer.stars,
         programs: work.placer.programs,
@@ -329,6 +330,7 @@ impl<'a> Builder<'a, '_, '_> {
             }
             work.relax(self.floor(), 1e-2, 4);
         }
+        work.drop_swallowed();
         stop
     }
 
@@ -337,6 +339,7 @@ impl<'a> Builder<'a, '_, '_> {
         Polish::new(work, effort).run(work, self.volume.unwrap_or(0.0), |done, of| {
             on_progress(Progress { stage: Stage::Polishing, done: done as usize, of: of as usize });
         });
+        work.drop_swallowed();
         if work.is_late() { Stop::OutOfTime } else { Stop::Reached }
     }
 

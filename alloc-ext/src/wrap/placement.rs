@@ -5,7 +5,7 @@
 //! new vertex, add for each ring edge the plane through the edge and the point that stands out most, and solve again. A plane is only ever
 //! replaced by a steeper one about the same edge, and mesh behind the hull that the move does not reach adds none.
 //!
-//! All is floating point: what is found here is proved, or refused, in `accept`.
+//! All is floating point: what is found here is proved, or refused, in `admits`.
 
 use super::apart::Sweep;
 use super::boxes::Bounds;

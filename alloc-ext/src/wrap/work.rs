@@ -5,7 +5,8 @@
 //!
 //! A move replaces some faces by others with the same boundary. The first two are tested as they stand. The third follows: a part that does
 //! not meet the new hull is inside it or outside as a whole, so that its witness decides. The number of times that the surface winds around the
-//! witness changes only if it lies in one of the tetrahedra between old faces and the new vertex, and falls only for one that is cut off.
+//! witness changes only if it lies in one of the tetrahedra between old faces and the new vertex, and falls only for one that is cut off. Where it rises, the new hull
+//! encloses a part of itself, which is [dropped](Work::drop_swallowed) at the end of each stage.
 
 use super::boxes::Bounds;
 use super::memo::Memo;
@@ -14,6 +15,7 @@ use super::placement::{Placer, StarFace};
 use super::predicates::{Face, Triangle, are_apart, is_degenerate};
 use super::rounding::Rounding;
 use super::shell::Shell;
+use super::start::keep_outermost;
 use glam::DVec3;
 use std::time::Instant;
 
@@ -53,6 +55,16 @@ pub(super) struct Work<'a> {
     pub star: Vec<StarFace>,
     pub dead: Vec<u32>,
     pub memo: Memo,
+    /// Parts that [`drop_swallowed`](Self::drop_swallowed) dropped.
+    pub swallowed: usize,
+    /// Where vertices may go.
+    room: Bounds,
+}
+
+/// The mesh's box, and around it the margin and the longest side.
+fn room(obstacle: &Obstacle) -> Bounds {
+    let bounds = obstacle.bounds();
+    bounds.grown((bounds.high - bounds.low).max_element() + 2.0 * obstacle.margin())
 }
 
 impl<'a> Work<'a> {
@@ -71,6 +83,17 @@ impl<'a> Work<'a> {
             star: Vec::new(),
             dead: Vec::new(),
             memo: Memo::default(),
+            swallowed: 0,
+            room: room(obstacle),
+        }
+    }
+
+    /// Drops parts of the hull that have come to lie inside of another. No move lets the mesh out, but an outward one may sweep over all of a smaller part of the hull; its
+    /// faces would then be taken for an outside that they are not.
+    pub fn drop_swallowed(&mut self) {
+        let (shell, swallowed) = keep_outermost(self.shell.clone());
+        if swallowed > 0 {
+            (self.shell, self.swallowed) = (shell, self.swallowed + swallowed);
         }
     }
 
@@ -132,8 +155,11 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Whether a star may have its vertex at `x` by shape.
+    /// Whether a star may have its vertex at `x` by shape, and by its distance from the mesh: thin spikes cost next to no volume.
     pub fn is_shapely(&self, star: &[StarFace], x: DVec3) -> bool {
+        if self.room.with(x) != self.room {
+            return false;
+        }
         let worst = star.iter().map(|f| compactness(f.corners, f.double_area)).fold(1.0, f64::min);
         let least = self.shape.min_compactness.min(KEPT_COMPACTNESS * worst);
         star.iter().all(|face| {
