@@ -92,6 +92,40 @@ fn a_slack_and_a_void_are_kept_and_printed() {
 }
 
 #[test]
+fn a_margin_is_printed_and_left_around_the_mesh() {
+    let directory = scratch("hull_margin");
+    let (mesh, out) = (directory.join("box.obj"), directory.join("hull.ply"));
+    // A cube of edge 2, a segment that stands out of it as a triangle without area, and one that is there twice.
+    fs::write(
+        &mesh,
+        "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nv 4 2 2\n\
+         f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 7 7 9\nf 4 3 2\n",
+    )
+    .unwrap();
+    let reach = |path: &Path| {
+        let (mesh, _) = mesh::load_closed(path).unwrap();
+        mesh.positions.iter().map(|p| p[0]).fold(f32::NEG_INFINITY, f32::max)
+    };
+    let plain = directory.join("plain.ply");
+    let text = ok(["hull", arg(&mesh), "--faces", "60", "--effort", "0", "-o", arg(&plain)]);
+    assert!(!text.contains("points within") && reach(&plain) > 4.0, "{text}");
+    ok(["hull", arg(&mesh), "--faces", "60", "--effort", "0", "--margin", "0", "-o", arg(&out)]);
+    assert!(fs::read(&plain).unwrap() == fs::read(&out).unwrap(), "no margin is a margin of 0");
+    let text =
+        ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0", "--margin", "0.5", "-o", arg(&out)]);
+    assert!(text.contains("all points within 0.5 of the mesh are inside") && reach(&out) > 4.5, "{text}");
+    for wrong in ["-1", "nan", "inf", "x"] {
+        let output = run(["hull", arg(&mesh), "--margin", wrong, "-o", arg(&plain)]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("a finite number from 0"), "{wrong}");
+    }
+    let output = run(["hull", arg(&mesh), "--margin", "1e39", "-o", arg(&out)]);
+    assert!(cli_support::refused(&output, 1, "box.obj").contains("range of single precision"));
+    let output = run(["hull", arg(&mesh), "--margin", "1", "--slack", "1", "-o", arg(&out)]);
+    assert!(cli_support::refused(&output, 1, "box.obj").contains("not more than the margin"));
+}
+
+#[test]
 fn open_meshes_have_a_tight_hull_and_each_part_one_of_its_own() {
     let directory = scratch("hull_open");
     let (mesh, out) = (directory.join("two.obj"), directory.join("hull.ply"));

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair};
-use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, WrapError, wrap};
-use meshsweep_host_tests::check::{Surface, check_enclosure};
+use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, WrapError, share, wrap, wrap_all};
+use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb, rough_sphere,
@@ -185,6 +185,44 @@ fn triangles_of_any_kind_have_a_hull() {
 }
 
 #[test]
+fn triangles_without_area_are_enclosed_with_the_mesh() {
+    let mesh = mesh_of(&cube(2));
+    // A segment in the surface, one across it, one that stands out, a point beside, and one inside.
+    let further = [
+        [[-1.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0]],
+        [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5], [0.0, 0.0, 1.5]],
+        [[1.0, 1.0, 1.0], [2.0, 2.0, 1.0], [1.5, 1.5, 1.0]],
+        [[-2.0, 0.1, 0.2]; 3],
+        [[0.1, 0.2, 0.3]; 3],
+    ];
+    let (mut positions, mut triangles) = (mesh.positions.clone(), mesh.triangles.clone());
+    for (i, corners) in further.iter().enumerate() {
+        triangles.push([0, 1, 2].map(|k| (mesh.positions.len() + 3 * i + k) as u32));
+        positions.extend(corners);
+    }
+    let all = Surface::new(&positions, &triangles);
+    for margin in [0.0, 0.1] {
+        let options = Options { margin, ..options(100) };
+        let hull = wrap_all(&mesh, &further, &options, |_| {}).unwrap();
+        check_margin(&all, &Surface::new(&hull.mesh.positions, &hull.mesh.triangles), margin).unwrap();
+        assert!(hull.report.void.is_some(), "the mesh is still a solid");
+        let parts = share(vec![mesh.clone()], &further);
+        assert_eq!(parts.iter().map(|(m, f)| [m.triangles.len(), f.len()]).collect::<Vec<_>>()[0], [48, 2]);
+        assert_eq!(parts.len(), 4, "three are at no vertex of the mesh");
+    }
+}
+
+#[test]
+fn a_short_time_has_a_hull_and_says_so() {
+    let mesh = mesh_of(&rough_sphere(5, 0.3, 2));
+    for micros in [0, 20_000] {
+        let limit = Some(std::time::Duration::from_micros(micros));
+        let hull = proved("hurried", &mesh, &Options { time_limit: limit, effort: 1e6, ..options(200) });
+        assert_eq!(hull.report.stop, Stop::OutOfTime);
+    }
+}
+
+#[test]
 fn evil_meshes_have_a_hull_or_a_reason() {
     for case in evil() {
         let Ok((mesh, _)) = read_bytes(Path::new(case.name), case.bytes).and_then(repair) else { continue };
@@ -252,4 +290,35 @@ fn the_checker_refuses_what_is_not_proved() {
     let (positions, mut triangles) = scaled(&icosphere(1), 2.0);
     triangles.pop();
     assert!(refused(&(positions, triangles)).contains("open"));
+}
+
+/// A box with a square pit, and a ball in it that touches nothing.
+fn ball_in_a_pit(radius: f32, height: f32) -> Triangles {
+    let square = |half: f32, z: f32| [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]];
+    let positions = [square(2.0, -2.0), square(2.0, 2.0), square(0.6, 2.0), square(0.6, -1.6)].concat();
+    let mut triangles = Vec::new();
+    let mut quad = |[a, b, c, d]: [u32; 4]| triangles.extend([[a, b, c], [a, c, d]]);
+    quad([0, 3, 2, 1]);
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        (0..12).step_by(4).for_each(|ring| quad([ring + k, ring + next, ring + 4 + next, ring + 4 + k]));
+    }
+    quad([12, 13, 14, 15]);
+    let ball = scaled(&icosphere(1), radius);
+    let straight = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    joined(&(positions, triangles), &transformed(&ball, straight, [0.05, 0.02, height]))
+}
+
+#[test]
+fn a_hull_that_comes_to_enclose_a_part_of_itself_drops_that_part() {
+    for (radius, height, faces) in [(0.15, -1.2, 24), (0.15, -1.2, 28), (0.1, -1.0, 24)] {
+        proved("a ball in a pit", &mesh_of(&ball_in_a_pit(radius, height)), &options(faces));
+    }
+}
+
+#[test]
+fn no_vertex_is_farther_from_the_mesh_than_the_mesh_is_large() {
+    let hull = proved("a small ball over a pit", &mesh_of(&ball_in_a_pit(0.05, 0.5)), &options(32));
+    // The longest side is 4, and a vertex may be beyond three of them at once.
+    assert!(hull.report.slack.upper < 4.0 * 3f64.sqrt() * 1.1, "{:?}", hull.report.slack);
 }

@@ -1,5 +1,6 @@
 //! From a mesh to its hull: a first hull that is proved to enclose it, then as few faces as wanted, then as tight as they can be.
 
+use super::boxes::Bounds;
 use super::obstacle::Obstacle;
 use super::options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError};
 use super::polish::Polish;
@@ -12,6 +13,7 @@ use crate::mesh::{Mesh, require_closed_manifold};
 use crate::precision::{Stored, VertexBits, store};
 use glam::DVec3;
 use meshsweep_core::num::exp2;
+use rustc_hash::FxHashMap;
 use std::time::Instant;
 
 /// A hull and what is known of it.
@@ -39,8 +41,18 @@ const STAGE: f64 = 0.7;
 ///
 /// # Errors
 /// [`WrapError`].
-pub fn wrap(
+pub fn wrap(mesh: &Mesh, options: &Options, on_progress: impl FnMut(Progress)) -> Result<Hull, WrapError> {
+    wrap_all(mesh, &[], options, on_progress)
+}
+
+/// As [`wrap`], of a mesh and further triangles, by their corners: those without area that [`repair`](crate::mesh::repair) leaves out, and that are segments or points.
+/// They are enclosed as the mesh is, and have no part in what bounds a volume.
+///
+/// # Errors
+/// [`WrapError`].
+pub fn wrap_all(
     mesh: &Mesh,
+    further: &[[[f32; 3]; 3]],
     options: &Options,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Hull, WrapError> {
@@ -67,8 +79,13 @@ pub fn wrap(
         bits => bits,
     };
     let stored = store(mesh, bits);
-    let obstacle = Obstacle::new(&positions, &mesh.triangles).with_margin(options.margin);
-    let around = with_margin(&stored, &obstacle, bits)?;
+    let (positions, triangles) = joined(positions, &mesh.triangles, further);
+    let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
+    let around = if further.is_empty() && options.margin <= 0.0 {
+        stored.clone()
+    } else {
+        around(&positions, options.margin, bits)?
+    };
     // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where it is.
     let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
     let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
@@ -108,19 +125,48 @@ pub fn wrap(
     Ok(Hull { mesh: Mesh::new(single, triangles), report })
 }
 
-/// The frame and the format of the hull's coordinates: the mesh's own, or such as hold the mesh's box with the margin around it.
-fn with_margin(stored: &Stored, obstacle: &Obstacle, bits: VertexBits) -> Result<Stored, WrapError> {
-    if obstacle.margin() <= 0.0 {
-        return Ok(stored.clone());
+/// Positions and triangles with further ones, which share the vertices that are at the same place.
+fn joined(
+    mut positions: Vec<DVec3>,
+    triangles: &[[u32; 3]],
+    further: &[[[f32; 3]; 3]],
+) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut triangles = triangles.to_vec();
+    if further.is_empty() {
+        return (positions, triangles);
     }
-    let bounds = obstacle.bounds().grown(obstacle.margin());
-    let corners = [bounds.low, bounds.high].map(|p| p.as_vec3());
-    if !corners.iter().all(|p| p.is_finite()) {
+    // Both zeros are one place.
+    let place = |p: DVec3| (p + 0.0).to_array().map(f64::to_bits);
+    let mut number: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+    for (v, &p) in positions.iter().enumerate() {
+        number.entry(place(p)).or_insert(v as u32);
+    }
+    for corners in further {
+        triangles.push(corners.map(|[x, y, z]| {
+            let p = glam::Vec3::new(x, y, z).as_dvec3();
+            *number.entry(place(p)).or_insert_with(|| {
+                positions.push(p);
+                positions.len() as u32 - 1
+            })
+        }));
+    }
+    (positions, triangles)
+}
+
+/// The frame and the format of coordinates that hold all positions, or their box with the margin around it.
+fn around(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, WrapError> {
+    let single = |p: &[DVec3]| p.iter().map(|p| p.as_vec3().to_array()).collect();
+    if margin <= 0.0 {
+        return Ok(store(&Mesh::new(single(positions), Vec::new()), bits));
+    }
+    let bounds = Bounds::of(positions).grown(margin);
+    let corners = [bounds.low, bounds.high];
+    if !corners.iter().all(|p| p.as_vec3().is_finite()) {
         return Err(WrapError::MarginTooLarge);
     }
     // The mesh's own grid says nothing about the places that a margin asks for.
     let bits = if bits == VertexBits::Auto { VertexBits::F32 } else { bits };
-    Ok(store(&Mesh::new(corners.map(|p| p.to_array()).to_vec(), Vec::new()), bits))
+    Ok(store(&Mesh::new(single(&corners), Vec::new()), bits))
 }
 
 /// Faces that a search for the fewest begins with.
@@ -140,7 +186,7 @@ fn finest(wanted: usize) -> usize {
 const ROUND: f64 = 0.02;
 
 /// Least and most cubes along its longest side.
-const ROUND_CELLS: [usize; 2] = [10, 32];
+const ROUND_CELLS: [usize; 2] = [12, 32];
 
 /// Faces up to which closures are tried beside the progressive hull.
 const FEW_FACES: usize = 60;
@@ -218,12 +264,12 @@ impl<'a> Builder<'a, '_, '_> {
     }
 
     /// Cubes of the first closure where the margin is so large that the mesh's own shape says less than what is left of it at that distance: then cubes
-    /// no larger than the margin show it all.
+    /// of half the margin show it all.
     fn round_cells(&self) -> Option<usize> {
         let margin = self.obstacle.margin();
         let bounds = self.obstacle.bounds();
         let longest = (bounds.high - bounds.low).max_element();
-        let cells = (longest + 2.0 * margin) / margin;
+        let cells = (longest + 2.0 * margin) / (0.5 * margin);
         (margin > ROUND * longest).then(|| (cells as usize).clamp(ROUND_CELLS[0], ROUND_CELLS[1]))
     }
 

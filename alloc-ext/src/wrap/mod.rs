@@ -8,7 +8,9 @@
 //! What holds of every [`Hull`], exactly, for its coordinates as stored:
 //! - it is a closed manifold whose faces have no points in common but the corners and edges that they share, and face outwards;
 //! - it has no point in common with any triangle of the mesh: not even touching;
-//! - every vertex of the mesh is inside it.
+//! - every vertex of the mesh is inside it;
+//! - with a margin, no point of it is as near to the mesh as that, or nearer: all that is within the margin is inside, for the way there does not meet the hull.
+//!   This is proved in floating point with its rounding bounded; see `distance`.
 //!
 //! So the first hull is tested as a whole, and after that a move is made only if exact predicates prove that all three still hold; see `work`.
 //! Where floating point decides, it decides only what is tried.
@@ -43,7 +45,7 @@ mod surface;
 mod vertex;
 mod work;
 
-pub use build::{Hull, wrap};
+pub use build::{Hull, wrap, wrap_all};
 pub use options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError};
-pub use parts::parts;
+pub use parts::{parts, share};
 pub use surface::Surface;

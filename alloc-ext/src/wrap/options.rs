@@ -26,7 +26,7 @@ pub struct Options {
     /// How long to polish, as a factor of what suffices for the numbers in `core/DESIGN.md`. The result depends on it and on nothing
     /// else that is not an input.
     pub effort: f64,
-    /// When to stop polishing; what is had by then depends on the machine. `None`: never.
+    /// When to stop, about; what is had by then depends on the machine: at worst the mesh's box. `None`: never.
     pub time_limit: Option<Duration>,
     /// Coordinate format of the vertices. [`VertexBits::Auto`]: single precision, whatever the mesh would do with.
     pub vertex_bits: VertexBits,

@@ -1,6 +1,7 @@
 //! The parts of a mesh that a hull of their own may have.
 
 use crate::mesh::{Enclosure, Mesh, require_closed_manifold};
+use rustc_hash::FxHashMap;
 
 /// Splits a mesh into its connected parts, by shared vertices; what lies inside a closed part stays with it, as cavities do. In the order of their
 /// first triangles; `source` refers to what the mesh's refers to.
@@ -58,6 +59,43 @@ pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
             select(mesh, &part)
         })
         .collect()
+}
+
+/// A mesh and the further triangles, by their corners, that its hull has to enclose.
+pub type Shared = (Mesh, Vec<[[f32; 3]; 3]>);
+
+/// Gives each of further triangles, by their corners, to the first part that has a vertex in the same place. Those that no part has are parts of their own, at the end.
+#[must_use]
+pub fn share(parts: Vec<Mesh>, further: &[[[f32; 3]; 3]]) -> Vec<Shared> {
+    // Both zeros are one place.
+    let place = |p: &[f32; 3]| p.map(|x| (x + 0.0).to_bits());
+    let mut home: FxHashMap<[u32; 3], usize> = FxHashMap::default();
+    for (i, part) in parts.iter().enumerate() {
+        for p in &part.positions {
+            home.entry(place(p)).or_insert(i);
+        }
+    }
+    let mut shared: Vec<Shared> = parts.into_iter().map(|part| (part, Vec::new())).collect();
+    let mut loose = Mesh::default();
+    let mut number: FxHashMap<[u32; 3], u32> = FxHashMap::default();
+    for corners in further {
+        match corners.iter().find_map(|p| home.get(&place(p))) {
+            Some(&i) => shared[i].1.push(*corners),
+            None => {
+                loose.source.push(loose.triangles.len() as u32);
+                loose.triangles.push(corners.map(|p| {
+                    *number.entry(place(&p)).or_insert_with(|| {
+                        loose.positions.push(p);
+                        loose.positions.len() as u32 - 1
+                    })
+                }));
+            }
+        }
+    }
+    if !loose.triangles.is_empty() {
+        shared.extend(self::parts(&loose).into_iter().map(|part| (part, Vec::new())));
+    }
+    shared
 }
 
 /// Whether a part is closed, cavity or solid: turned inside out, a cavity is a solid.

@@ -14,6 +14,8 @@ pub struct Loaded {
     pub mesh: Mesh,
     /// What was mended.
     pub report: RepairReport,
+    /// Corners of the file's triangles that are not in the mesh: without area, or there twice.
+    pub left_out: Vec<[[f32; 3]; 3]>,
     /// Distance that no vertex was moved more than to reach the grid, file's unit.
     pub moved: f64,
     /// Triangles of the file.
@@ -93,8 +95,13 @@ fn content(bytes: &[u8]) -> Option<&'static str> {
 
 fn repaired(file: &Path, raw: RawMesh, moved: f64, started: Instant) -> Result<Loaded, Failure> {
     let input_triangles = raw.triangles.len();
+    let (positions, triangles) = (raw.positions.clone(), raw.triangles.clone());
     let (mesh, report) = mesh::repair(raw).map_err(|error| Failure::Mesh { file: file.to_owned(), error })?;
-    Ok(Loaded { mesh, report, moved, input_triangles, time: started.elapsed() })
+    let mut is_in = vec![false; input_triangles];
+    mesh.source.iter().for_each(|&t| is_in[t as usize] = true);
+    let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize].map(|x| x as f32));
+    let left_out = triangles.iter().zip(is_in).filter(|(_, is_in)| !is_in).map(|(t, _)| corners(t)).collect();
+    Ok(Loaded { mesh, left_out, report, moved, input_triangles, time: started.elapsed() })
 }
 
 #[cfg(test)]

@@ -242,7 +242,7 @@ pub struct HullArgs {
     /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
-    /// Stop polishing after so many seconds; the hull then depends on the machine
+    /// Stop after about so many seconds, with what there is by then; the hull then depends on the machine
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
     /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so

@@ -9,7 +9,9 @@ use super::super::output::Output;
 use super::super::progress::Bar;
 use super::write_hull;
 use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::wrap::{Goal, Hull, Options, Progress, Report, Stage, Start, Stop, parts, wrap};
+use meshsweep_alloc::wrap::{
+    Goal, Hull, Options, Progress, Report, Stage, Start, Stop, parts, share, wrap_all,
+};
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -32,11 +34,15 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         // The file's vertices, decimal or not on the grid, have the margin around them too.
         options.margin += (loaded.moved + loaded.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
     }
-    let meshes = if args.parts { parts(&loaded.mesh) } else { vec![loaded.mesh] };
+    let meshes = if args.parts {
+        share(parts(&loaded.mesh), &loaded.left_out)
+    } else {
+        vec![(loaded.mesh, loaded.left_out)]
+    };
     let mut hulls = Vec::new();
-    for mesh in &meshes {
+    for (mesh, further) in &meshes {
         let mut bars = WrapBars::default();
-        let hull = wrap(mesh, &options, |progress| bars.show(progress));
+        let hull = wrap_all(mesh, further, &options, |progress| bars.show(progress));
         hulls.push(hull.map_err(|error| Failure::Wrap { file: args.input.clone(), error })?);
     }
     write_hull(&args.output, &joined(&hulls))?;
