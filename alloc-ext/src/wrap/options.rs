@@ -91,7 +91,7 @@ pub struct Report {
     pub slack: Farthest,
     /// What it was made from.
     pub start: Start,
-    /// Closed parts of the start that bounded cavities, or lay inside others, and are not in the hull.
+    /// Closed parts that bounded cavities of the start, or lay or came to lie inside others, and are not in the hull.
     pub filled: usize,
     /// Why it stopped.
     pub stop: Stop,
