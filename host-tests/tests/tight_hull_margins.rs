@@ -5,9 +5,7 @@ use std::f64::consts::PI;
 use meshsweep_alloc::mesh::{Mesh, RawMesh, repair};
 use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, WrapError, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
-use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, icosphere, needle_comb, rough_sphere, scaled, torus,
-};
+use meshsweep_host_tests::generate::{Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus};
 
 fn mesh_of((positions, triangles): &Triangles) -> Mesh {
     repair(RawMesh::from_f32(positions, triangles)).expect("a mesh").0
