@@ -81,7 +81,7 @@ pub struct HullReport {
 /// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out: what was asked for and no report names is one of these.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were. The hulls enclose the mesh
-/// where it is now, and what the blob answers holds for where it was. Cost: that of [`wrap`] for each hull, twice for nested ones; some hundred distance queries for each
+/// where it is now, and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull, twice for nested ones; some hundred distance queries for each
 /// triangle of the hulls, one for each triangle of the mesh. On a mesh, or hull, of more than [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES) it panics.
 ///
 /// # Errors

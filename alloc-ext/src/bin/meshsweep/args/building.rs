@@ -40,8 +40,8 @@ pub struct BuildArgs {
     /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default: 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor)]
     pub effort: Option<f64>,
-    /// What tight hulls will be asked themselves [default: closest,segment]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "QUESTIONS")]
+    /// What tight hulls will be asked: closest, distances of the mesh; segment, by the library, segments and overlap of hulls [default: closest,segment]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "QUESTIONS", hide_possible_values = true)]
     pub tight_for: Vec<HullServes>,
     #[command(flatten)]
     pub collapse: CollapseArgs,
@@ -53,9 +53,9 @@ const MAX_TIGHT: u32 = 1_000_000;
 /// Questions to a tight hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum HullServes {
-    /// Distances of the mesh within
+    // Distances of the mesh within.
     Closest,
-    /// Segments, and overlap of hulls
+    // Segments, and overlap of hulls.
     Segment,
 }
 
