@@ -50,7 +50,7 @@ impl Asker {
             if let Some(answer) = answered(is_within(tree, point, distance, stop, stack)) {
                 ends(answer.work, once);
                 if let Verdict::Yes { triangle } = answer.verdict {
-                    assert!(triangle < tree.input_triangles(), "{answer:?}");
+                    assert!(triangle.is_some_and(|number| number < tree.input_triangles()), "{answer:?}");
                 }
                 let certain = answer.verdict != Verdict::Unknown;
                 assert_eq!(certain, answer.ended == Ended::Exact, "{answer:?}");

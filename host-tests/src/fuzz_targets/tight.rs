@@ -7,8 +7,8 @@ use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::precision::VertexBits;
 use meshsweep_alloc::tight::{ChainOptions, chain};
 use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::query::tight::{Verdict, closest_point, is_within};
-use meshsweep_core::query::tree::TreeEntry;
+use meshsweep_core::query::tight::{closest_point, is_within};
+use meshsweep_core::query::tree::{TreeEntry, Verdict};
 use meshsweep_core::query::{Ended, QueryError, Stop};
 use meshsweep_core::{Model, TightHull, TightHulls};
 use std::sync::OnceLock;
@@ -70,6 +70,7 @@ fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Stop, entries: u
             assert!(closest.lower >= 0.0 && closest.lower <= closest.upper, "{closest:?}");
             assert!(closest.triangle.is_none() && closest.ended != Ended::Exact);
             assert_eq!(within.ended == Ended::Exact, within.verdict != Verdict::Unknown);
+            assert!(!matches!(within.verdict, Verdict::Yes { triangle: Some(_) }), "{within:?}");
             // A side may be asked from nearer by, from several places.
             let most = 64 * (u64::from(hull.tree().header().nodes) + u64::from(hull.record().faces) + 1);
             assert!(u64::from(closest.work.total()) <= most && u64::from(within.work.total()) <= 2 * most);

@@ -5,8 +5,8 @@ use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::precision::VertexBits;
 use meshsweep_alloc::tight::{ChainOptions, hull_mesh};
 use meshsweep_core::blob::TightHull;
-use meshsweep_core::query::tight::{Verdict, closest_point, is_within};
-use meshsweep_core::query::tree::TreeEntry;
+use meshsweep_core::query::tight::{closest_point, is_within};
+use meshsweep_core::query::tree::{TreeEntry, Verdict};
 use meshsweep_core::query::{Ended, QueryError, Stop, tree};
 use meshsweep_core::{Model, TightHulls};
 use meshsweep_host_tests::generate::{
@@ -76,12 +76,15 @@ fn check(name: &str, hull: &TightHull<'_>, truth: &Triangles, points: &[[f32; 3]
             let distance = distance as f32;
             let within = is_within(hull, p, distance, &Stop::EXACT, &mut stack).expect("a distance");
             match within.verdict {
-                Verdict::Yes => assert!(f64::from(distance) >= real.lower, "{name}: {p:?} {distance}"),
+                Verdict::Yes { triangle: None } => {
+                    assert!(f64::from(distance) >= real.lower, "{name}: {p:?} {distance}")
+                }
                 Verdict::No => assert!(f64::from(distance) < real.upper, "{name}: {p:?} {distance}"),
+                Verdict::Yes { triangle: Some(_) } => panic!("{name}: a hull knows no triangles"),
                 Verdict::Unknown => {}
             }
             clear += usize::from(within.is_clear());
-            near += usize::from(within.verdict == Verdict::Yes);
+            near += usize::from(matches!(within.verdict, Verdict::Yes { .. }));
             assert_eq!(within.ended == Ended::Exact, within.verdict != Verdict::Unknown);
         }
     }
@@ -246,7 +249,7 @@ fn short_searches_say_so_and_their_intervals_hold() {
             ended[1] += usize::from(answer.ended == Ended::Capacity);
             let distance = (real.upper * 0.9) as f32;
             let within = is_within(&hull, p, distance, &stop, &mut stack).expect("asked");
-            assert!(within.verdict != Verdict::Yes, "{p:?}");
+            assert!(!matches!(within.verdict, Verdict::Yes { .. }), "{p:?}");
         }
     }
     assert!(ended[0] > 100 && ended[1] > 100, "{ended:?}");

@@ -16,6 +16,7 @@ fn check(scene: &Scene, p: [f32; 3], d: f32, truth: Bounded, answer: Within) -> 
     let name = &scene.name;
     match answer.verdict {
         Verdict::Yes { triangle } => {
+            let triangle = triangle.expect("a tree knows its triangles");
             assert!(truth.lower <= f64::from(d), "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}");
             let named = scene.truth_of(p, triangle);
             assert!(named.lower <= f64::from(d), "{name}: {p:?}: within {d:e}? {answer:?}, {named:?}");

@@ -1,10 +1,11 @@
 //! `meshsweep within`: whether points are within a distance of the surface, or which triangles are.
 
 use super::args::WithinArgs;
+use super::blob_file;
 use super::csv::Short;
 use super::failure::Failure;
 use super::points::{self, Question};
-use super::{blob_file, served};
+use super::served::{self, Need};
 use meshsweep_core::query::tight;
 use meshsweep_core::query::tree::{AllWithin, Near, TreeEntry, Verdict, Within, all_within, is_within};
 use meshsweep_core::query::{Ended, QueryError, Stop, Work};
@@ -26,69 +27,24 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
         points::refuse_blob_as_output(&args.input, &args.search)?;
         let bytes = blob_file::read(blob)?;
         let model = blob_file::open(blob, &bytes)?;
-        match served::tight_hull(blob, &model, args.tight)? {
-            Some(hull) => points::ask(&args.input, &args.search, hull.tree(), &ByHull { hull, distance }),
-            None => points::ask(
-                &args.input,
-                &args.search,
-                &served::require_tree(blob, &model, served::Need::Distances)?,
-                &Any { distance },
-            ),
-        }
-    }
-}
-
-/// Whether the part that a tight hull encloses is within the distance.
-#[derive(Clone)]
-struct ByHull<'a> {
-    hull: TightHull<'a>,
-    distance: f32,
-}
-
-impl Question for ByHull<'_> {
-    type Answer = tight::Within;
-
-    fn header(&self) -> &'static str {
-        HEADER
-    }
-
-    fn ask(
-        &mut self,
-        _: &Tree<'_>,
-        point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
-    ) -> Result<tight::Within, QueryError> {
-        tight::is_within(&self.hull, point, self.distance, stop, stack)
-    }
-
-    fn outcome(answer: &tight::Within) -> (Ended, Work) {
-        (answer.ended, answer.work)
-    }
-
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        _: usize,
-        [x, y, z]: &[f32; 3],
-        answer: &tight::Within,
-    ) -> io::Result<()> {
-        let verdict = match answer.verdict {
-            tight::Verdict::Yes => "yes",
-            tight::Verdict::No => "no",
-            tight::Verdict::Unknown => "unknown",
+        let hull = served::tight_hull(blob, &model, args.tight)?;
+        let tree = match &hull {
+            Some(hull) => *hull.tree(),
+            None => served::require_tree(blob, &model, Need::Distances)?,
         };
-        writeln!(out, "{},{},{},{verdict},,{}", Short(*x), Short(*y), Short(*z), answer.work.total())
+        points::ask(&args.input, &args.search, &tree, &Any { hull, distance })
     }
 }
 
 /// Whether the surface is within the distance.
 #[derive(Clone)]
-struct Any {
+struct Any<'a> {
+    /// By which the surface is known, if the tree asked is not its own but a hull's.
+    hull: Option<TightHull<'a>>,
     distance: f32,
 }
 
-impl Question for Any {
+impl Question for Any<'_> {
     type Answer = Within;
 
     fn header(&self) -> &'static str {
@@ -102,7 +58,10 @@ impl Question for Any {
         stop: &Stop,
         stack: &mut [TreeEntry],
     ) -> Result<Within, QueryError> {
-        is_within(tree, point, self.distance, stop, stack)
+        match &self.hull {
+            Some(hull) => tight::is_within(hull, point, self.distance, stop, stack),
+            None => is_within(tree, point, self.distance, stop, stack),
+        }
     }
 
     fn outcome(answer: &Within) -> (Ended, Work) {
@@ -112,7 +71,8 @@ impl Question for Any {
     fn write(&self, out: &mut dyn Write, _: usize, [x, y, z]: &[f32; 3], answer: &Within) -> io::Result<()> {
         write!(out, "{},{},{},", Short(*x), Short(*y), Short(*z))?;
         match answer.verdict {
-            Verdict::Yes { triangle } => write!(out, "yes,{triangle}")?,
+            Verdict::Yes { triangle: Some(triangle) } => write!(out, "yes,{triangle}")?,
+            Verdict::Yes { triangle: None } => write!(out, "yes,")?,
             Verdict::No => write!(out, "no,")?,
             Verdict::Unknown => write!(out, "unknown,")?,
         }

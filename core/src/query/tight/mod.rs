@@ -7,7 +7,6 @@
 //!
 //! *The side.* A point outside of the hull tree's box, and farther from the hull than it was moved when it was stored, is outside. Else
 //! [`signed_distance`](super::tree::signed_distance) proves it; what it leaves open counts as inside.
-
 //!
 //! ```
 //! use meshsweep_core::{TightHulls, query::{Stop, tight::is_within, tree::TreeEntry}};
@@ -26,4 +25,4 @@ mod side;
 mod within;
 
 pub use closest::closest_point;
-pub use within::{Verdict, Within, is_within};
+pub use within::is_within;

@@ -3,42 +3,13 @@
 use super::closest::upper_end;
 use super::side::is_outside_box;
 use crate::blob::TightHull;
-use crate::query::tree::{self, Side, TreeEntry, signed_distance};
-use crate::query::{Ended, QueryError, Stop, Work};
-
-/// Answer to [`is_within`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Proved: a point of the mesh is not farther.
-    Yes,
-    /// Proved: the mesh and all that it encloses are farther.
-    No,
-    /// The hull does not tell, or the search was cut short: [`Within::ended`] says which.
-    Unknown,
-}
-
-/// Whether a part is within a distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Within {
-    /// The answer.
-    pub verdict: Verdict,
-    /// What it cost.
-    pub work: Work,
-    /// [`Ended::Exact`] with `Yes` and `No`. With `Unknown`: [`Ended::Level`] if a tighter hull may tell, [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut short.
-    pub ended: Ended,
-}
-
-impl Within {
-    /// Proved: nothing of the part is within the distance.
-    pub fn is_clear(&self) -> bool {
-        self.verdict == Verdict::No
-    }
-}
+use crate::query::tree::{self, Side, TreeEntry, Verdict, Within, signed_distance};
+use crate::query::{Ended, QueryError, Stop};
 
 /// Is the part that the hull encloses at most `distance` (input units) from `point`?
 ///
 /// `No` is said outside of the hull only, so that it holds for a solid part with its inside; within the hull, and as far from it as its slack, the answer is `Yes` or `Unknown`. Who has to stay clear takes
-/// `Unknown` for `Yes`. `stack` and `stop` as for [`tree::is_within`](crate::query::tree::is_within).
+/// `Unknown` for `Yes`, which names no triangle. `stack` and `stop` as for [`tree::is_within`](crate::query::tree::is_within).
 ///
 /// Cost: where the hull is farther, that of its tree's `is_within`, and within its box that of its [`signed_distance`]; else
 /// that of the tree's [`closest_point`](tree::closest_point) as well.
@@ -71,7 +42,7 @@ pub fn is_within(
         return answer(Verdict::No, work, Ended::Exact);
     }
     if upper_end(hull, &closest) <= distance {
-        return answer(Verdict::Yes, work, Ended::Exact);
+        return answer(Verdict::Yes { triangle: None }, work, Ended::Exact);
     }
     let is_cut = matches!(closest.ended, Ended::Steps | Ended::Capacity);
     answer(Verdict::Unknown, work, if is_cut { closest.ended } else { Ended::Level })

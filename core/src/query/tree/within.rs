@@ -10,15 +10,16 @@ use crate::blob::Tree;
 use crate::num::root;
 use crate::query::{Ended, QueryError, Stop, Work};
 
-/// Answer to [`is_within`], about the input mesh in real arithmetic.
+/// Whether the mesh is within a distance, about the input mesh in real arithmetic. Said by [`is_within`], and by [`tight::is_within`](crate::query::tight::is_within) of a mesh that is
+/// known by its hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Proved: this triangle (its number in the input file) is not farther. Not always the closest one.
+    /// Proved: a point of the mesh is not farther.
     Yes {
-        /// Its number.
-        triangle: u32,
+        /// A triangle that is not farther, by its number in the input file. Not always the closest one; `None` of a tight hull, which knows no triangles.
+        triangle: Option<u32>,
     },
-    /// Proved: the whole mesh is farther.
+    /// Proved: the whole mesh is farther; of a tight hull, all that the mesh encloses too.
     No,
     /// [`Within::ended`] says why.
     Unknown,
@@ -32,12 +33,12 @@ pub struct Within {
     /// What it cost.
     pub work: Work,
     /// [`Ended::Exact`] with `Yes` and `No`. With `Unknown`: [`Ended::Level`] if the distance is so near to the one asked about that the
-    /// stored surface or rounding leaves it open, [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut short.
+    /// stored surface or rounding leaves it open, or if a tighter hull may tell; [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut short.
     pub ended: Ended,
 }
 
 impl Within {
-    /// Proved: nothing of the input mesh is within the distance.
+    /// Proved: nothing of the mesh is within the distance.
     pub fn is_clear(&self) -> bool {
         self.verdict == Verdict::No
     }
@@ -80,7 +81,7 @@ pub fn is_within(
     let (verdict, ended) = match descent {
         _ if seek.near.is_some() => {
             let triangle = seek.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
-            (Verdict::Yes { triangle }, Ended::Exact)
+            (Verdict::Yes { triangle: Some(triangle) }, Ended::Exact)
         }
         Descent::Short { steps: true, .. } => (Verdict::Unknown, Ended::Steps),
         Descent::Short { steps: false, .. } => (Verdict::Unknown, Ended::Capacity),
@@ -99,7 +100,7 @@ fn from_afar(
 ) -> Result<Within, QueryError> {
     let closest = closest_point(tree, point, &Stop::EXACT, stack)?;
     let verdict = match closest.triangle {
-        Some(triangle) if closest.upper <= distance => Verdict::Yes { triangle },
+        triangle @ Some(_) if closest.upper <= distance => Verdict::Yes { triangle },
         _ if closest.lower > distance => Verdict::No,
         _ => Verdict::Unknown,
     };

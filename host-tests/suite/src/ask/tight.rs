@@ -3,8 +3,8 @@
 pub use meshsweep_core::TightHull;
 use meshsweep_core::TightHulls;
 use meshsweep_core::query::Stop;
-use meshsweep_core::query::tight::{Verdict, closest_point, is_within as core_is_within};
-use meshsweep_core::query::tree::TreeEntry;
+use meshsweep_core::query::tight::{closest_point, is_within as core_is_within};
+use meshsweep_core::query::tree::{TreeEntry, Verdict};
 
 use super::{Refused, Subject, closest_point as fold_answer, how, refusal, timed, tree};
 use crate::fold::Fold;
@@ -187,7 +187,7 @@ pub fn is_within(
     match timed(clock, || core_is_within(&hulls.finest, point, distance, &Stop::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold.word(match answer.verdict {
-                Verdict::Yes => 1,
+                Verdict::Yes { .. } => 1,
                 Verdict::No => 2,
                 Verdict::Unknown => 3,
             });

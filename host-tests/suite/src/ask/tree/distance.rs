@@ -103,7 +103,7 @@ pub fn is_within(
     match timed(clock, || core_is_within(tree, point, distance, &Stop::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             let [kind, triangle] = match answer.verdict {
-                Verdict::Yes { triangle } => [1, triangle],
+                Verdict::Yes { triangle } => [1, triangle.unwrap_or(u32::MAX)],
                 Verdict::No => [2, 0],
                 Verdict::Unknown => [3, 0],
             };
