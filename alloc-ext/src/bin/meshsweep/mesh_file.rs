@@ -14,8 +14,6 @@ pub struct Loaded {
     pub mesh: Mesh,
     /// What was mended.
     pub report: RepairReport,
-    /// Corners of the file's triangles that are not in the mesh: without area, or there twice.
-    pub left_out: Vec<[[f32; 3]; 3]>,
     /// Distance that no vertex was moved more than to reach the grid, file's unit.
     pub moved: f64,
     /// Triangles of the file.
@@ -30,9 +28,21 @@ pub fn load(file: &Path) -> Result<Loaded, Failure> {
     repaired(file, read(file)?, 0.0, started)
 }
 
-/// Reads, moves to the hull's grid, and repairs.
-pub fn load_snapped(file: &Path, bits: VertexBits) -> Result<Loaded, Failure> {
+/// Reads, moves to the hull's grid, and repairs; and corners of the file's triangles that are not in the mesh: without area, or there twice.
+pub fn load_all(file: &Path, bits: VertexBits) -> Result<(Loaded, Vec<[[f32; 3]; 3]>), Failure> {
     let started = Instant::now();
+    let (raw, moved) = read_snapped(file, bits)?;
+    let (positions, triangles) = (raw.positions.clone(), raw.triangles.clone());
+    let loaded = repaired(file, raw, moved, started)?;
+    let mut is_in = vec![false; triangles.len()];
+    loaded.mesh.source.iter().for_each(|&t| is_in[t as usize] = true);
+    let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize].map(|x| x as f32));
+    let left_out = triangles.iter().zip(is_in).filter(|(_, is_in)| !is_in).map(|(t, _)| corners(t)).collect();
+    Ok((loaded, left_out))
+}
+
+/// A file's mesh on the hull's grid, and how far its vertices were moved for it.
+fn read_snapped(file: &Path, bits: VertexBits) -> Result<(RawMesh, f64), Failure> {
     let mut raw = read(file)?;
     let mut moved = snap(&mut raw.positions, bits);
     if moved > 0.0 && raw.decimal {
@@ -40,12 +50,14 @@ pub fn load_snapped(file: &Path, bits: VertexBits) -> Result<Loaded, Failure> {
         let largest = raw.positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
         moved += 2.0 * f64::EPSILON * largest;
     }
-    repaired(file, raw, moved, started)
+    Ok((raw, moved))
 }
 
-/// As [`load_snapped`], and refuses what is not closed and manifold; the refusal says what can be had `instead`.
+/// Reads, moves to the hull's grid, repairs, and refuses what is not closed and manifold; the refusal says what can be had `instead`.
 pub fn load_solid(file: &Path, bits: VertexBits, instead: Option<&'static str>) -> Result<Loaded, Failure> {
-    let loaded = load_snapped(file, bits)?;
+    let started = Instant::now();
+    let (raw, moved) = read_snapped(file, bits)?;
+    let loaded = repaired(file, raw, moved, started)?;
     match mesh::require_closed_manifold(&loaded.mesh) {
         Ok(()) => Ok(loaded),
         Err(error) => {
@@ -95,13 +107,8 @@ fn content(bytes: &[u8]) -> Option<&'static str> {
 
 fn repaired(file: &Path, raw: RawMesh, moved: f64, started: Instant) -> Result<Loaded, Failure> {
     let input_triangles = raw.triangles.len();
-    let (positions, triangles) = (raw.positions.clone(), raw.triangles.clone());
     let (mesh, report) = mesh::repair(raw).map_err(|error| Failure::Mesh { file: file.to_owned(), error })?;
-    let mut is_in = vec![false; input_triangles];
-    mesh.source.iter().for_each(|&t| is_in[t as usize] = true);
-    let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize].map(|x| x as f32));
-    let left_out = triangles.iter().zip(is_in).filter(|(_, is_in)| !is_in).map(|(t, _)| corners(t)).collect();
-    Ok(Loaded { mesh, left_out, report, moved, input_triangles, time: started.elapsed() })
+    Ok(Loaded { mesh, report, moved, input_triangles, time: started.elapsed() })
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::super::args::HullArgs;
 use super::super::counted::Counted;
 use super::super::describe::Length;
 use super::super::failure::Failure;
-use super::super::mesh_file::load_snapped;
+use super::super::mesh_file::load_all;
 use super::super::output::Output;
 use super::super::progress::Bar;
 use super::write_hull;
@@ -29,15 +29,15 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         time_limit: args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX)),
         vertex_bits: args.vertex_bits.format(),
     };
-    let loaded = load_snapped(&args.input, options.vertex_bits)?;
+    let (loaded, left_out) = load_all(&args.input, options.vertex_bits)?;
     if options.margin > 0.0 {
         // The file's vertices, decimal or not on the grid, have the margin around them too.
         options.margin += (loaded.moved + loaded.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
     }
     let meshes = if args.parts {
-        share(parts(&loaded.mesh), &loaded.left_out)
+        share(parts(&loaded.mesh), &left_out)
     } else {
-        vec![(loaded.mesh, loaded.left_out)]
+        vec![(loaded.mesh, left_out)]
     };
     let mut hulls = Vec::new();
     for (mesh, further) in &meshes {
