@@ -6,10 +6,11 @@ use meshsweep_alloc::tight::chain;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::{Model, OpenError, TightHulls, Tree};
-use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
+use meshsweep_host_tests::corrupt::{
+    assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
+};
 use meshsweep_host_tests::fuzz_targets::{ask_tight, tight_seeds};
 use meshsweep_host_tests::generate::{Rng, icosphere, torus};
-use std::collections::HashSet;
 use std::sync::OnceLock;
 
 /// Three hulls.
@@ -20,6 +21,10 @@ fn small() -> Vec<u8> {
 
 fn open(bytes: &[u8]) -> Result<(), OpenError> {
     TightHulls::open(bytes).map(|_| ())
+}
+
+fn ask(bytes: &[u8]) -> Result<(), OpenError> {
+    TightHulls::open(bytes).map(|hulls| ask_tight(&hulls))
 }
 
 /// Opens after an edit of the section, the CRCs right.
@@ -60,37 +65,17 @@ fn the_section_stands_as_the_format_says() {
 
 #[test]
 fn open_rejects_truncation_and_every_flipped_bit() {
-    let mut bytes = small();
-    for length in 0..bytes.len() {
-        assert!(matches!(open(&bytes[..length]), Err(OpenError::Truncated { .. })), "{length}");
-    }
-    for bit in 0..8 * bytes.len() {
-        bytes[bit / 8] ^= 1 << (bit % 8);
-        assert!(open(&bytes).is_err(), "bit {bit}");
-        bytes[bit / 8] ^= 1 << (bit % 8);
-    }
+    assert_only_the_whole_opens(&small(), open);
 }
 
 #[test]
 fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
     for bytes in tight_seeds() {
-        let (mut opened, mut refused) = (0, HashSet::new());
-        let section = entry(bytes, SectionKind::TightHulls as u32).offset as usize;
-        for bit in (0..8 * 200).chain(8 * section..8 * bytes.len().min(section + 1500)) {
-            let mut flipped = bytes.clone();
-            flipped[bit / 8] ^= 1 << (bit % 8);
-            seal(&mut flipped);
-            match TightHulls::open(&flipped) {
-                Ok(hulls) => {
-                    opened += 1;
-                    ask_tight(&hulls);
-                }
-                Err(error) => {
-                    refused.insert(std::mem::discriminant(&error));
-                }
-            }
-        }
-        assert!(opened > 50 && refused.len() >= 6, "{opened} opened, {} kinds of refusal", refused.len());
+        let section = entry(bytes, SectionKind::TightHulls as u32);
+        let end = bytes.len().min(section.offset as usize + 1500);
+        let bits = (0..8 * 200).chain(8 * section.offset as usize..8 * end);
+        let outcome = flip_bits(bytes, bits, ask);
+        assert!(outcome.opened > 50 && outcome.reasons.len() >= 6, "{outcome:?}");
     }
 }
 
@@ -99,17 +84,7 @@ fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
     let rng = &mut Rng::new(5);
     for bytes in tight_seeds() {
         let section = entry(bytes, SectionKind::TightHulls as u32);
-        for run in 0..1500 {
-            let mut changed = bytes.clone();
-            for _ in 0..1 + rng.below(if run % 2 == 0 { 2 } else { 20 }) {
-                let at = section.offset as usize + rng.below(section.bytes as usize);
-                changed[at] = rng.next_u64() as u8;
-            }
-            seal(&mut changed);
-            if let Ok(hulls) = TightHulls::open(&changed) {
-                ask_tight(&hulls);
-            }
-        }
+        replace_bytes(bytes, (1500, 20), rng, |_, _| section, ask);
     }
 }
 

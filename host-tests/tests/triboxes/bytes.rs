@@ -7,7 +7,9 @@ use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_alloc::tribox::{cut, store};
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::{Model, OpenError, Tree, Triboxes};
-use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
+use meshsweep_host_tests::corrupt::{
+    assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
+};
 use meshsweep_host_tests::fuzz_targets::{ask_triboxes, triboxes_seeds};
 use meshsweep_host_tests::generate::{Rng, groove_block, icosphere, torus};
 use std::collections::HashSet;
@@ -21,6 +23,10 @@ fn small() -> Vec<u8> {
 
 fn open(bytes: &[u8]) -> Result<(), OpenError> {
     Triboxes::open(bytes).map(|_| ())
+}
+
+fn ask(bytes: &[u8]) -> Result<(), OpenError> {
+    Triboxes::open(bytes).map(|triboxes| ask_triboxes(&triboxes, &triboxes))
 }
 
 /// Opens after an edit of the section, the CRCs right.
@@ -54,38 +60,17 @@ fn the_section_stands_as_the_format_says() {
 
 #[test]
 fn open_rejects_truncation_and_every_flipped_bit() {
-    let mut bytes = small();
-    for length in 0..bytes.len() {
-        assert!(matches!(open(&bytes[..length]), Err(OpenError::Truncated { .. })), "{length}");
-    }
-    for bit in 0..8 * bytes.len() {
-        bytes[bit / 8] ^= 1 << (bit % 8);
-        assert!(open(&bytes).is_err(), "bit {bit}");
-        bytes[bit / 8] ^= 1 << (bit % 8);
-    }
+    assert_only_the_whole_opens(&small(), open);
 }
 
 #[test]
 fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
     for bytes in triboxes_seeds() {
-        let (mut opened, mut refused) = (0, HashSet::new());
         let section = entry(bytes, SectionKind::Triboxes as u32);
         let end = section.offset as usize + (section.bytes as usize).min(1000);
-        for bit in (0..8 * 200).chain(8 * section.offset as usize..8 * end) {
-            let mut flipped = bytes.clone();
-            flipped[bit / 8] ^= 1 << (bit % 8);
-            seal(&mut flipped);
-            match Triboxes::open(&flipped) {
-                Ok(triboxes) => {
-                    opened += 1;
-                    ask_triboxes(&triboxes, &triboxes);
-                }
-                Err(error) => {
-                    refused.insert(std::mem::discriminant(&error));
-                }
-            }
-        }
-        assert!(opened > 50 && refused.len() >= 6, "{opened} opened, {} kinds of refusal", refused.len());
+        let bits = (0..8 * 200).chain(8 * section.offset as usize..8 * end);
+        let outcome = flip_bits(bytes, bits, ask);
+        assert!(outcome.opened > 50 && outcome.reasons.len() >= 6, "{outcome:?}");
     }
 }
 
@@ -94,17 +79,7 @@ fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
     let rng = &mut Rng::new(5);
     for bytes in triboxes_seeds() {
         let section = entry(bytes, SectionKind::Triboxes as u32);
-        for run in 0..2000 {
-            let mut changed = bytes.clone();
-            for _ in 0..1 + rng.below(if run % 2 == 0 { 2 } else { 30 }) {
-                let at = section.offset as usize + rng.below(section.bytes as usize);
-                changed[at] = rng.next_u64() as u8;
-            }
-            seal(&mut changed);
-            if let Ok(triboxes) = Triboxes::open(&changed) {
-                ask_triboxes(&triboxes, &triboxes);
-            }
-        }
+        replace_bytes(bytes, (2000, 30), rng, |_, _| section, ask);
     }
 }
 

@@ -1,0 +1,88 @@
+//! Every way of damaging a blob that is worth trying on all of its bytes: cut short, a bit flipped, bytes replaced.
+
+use super::seal;
+use super::sections::Entry;
+use crate::generate::Rng;
+use meshsweep_core::OpenError;
+use std::collections::HashSet;
+use std::mem::{Discriminant, discriminant};
+
+/// Holds that nothing but the whole blob opens, as it is: neither a beginning of it nor one with a bit flipped.
+///
+/// # Panics
+/// If damage opens, a beginning is refused for another reason than its length, or the blob itself does not open.
+pub fn assert_only_the_whole_opens(blob: &[u8], open: impl Fn(&[u8]) -> Result<(), OpenError>) {
+    for length in 0..blob.len() {
+        let error = open(&blob[..length]).expect_err("cut short");
+        let says = matches!(error, OpenError::Truncated { found, .. } if found as usize == length);
+        assert!(says, "{length}: {error:?}");
+    }
+    let mut bytes = blob.to_vec();
+    for bit in 0..8 * bytes.len() {
+        bytes[bit / 8] ^= 1 << (bit % 8);
+        assert!(open(&bytes).is_err(), "bit {bit}");
+        bytes[bit / 8] ^= 1 << (bit % 8);
+    }
+    assert_eq!(open(&bytes), Ok(()));
+}
+
+/// How many damaged blobs opened, and the kinds of error of those that did not.
+#[derive(Clone, Debug, Default)]
+pub struct Outcome {
+    /// Blobs that opened.
+    pub opened: usize,
+    /// Blobs that did not.
+    pub refused: usize,
+    /// Why they did not.
+    pub reasons: HashSet<Discriminant<OpenError>>,
+}
+
+impl Outcome {
+    fn count(&mut self, opened: Result<(), OpenError>) {
+        match opened {
+            Ok(()) => self.opened += 1,
+            Err(error) => {
+                self.refused += 1;
+                self.reasons.insert(discriminant(&error));
+            }
+        }
+    }
+}
+
+/// Flips one bit after the other, checksums made right each time, and has each such blob opened and asked.
+pub fn flip_bits(
+    blob: &[u8],
+    bits: impl Iterator<Item = usize>,
+    mut ask: impl FnMut(&[u8]) -> Result<(), OpenError>,
+) -> Outcome {
+    let mut outcome = Outcome::default();
+    for bit in bits {
+        let mut flipped = blob.to_vec();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        seal(&mut flipped);
+        outcome.count(ask(&flipped));
+    }
+    outcome
+}
+
+/// Replaces bytes of a section by any, one or two of them and up to `most` by turns, checksums made right, `runs` times, and has each such blob opened and
+/// asked. `section` says which, by the number of the run.
+pub fn replace_bytes(
+    blob: &[u8],
+    (runs, most): (usize, usize),
+    rng: &mut Rng,
+    section: impl Fn(usize, &mut Rng) -> Entry,
+    mut ask: impl FnMut(&[u8]) -> Result<(), OpenError>,
+) -> Outcome {
+    let mut outcome = Outcome::default();
+    for run in 0..runs {
+        let mut changed = blob.to_vec();
+        for _ in 0..1 + rng.below(if run % 2 == 0 { 2 } else { most }) {
+            let section = section(run, rng);
+            changed[section.offset as usize + rng.below(section.bytes as usize)] = rng.next_u64() as u8;
+        }
+        seal(&mut changed);
+        outcome.count(ask(&changed));
+    }
+    outcome
+}
