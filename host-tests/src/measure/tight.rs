@@ -4,9 +4,9 @@ mod beside;
 mod cluster;
 pub mod picture;
 
-use glam::DVec3;
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, require_closed_manifold};
+use meshsweep_alloc::tribox::volume;
 use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, wrap};
 
 use super::Subject;
@@ -34,12 +34,12 @@ pub struct Measured {
 /// # Errors
 /// A hull is missing, or the checker does not prove it.
 pub fn tables(subject: &Subject) -> Result<(Vec<Table>, Vec<Measured>), String> {
-    let volume = require_closed_manifold(&subject.mesh).is_ok().then(|| volume_of(subject));
+    let volume = require_closed_manifold(&subject.mesh).is_ok().then(|| volume(&subject.mesh));
     let mut measured = Vec::new();
     let table = hulls(subject, volume, &mut measured)?;
     let mut tables = vec![table];
     if let Some(volume) = volume.filter(|&volume| volume > 0.0) {
-        let beside = beside::table(subject, volume)?;
+        let beside = beside::table(subject, volume, &measured)?;
         tables.extend([beside::trade(&tables[0], &beside), beside]);
         tables.swap(1, 2);
     }
@@ -114,15 +114,4 @@ fn hulls(subject: &Subject, volume: Option<f64>, measured: &mut Vec<Measured>) -
     table.note("distance: no point of the hull is farther from the mesh, and one is at least so far; input units; seconds of processor time from the mesh in memory");
     table.note("lp, span: progressive hulls by the two priorities of paper 000; empty if they do not come down to so few faces");
     Ok(table)
-}
-
-/// Around a vertex of the mesh, so that nothing cancels on a part far from the origin.
-fn volume_of(subject: &Subject) -> f64 {
-    let at = |v: u32| DVec3::from_array(subject.mesh.positions[v as usize].map(f64::from));
-    let origin = at(0);
-    let six = subject.mesh.triangles.iter().map(|t| {
-        let [a, b, c] = t.map(|v| at(v) - origin);
-        a.dot(b.cross(c))
-    });
-    six.sum::<f64>() / 6.0
 }

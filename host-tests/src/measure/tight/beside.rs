@@ -1,8 +1,15 @@
 //! Void of other bounds: convex ones, and triboxes.
 
 use glam::DVec3;
+use meshsweep_alloc::emit::{Parts, assemble};
+use meshsweep_alloc::mesh::Mesh;
+use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_alloc::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
 use meshsweep_core::Tree;
+use meshsweep_core::blob::layout::{
+    TIGHT_BYTES, TIGHT_HULL_BYTES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
+};
+use meshsweep_core::num::Radius16;
 use meshsweep_core::tribox::FACES;
 
 use super::super::Subject;
@@ -10,24 +17,40 @@ use super::super::bounds::convex_hull::ConvexHull;
 use super::super::bounds::dop::{Dop, Slabs};
 use super::super::bounds::enclosing_sphere::Sphere;
 use super::super::table::{Cell, Table, fixed, row};
-use super::FACES as HULL_FACES;
-
-/// Bytes of a tribox on a grid of 16 bits: as a node of a blob.
-const TRIBOX_BYTES: usize = 40;
+use super::Measured;
 
 /// Triboxes from which on a hierarchy takes minutes.
 const MOST_TRIBOXES: usize = 256;
 
-/// Bytes of a hull with 16-bit coordinates and numbers of vertices: about half as many vertices as faces.
-fn hull_bytes(faces: usize) -> usize {
-    6 * (faces / 2 + 2) + 6 * faces
+/// Bytes of a blob's section that holds this hull alone, for distances, with coordinates of 16 bits: where these are does not change how many bytes they take.
+fn hull_bytes(hull: &Mesh) -> usize {
+    let faces = hull.triangles.len();
+    let options = TreeOptions { closest: true, segments: false, ..TreeOptions::default() };
+    let (tree, _) = build(hull, 0.0, faces, &options);
+    let blob = assemble(&Parts { tree: Some(&tree), ..Parts::default() });
+    TIGHT_BYTES + TIGHT_HULL_BYTES + blob.len() + faces * size_of::<Radius16>()
+}
+
+/// Bytes of a blob's section that holds so many triboxes, and the nodes and levels above them.
+fn tribox_bytes(count: usize) -> usize {
+    let levels = count.next_power_of_two().ilog2() as usize + 1;
+    let splits = count - 1;
+    TRIBOXES_BYTES
+        + levels * TRIBOX_LEVEL_BYTES
+        + splits * TRIBOX_SPLIT_BYTES
+        + (2 * splits + 1) * TRIBOX_BYTES
+}
+
+/// The most triboxes that take no more bytes, or one.
+fn triboxes_of(bytes: usize) -> usize {
+    (1..).take_while(|&count| tribox_bytes(count) <= bytes).last().unwrap_or(1)
 }
 
 /// What bounds that are convex, and triboxes, leave beside the mesh's own volume.
 ///
 /// # Errors
 /// The mesh is out of the domain of triboxes.
-pub fn table(subject: &Subject, volume: f64) -> Result<Table, String> {
+pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table, String> {
     let mut table = Table::new(
         "tight_beside",
         "Void of other bounds",
@@ -52,11 +75,13 @@ pub fn table(subject: &Subject, volume: f64) -> Result<Table, String> {
             ]);
         }
         let faces = hull.triangles.len();
-        table.push(row!["convex", "convex hull", faces, hull_bytes(faces), void(hull.volume()), Cell::Empty]);
+        let positions = hull.points.iter().map(|p| p.to_array().map(|x| x as f32)).collect();
+        let triangles = hull.triangles.iter().map(|t| t.map(|v| v as u32)).collect();
+        let bytes = hull_bytes(&Mesh::new(positions, triangles));
+        table.push(row!["convex", "convex hull", faces, bytes, void(hull.volume()), Cell::Empty]);
     }
-    let comparable = |faces: usize| (hull_bytes(faces) / TRIBOX_BYTES).max(1);
     let mut counts = vec![(1, None)];
-    counts.extend(HULL_FACES.map(|faces| (comparable(faces), Some(faces))));
+    counts.extend(hulls.iter().map(|hull| (triboxes_of(hull_bytes(&hull.hull)), Some(hull.asked))));
     counts.retain(|&(count, _)| count <= MOST_TRIBOXES);
     let leaves = counts.iter().map(|&(count, _)| count).max().unwrap_or(1);
     let bytes = box_tree(&subject.mesh);
@@ -78,13 +103,13 @@ pub fn table(subject: &Subject, volume: f64) -> Result<Table, String> {
             "triboxes",
             name,
             sides,
-            TRIBOX_BYTES * leaves.len(),
+            tribox_bytes(leaves.len()),
             void(proxies().map(|tribox| Extent::of(&tribox).volume).sum()),
             faces.map_or(Cell::Empty, Cell::from)
         ]);
     }
     table.note(format!(
-        "bytes: of a list on a 16-bit grid, {TRIBOX_BYTES} a tribox, about 9 a hull's face; triboxes cover the mesh together, at most {MOST_TRIBOXES} here"
+        "bytes: of a blob's section; triboxes cover the mesh together, at most {MOST_TRIBOXES} here, as many as take no more bytes than the tight hull"
     ));
     Ok(table)
 }
