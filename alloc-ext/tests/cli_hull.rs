@@ -87,8 +87,49 @@ fn a_slack_and_a_void_are_kept_and_printed() {
     assert!(most <= 0.4, "{text}");
     let text = ok(["hull", arg(&mesh), "--void", "30%", "--effort", "0.1", "-o", arg(&out)]);
     assert!(void_percent(&text) <= 30.0, "{text}");
-    let text = ok(["hull", arg(&mesh), "--void", "0.000001", "--effort", "0", "-o", arg(&out)]);
-    assert!(text.contains("looser than asked for"), "{text}");
+}
+
+#[test]
+fn a_hull_that_is_looser_than_asked_for_is_not_written_and_the_tightest_is_named() {
+    let directory = scratch("hull_unmet");
+    let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
+    let refuse = |options: &[&str]| {
+        let output = run([&["hull", arg(&mesh), "--effort", "0", "-o", arg(&out)], options].concat());
+        let line = cli_support::refused(&output, 1, "torus.ply");
+        assert!(!out.exists() && line.contains(" faces; ") && line.contains("--faces"), "{line}");
+        line
+    };
+    let after = |line: &str, words: &str| -> f64 {
+        line.split(words).nth(1).unwrap().split([' ', ',']).next().unwrap().parse().unwrap()
+    };
+    let line = refuse(&["--void", "0.000001"]);
+    assert!(
+        line.contains(" left 0.000001 % void space") || line.contains(" left 1e-6 % void space"),
+        "{line}"
+    );
+    assert!(line.contains("ask for a larger --void") && after(&line, "tightest leaves ") > 1e-6, "{line}");
+    let line = refuse(&["--slack", "1e-8"]);
+    assert!(line.contains("within 1e-8 of the mesh") && line.contains("a larger --slack"), "{line}");
+    assert!(after(&line, "tightest is within ") > 1e-8, "{line}");
+    let line = refuse(&["--slack", "1e-5", "--seconds", "1e-3"]);
+    assert!(line.contains("the time was up") && line.contains("more --seconds"), "{line}");
+    // Each part has a goal of its own.
+    let two = directory.join("two.obj");
+    fs::write(&two, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 1\nv 5 1 0\nf 1 2 3\nf 4 5 6\n").unwrap();
+    let output = run(["hull", arg(&two), "--parts", "--slack", "1e-30", "--effort", "0", "-o", arg(&out)]);
+    assert!(cli_support::refused(&output, 1, "two.obj").contains("part 0: no hull"));
+    assert!(!out.exists());
+}
+
+#[test]
+fn lengths_that_were_measured_have_few_digits() {
+    let directory = scratch("hull_digits");
+    let out = directory.join("hull.ply");
+    let text = ok(["hull", arg(&fixture("torus.ply")), "--faces", "60", "--effort", "0", "-o", arg(&out)]);
+    for words in ["at most ", "at least "] {
+        let length = text.split(words).nth(1).unwrap().split([' ', ',']).next().unwrap();
+        assert!(length.parse::<f64>().unwrap() > 0.0 && length.len() <= 8, "{text}");
+    }
 }
 
 #[test]
@@ -229,6 +270,13 @@ fn a_cut_leaves_the_box_tree_out_and_says_so() {
 fn a_blob_without_hulls_has_no_levels() {
     let directory = scratch("no_levels");
     let path = blob(&directory, "torus.ply", &[]);
+    let output = run(["cut", arg(&path), "-o", arg(&directory.join("out.msw"))]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    let options = ["--level", "--triboxes", "--tight"];
+    assert!(
+        output.status.code() == Some(2) && options.iter().all(|option| message.contains(option)),
+        "{message}"
+    );
     for (command, out) in [("hull", "out.ply"), ("cut", "out.msw")] {
         let out = directory.join(out);
         let output = run([command, arg(&path), "--level", "0", "-o", arg(&out)]);

@@ -134,6 +134,12 @@ fn what_cannot_be_asked_is_refused_by_name() {
     let wrong = |args: &[&str]| run([&["overlap", arg(&torus)], args].concat());
     assert!(refused(&wrong(&[arg(&closest)]), 1, "bracket.msw").contains("--for segment"));
     assert!(refused(&wrong(&[arg(&torus), "--pose", "0,0,0,0,0,0,0"]), 2, "").contains("quaternion"));
+    let poses = scratch("overlap_no_rotation").join("poses.csv");
+    write_csv(&poses, &[[9f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [0.0; 7], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]);
+    let output = wrong(&[arg(&torus), "--pose", arg(&poses)]);
+    assert!(refused(&output, 1, "poses.csv, line 3").contains("quaternion"));
+    let rows = parse_csv(&String::from_utf8(output.stdout).unwrap(), HEADER);
+    assert_eq!((rows.len(), rows[0][1].as_str()), (1, "apart"), "what stands before it is answered");
     let stretched = wrong(&[arg(&torus), "--matrix", "3,0,0,0,0,1,0,0,0,0,1,0"]);
     assert!(refused(&stretched, 1, "query 3,0,0").contains("beyond 2"));
     assert_eq!(wrong(&[arg(&torus), "--pose", "1,2,3"]).status.code(), Some(2));

@@ -140,6 +140,37 @@ fn hulls_that_come_to_no_fewer_faces_are_named() {
 }
 
 #[test]
+fn an_answer_that_a_hull_leaves_open_is_said_to_be_all_that_it_tells() {
+    let directory = scratch("tight_note");
+    let path = blob(&directory, "torus.ply", &["--for", "tight", "--tight", "70", "--effort", "0"]);
+    let note = |arguments: &[&str]| {
+        let output = run(arguments);
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let told = note(&["closest", arg(&path), "1,2,3", "4,5,6"]);
+    assert!(
+        told.starts_with("ended: 2 answered as far as the hull tells") && told.contains("finer"),
+        "{told}"
+    );
+    assert_eq!(note(&["within", arg(&path), "40,5,6", "--distance", "1"]), "");
+}
+
+#[test]
+fn tables_of_hulls_say_what_is_not_there_and_count_as_people_do() {
+    let directory = scratch("tight_tables");
+    let (mesh, out) = (directory.join("open.obj"), directory.join("open.msw"));
+    fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n").unwrap();
+    let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", "12", "--effort", "0"];
+    let text = ok(build);
+    assert!(text.contains("1 hull: it encloses the mesh"), "{text}");
+    assert!(text.contains("hull to mesh, at most  mesh to hull, at most"), "{text}");
+    let row = text.lines().skip_while(|line| !line.contains("void %")).nth(1).unwrap();
+    assert_eq!(row.split_whitespace().nth(1), Some("-"), "{text}");
+    assert!(hulls(&info(&out))[0]["void_ratio"].is_null());
+}
+
+#[test]
 fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
     let directory = scratch("tight_usage");
     let (mesh, out) = (fixture("torus.ply"), directory.join("out.msw"));
@@ -163,7 +194,18 @@ fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
     refused(&run(["hull", arg(&path), "-o", arg(&ply)]), 2, "--tight");
     refused(&run(["hull", arg(&mesh), "--tight", "70", "-o", arg(&ply)]), 2, "torus.ply");
     refused(&run(["hull", arg(&path), "--tight", "20", "-o", arg(&ply)]), 1, "torus.msw");
-    refused(&run(["segment", arg(&path), "0,0,9,0,0,-9"]), 1, "torus.msw");
+    let questions: [(&[&str], &str); 5] = [
+        (&["segment", arg(&path), "0,0,9,0,0,-9"], "segment"),
+        (&["signed", arg(&path), "1,2,3"], "closest"),
+        (&["nearest", arg(&path), "1,2,3", "-n", "2"], "closest"),
+        (&["within", arg(&path), "1,2,3", "--distance=1", "--all"], "closest"),
+        (&["overlap", arg(&path), arg(&path)], "segment"),
+    ];
+    for (arguments, option) in questions {
+        let line = refused(&run(arguments), 1, "torus.msw");
+        assert!(line.contains("serves closest, within without --all, hull --tight, cut; "), "{line}");
+        assert!(line.contains(&format!("meshsweep build MESH -o BLOB --for {option}")), "{line}");
+    }
     let plain = blob(&directory, "groove.obj", &["--for", "closest"]);
     refused(&run(["closest", arg(&plain), "1,2,3", "--tight", "70"]), 1, "groove.msw");
     refused(&run(["cut", arg(&plain), "--tight", "70", "-o", arg(&out)]), 1, "groove.msw");

@@ -148,10 +148,10 @@ impl Report<'_> {
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
-            writeln!(out, "  volume {}", describe::Length(report.volume))?;
+            writeln!(out, "  volume {}", describe::About(report.volume))?;
         }
         if loaded.moved > 0.0 {
-            writeln!(out, "  vertices moved to the hull's grid by up to {}", describe::Length(loaded.moved))?;
+            writeln!(out, "  vertices moved to the hull's grid by up to {}", describe::AtMost(loaded.moved))?;
         }
         writeln!(out, "{}", args.output.display())?;
         if let Some(report) = hull {

@@ -88,7 +88,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
         writeln!(out, "{HEADER}")?;
         points.rows.iter().zip(&asked.answers).try_for_each(|(point, answer)| write_row(out, point, answer))
     })?;
-    args.search.note(&asked);
+    args.search.note(&asked, hull.is_some());
     Ok(())
 }
 

@@ -1,12 +1,14 @@
 //! What a blob costs and guarantees, as tables for people. Lengths are in the mesh's unit.
 
 mod hull;
+mod length;
 mod shape;
 mod tight;
 mod tree;
 mod triboxes;
 
 pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
+pub use length::{About, AtLeast, AtMost, Given};
 pub use shape::Shape;
 pub use tight::as_json as tight_as_json;
 pub use tree::{bounds, half_widths, stack_bytes, tree_format_name, tree_surface_error};
@@ -16,7 +18,6 @@ use super::served;
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::geom::Aabb;
-use std::fmt;
 use std::io::{self, Write};
 
 /// What bytes per triangle are divided by: the surface's triangles, or in a cut blob those of its finest level.
@@ -38,21 +39,6 @@ pub fn in_input_units(model: &Model<'_>, local: &Aabb) -> [[f64; 3]; 2] {
 pub fn diagonal(model: &Model<'_>) -> f64 {
     let [low, high] = in_input_units(model, &model.header().surface_box);
     low.iter().zip(high).map(|(low, high)| (high - low).powi(2)).sum::<f64>().sqrt()
-}
-
-/// A length for people: as it is in everyday sizes, else with an exponent.
-pub struct Length<T>(pub T);
-
-impl<T: Copy + Into<f64> + fmt::Display + fmt::LowerExp> fmt::Display for Length<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.into().abs();
-        let text = if size == 0.0 || (1e-3..1e7).contains(&size) {
-            format!("{}", self.0)
-        } else {
-            format!("{:e}", self.0)
-        };
-        f.pad(&text)
-    }
 }
 
 /// Which hierarchy a section belongs to.

@@ -1,6 +1,7 @@
 //! What ends the program early: each variant one line that names the file, the place and the remedy.
 
 use super::counted::Counted;
+use super::hull::Unmet;
 use super::served::Need;
 use meshsweep_alloc::emit::CutError;
 use meshsweep_alloc::hull::BuildError;
@@ -39,12 +40,14 @@ pub enum Failure {
     Build { file: PathBuf, error: BuildError },
     /// No tight hull.
     Wrap { file: PathBuf, error: WrapError },
+    /// No hull is as tight as asked for.
+    Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
     /// The blob has no such level.
     Cut { file: PathBuf, error: CutError },
-    /// The blob was built without what the question needs; another engine may have it.
-    NotServed { file: PathBuf, need: Need, other: Option<&'static str> },
+    /// The blob was built without what the question needs; another engine may have it. What it does serve.
+    NotServed { file: PathBuf, need: Need, other: Option<&'static str>, served: String },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
     /// The hull engine cannot say anything about this blob.
@@ -65,6 +68,8 @@ pub enum Failure {
     RawLength { file: PathBuf, bytes: usize, record: usize },
     /// A query is refused.
     Query { place: Place, error: QueryError },
+    /// A pose's quaternion is 0.
+    NoRotation { place: Place },
     /// An end of a segment is too far away; `limit` says what is not.
     TooFar { place: Place, limit: String },
     /// The queries end too early for a file of answers.
@@ -115,7 +120,9 @@ impl Failure {
         let line = text.lines().map(str::trim).collect::<Vec<_>>().join("; ");
         // If the standard error is closed too, there is nobody left to tell.
         let _ = writeln!(io::stderr(), "error: {line}");
-        ExitCode::from(if matches!(self, Failure::Usage { .. }) { 2 } else { 1 })
+        let is_usage =
+            matches!(self, Failure::Usage { .. } | Failure::NoRotation { place: Place::Argument { .. } });
+        ExitCode::from(if is_usage { 2 } else { 1 })
     }
 }
 
@@ -187,15 +194,17 @@ impl fmt::Display for Failure {
                 write!(f, "{}: is a blob already; name the mesh that it was built from", file.display())
             }
             Failure::Wrap { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::Unmet { file, unmet } => write!(f, "{}: {unmet}; nothing is written", file.display()),
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Open { file, error } => write!(f, "{}: {error}; {}", file.display(), remedy(error)),
             Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Tribox { file, error } => {
                 write!(f, "{}: {error}; choose a larger unit", file.display())
             }
-            Failure::NotServed { file, need, other } => {
+            Failure::NotServed { file, need, other, served } => {
                 let (part, option) = (need.part(), need.option());
-                write!(f, "{}: has no {part}; build it again with --for {option}", file.display())?;
+                write!(f, "{}: has no {part}, and serves {served}", file.display())?;
+                write!(f, "; build one from the mesh: meshsweep build MESH -o BLOB --for {option}")?;
                 other.map_or(Ok(()), |engine| write!(f, ", or use --engine {engine}"))
             }
             Failure::NoTightHull { file, faces, least } => write!(
@@ -245,6 +254,9 @@ impl fmt::Display for Failure {
                     _ => "",
                 };
                 write!(f, "{place}: {error}{remedy}")
+            }
+            Failure::NoRotation { place } => {
+                write!(f, "{place}: the quaternion is 0, which says no rotation; 1,0,0,0 turns nothing")
             }
             Failure::TooFar { place, limit } => {
                 write!(f, "{place}: an end is too far away for this blob: {limit}; clip the segment first")

@@ -4,7 +4,7 @@ use super::args::HullArgs;
 use super::blob_file;
 use super::build::{FACES, why_stuck};
 use super::counted::Counted;
-use super::describe::Length;
+use super::describe::AtMost;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
@@ -20,8 +20,10 @@ use std::path::Path;
 use std::time::Instant;
 
 mod tight;
+mod unmet;
 
 pub use tight::{WrapBars, write_start};
+pub use unmet::Unmet;
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
@@ -81,7 +83,7 @@ fn tight_of_blob(args: &HullArgs, faces: u32) -> Result<(), Failure> {
             "{}: {}, at most {} from the mesh",
             args.output.display(),
             Counted(record.faces, "face"),
-            Length(record.slack)
+            AtMost(record.slack)
         )
     })
 }
@@ -110,7 +112,7 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
             writeln!(out, "{}\n  {}", args.input.display(), solid.report)?;
         }
         if solid.moved > 0.0 {
-            writeln!(out, "vertices of the mesh moved to the grid by up to {}", Length(solid.moved))?;
+            writeln!(out, "vertices of the mesh moved to the grid by up to {}", AtMost(solid.moved))?;
         }
         writeln!(
             out,

@@ -2,7 +2,7 @@
 
 use super::args::InfoArgs;
 use super::counted::Counted;
-use super::describe::{self, LevelDistances, Shape, distances, in_input_units};
+use super::describe::{self, AtLeast, AtMost, LevelDistances, Shape, distances, in_input_units};
 use super::failure::Failure;
 use super::output::Output;
 use super::{blob_file, served};
@@ -29,10 +29,12 @@ pub fn run(args: &InfoArgs) -> Result<(), Failure> {
 fn write_header(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     let h = model.header();
     let [low, high] = in_input_units(model, &h.surface_box);
+    let low = low.map(|x| AtLeast(x).to_string());
+    let high = high.map(|x| AtMost(x).to_string());
     let cut = if model.is_cut() { ", cut: finer levels are not there" } else { "" };
     let input = Counted(model.tree().map_or(h.input_triangles, |tree| tree.input_triangles()), "triangle");
     writeln!(out, "  format {VERSION_MAJOR}, {} bytes{cut}", h.total_bytes)?;
-    writeln!(out, "  {input} in the input file; box {low:?} to {high:?}")?;
+    writeln!(out, "  {input} in the input file; box {} to {}", low.join(", "), high.join(", "))?;
     if model.has_hull() {
         writeln!(
             out,

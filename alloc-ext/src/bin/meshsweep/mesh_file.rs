@@ -28,8 +28,11 @@ pub fn load(file: &Path) -> Result<Loaded, Failure> {
     repaired(file, read(file)?, 0.0, started)
 }
 
-/// Reads, moves to the hull's grid, and repairs; and corners of the file's triangles that are not in the mesh: without area, or there twice.
-pub fn load_all(file: &Path, bits: VertexBits) -> Result<(Loaded, Vec<[[f32; 3]; 3]>), Failure> {
+/// Corners of a triangle.
+pub type Corners = [[f32; 3]; 3];
+
+/// Reads, moves to the hull's grid, and repairs; and the file's triangles that are not in the mesh: without area, or there twice.
+pub fn load_all(file: &Path, bits: VertexBits) -> Result<(Loaded, Vec<Corners>), Failure> {
     let started = Instant::now();
     let (raw, moved) = read_snapped(file, bits)?;
     let (positions, triangles) = (raw.positions.clone(), raw.triangles.clone());

@@ -33,8 +33,8 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
             poses = Queries::poses(&[super::args::Given::Query([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])])?;
         }
         if let Some(index) = poses.rows.iter().position(|row| row[3..].iter().all(|&x| x == 0.0)) {
-            let what = format!("{}: the quaternion is 0; it says no rotation", poses.place(index));
-            return Err(Failure::Usage { what });
+            let failure = Failure::NoRotation { place: poses.place(index) };
+            poses.end_at(index, failure)?;
         }
         answer(args, &trees, poses, turned)
     } else {
@@ -99,7 +99,7 @@ fn answer<const N: usize>(
         writeln!(out, "pose,contact,first,second,work")?;
         asked.answers.iter().try_for_each(|row| write_row(out, row))
     })?;
-    args.search.note(&asked);
+    args.search.note(&asked, false);
     Ok(())
 }
 

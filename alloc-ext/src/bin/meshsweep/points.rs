@@ -32,6 +32,11 @@ pub trait Question: Clone + Sync {
     /// How a search ended, and what it took.
     fn outcome(answer: &Self::Answer) -> (Ended, Work);
 
+    /// Whether the mesh is known by a tight hull alone.
+    fn is_by_hull(&self) -> bool {
+        false
+    }
+
     /// Says on the standard error what holds for all answers.
     fn remark(&self, _blob: &Path, _tree: &Tree<'_>) {}
 
@@ -86,7 +91,7 @@ pub fn ask<Q: Question>(
         rows.try_for_each(|(query, (point, answer))| question.write(out, query, point, answer))
     })?;
     question.remark(&input.blob, tree);
-    search.note(&asked);
+    search.note(&asked, question.is_by_hull());
     Ok(())
 }
 

@@ -134,6 +134,19 @@ impl<const N: usize> Queries<N> {
         Ok(())
     }
 
+    /// Ends the queries before number `index`, which cannot be asked.
+    ///
+    /// # Errors
+    /// What is wrong with it, if no query is left.
+    pub fn end_at(&mut self, index: usize, failure: Failure) -> Result<(), Failure> {
+        if index == 0 {
+            return Err(failure);
+        }
+        self.rows.truncate(index);
+        self.broken = Some(failure);
+        Ok(())
+    }
+
     /// Why the answers end before their time: a query was refused, or the next one could not be read.
     pub fn stopped(&mut self, refused: Option<(usize, QueryError)>) -> Option<Failure> {
         let broken = self.broken.take();

@@ -78,7 +78,7 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
             write_row(out, row, &segments.rows[row.query])
         })
     })?;
-    args.search.note(&asked);
+    args.search.note(&asked, false);
     Ok(())
 }
 

@@ -30,6 +30,20 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
     .collect()
 }
 
+/// A refusal of what `model` does not serve, which says what it does.
+fn not_served(file: &Path, model: &Model<'_>, need: Need, other: Option<&'static str>) -> Failure {
+    let knows_triangles = tree(model, Need::Distances).is_some();
+    let served: Vec<&str> = questions(model)
+        .into_iter()
+        .map(
+            |question| {
+                if question == "within" && !knows_triangles { "within without --all" } else { question }
+            },
+        )
+        .collect();
+    Failure::NotServed { file: file.to_owned(), need, other, served: served.join(", ") }
+}
+
 /// What a question needs of a blob.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
@@ -79,7 +93,7 @@ pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Tree<'a>> {
 
 /// The blob's tree for `need`.
 pub fn require_tree<'a>(file: &Path, model: &Model<'a>, need: Need) -> Result<Tree<'a>, Failure> {
-    tree(model, need).ok_or_else(|| Failure::NotServed { file: file.to_owned(), need, other: None })
+    tree(model, need).ok_or_else(|| not_served(file, model, need, None))
 }
 
 fn finest_tight<'a>(model: &Model<'a>) -> Option<TightHull<'a>> {
@@ -95,22 +109,22 @@ pub fn tight_hull<'a>(
     let Some(faces) = faces else {
         let others = model.has_hull() || tree(model, Need::Distances).is_some();
         let finest = finest_tight(model).filter(|_| !others);
-        return finest.map(|hull| for_distances(file, hull)).transpose();
+        return finest.map(|hull| for_distances(file, model, hull)).transpose();
     };
-    require_tight(file, model, faces).and_then(|hull| for_distances(file, hull)).map(Some)
+    require_tight(file, model, faces).and_then(|hull| for_distances(file, model, hull)).map(Some)
 }
 
-fn for_distances<'a>(file: &Path, hull: TightHull<'a>) -> Result<TightHull<'a>, Failure> {
+fn for_distances<'a>(file: &Path, model: &Model<'_>, hull: TightHull<'a>) -> Result<TightHull<'a>, Failure> {
     if hull.tree().serves_distances() {
         Ok(hull)
     } else {
-        Err(Failure::NotServed { file: file.to_owned(), need: Need::TightDistances, other: None })
+        Err(not_served(file, model, Need::TightDistances, None))
     }
 }
 
 /// The finest tight hull of at most so many faces.
 pub fn require_tight<'a>(file: &Path, model: &Model<'a>, faces: u32) -> Result<TightHull<'a>, Failure> {
-    let refuse = || Failure::NotServed { file: file.to_owned(), need: Need::Tight, other: None };
+    let refuse = || not_served(file, model, Need::Tight, None);
     let hulls = model.tight_hulls().ok_or_else(refuse)?;
     let count = hulls.records().take_while(|record| record.faces <= faces).count();
     let Some(index) = count.checked_sub(1) else {
@@ -122,11 +136,7 @@ pub fn require_tight<'a>(file: &Path, model: &Model<'a>, faces: u32) -> Result<T
 
 /// That the blob has a hull hierarchy.
 pub fn require_hull(file: &Path, model: &Model<'_>) -> Result<(), Failure> {
-    if model.has_hull() {
-        Ok(())
-    } else {
-        Err(Failure::NotServed { file: file.to_owned(), need: Need::Hull, other: None })
-    }
+    if model.has_hull() { Ok(()) } else { Err(not_served(file, model, Need::Hull, None)) }
 }
 
 /// The tree, or `None` for the hull hierarchy: what `--engine` chooses, else the tree where the blob has one.
@@ -137,7 +147,7 @@ pub fn choose<'a>(
     tree_chosen: Option<bool>,
 ) -> Result<Option<Tree<'a>>, Failure> {
     let tree = tree(model, need);
-    let refuse = |need, other| Err(Failure::NotServed { file: file.to_owned(), need, other });
+    let refuse = |need, other| Err(not_served(file, model, need, other));
     match (tree_chosen, tree) {
         (Some(true) | None, Some(tree)) => Ok(Some(tree)),
         (Some(false) | None, _) if model.has_hull() => Ok(None),

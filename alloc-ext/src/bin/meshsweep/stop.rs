@@ -30,8 +30,8 @@ impl SearchArgs {
         vec![QueueEntry::EMPTY; entries]
     }
 
-    /// Says on the standard error how queries ended if any ended early, and what they took if asked.
-    pub fn note<A>(&self, asked: &Asked<A>) {
+    /// Says on the standard error how queries ended if any ended early, and what they took if asked. `by_hull`: of a mesh that is known by a tight hull alone.
+    pub fn note<A>(&self, asked: &Asked<A>, by_hull: bool) {
         let Asked { tally, time, threads, .. } = asked;
         // A standard error that is closed is no reason to withhold the answers.
         let mut stderr = std::io::stderr();
@@ -48,7 +48,11 @@ impl SearchArgs {
             );
         }
         if self.time || tally.ended_early() {
-            let _ = writeln!(stderr, "ended: {tally}");
+            let _ = if by_hull {
+                writeln!(stderr, "ended: {}", ByHull(tally))
+            } else {
+                writeln!(stderr, "ended: {tally}")
+            };
         }
     }
 }
@@ -94,22 +98,39 @@ impl Tally {
     }
 }
 
-impl fmt::Display for Tally {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} exact", self.exact)?;
-        for (count, reason) in [
+impl Tally {
+    /// Counts and reasons; `level` says what left queries open for which more work is of no use.
+    fn write(&self, f: &mut fmt::Formatter<'_>, level: &str) -> fmt::Result {
+        let counts = [
+            (self.exact, "exact"),
             (self.tolerance, "within tolerance"),
             (self.steps, "out of steps"),
             (self.capacity, "out of stack or queue"),
-            (
-                self.level,
-                "left open by rounding or the blob (cut, only a hull, or vertices moved to a grid), or for touching",
-            ),
-        ] {
-            if count > 0 {
-                write!(f, ", {count} {reason}")?;
-            }
+            (self.level, level),
+        ];
+        let mut is_first = true;
+        for (count, reason) in counts.into_iter().filter(|(count, _)| *count > 0) {
+            let comma = if std::mem::replace(&mut is_first, false) { "" } else { ", " };
+            write!(f, "{comma}{count} {reason}")?;
         }
-        Ok(())
+        if is_first { f.write_str("no query") } else { Ok(()) }
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching")
+    }
+}
+
+/// The same of a mesh that is known by a tight hull alone: that a query is left open is the rule then.
+struct ByHull<'a>(&'a Tally);
+
+impl fmt::Display for ByHull<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.write(
+            f,
+            "answered as far as the hull tells: it stands off from the mesh; a finer hull tells more",
+        )
     }
 }

@@ -2,6 +2,7 @@
 
 use super::args::TriboxArgs;
 use super::counted::Counted;
+use super::describe::{About, AtLeast, AtMost};
 use super::failure::Failure;
 use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
@@ -114,7 +115,7 @@ impl Report<'_> {
         let Report { args, loaded, .. } = self;
         write!(out, "{}: {}, ", args.mesh.display(), Counted(self.faces_of_mesh(), "triangle"))?;
         match self.solid {
-            Some(volume) => writeln!(out, "closed, volume {}", Short(volume))?,
+            Some(volume) => writeln!(out, "closed, volume {}", About(volume))?,
             None => writeln!(out, "not closed: triboxes hold its surface, not an inside")?,
         }
         if !loaded.report.is_clean() {
@@ -132,11 +133,11 @@ impl Report<'_> {
                 level.triboxes,
                 level.faces,
                 self.compression(level),
-                Short(level.volume),
+                About(level.volume),
                 void,
-                Short(level.error),
-                Short(level.distance.lower),
-                Short(level.distance.upper)
+                AtMost(level.error),
+                AtLeast(level.distance.lower),
+                AtMost(level.distance.upper)
             )?;
         }
         if self.is_exhausted() {
@@ -174,23 +175,5 @@ impl Report<'_> {
             "levels": self.levels.iter().map(level).collect::<Vec<_>>(),
             "is_exhausted": self.is_exhausted(),
         })
-    }
-}
-
-/// Four digits of a number.
-pub struct Short(pub f64);
-
-impl std::fmt::Display for Short {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let size = self.0.abs();
-        let text = if size == 0.0 {
-            "0".to_owned()
-        } else if (1e-3..1e6).contains(&size) {
-            let digits = (3 - size.log10().floor() as i32).clamp(0, 6);
-            format!("{:.*}", digits.unsigned_abs() as usize, self.0)
-        } else {
-            format!("{:.3e}", self.0)
-        };
-        f.pad(&text)
     }
 }

@@ -51,6 +51,10 @@ impl Question for Any<'_> {
         HEADER
     }
 
+    fn is_by_hull(&self) -> bool {
+        self.hull.is_some()
+    }
+
     fn ask(
         &mut self,
         tree: &Tree<'_>,

@@ -1,7 +1,7 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
 use super::values::{degrees, factor, length, percent, positive, ratio, whole};
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep_alloc::collapse::{Conditions, Priority};
 use meshsweep_alloc::precision::VertexBits;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ pub struct BuildArgs {
     /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default: 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor)]
     pub effort: Option<f64>,
-    /// What tight hulls will be asked: closest, distances of the mesh; segment, by the library, segments and overlap of hulls [default: closest,segment]
+    /// Questions to tight hulls: closest; segment, which no command asks, only the library [default: closest,segment]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "QUESTIONS", hide_possible_values = true)]
     pub tight_for: Vec<HullServes>,
     #[command(flatten)]
@@ -242,7 +242,7 @@ pub struct HullArgs {
     /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
-    /// Stop after about so many seconds, with what there is by then; the hull then depends on the machine
+    /// Stop after about so many seconds: with more faces than asked for, if they are not gone by then
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
     /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so
@@ -287,11 +287,12 @@ impl HullArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(group(ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)))]
 pub struct CutArgs {
     /// Blob file, built --for hull, triboxes or tight
     pub blob: PathBuf,
     /// Finest level of the hull hierarchy to keep, 0 being the coarsest
-    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>, required_unless_present_any = ["triboxes", "tight"])]
+    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
     pub level: Option<u32>,
     /// Keep the finest level of at most so many triboxes
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { u32::MAX }>)]

@@ -25,11 +25,12 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     cull      cull: half a byte a triangle more\n  \
     hull      hull --level, cut, and closest and segment with --engine cover or hull: 35 to 50 bytes a triangle more\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 bytes a tribox\n  \
-    tight     closest and within, by an interval, and hull --tight: hulls of few faces, 18 to 26 bytes a face\n\
+    tight     closest and within, by an interval, and hull --tight: hulls of few faces, 16 to 23 bytes a face\n\
     The first three share a box tree, which any mesh will do for, open or not, manifold or not, and which takes a second for a \
     hundred thousand triangles. hull is the progressive hull with its split tables; it needs a closed manifold mesh and takes far \
     longer. triboxes will do with any mesh; if it is closed they hold its inside too. They take as long as the command tribox. tight wraps the mesh in hulls of \
-    --tight faces, as the command hull does: each encloses it, and knows how far its faces are from the mesh. They too will do with any mesh, and take some seconds each.\n\n\
+    --tight faces, as the command hull does: each encloses it, and knows how far its faces are from the mesh. They too will do with any mesh, and take some seconds each. \
+    With --tight-for closest they take about 2 bytes a face less: boxes for segments and for overlap with a hull are left out, which no command asks, only who links the library.\n\n\
     What --vertex-bits means:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
     16     vertices move to a grid of 16 bits an axis; tight hulls: their own, the mesh does not\n  \
@@ -151,7 +152,9 @@ pub const CULL: &str = "Leaves of up to eight triangles are kept or left out who
 
 pub const HULL: &str = "The hull of a mesh is closed, does not pass through itself, and has every triangle of the mesh strictly inside: proved by exact \
     arithmetic on the vertices that are written. The mesh may be open, or a heap of loose triangles; cavities are filled. With --void or --slack \
-    the fewest faces are searched for, which takes several times as long as a number of --faces.\n\n\
+    the fewest faces are searched for, which takes several times as long as a number of --faces; \
+    if none is found that is as tight, nothing is written. With --seconds the hull depends on the machine, and has more faces than asked for if the time did not \
+    suffice to get rid of them.\n\n\
     With --margin the hull has no point as near to the mesh as that, so that everything within the margin is inside: proved too, and for the mesh as the file \
     has it, before its vertices were rounded. --void then counts the margin's volume as well, and --slack, which is measured from the mesh, must be more.\n\n\
     --progressive gives the progressive hull, as the levels of a blob's hull hierarchy are: looser, at the mesh's own vertices where it can be, and only of meshes that \

@@ -88,10 +88,10 @@ pub fn length(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|x: &f64| *x >= 0.0 && x.is_finite()).ok_or_else(wanted)
 }
 
-/// A percentage above 0, with or without its sign, as a part of 1.
+/// A percentage above 0, with or without its sign.
 pub fn percent(text: &str) -> Result<f64, String> {
     let wanted = || "a percentage above 0 is wanted, as 15 or 15%".to_owned();
-    positive(text.strip_suffix('%').unwrap_or(text).trim()).map(|x| x / 100.0).map_err(|_| wanted())
+    positive(text.strip_suffix('%').unwrap_or(text).trim()).map_err(|_| wanted())
 }
 
 /// A factor from 0.
@@ -141,8 +141,8 @@ mod tests {
     }
 
     #[test]
-    fn percentages_are_parts_above_zero() {
-        assert_eq!((percent("15"), percent("0.5 %")), (Ok(0.15), Ok(0.005)));
+    fn percentages_are_above_zero() {
+        assert_eq!((percent("15"), percent("0.5 %")), (Ok(15.0), Ok(0.5)));
         for wrong in ["", "%", "0", "-1", "nan", "inf%"] {
             assert!(percent(wrong).is_err(), "{wrong}");
         }

@@ -1,6 +1,6 @@
 //! The hull hierarchy: memory, levels, surface error.
 
-use super::Length;
+use super::AtMost;
 use crate::counted::Counted;
 use meshsweep_core::blob::layout::VertexFormat;
 use meshsweep_core::blob::{Header, Level};
@@ -59,7 +59,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     writeln!(
         out,
         "  surface error {} (coordinates: {})",
-        Length(surface_error(h)),
+        AtMost(surface_error(h)),
         format_name(h.vertex_format)
     )?;
     write_memory(out, model)?;
@@ -101,8 +101,8 @@ fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
             level.splits,
             level.nodes,
             f64::from(level.void_ratio) * 100.0,
-            Length(cover_to_mesh),
-            Length(mesh_to_cover)
+            AtMost(cover_to_mesh),
+            AtMost(mesh_to_cover)
         )?;
     }
     Ok(())

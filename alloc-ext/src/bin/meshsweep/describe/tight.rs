@@ -1,8 +1,9 @@
 //! Tight hulls: faces, void, distances, bytes, memory.
 
-use super::Length;
+use super::AtMost;
 use super::tree::{stack_bytes, tree_format_name};
 use crate::counted::Counted;
+use meshsweep_core::blob::TightRecord;
 use meshsweep_core::{TightHull, TightHulls};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -17,26 +18,35 @@ fn bytes(hull: &TightHull<'_>) -> usize {
     hull.bytes().len() + 2 * hull.record().faces as usize
 }
 
+/// Volume beyond that of the mesh as a part of it, if the mesh bounds one: a hull that encloses it leaves some.
+fn void(record: &TightRecord) -> Option<f32> {
+    (record.void_ratio != 0.0).then_some(record.void_ratio)
+}
+
 pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<()> {
-    let nested = if hulls.is_nested() { ", each encloses the next" } else { "" };
+    let encloses = match hulls.count() {
+        1 => "it encloses the mesh",
+        _ if hulls.is_nested() => "each encloses the next, and all the mesh",
+        _ => "each encloses the mesh",
+    };
     writeln!(out, "tight hulls")?;
-    writeln!(out, "  {}{nested}: each encloses the mesh", Counted(hulls.count(), "hull"))?;
+    writeln!(out, "  {}: {encloses}", Counted(hulls.count(), "hull"))?;
     writeln!(
         out,
-        "     faces    void %     bytes  stack bytes  coordinates  farthest from the mesh, farthest of the mesh"
+        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to hull, at most"
     )?;
     for hull in all(hulls) {
         let record = hull.record();
+        let void = void(record).map_or("-".to_owned(), |void| format!("{:.3}", void * 100.0));
         writeln!(
             out,
-            "  {:>8} {:>9.3} {:>9} {:>12}  {:<11}  {}, {}",
+            "  {:>8} {void:>9} {:>9} {:>12}  {:<11}  {:>21}  {:>21}",
             record.faces,
-            record.void_ratio * 100.0,
             bytes(&hull),
             stack_bytes(hull.tree()),
             tree_format_name(hull.tree()),
-            Length(record.slack),
-            Length(record.depth)
+            AtMost(record.slack),
+            AtMost(record.depth)
         )?;
     }
     Ok(())
@@ -47,7 +57,7 @@ pub fn as_json(hulls: &TightHulls<'_>) -> Value {
         let record = hull.record();
         json!({
             "faces": record.faces,
-            "void_ratio": record.void_ratio,
+            "void_ratio": void(record),
             "slack": record.slack,
             "depth": record.depth,
             "bytes": bytes(&hull),

@@ -1,6 +1,6 @@
 //! The box tree: shape, memory, surface error, whether sides are defined.
 
-use super::Length;
+use super::AtMost;
 use super::shape::Shape;
 use crate::counted::Counted;
 use meshsweep_core::Tree;
@@ -55,7 +55,7 @@ pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>, diagonal: f64) -> io::
     writeln!(
         out,
         "  surface error {} (coordinates: {})",
-        Length(tree_surface_error(tree)),
+        AtMost(tree_surface_error(tree)),
         tree_format_name(tree)
     )?;
     if tree.serves_distances() {

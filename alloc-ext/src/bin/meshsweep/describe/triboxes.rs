@@ -1,7 +1,7 @@
 //! The tribox hierarchy: size, levels, memory.
 
+use super::AtMost;
 use crate::counted::Counted;
-use crate::tribox::Short;
 use meshsweep_core::Triboxes;
 use meshsweep_core::blob::TriboxLevel;
 use serde_json::{Value, json};
@@ -29,8 +29,8 @@ pub(super) fn write(out: &mut dyn Write, triboxes: &Triboxes<'_>) -> io::Result<
             out,
             "  {:>8} {void:>9} {:>11}  {}",
             level.triboxes,
-            Short(level.error.into()),
-            Short(level.distance.into())
+            AtMost(level.error),
+            AtMost(level.distance)
         )?;
     }
     Ok(())

@@ -2,11 +2,12 @@
 
 use super::super::args::HullArgs;
 use super::super::counted::Counted;
-use super::super::describe::Length;
+use super::super::describe::{About, AtLeast, AtMost, Given};
 use super::super::failure::Failure;
 use super::super::mesh_file::load_all;
 use super::super::output::Output;
 use super::super::progress::Bar;
+use super::unmet::require_met;
 use super::write_hull;
 use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::wrap::{
@@ -18,7 +19,7 @@ use std::time::Duration;
 pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     Output::probe(&args.output)?;
     let goal = match (args.void, args.slack) {
-        (Some(void), _) => Goal::Void(void),
+        (Some(percent), _) => Goal::Void(percent / 100.0),
         (_, Some(slack)) => Goal::Slack(slack),
         _ => Goal::Faces(faces as usize),
     };
@@ -34,29 +35,27 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         // The file's vertices, decimal or not on the grid, have the margin around them too.
         options.margin += (loaded.moved + loaded.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
     }
-    let meshes = if args.parts {
-        share(parts(&loaded.mesh), &left_out)
-    } else {
-        vec![(loaded.mesh, left_out)]
-    };
+    let meshes =
+        if args.parts { share(parts(&loaded.mesh), &left_out) } else { vec![(loaded.mesh, left_out)] };
     let mut hulls = Vec::new();
     for (mesh, further) in &meshes {
         let mut bars = WrapBars::default();
         let hull = wrap_all(mesh, further, &options, |progress| bars.show(progress));
         hulls.push(hull.map_err(|error| Failure::Wrap { file: args.input.clone(), error })?);
     }
+    require_met(args, hulls.iter().map(|hull| &hull.report))?;
     write_hull(&args.output, &joined(&hulls))?;
     Output::stdout().finish(|out| {
         if !loaded.report.is_clean() {
             writeln!(out, "{}\n  {}", args.input.display(), loaded.report)?;
         }
         if loaded.moved > 0.0 {
-            writeln!(out, "vertices of the mesh moved to the grid by up to {}", Length(loaded.moved))?;
+            writeln!(out, "vertices of the mesh moved to the grid by up to {}", AtMost(loaded.moved))?;
         }
         match &hulls[..] {
             [hull] => {
                 write!(out, "{}: ", args.output.display())?;
-                describe(out, &hull.report, goal)
+                describe(out, &hull.report, goal, args.margin)
             }
             _ => {
                 let faces: usize = hulls.iter().map(|hull| hull.report.faces).sum();
@@ -64,7 +63,7 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
                 writeln!(out, "{}: {count}, {} in all", args.output.display(), Counted(faces, "face"))?;
                 for (index, hull) in hulls.iter().enumerate() {
                     write!(out, "  part {index}: ")?;
-                    describe(out, &hull.report, goal)?;
+                    describe(out, &hull.report, goal, args.margin)?;
                 }
                 Ok(())
             }
@@ -72,7 +71,8 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     })
 }
 
-fn describe(out: &mut dyn Write, report: &Report, goal: Goal) -> io::Result<()> {
+/// `margin` is the one that was typed: the hull keeps what rounding may take from it besides.
+fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64>) -> io::Result<()> {
     write!(out, "{}, ", Counted(report.faces, "face"))?;
     if let Some(void) = report.void {
         write!(out, "{:.3} % void space, ", void * 100.0)?;
@@ -80,12 +80,12 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal) -> io::Result<()> 
     writeln!(
         out,
         "at most {} from the mesh and in one place at least {}, {:.3} s",
-        Length(report.slack.upper),
-        Length(report.slack.lower),
+        AtMost(report.slack.upper),
+        AtLeast(report.slack.lower),
         report.time.as_secs_f64()
     )?;
-    if report.margin > 0.0 {
-        writeln!(out, "  all points within {} of the mesh are inside", Length(report.margin))?;
+    if let Some(margin) = margin.filter(|&margin| margin > 0.0) {
+        writeln!(out, "  all points within {} of the mesh are inside", Given(margin))?;
     }
     if report.void.is_none() {
         writeln!(out, "  the mesh is not closed: there is no volume to measure void against")?;
@@ -98,14 +98,16 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal) -> io::Result<()> 
             "  stopped before {faces} faces: no edge may collapse and leave the hull closed, clear of the mesh and of itself"
         ),
         (Stop::Stuck, _) => writeln!(out, "  stopped where no edge may collapse any more"),
-        (Stop::TooLoose, _) => {
-            writeln!(
-                out,
-                "  the finest hull that was tried is looser than asked for; ask for more, or give --faces"
-            )
+        // It came within the goal by what was mended last, or it is not written.
+        (Stop::TooLoose, _) => writeln!(out, "  fewer faces were not tried: this is as tight as it gets"),
+        (Stop::OutOfTime, Goal::Faces(faces)) if report.faces > faces => {
+            writeln!(out, "  stopped by --seconds before {faces} faces: with more time the hull has fewer")
+        }
+        (Stop::OutOfTime, Goal::Faces(_)) => {
+            writeln!(out, "  stopped by --seconds: with more time the hull is tighter")
         }
         (Stop::OutOfTime, _) => {
-            writeln!(out, "  stopped by --seconds: with more time the hull is tighter, or has fewer faces")
+            writeln!(out, "  stopped by --seconds: with more time it may have fewer faces")
         }
     }
 }
@@ -116,7 +118,7 @@ pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(
             out,
             "  the hull began as the outside of the cubes of edge {} that its triangles meet",
-            Length(cell)
+            About(cell)
         )?;
     }
     if report.start == Start::Box {

@@ -1,0 +1,130 @@
+//! Lengths and other numbers for people: few digits, and what is a bound stays one.
+
+use std::fmt;
+
+/// Digits of a number that was measured, after the first.
+const DIGITS: u8 = 5;
+
+/// A number that is not below the true one: rounded up.
+pub struct AtMost<T>(pub T);
+
+/// A number that is not above the true one: rounded down.
+pub struct AtLeast<T>(pub T);
+
+/// A number that is no bound: rounded to the nearest.
+pub struct About<T>(pub T);
+
+/// A number that somebody gave: as many digits as it has.
+pub struct Given<T>(pub T);
+
+impl<T: Copy + Into<f64>> fmt::Display for AtMost<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let x = self.0.into();
+        f.pad(&text(rounded(x, |short| short >= x), is_everyday(x)))
+    }
+}
+
+impl<T: Copy + Into<f64>> fmt::Display for AtLeast<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let x = self.0.into();
+        f.pad(&text(rounded(x, |short| short <= x), is_everyday(x)))
+    }
+}
+
+impl<T: Copy + Into<f64>> fmt::Display for About<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let x = self.0.into();
+        f.pad(&text(rounded(x, |_| true), is_everyday(x)))
+    }
+}
+
+impl<T: Copy + Into<f64>> fmt::Display for Given<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let x = self.0.into();
+        f.pad(&text(format!("{x:e}"), is_everyday(x)))
+    }
+}
+
+/// Sizes that are written without an exponent.
+fn is_everyday(x: f64) -> bool {
+    x == 0.0 || !x.is_finite() || (1e-3..1e7).contains(&x.abs())
+}
+
+/// The decimal of few digits that is nearest to `x` among those that are `fine`: that next to it, or a neighbour.
+fn rounded(x: f64, fine: impl Fn(f64) -> bool) -> String {
+    let nearest = format!("{x:.*e}", usize::from(DIGITS));
+    let read = |text: &str| text.parse().unwrap_or(x);
+    if !x.is_finite() || fine(read(&nearest)) {
+        return nearest;
+    }
+    let Some((digits, exponent)) = nearest.split_once('e') else { return nearest };
+    let Ok(digits) = digits.replace('.', "").parse::<i64>() else { return nearest };
+    // One more carries over, one less may leave a digit fewer: both read as they should.
+    let beside = [digits + 1, digits - 1].map(|digits| format!("{digits}e{}", power(exponent)));
+    beside.into_iter().find(|text| fine(read(text))).unwrap_or(nearest)
+}
+
+/// The exponent of a number whose digits are read as a whole one.
+fn power(exponent: &str) -> i32 {
+    exponent.parse::<i32>().unwrap_or(0) - i32::from(DIGITS)
+}
+
+/// A decimal with an exponent as it is read best, without zeros at its end.
+fn text(decimal: String, is_everyday: bool) -> String {
+    let x: f64 = decimal.parse().unwrap_or(f64::NAN);
+    // The shortest that reads back: no more digits than were left.
+    if is_everyday { format!("{x}") } else { format!("{x:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_stay_bounds_and_are_short() {
+        let mut x = 1e-40f64;
+        while x < 1e40 {
+            for x in [x, -x] {
+                let [up, down, near] = [AtMost(x).to_string(), AtLeast(x).to_string(), About(x).to_string()];
+                let read = |text: &String| text.parse::<f64>().unwrap();
+                assert!(read(&up) >= x && read(&down) <= x, "{x:e}: {down} {up}");
+                for text in [&up, &down, &near] {
+                    assert!((read(text) - x).abs() <= 1.01e-5 * x.abs(), "{x:e}: {text}");
+                    let digits = text.split('e').next().unwrap().trim_matches(['-', '0']).replace('.', "");
+                    assert!(digits.trim_start_matches('0').len() <= 1 + usize::from(DIGITS), "{x:e}: {text}");
+                }
+            }
+            x *= 1.037;
+        }
+    }
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(AtMost(0.123_456_78).to_string(), "0.123457");
+        assert_eq!(AtLeast(0.123_456_78).to_string(), "0.123456");
+        assert_eq!(AtMost(0.1f32).to_string(), "0.100001");
+        assert_eq!(AtMost(0.1).to_string(), "0.1");
+        assert_eq!(AtMost(999_999.2).to_string(), "1000000");
+        assert_eq!(AtLeast(1_000_000.7).to_string(), "1000000");
+        assert_eq!(AtMost(9.999_999e-8).to_string(), "1e-7");
+        assert_eq!((About(0.0).to_string(), AtMost(2.5f32).to_string()), ("0".into(), "2.5".into()));
+        assert_eq!(About(1.234_567_8e9).to_string(), "1.23457e9");
+        assert_eq!(
+            (Given(0.000_123_456_789).to_string(), Given(0.1).to_string()),
+            ("1.23456789e-4".into(), "0.1".into())
+        );
+        assert_eq!(format!("{:>8}|{:>8}", AtMost(2.5), AtLeast(0.0)), "     2.5|       0");
+    }
+
+    #[test]
+    fn the_ends_of_double_precision_are_written_too() {
+        for x in [f64::MAX, f64::MIN_POSITIVE, f64::from_bits(1), -f64::MAX] {
+            assert!(AtMost(x).to_string().parse::<f64>().unwrap() >= x, "{x:e}");
+            assert!(AtLeast(x).to_string().parse::<f64>().unwrap() <= x, "{x:e}");
+        }
+        assert_eq!(
+            (AtMost(f64::INFINITY).to_string(), About(f64::NAN).to_string()),
+            ("inf".into(), "NaN".into())
+        );
+    }
+}
