@@ -227,7 +227,7 @@ fn poses_that_are_none_are_refused() {
     for (x, error) in [
         (f32::NAN, QueryError::NotFinite),
         (f32::NEG_INFINITY, QueryError::NotFinite),
-        (2e36, QueryError::OutOfDomain),
+        (2e36, QueryError::PoseOutOfDomain),
     ] {
         let shifted = Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
         assert_eq!(apart(&all, &all, &shifted, stack).unwrap_err(), error);

@@ -74,7 +74,7 @@ pub fn stack_entries(a: &Triboxes<'_>, b: &Triboxes<'_>) -> usize {
 /// Below f32's normal range everything may meet. Cost: some 2,000 instructions of a Cortex-M4F once, 1,500 a pair on average; 2 KiB of stack.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`] and [`QueryError::OutOfDomain`] of a pose with such numbers (see [`Pose::bound`]); [`QueryError::NoQueue`] without a stack.
+/// [`QueryError::NotFinite`] and [`QueryError::PoseOutOfDomain`] of a pose with such numbers (see [`Pose::bound`]); [`QueryError::NoQueue`] without a stack.
 pub fn apart(
     a: &Triboxes<'_>,
     b: &Triboxes<'_>,

@@ -3,7 +3,7 @@
 use crate::blob::Triboxes;
 use crate::num::tolerance::{TRIBOX_AXIS, U32};
 use crate::query::QueryError;
-use crate::tribox::{DIRECTIONS, FACES, Pose, SLABS, Support};
+use crate::tribox::{DIRECTIONS, FACES, Pose, SLABS, Support, TriboxError};
 
 /// A direction of one tribox's own slabs, as the other one, which was moved, sees it.
 ///
@@ -85,7 +85,10 @@ impl Axes {
         b: &Triboxes<'_>,
         pose: &Pose,
     ) -> Result<(), QueryError> {
-        pose.check().map_err(QueryError::from)?;
+        pose.check().map_err(|error| match error {
+            TriboxError::NotFinite => QueryError::NotFinite,
+            TriboxError::OutOfDomain => QueryError::PoseOutOfDomain,
+        })?;
         let (reach_a, reach_b) = (reach(a)?, reach(b)?);
         let [p, q, r] = pose.rotation;
         let largest = size(pose.translation);
