@@ -45,7 +45,7 @@ pub fn run(steps: &mut Steps) {
     table.note(
         "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
     );
-    println!("{}", table.text());
+    say!("{}", table.text());
     check_lanes(steps);
 }
 

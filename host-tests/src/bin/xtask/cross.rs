@@ -43,7 +43,7 @@ impl Cross {
             Ok("debian") => Self::debian(),
             Ok(other) => Err(format!("MESHSWEEP_STD is `{other}`, not `rustup` or `debian`")),
             Err(_) => Self::installed().or_else(|reason| {
-                println!("   no std from rustup: {}", reason.lines().next().unwrap_or_default());
+                say!("   no std from rustup: {}", reason.lines().next().unwrap_or_default());
                 Self::debian().map_err(|other| {
                     format!(
                         "{other}\nremedy: `rustup target add {}` where the network lets it",
@@ -66,7 +66,7 @@ impl Cross {
         match targets().into_iter().find(|target| !has_std(&sysroot, target)) {
             Some(target) => Err(format!("rustup added no std for {target}")),
             None => {
-                println!("   std of {}", process::capture(Command::new("rustc").arg("-V"))?.trim());
+                say!("   std of {}", process::capture(Command::new("rustc").arg("-V"))?.trim());
                 Ok(Self::Installed)
             }
         }
@@ -78,7 +78,7 @@ impl Cross {
         if !sources.is_file() {
             return Err(format!("Debian's compiler came without {}", sources.display()));
         }
-        println!("   std built by {}", process::capture(rust.command("rustc").arg("-V"))?.trim());
+        say!("   std built by {}", process::capture(rust.command("rustc").arg("-V"))?.trim());
         Ok(Self::Debian { linker: linker(&rust)?, rust })
     }
 

@@ -30,7 +30,7 @@ pub fn setup(steps: &mut Steps) -> Option<Tools> {
 /// Runs all of it; prints the table, and writes it to `json`.
 pub fn run(steps: &mut Steps, tools: &Tools, json: Option<&Path>) {
     let rows: Vec<Row> = BOARDS.iter().map(|board| on_board(steps, tools, board)).collect();
-    println!("{}", table::text(&rows));
+    say!("{}", table::text(&rows));
     if let Some(file) = json {
         steps.run("write the table", || table::write_json(&rows, file));
     }

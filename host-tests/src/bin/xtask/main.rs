@@ -14,6 +14,9 @@
 //! rival ───── images of other engines, in the emulator
 //! ```
 
+#[macro_use]
+mod say;
+
 mod blobs;
 mod boards;
 mod checks;
@@ -71,7 +74,7 @@ fn main() -> ExitCode {
     match words.as_slice() {
         ["setup"] => {
             firmware::setup(&mut steps);
-            println!("── setup: valgrind");
+            say!("── setup: valgrind");
             Valgrind::find();
         }
         ["test"] => {

@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use crate::firmware;
 use crate::hulls;
+use crate::say;
 use crate::steps::Steps;
 use crate::valgrind::Valgrind;
 use crate::workspace;
@@ -102,7 +103,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
                 None => measure(mesh)?,
             };
             for table in &tables {
-                print!("{}", table.text());
+                say::text(table.text());
             }
             written.push(json!({
                 "mesh": mesh.file_name().map(|name| name.to_string_lossy()),
@@ -149,7 +150,7 @@ fn count(valgrind: &Valgrind, mesh: &Path) -> Result<Vec<Cost>, String> {
 /// The run that is counted.
 pub fn ask(mesh: &str) -> Result<(), String> {
     let [bounds, poses] = counted::ask(Path::new(mesh))?;
-    println!("asked {bounds} {poses}");
+    say!("asked {bounds} {poses}");
     Ok(())
 }
 

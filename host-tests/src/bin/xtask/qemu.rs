@@ -59,7 +59,7 @@ impl Qemu {
         };
         for machine in [Machine::Arm(""), Machine::Riscv32("")] {
             let version = process::capture(qemu.command(machine).arg("--version"))?;
-            println!("   {}", version.lines().next().unwrap_or_default());
+            say!("   {}", version.lines().next().unwrap_or_default());
         }
         Ok(qemu)
     }

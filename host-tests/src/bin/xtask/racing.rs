@@ -8,6 +8,7 @@ use meshsweep_host_tests::race::engine::ENTRANTS;
 use meshsweep_host_tests::race::{Scale, Scope, Workload, counted, race, summary};
 use serde_json::{Value, json};
 
+use crate::say;
 use crate::steps::Steps;
 use crate::valgrind::Valgrind;
 use crate::workspace;
@@ -128,14 +129,14 @@ fn instructions(
 /// The run that is counted.
 pub fn ask(engine: &str, mesh: &str, hull_triangles: usize) -> Result<(), String> {
     for (workload, queries) in counted::ask(Path::new(mesh), engine, hull_triangles)? {
-        println!("asked {} {queries}", workload.name());
+        say!("asked {} {queries}", workload.name());
     }
     Ok(())
 }
 
 fn shown(mesh: &str, tables: &[Table]) -> Value {
     for table in tables {
-        print!("{}", table.text());
+        say::text(table.text());
     }
     json!({ "mesh": mesh, "tables": tables.iter().map(Table::json).collect::<Vec<Value>>() })
 }

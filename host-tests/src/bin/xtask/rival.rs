@@ -17,6 +17,7 @@ use crate::elf;
 use crate::images::{self, Profile};
 use crate::process;
 use crate::qemu::Qemu;
+use crate::say;
 use crate::steps::Steps;
 use crate::workspace;
 use answers::{Answers, agree, of_host};
@@ -67,7 +68,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
     let qemu = steps.run("setup: QEMU", Qemu::find);
     let (Some(cross), Some(qemu)) = (cross, qemu) else { return };
     if let Some(table) = steps.run("sizes", || sizes(&cross)) {
-        print!("{}", table.text());
+        say::text(table.text());
     }
     let Some(mesh) = steps.run("mesh", || questions::load(options.mesh.as_deref())) else { return };
     let mut lints = cross.has_clippy();
@@ -88,7 +89,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
                 Ok(answers)
             });
             if let Some(answers) = answers {
-                print!("{}", table(engine, &course, &answers).text());
+                say::text(table(engine, &course, &answers).text());
             }
         }
     }

@@ -17,18 +17,18 @@ impl Steps {
 
     /// Runs a step and says how it went. A failed step yields `None`; the steps that need its result are the caller's to skip.
     pub fn run<T>(&mut self, name: &str, step: impl FnOnce() -> Result<T, String>) -> Option<T> {
-        println!("── {name}");
+        say!("── {name}");
         let begun = Instant::now();
         let result = step();
         let seconds = begun.elapsed().as_secs_f64();
         match result {
             Ok(value) => {
-                println!("   {name}: ok ({seconds:.1} s)");
+                say!("   {name}: ok ({seconds:.1} s)");
                 self.passed += 1;
                 Some(value)
             }
             Err(reason) => {
-                println!("   {name}: FAILED ({seconds:.1} s)\n{reason}");
+                say!("   {name}: FAILED ({seconds:.1} s)\n{reason}");
                 self.failed.push(name.to_owned());
                 None
             }
@@ -38,9 +38,9 @@ impl Steps {
     /// Prints the summary; the exit code tells whether every step passed.
     pub fn finish(self) -> ExitCode {
         for name in &self.failed {
-            println!("failed: {name}");
+            say!("failed: {name}");
         }
-        println!("{} passed, {} failed", self.passed, self.failed.len());
+        say!("{} passed, {} failed", self.passed, self.failed.len());
         if self.failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 }

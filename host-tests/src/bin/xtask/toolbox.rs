@@ -80,7 +80,7 @@ fn fill(wanted: &Wanted, folder: &Path) -> Result<(), String> {
     // The machine's package lists may be missing or stale, and only root may renew them: then private ones are fetched.
     let first = apt.fetch(wanted);
     if let Err(reason) = first {
-        println!(
+        say!(
             "   fetching package lists: {}",
             reason.lines().find(|line| line.starts_with("E:")).unwrap_or("none here")
         );
@@ -131,7 +131,7 @@ impl Apt {
         // One unreachable source among several is not decisive: what counts is whether the packages resolve.
         let update = process::capture(self.command().arg("update"));
         if let Err(reason) = update {
-            println!("   apt-get update: {reason}");
+            say!("   apt-get update: {reason}");
         }
         Ok(self)
     }
@@ -150,7 +150,7 @@ impl Apt {
         for packages in wanted.alternatives {
             match self.resolve(packages) {
                 Ok(versions) => {
-                    println!("   fetching {} ({} packages)", packages.join(", "), versions.len());
+                    say!("   fetching {} ({} packages)", packages.join(", "), versions.len());
                     let pinned = versions.iter().map(|(package, version)| format!("{package}={version}"));
                     return process::capture(self.command().args(["-q", "download"]).args(pinned)).map(drop);
                 }

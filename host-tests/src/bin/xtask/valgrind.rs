@@ -27,7 +27,7 @@ impl Valgrind {
         match Toolbox::open(&VALGRIND) {
             Ok(toolbox) => Some(Self::Unpacked(toolbox)),
             Err(reason) => {
-                println!("   skipped: no valgrind here, and none to be had: {reason}");
+                say!("   skipped: no valgrind here, and none to be had: {reason}");
                 None
             }
         }

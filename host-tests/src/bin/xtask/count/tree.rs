@@ -98,7 +98,7 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
 /// That node and leaf take few enough instructions to be vector code. Skipped, with a line that says so, where nothing can be counted.
 pub fn check(steps: &mut Steps) {
     if cfg!(not(target_arch = "x86_64")) {
-        println!("── lanes are vectors\n   skipped: the limits are those of x86-64");
+        say!("── lanes are vectors\n   skipped: the limits are those of x86-64");
         return;
     }
     let Some(valgrind) = Valgrind::find() else { return };
@@ -117,7 +117,7 @@ pub fn check(steps: &mut Steps) {
                 [fixed(instructions, 0), fixed(nodes, 2), fixed(leaves, 2), fixed(cost, 1), fixed(limit, 0)];
             table.push([Cell::from(question)].into_iter().chain(cells).collect());
         }
-        println!("{}", table.text());
+        say!("{}", table.text());
         if beyond.is_empty() { Ok(()) } else { Err(beyond.join("\n")) }
     });
 }
