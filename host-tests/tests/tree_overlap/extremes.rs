@@ -110,8 +110,11 @@ fn answers_hold_where_far_origins_cancel() {
         let plate = vec![[0.0, -3.0, -3.0], [0.0, 5.0, -2.0], [0.0, -1.0, 6.0]];
         let plate = plate.into_iter().map(|p: [f32; 3]| std::array::from_fn(|k| p[k] + offset[k])).collect();
         let b = Scene::new((plate, vec![[0, 1, 2]]));
-        let a = Scene::new(scaled(&icosphere(0), 1.0 / (1u32 << 24) as f32));
-        holds("cancelled", &a, &b, &placed(&b, rotation, [0.0; 3]), &mut tallies);
+        // A grain, which the motion's rounding alone keeps off the plate, and a ball that is larger than such rounding.
+        for scale in [1.0 / (1u32 << 24) as f32, 1.0] {
+            let a = Scene::new(scaled(&icosphere(0), scale));
+            holds("cancelled", &a, &b, &placed(&b, rotation, [0.0; 3]), &mut tallies);
+        }
     }
-    assert_eq!(tallies.iter().map(|tally| tally.apart + tally.meets + tally.open).sum::<usize>(), 240);
+    assert!(tallies.iter().all(|tally| tally.apart > 50 && tally.meets > 50), "{tallies:?}");
 }

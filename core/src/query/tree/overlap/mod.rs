@@ -88,6 +88,21 @@ pub struct Overlaps {
 ///
 /// Cost: what lies near the other surface; on scanned parts some dozens of pairs of nodes (`cargo xtask measure --overlap`).
 ///
+/// ```
+/// use meshsweep_core::{Tree, tribox::Pose, query::tree::{Contact, PairEntry, overlap}};
+/// # fn probe(part: &[u8], tool: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
+/// let (part, tool) = (Tree::open(part)?, Tree::open(tool)?); // of blobs built with `--for segment`
+/// let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+/// let pose = Pose { translation: [30.0, 0.0, 0.0], ..Pose::IDENTITY };
+/// let found = overlap(&part, &tool, &pose, u32::MAX, &mut stack)?;
+/// match found.contact {
+///     Contact::Apart => { /* proved: no point of the moved tool's surface is on the part's */ }
+///     Contact::Meets => { /* proved: `found.triangles` of the input files meet */ }
+///     Contact::Open => { /* nearer than rounding and grids can tell, or cut short */ }
+/// }
+/// # Ok(()) }
+/// ```
+///
 /// # Errors
 /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid units;
 /// [`QueryError::NotServed`] unless both have boxes for segments; [`QueryError::NoQueue`].
