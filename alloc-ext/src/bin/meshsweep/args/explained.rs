@@ -1,6 +1,6 @@
 //! What `meshsweep help COMMAND` says below the options.
 
-pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable, 2 wrong usage.";
+pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is not usable or no hull is as tight as asked for, 2 wrong usage.";
 
 /// Of `--queue` where there is `--engine`.
 pub const QUEUE: &str = "Stack or queue entries to search with [default: what the blob needs; on the cover tree no less than 4096]";
