@@ -4,4 +4,4 @@ mod build;
 mod one_sided;
 
 pub use build::{BuildError, BuildOptions, BuildReport, Built, build, hull_of};
-pub use one_sided::{Farthest, Nearest, farthest, hull_to_surface};
+pub use one_sided::{Farthest, Nearest, farthest, hull_to_surface, is_within};

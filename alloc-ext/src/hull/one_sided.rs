@@ -5,6 +5,7 @@
 //! within a few percent of a distance that was found, the worst piece is split: in halves, or, if it is many times as large as it is far away, where it reaches
 //! beyond the surface triangle next to it. A hull that all but lies on a flat wall is so cut into what lies over each of the wall's triangles.
 
+use arrayvec::ArrayVec;
 use glam::DVec3;
 use meshsweep_core::geom::point_triangle;
 use meshsweep_core::query::{Stop, closest_point};
@@ -29,6 +30,38 @@ struct Piece {
 
 /// Sizes of a piece in its distance from the surface beyond which halving would take too many steps.
 const WIDE: f64 = 4.0;
+
+/// The centre of a triangle, and the distance of its farthest corner from there.
+fn ball(corners: &[DVec3; 3]) -> (DVec3, f64) {
+    let [a, b, c] = *corners;
+    let centre = (a + b + c) / 3.0;
+    (centre, corners.iter().map(|p| (*p - centre).length()).fold(0.0, f64::max))
+}
+
+impl Piece {
+    /// Raises `found` to the distance of its centre.
+    fn new(corners: [DVec3; 3], found: &mut f64, nearest: &mut impl FnMut(DVec3) -> Option<Nearest>) -> Self {
+        let (centre, reach) = ball(&corners);
+        let Some(near) = nearest(centre) else { return Self { bound: f64::INFINITY, corners, along: None } };
+        *found = found.max(near.lower);
+        let lipschitz = near.upper + reach;
+        let convex = near.triangle.map_or(f64::INFINITY, |[p, q, r]| {
+            corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
+        });
+        let along = near.triangle.filter(|_| reach > WIDE * near.upper);
+        let bound = lipschitz.min(convex) * (1.0 + 1e-12);
+        // What is no number is no bound.
+        let bound = if bound.is_nan() || reach.is_nan() { f64::INFINITY } else { bound };
+        Self { bound, corners, along }
+    }
+
+    fn parts(&self) -> ArrayVec<[DVec3; 3], 3> {
+        match self.along.and_then(|along| cut(self.corners, along)) {
+            Some(parts) => ArrayVec::from(parts),
+            None => bisect(self.corners).into_iter().collect(),
+        }
+    }
+}
 
 impl Ord for Piece {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
@@ -75,28 +108,12 @@ pub fn farthest(
     enough: f64,
     mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
 ) -> Farthest {
-    let mut piece_of = |corners: [DVec3; 3], found: &mut f64| {
-        let [a, b, c] = corners;
-        let centre = (a + b + c) / 3.0;
-        let Some(near) = nearest(centre) else { return Piece { bound: f64::INFINITY, corners, along: None } };
-        *found = found.max(near.lower);
-        let reach = corners.iter().map(|p| (*p - centre).length()).fold(0.0, f64::max);
-        let lipschitz = near.upper + reach;
-        let convex = near.triangle.map_or(f64::INFINITY, |[p, q, r]| {
-            corners.iter().map(|&v| point_triangle(v, p, q, r).upper).fold(0.0, f64::max)
-        });
-        let along = near.triangle.filter(|_| reach > WIDE * near.upper);
-        let bound = lipschitz.min(convex) * (1.0 + 1e-12);
-        // What is no number is no bound.
-        let bound = if bound.is_nan() || reach.is_nan() { f64::INFINITY } else { bound };
-        Piece { bound, corners, along }
-    };
     let mut found = 0f64;
     let mut heap = BinaryHeap::new();
     let mut size = 0f64;
     for corners in triangles {
         size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
-        heap.push(piece_of(corners, &mut found));
+        heap.push(Piece::new(corners, &mut found, &mut nearest));
     }
     let mut budget = BUDGET;
     while let Some(piece) = heap.pop() {
@@ -104,14 +121,46 @@ pub fn farthest(
             return Farthest { lower: found, upper: piece.bound.max(found) + size * MIDPOINTS };
         }
         budget -= 1;
-        let parts = piece.along.and_then(|along| cut(piece.corners, along));
-        let halves = || bisect(piece.corners).to_vec();
-        for part in parts.map_or_else(halves, |parts| parts.to_vec()) {
-            let part = piece_of(part, &mut found);
+        for part in piece.parts() {
+            let part = Piece::new(part, &mut found, &mut nearest);
             heap.push(Piece { bound: part.bound.min(piece.bound), ..part });
         }
     }
     Farthest { lower: found, upper: found }
+}
+
+/// Whether no point of a triangle is farther than `most` from the surface that `nearest` knows, as far as `budget` pieces of it tell: false if they do
+/// not. `about` gives cheaper, wider bounds of a point's distance, which often suffice.
+pub fn is_within(
+    triangle: [DVec3; 3],
+    most: f64,
+    mut budget: usize,
+    mut about: impl FnMut(DVec3) -> [f64; 2],
+    mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
+) -> bool {
+    let size = triangle.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let most = most - size * MIDPOINTS;
+    let mut found = 0f64;
+    let mut open = vec![triangle];
+    while let Some(corners) = open.pop() {
+        let (centre, reach) = ball(&corners);
+        let [lower, upper] = about(centre);
+        if lower > most || budget == 0 {
+            return false;
+        }
+        budget -= 1;
+        if (upper + reach) * (1.0 + 1e-12) <= most {
+            continue;
+        }
+        let piece = Piece::new(corners, &mut found, &mut nearest);
+        if found > most {
+            return false;
+        }
+        if piece.bound > most {
+            open.extend(piece.parts());
+        }
+    }
+    true
 }
 
 /// Least found upper bound of the largest distance from a point of `triangles` (local frame) to the model's surface; local frame.

@@ -39,8 +39,11 @@ impl PartialEq for Candidate {
 }
 impl Eq for Candidate {}
 
-/// A collapse may turn faces more than a vertex move.
-const COLLAPSE: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.05), clearance: 0.0 };
+/// Weight of the second term of a collapse's program; a collapse may turn faces more than a vertex move.
+const PULL: f64 = 0.05;
+
+/// Those that are tried where the vertex would be out of reach: less volume counts less, and staying in the middle of the star more.
+const STRONGER_PULLS: [f64; 2] = [1.0, 100.0];
 
 impl Work<'_> {
     /// Collapses until at most `target` faces are left, or no collapse is legal or the time is up: then false.
@@ -92,11 +95,11 @@ impl Work<'_> {
     /// What an edge's collapse would cost; `None` if it is not legal.
     pub(super) fn evaluate(&mut self, a: u32, b: u32, time: u32) -> Option<Candidate> {
         let star = self.edge_star(a, b)?;
-        let key = Key::new(Question::Collapse, self.shape.max_valence, &star);
+        let key = Key::new(Question::Collapse, self.salt(), &star);
         let answer = match self.memo.get(key) {
             Some(answer) => answer,
             None => {
-                let placed = self.place_collapse(&star, a, b, CLEARANCES[0]);
+                let placed = self.place_collapse(&star, [a, b], CLEARANCES[0], PULL);
                 let answer = placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
                 self.memo.put(key, answer);
                 answer
@@ -123,12 +126,35 @@ impl Work<'_> {
         }
     }
 
-    fn place_collapse(&mut self, star: &[StarFace], a: u32, b: u32, steps: f64) -> Option<DVec3> {
+    fn place_collapse(
+        &mut self,
+        star: &[StarFace],
+        [a, b]: [u32; 2],
+        steps: f64,
+        second_term: f64,
+    ) -> Option<DVec3> {
         let centre = (self.shell.position(a) + self.shell.position(b)) * 0.5;
-        let wish = Wish { clearance: self.clearance(star, steps), upright: self.shape.upright, ..COLLAPSE };
+        let (clearance, upright) = (self.clearance(star, steps), self.shape.upright);
+        let wish = Wish { second_term, tilt: DVec3::ZERO, upright, clearance };
         let x = self.placer.place(self.obstacle, star, centre, &wish)?;
         let x = self.rounding.round(x)?;
         self.is_shapely(star, x).then_some(x)
+    }
+
+    /// A place for a collapse of which the new faces are in reach: `x`, or nearer to the middle.
+    fn in_reach(&mut self, star: &[StarFace], ends: [u32; 2], steps: f64, x: DVec3) -> Option<DVec3> {
+        if self.is_star_in_reach(star, x) {
+            return Some(x);
+        }
+        for pull in STRONGER_PULLS {
+            let nearer = self.place_collapse(star, ends, steps, pull);
+            if let Some(nearer) = nearer.filter(|&x| self.is_star_in_reach(star, x)) {
+                return Some(nearer);
+            }
+        }
+        // Far away now is far away whenever it is asked again.
+        self.memo.put(Key::new(Question::Collapse, self.salt(), star), None);
+        None
     }
 
     /// Collapses the edge at `position`, or where a greater clearance puts it; false if neither can be proved.
@@ -138,9 +164,14 @@ impl Work<'_> {
         let bases: Vec<_> = star.iter().map(|f| f.corners).collect();
         let mut proved = None;
         for steps in CLEARANCES {
-            let placed =
-                if steps == CLEARANCES[0] { Some(position) } else { self.place_collapse(&star, a, b, steps) };
-            let Some(x) = placed else { break };
+            let placed = if steps == CLEARANCES[0] {
+                Some(position)
+            } else {
+                self.place_collapse(&star, [a, b], steps, PULL)
+            };
+            let Some(x) = placed.and_then(|x| self.in_reach(&star, [a, b], steps, x)) else {
+                break;
+            };
             let new: Vec<_> = dead.iter().filter_map(|&f| self.shell.face_after(f, [a, b], x)).collect();
             if self.admits(&new, &dead, &bases, x) {
                 proved = Some(x);

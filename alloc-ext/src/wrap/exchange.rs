@@ -16,7 +16,7 @@ const HOPE: f64 = 0.5;
 
 impl Work<'_> {
     /// What splitting an edge would cost: less than nothing.
-    fn evaluate_split(&mut self, a: u32, b: u32) -> Option<Candidate> {
+    pub(super) fn evaluate_split(&mut self, a: u32, b: u32) -> Option<Candidate> {
         let wings = self.shell.mesh.wings(a, b)?;
         let [c, d] = wings.apexes;
         if [c, d].into_iter().any(|v| self.shell.mesh.at(v).len() >= self.shape.max_valence) {
@@ -30,7 +30,7 @@ impl Work<'_> {
             [[pc, pa], [pb, pc], [pd, pb], [pa, pd]]
                 .map(|ring| StarFace::new([middle, ring[0], ring[1]], Some(ring))),
         );
-        let key = Key::new(Question::Split, self.shape.max_valence, &star);
+        let key = Key::new(Question::Split, self.salt(), &star);
         let answer = match self.memo.get(key) {
             Some(answer) => answer,
             None => {
@@ -48,7 +48,7 @@ impl Work<'_> {
     }
 
     /// Splits an edge, if that can be proved; the new vertex.
-    fn split(&mut self, split: &Candidate) -> Option<u32> {
+    pub(super) fn split(&mut self, split: &Candidate) -> Option<u32> {
         let [a, b] = split.ends;
         let x = split.position;
         let wings = self.shell.mesh.wings(a, b)?;
@@ -58,7 +58,9 @@ impl Work<'_> {
         let new = [[v, c, a], [v, b, c], [v, d, b], [v, a, d]]
             .map(|ids| super::predicates::Face { ids, at: ids.map(at) });
         let bases = wings.triangles.map(|f| self.shell.triangle(f));
-        if !self.admits(&new, &wings.triangles, &bases, x) {
+        if !new.iter().all(|face| self.is_in_reach(&face.at))
+            || !self.admits(&new, &wings.triangles, &bases, x)
+        {
             return None;
         }
         self.shell.split(a, b, x)

@@ -92,8 +92,12 @@ impl Work<'_> {
         if !new.iter().all(upright) {
             return false;
         }
-        let key = Key::new(Question::Flip, self.shape.max_valence, &old.map(|t| StarFace::new(t, None)));
+        let key = Key::new(Question::Flip, self.salt(), &old.map(|t| StarFace::new(t, None)));
         if self.memo.get(key).is_some() {
+            return false;
+        }
+        if !new.iter().all(|f| self.is_in_reach(&f.at)) {
+            self.memo.put(key, None);
             return false;
         }
         self.is_in_its_own_way = false;

@@ -26,7 +26,7 @@ const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Key {
     /// `salt` is what else the answer depends on. Neither the order of the faces counts nor which of their corners is first.
-    pub fn new(question: Question, salt: usize, star: &[StarFace]) -> Self {
+    pub fn new(question: Question, salt: u64, star: &[StarFace]) -> Self {
         let corner = |p: DVec3| {
             let mix = |h: u64, x: f64| (h.rotate_left(23) ^ x.to_bits()).wrapping_mul(GOLDEN);
             let h = mix(mix(mix(GOLDEN, p.x), p.y), p.z);
@@ -40,7 +40,7 @@ impl Key {
             (cyclic ^ (cyclic >> 31)).wrapping_mul(GOLDEN)
         };
         let all = star.iter().map(face).fold(0u64, u64::wrapping_add);
-        let asked = (question as u64 | (salt as u64) << 8).wrapping_mul(GOLDEN);
+        let asked = (question as u64 ^ salt.wrapping_mul(GOLDEN)).wrapping_mul(GOLDEN);
         Self((all ^ asked).wrapping_mul(GOLDEN))
     }
 }

@@ -21,13 +21,13 @@ impl Work<'_> {
     pub fn settle(&mut self, v: u32) -> Option<f64> {
         let from = self.shell.position(v);
         self.take_star(v);
-        let key = Key::new(Question::Settle, self.shape.max_valence, &self.star);
+        let key = Key::new(Question::Settle, self.salt(), &self.star);
         if self.memo.get(key).is_some() {
             return None;
         }
         let radius = self.star_radius(from);
         self.is_in_its_own_way = false;
-        let gained = self.propose(v, &SETTLE, |gain| gain > GAIN * radius * radius * radius);
+        let gained = self.propose(v, from, &SETTLE, |gain| gain > GAIN * radius * radius * radius);
         if gained.is_none() && !self.is_in_its_own_way {
             self.memo.put(key, None);
         }
@@ -37,7 +37,13 @@ impl Work<'_> {
     /// Moves a vertex where `wish` wants it, whether the volume falls or not; the volume gained, which may be negative.
     pub fn disturb(&mut self, v: u32, wish: &Wish) -> Option<f64> {
         self.take_star(v);
-        self.propose(v, wish, |_| true)
+        self.propose(v, self.shell.position(v), wish, |_| true)
+    }
+
+    /// Moves a vertex as `wish` wants it, which is about `centre`; whether it did.
+    pub fn move_to(&mut self, v: u32, centre: DVec3, wish: &Wish) -> bool {
+        self.take_star(v);
+        self.propose(v, centre, wish, |_| true).is_some()
     }
 
     fn take_star(&mut self, v: u32) {
@@ -52,17 +58,16 @@ impl Work<'_> {
     }
 
     /// Places vertex `v` of the star at hand and proves it, if `wanted` likes what it gains.
-    fn propose(&mut self, v: u32, wish: &Wish, wanted: impl Fn(f64) -> bool) -> Option<f64> {
-        let from = self.shell.position(v);
+    fn propose(&mut self, v: u32, centre: DVec3, wish: &Wish, wanted: impl Fn(f64) -> bool) -> Option<f64> {
         let star = std::mem::take(&mut self.star);
         let mut outcome = None;
         for steps in CLEARANCES {
             let clearance = self.clearance(&star, steps);
             let wish = Wish { clearance, ..*wish };
-            let placed = self.placer.place(self.obstacle, &star, from, &wish);
+            let placed = self.placer.place(self.obstacle, &star, centre, &wish);
             let Some(x) = placed.and_then(|x| self.rounding.round(x)) else { break };
             let gain = -star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0;
-            if !wanted(gain) || !self.is_shapely(&star, x) {
+            if !wanted(gain) || !self.is_shapely(&star, x) || !self.is_star_in_reach(&star, x) {
                 break;
             }
             if self.admits_vertex(v, x) {

@@ -9,6 +9,7 @@
 //! encloses a part of itself, which is [dropped](Work::drop_swallowed) at the end of each stage.
 
 use super::boxes::Bounds;
+use super::field::Field;
 use super::memo::Memo;
 use super::obstacle::Obstacle;
 use super::placement::{Placer, StarFace};
@@ -57,6 +58,10 @@ pub(super) struct Work<'a> {
     pub memo: Memo,
     /// Parts that [`drop_swallowed`](Self::drop_swallowed) dropped.
     pub swallowed: usize,
+    /// Distance from the mesh that no point of a new face exceeds.
+    pub reach: f64,
+    /// What is known of distances.
+    pub field: Field,
     /// Where vertices may go.
     room: Bounds,
 }
@@ -84,6 +89,8 @@ impl<'a> Work<'a> {
             dead: Vec::new(),
             memo: Memo::default(),
             swallowed: 0,
+            reach: f64::INFINITY,
+            field: Field::new(f64::INFINITY),
             room: room(obstacle),
         }
     }
@@ -170,6 +177,11 @@ impl<'a> Work<'a> {
                 && compactness([x, a, b], length) >= least
                 && cross.dot(face.normal) >= self.shape.min_turn * length
         })
+    }
+
+    /// What answers about a star depend on beside it.
+    pub fn salt(&self) -> u64 {
+        self.shape.max_valence as u64 ^ self.reach.to_bits().rotate_left(16)
     }
 
     /// Distance to keep from planes so that rounding does not cross them: `steps` half-steps at the star.

@@ -1,0 +1,175 @@
+//! The fewest faces found for a void, and for a slack.
+//!
+//! For a void: down in stages as long as the hull has not more, then by halves. For a slack there is no number of faces to try: every move keeps
+//! within it, so that a hull comes down until no edge may collapse any more.
+
+use super::build::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
+use super::options::{Stop, WrapError};
+use super::rounding::Rounding;
+use super::slack::slack;
+use super::start::{First, first_box, first_closure, first_levels};
+use super::work::Work;
+
+/// Faces that a search for a void begins with.
+const FINEST: usize = 2000;
+
+/// Faces that a search for a slack begins with: what they leave too far from the mesh is split, and more would have to go again.
+const COARSEST: usize = 250;
+
+/// Times as many when those do not do.
+const FINER: usize = 4;
+
+/// Cubes of the first closure along what a slack leaves beyond the margin, and of the finest along the longest side.
+const CELLS: (f64, usize) = (2.0, 160);
+
+/// Fewest cubes along the longest side.
+const LEAST_CELLS: usize = 6;
+
+/// A search ends when the next step would save less than one face in this many.
+const NEAR_ENOUGH: usize = 25;
+
+/// Faces that no closed surface has.
+const TOO_FEW: usize = 3;
+
+impl<'a> Builder<'a, '_, '_> {
+    /// See [`Goal::Slack`](super::options::Goal::Slack).
+    pub fn least_faces_by_slack(&mut self, from: &From<'_>, most: f64) -> Result<Done<'a>, WrapError> {
+        let rounding = Rounding::new(from.around.grid, from.around.scale_exponent);
+        let mut best: Option<Done<'a>> = None;
+        if let Some(first) = first_box(self.obstacle, &rounding) {
+            let done = self.within(first, rounding, most);
+            better(&mut best, done);
+        }
+        let mut faces = COARSEST;
+        let mut cells = self.closure_cells(most);
+        let is_solid = self.volume.is_some() && self.round_cells().is_none();
+        let mut any_level = false;
+        while !self.is_late() {
+            let mut came = false;
+            if is_solid {
+                let (mesh, stored, deadline) = (from.mesh, from.stored, self.deadline);
+                let first =
+                    first_levels(mesh, stored, self.obstacle, &rounding, faces, deadline, self.on_progress);
+                if let Some(first) = first.plenty.or(first.wanted) {
+                    any_level = true;
+                    let done = self.within(first, rounding, most);
+                    came |= done.stop == Stop::Reached;
+                    better(&mut best, done);
+                }
+            }
+            if !any_level
+                && !self.is_late()
+                && let Some(first) =
+                    first_closure(from.around, self.obstacle, &rounding, cells, faces, self.on_progress)
+            {
+                let done = self.within(first, rounding, most);
+                came |= done.stop == Stop::Reached;
+                better(&mut best, done);
+            }
+            let finest = if any_level { faces >= from.mesh.triangles.len() } else { cells >= CELLS.1 };
+            if came || finest {
+                break;
+            }
+            faces = faces.saturating_mul(FINER);
+            cells = (2 * cells).min(CELLS.1);
+        }
+        if self.is_late()
+            && let Some(done) = &mut best
+        {
+            done.stop = Stop::OutOfTime;
+        }
+        best.ok_or_else(|| self.no_room())
+    }
+
+    fn closure_cells(&self, most: f64) -> usize {
+        let bounds = self.obstacle.bounds();
+        let margin = self.obstacle.margin();
+        let longest = (bounds.high - bounds.low).max_element() + 2.0 * margin;
+        ((CELLS.0 * longest / (most - margin)) as usize).clamp(LEAST_CELLS, CELLS.1)
+    }
+
+    /// The hull of a start that comes down within a slack, or one that is [`Stop::TooLoose`].
+    fn within(&mut self, first: First, rounding: Rounding, most: f64) -> Done<'a> {
+        let First { shell, start, filled } = first;
+        let mut work = Work::new(self.obstacle, shell, rounding, SHAPE);
+        work.deadline = self.deadline;
+        if !work.come_within(most) {
+            // What is large is also far: the least volume within what it has may let it come nearer.
+            work.stay_within(slack(&work.shell, self.obstacle).upper);
+            work.relax(self.floor(), 1e-2, 4);
+            if !work.come_within(most) {
+                work.drop_swallowed();
+                return Done { work, start, filled, stop: Stop::TooLoose };
+            }
+        }
+        work.relax(self.floor(), 1e-2, 4);
+        let mut faces = usize::MAX;
+        loop {
+            self.descend(&mut work, TOO_FEW + 1);
+            let now = work.shell.face_count();
+            let saved = faces - now;
+            faces = now;
+            if saved < (now / NEAR_ENOUGH).max(2) || work.is_late() {
+                return Done { work, start, filled, stop: Stop::Reached };
+            }
+            // Less volume leaves more room for what the next collapses add.
+            self.polish(&mut work, self.options.effort);
+        }
+    }
+
+    /// See [`Goal::Void`](super::options::Goal::Void).
+    pub fn least_faces_by_void(&mut self, from: &From<'_>, most: f64) -> Result<Done<'a>, WrapError> {
+        let mut faces = FINEST;
+        let mut done = self.begin(from, faces, false)?;
+        while !self.has_void(&done.work, most) && faces < from.mesh.triangles.len() && !done.work.is_late() {
+            faces = faces.saturating_mul(FINER);
+            done = self.begin(from, faces, false)?;
+        }
+        if !self.has_void(&done.work, most) {
+            self.polish(&mut done.work, self.options.effort);
+            if !self.has_void(&done.work, most) {
+                done.stop = if done.work.is_late() { Stop::OutOfTime } else { Stop::TooLoose };
+                return Ok(done);
+            }
+        }
+        let mut too_few = TOO_FEW;
+        loop {
+            let faces = done.work.shell.face_count();
+            let staged = (faces as f64 * STAGE) as usize;
+            let next = if staged > too_few { staged } else { usize::midpoint(faces, too_few) };
+            // A hull has an even number of faces.
+            let next = next & !1;
+            if next <= too_few || next >= faces || faces - next < (faces / NEAR_ENOUGH).max(2) {
+                done.stop = Stop::Reached;
+                return Ok(done);
+            }
+            let mut trial = Done { work: done.work.clone(), ..done };
+            trial.stop = self.descend(&mut trial.work, next);
+            if trial.stop == Stop::Reached && !self.has_void(&trial.work, most) {
+                self.polish(&mut trial.work, self.options.effort);
+            }
+            let mut found = trial.stop == Stop::Reached && self.has_void(&trial.work, most);
+            if !found && next <= FEW_FACES && !self.is_late() {
+                // With few faces the start decides.
+                let mut other = self.begin(from, next, true)?;
+                other.work.add_counts(&trial.work);
+                trial = other;
+                found = trial.stop == Stop::Reached && self.has_void(&trial.work, most);
+            }
+            if self.is_late() {
+                done.stop = Stop::OutOfTime;
+                return Ok(done);
+            }
+            if found {
+                done = trial;
+            } else {
+                done.work.take_counts(&trial.work);
+                too_few = next;
+            }
+        }
+    }
+
+    fn has_void(&self, work: &Work<'a>, most: f64) -> bool {
+        self.volume.is_some_and(|volume| work.shell.volume() <= volume * (1.0 + most))
+    }
+}
