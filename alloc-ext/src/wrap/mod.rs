@@ -25,6 +25,7 @@ mod boxes;
 mod build;
 mod cells;
 mod closure;
+mod connected;
 mod decimate;
 mod distance;
 mod exchange;
