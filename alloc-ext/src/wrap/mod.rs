@@ -31,6 +31,7 @@ mod distance;
 mod exchange;
 mod flip;
 mod memo;
+mod met;
 mod obstacle;
 mod options;
 mod parts;
