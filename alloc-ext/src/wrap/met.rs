@@ -78,7 +78,8 @@ mod tests {
 
     /// Unit cubes.
     fn grown(block: Block) -> Bounds {
-        let [from, to] = [0, 1].map(|end| DVec3::from(block.map(|range| (range[end] + end as i64) as f64)));
+        let [from, to] = [block.map(|[from, _]| from), block.map(|[_, to]| to + 1)]
+            .map(|corner| DVec3::from(corner.map(|x| x as f64)));
         Bounds { low: from - 1e-6, high: to + 1e-6 }
     }
 
