@@ -3,7 +3,8 @@
 mod cli_support;
 
 use cli_support::{
-    arg, blob, fixture, hull_blob, meshsweep, ok, random_queries, scratch, triangles, write_csv, write_raw,
+    Triangle, arg, blob, fixture, hull_blob, meshsweep, ok, random_queries, scratch, triangles, write_csv,
+    write_raw,
 };
 use std::fs;
 use std::io::Write;
@@ -105,7 +106,8 @@ fn batches_give_the_answers_of_single_queries() {
 #[test]
 fn every_command_s_help_has_examples_that_run() {
     let directory = scratch("examples");
-    fs::copy(fixture("bracket.stl"), directory.join("part.stl")).unwrap();
+    // Of few flat faces: its hulls are found at once.
+    write_stl(&directory.join("part.stl"), &triangles(&fixture("groove.obj")));
     fs::copy(fixture("torus.ply"), directory.join("scan.ply")).unwrap();
     let (points, segments) = ([[1f32, 2.0, 3.0]; 3], [[20f32, 10.0, 90.0, 20.0, 10.0, -90.0]; 3]);
     write_csv(&directory.join("points.csv"), &points);
@@ -134,6 +136,16 @@ fn every_command_s_help_has_examples_that_run() {
             assert!(!output.stdout.is_empty() || writes(example, &directory), "{example}");
         }
     }
+}
+
+fn write_stl(path: &Path, triangles: &[Triangle]) {
+    let mut text = String::from("solid part\n");
+    for corners in triangles {
+        text += "facet normal 0 0 0\nouter loop\n";
+        corners.iter().for_each(|[x, y, z]| text += &format!("vertex {x} {y} {z}\n"));
+        text += "endloop\nendfacet\n";
+    }
+    fs::write(path, text + "endsolid part\n").unwrap();
 }
 
 /// Whether the example wrote what it names.

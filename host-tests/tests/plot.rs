@@ -1,14 +1,18 @@
 //! Plots of a fixture's measures are SVG that a parser takes, and say all that they should.
 
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use meshsweep_host_tests::measure::plot::{Measured, svg};
+use meshsweep_host_tests::measure::table::Table;
 use meshsweep_host_tests::measure::{measure, measure_bounds};
 use roxmltree::Document;
 
 fn torus() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fixtures/torus.ply")
 }
+
+static BOUNDS: LazyLock<Vec<Table>> = LazyLock::new(|| measure_bounds(&torus(), None).expect("measured"));
 
 /// All texts, each within the figure; and no attribute that is no number where one was to be.
 fn texts(svg: &str) -> Vec<String> {
@@ -36,7 +40,7 @@ fn times(texts: &[String], wanted: &str) -> usize {
 
 #[test]
 fn every_bound_is_named_in_both_panels() {
-    let tables = measure_bounds(&torus(), None).expect("measured");
+    let tables = BOUNDS.clone();
     let texts = texts(&svg(&[Measured { mesh: "torus".to_owned(), tables }]).expect("plotted"));
     // Bounded anew about the hull's vertices and about its own, in two panels.
     for slabs in ["box", "14-DOP", "tribox", "20-DOP", "24-DOP", "26-DOP", "tribox rounded outward"] {
@@ -59,7 +63,7 @@ fn every_bound_is_named_in_both_panels() {
 #[test]
 fn bounds_miss_no_pair_that_meets_and_f32_verdicts_are_the_f64_ones() {
     // Of 2,000 verdicts a hair may decide one.
-    for table in measure_bounds(&torus(), None).expect("measured") {
+    for table in &*BOUNDS {
         for (column, most) in [("missed", 0), ("differ", 1)] {
             let Some(rows) = table.json()["rows"].as_array().cloned() else { panic!("no rows") };
             for row in rows.iter().filter(|row| row.get(column).is_some()) {

@@ -22,6 +22,9 @@ fn options(faces: usize) -> Options {
     Options { goal: Goal::Faces(faces), effort: 0.02, ..Options::default() }
 }
 
+/// So few that all ways to begin compete, which takes seconds where it is not what a test is about.
+const FEW: usize = 20;
+
 fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
     let hull = wrap(mesh, options, |_| {}).unwrap_or_else(|e| panic!("{name}: {e}"));
     prove(name, mesh, &hull);
@@ -108,8 +111,7 @@ fn hulls_of_closed_meshes_are_proved() {
         ("turned plate", turned(&plate())),
     ];
     for (name, of) in &meshes {
-        // With few faces all ways to begin compete, which takes longest.
-        let faces = if matches!(*name, "bracket" | "groove" | "two parts") { 20 } else { 150 };
+        let faces = if matches!(*name, "bracket" | "two parts") { FEW } else { 150 };
         let report = proved(name, &mesh_of(of), &options(faces)).report;
         assert!(report.faces <= faces && report.stop == Stop::Reached, "{name}: {report:?}");
         assert!(report.void.unwrap() > 0.0, "{name}: {report:?}");
@@ -146,40 +148,38 @@ fn hulls_are_no_looser_than_progressive_hulls_of_as_many_faces() {
 
 #[test]
 fn scale_and_place_do_not_matter() {
-    for factor in [1e-36, 1e-30, 1e30, 1e36] {
+    for (factor, faces) in [(1e-36, FEW), (1e-30, 70), (1e30, 70), (1e36, FEW)] {
         let mesh = mesh_of(&scaled(&rough_sphere(2, 0.3, 3), factor));
-        proved(&format!("times {factor:e}"), &mesh, &options(60));
+        proved(&format!("times {factor:e}"), &mesh, &options(faces));
     }
     for shift in [1e3, 1e6] {
         let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mesh = mesh_of(&transformed(&torus(1.0, 0.4, 20, 10), identity, [shift, -shift, shift]));
-        proved(&format!("moved by {shift:e}"), &mesh, &options(60));
+        proved(&format!("moved by {shift:e}"), &mesh, &options(70));
     }
 }
 
 #[test]
 fn triangles_of_any_kind_have_a_hull() {
-    for seed in 0..2 {
-        let mut rng = Rng::new(seed);
-        let mut positions = Vec::new();
-        for _ in 0..16 {
-            let at = rng.point_in([-1.0; 3], [1.0; 3]);
-            for _ in 0..3 {
-                let d = rng.point_in([-0.4; 3], [0.4; 3]);
-                positions.push([at[0] + d[0], at[1] + d[1], at[2] + d[2]]);
-            }
+    let mut rng = Rng::new(0);
+    let mut positions = Vec::new();
+    for _ in 0..16 {
+        let at = rng.point_in([-1.0; 3], [1.0; 3]);
+        for _ in 0..3 {
+            let d = rng.point_in([-0.4; 3], [0.4; 3]);
+            positions.push([at[0] + d[0], at[1] + d[1], at[2] + d[2]]);
         }
-        let triangles = (0..16).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-        let mesh = mesh_of(&(positions, triangles));
-        let hull = proved(&format!("soup {seed}"), &mesh, &options(100));
-        assert!(matches!(hull.report.start, Start::Closure { .. }), "{:?}", hull.report);
-        assert!(hull.report.void.is_none());
     }
+    let triangles = (0..16).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let mesh = mesh_of(&(positions, triangles));
+    let hull = proved("soup", &mesh, &options(100));
+    assert!(matches!(hull.report.start, Start::Closure { .. }), "{:?}", hull.report);
+    assert!(hull.report.void.is_none());
     let (positions, mut triangles) = torus(1.0, 0.3, 40, 20);
     triangles.truncate(1000);
     proved("open torus", &mesh_of(&(positions, triangles)), &options(100));
     let one = (vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
-    proved("one triangle", &mesh_of(&one), &options(20));
+    proved("one triangle", &mesh_of(&one), &options(FEW));
     let crossing = joined(&icosphere(3), &turned(&cube(5)));
     proved("crossing parts", &mesh_of(&crossing), &options(100));
 }
@@ -224,18 +224,24 @@ fn a_short_time_has_a_hull_and_says_so() {
 
 #[test]
 fn evil_meshes_have_a_hull_or_a_reason() {
+    let mut known: Vec<Mesh> = Vec::new();
     for case in evil() {
         let Ok((mesh, _)) = read_bytes(Path::new(case.name), case.bytes).and_then(repair) else { continue };
+        // Of what is only written in another way the hull is known.
+        if known.iter().any(|m| m.positions == mesh.positions && m.triangles == mesh.triangles) {
+            continue;
+        }
         match wrap(&mesh, &options(100), |_| {}) {
             Ok(hull) => prove(case.name, &mesh, &hull),
             Err(error) => assert_eq!(error, WrapError::NoRoom, "{}", case.name),
         }
+        known.push(mesh);
     }
 }
 
 #[test]
 fn the_same_mesh_gives_the_same_hull() {
-    let mesh = mesh_of(&rough_sphere(4, 0.3, 11));
+    let mesh = mesh_of(&rough_sphere(3, 0.3, 11));
     let once = wrap(&mesh, &options(80), |_| {}).unwrap();
     let again = wrap(&mesh, &options(80), |_| {}).unwrap();
     assert_eq!(once.mesh, again.mesh);
@@ -244,25 +250,25 @@ fn the_same_mesh_gives_the_same_hull() {
 
 #[test]
 fn effort_makes_hulls_tighter() {
-    let mesh = mesh_of(&rough_sphere(4, 0.3, 5));
+    let mesh = mesh_of(&rough_sphere(3, 0.3, 5));
     let void = |effort| proved("rough", &mesh, &Options { effort, ..options(80) }).report.void.unwrap();
-    let [none, some] = [0.0, 1.0].map(void);
+    let [none, some] = [0.0, 0.2].map(void);
     assert!(some < 0.97 * none, "{some} {none}");
 }
 
 #[test]
 fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
-    let mesh = mesh_of(&rough_sphere(3, 0.3, 9));
+    let mesh = mesh_of(&rough_sphere(2, 0.3, 9));
     let mut last = usize::MAX;
     for most in [0.05, 0.2, 0.8] {
-        let hull = proved("void", &mesh, &Options { goal: Goal::Void(most), ..options(0) });
+        let hull = proved("void", &mesh, &Options { goal: Goal::Void(most), effort: 0.0, ..options(0) });
         assert!(hull.report.void.unwrap() <= most && hull.report.stop == Stop::Reached, "{:?}", hull.report);
         assert!(hull.report.faces <= last);
         last = hull.report.faces;
     }
     last = usize::MAX;
     for most in [0.03, 0.1, 0.4] {
-        let hull = proved("slack", &mesh, &Options { goal: Goal::Slack(most), ..options(0) });
+        let hull = proved("slack", &mesh, &Options { goal: Goal::Slack(most), effort: 0.0, ..options(0) });
         assert!(hull.report.slack.upper <= most && hull.report.stop == Stop::Reached, "{:?}", hull.report);
         assert!(hull.report.faces <= last);
         last = hull.report.faces;
@@ -311,9 +317,8 @@ fn ball_in_a_pit(radius: f32, height: f32) -> Triangles {
 
 #[test]
 fn a_hull_that_comes_to_enclose_a_part_of_itself_drops_that_part() {
-    for (radius, height, faces) in [(0.15, -1.2, 24), (0.15, -1.2, 28), (0.1, -1.0, 24)] {
-        proved("a ball in a pit", &mesh_of(&ball_in_a_pit(radius, height)), &options(faces));
-    }
+    let report = proved("a ball in a pit", &mesh_of(&ball_in_a_pit(0.1, -1.0)), &options(24)).report;
+    assert!(report.filled > 0, "{report:?}");
 }
 
 #[test]

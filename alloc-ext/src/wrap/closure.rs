@@ -17,8 +17,10 @@
 //! Cubes have a power of two as edge and the grid passes through the origin, so that the middle of every edge is exact in single precision.
 
 use super::boxes::Bounds;
+use super::met::{Block, visit_met};
 use super::obstacle::Obstacle;
 use super::predicates::Triangle;
+use crate::precision::split_exponent;
 use glam::DVec3;
 use meshsweep_core::num::exp2;
 use rustc_hash::FxHashMap;
@@ -52,7 +54,8 @@ pub(super) fn closure(obstacle: &Obstacle, cells: usize) -> Option<Closure> {
     if !(extent > 0.0 && farthest.is_finite()) {
         return None;
     }
-    let mut exponent = (extent / cells as f64).log2().floor() as i32;
+    let (_, above) = split_exponent(extent / cells as f64);
+    let mut exponent = above - 1;
     // A quarter of the range to spare for the layers around.
     while farthest * 2.0 > exp2(exponent) * MOST * 0.75 || exponent < -148 {
         exponent += 1;
@@ -133,26 +136,27 @@ impl Grid {
         for triangle in triangles {
             let bounds = Bounds::of(triangle);
             // One cube more on either side: the test that follows is the one that counts.
-            let low = ((bounds.low / self.cell).floor().as_i64vec3() - 1).to_array();
-            let high = ((bounds.high / self.cell).floor().as_i64vec3() + 1).to_array();
-            let range = |axis: usize| {
-                let at = |x: i64| (x - self.first[axis]).max(0);
-                at(low[axis])..=at(high[axis]).min(self.corners[axis] - 2)
-            };
-            for k in range(2) {
-                for j in range(1) {
-                    for i in range(0) {
-                        if self.reaches(triangle, &bounds, [i, j, k]) {
-                            for corner in 0..8i64 {
-                                let at = [i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)];
-                                met[self.index(at)] = true;
-                            }
-                        }
-                    }
-                }
-            }
+            let [low, high] = [(bounds.low, -1), (bounds.high, 1)]
+                .map(|(p, more)| ((p / self.cell).floor().as_i64vec3() + more).to_array());
+            let at = |axis: usize, x: i64| (x - self.first[axis]).clamp(0, self.corners[axis] - 2);
+            let around = [0, 1, 2].map(|axis| [at(axis, low[axis]), at(axis, high[axis])]);
+            visit_met(
+                triangle,
+                around,
+                |block| self.grown(block),
+                |cube| {
+                    corners_of(cube).into_iter().for_each(|at| met[self.index(at)] = true);
+                },
+            );
         }
         met
+    }
+
+    /// The box of a block, a little larger.
+    fn grown(&self, block: Block) -> Bounds {
+        let middle = self.at(block.map(|[from, to]| from + to + 1));
+        let half = DVec3::from(block.map(|[from, to]| (to - from + 1) as f64)) * (self.cell * 0.5 * GROWN);
+        Bounds { low: middle - half, high: middle + half }
     }
 
     /// Distance from the mesh at which the surface is put to keep a margin: a ball of that radius loses to triangles with circles as large as a cube
@@ -183,22 +187,6 @@ impl Grid {
             }
         }
         near
-    }
-
-    /// Whether a triangle's box and its plane reach a cube that is a little larger: never false for one that it meets.
-    fn reaches(&self, triangle: &Triangle, bounds: &Bounds, cube: [i64; 3]) -> bool {
-        let middle = self.at(cube.map(|c| 2 * c + 1));
-        let half = self.cell * 0.5 * GROWN;
-        let of_cube = Bounds { low: middle - half, high: middle + half };
-        if !bounds.meets(&of_cube) {
-            return false;
-        }
-        let [a, b, c] = triangle.map(|p| p - middle);
-        let (ab, ac) = (b - a, c - a);
-        let normal = ab.cross(ac);
-        let reach = half * (normal.x.abs() + normal.y.abs() + normal.z.abs());
-        let slack = 64.0 * f64::EPSILON * ab.length() * ac.length() * (a.length() + half);
-        normal.dot(a).abs() <= reach + slack
     }
 
     /// A point, in half-cubes from the first corner.
@@ -252,8 +240,7 @@ impl Grid {
         for k in 0..nz - 1 {
             for j in 0..ny - 1 {
                 for i in 0..nx - 1 {
-                    let cube = [0i64, 1, 2, 3, 4, 5, 6, 7]
-                        .map(|c| self.index([i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)]));
+                    let cube = corners_of([i, j, k]).map(|at| self.index(at));
                     let count = cube.iter().filter(|&&c| inside[c]).count();
                     if count == 0 || count == 8 {
                         continue;
@@ -266,6 +253,11 @@ impl Grid {
         }
         (positions, triangles)
     }
+}
+
+/// Numbered by their bits: x, y, z.
+fn corners_of([i, j, k]: [i64; 3]) -> [[i64; 3]; 8] {
+    [0, 1, 2, 3, 4, 5, 6, 7].map(|c| [i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)])
 }
 
 /// Kuhn's six tetrahedra of a cube, by corners whose bits are x, y, z: from 0 to 7 along one axis after the other. All are positively oriented.

@@ -210,10 +210,10 @@ mod tests {
             (triangle([[-3.0, 1.0, -4.0], [9.0, 2.0, -4.0], [2.0, 9.0, -4.0]]), 4.0),
         ];
         for (other, distance) in others {
-            // Powers of two: corners stay numbers of f32, of which differences of boxes are exact.
             for scale in [2f64.powi(-100), 1.0, 2f64.powi(100)] {
                 let [s, t] = [flat, other].map(|t| t.map(|p| p * scale));
                 let at = distance * scale;
+                // `parts` allows `ROUNDING` of the triangles' size, which is a few times the distance.
                 assert!(parts(at * (1.0 - 1e-12), &s, &t), "{t:?}");
                 assert!(!parts(at, &s, &t) && !parts(at * (1.0 + 1e-14), &s, &t), "{t:?}");
                 assert!(Nearest::of(&s, &t).is_some_and(|n| (n.distance / at - 1.0).abs() < 1e-14));

@@ -2,6 +2,7 @@
 
 use super::boxes::{Bounds, BoxTree};
 use super::cells::{CellTree, Frontier};
+use super::connected::connected;
 use super::distance::Reach;
 use super::predicates::{Triangle, in_sunken, meet};
 use super::region::{Plane, Tetrahedron};
@@ -231,21 +232,8 @@ fn tree_of(points: &[DVec3]) -> (Vec<DVec3>, BoxTree) {
 
 /// The vertex with the least number of each part that is connected by shared vertices.
 fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
-    let mut parent: Vec<u32> = (0..positions.len() as u32).collect();
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
-    for &[a, b, c] in triangles {
-        for w in [b, c] {
-            let (p, q) = (root(&mut parent, a), root(&mut parent, w));
-            parent[p.max(q) as usize] = p.min(q);
-        }
-    }
+    let least = connected(positions.len(), triangles);
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
-    (0..positions.len()).filter(|&v| used[v] && parent[v] == v as u32).map(|v| positions[v]).collect()
+    (0..positions.len()).filter(|&v| used[v] && least[v] == v as u32).map(|v| positions[v]).collect()
 }

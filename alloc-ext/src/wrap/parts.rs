@@ -1,26 +1,22 @@
 //! The parts of a mesh that a hull of their own may have.
 
+use super::boxes::{Bounds, BoxTree};
+use super::connected::connected;
 use crate::mesh::{Enclosure, Mesh, require_closed_manifold};
+use glam::Vec3;
 use rustc_hash::FxHashMap;
 
 /// Splits a mesh into its connected parts, by shared vertices; what lies inside a closed part stays with it, as cavities do. In the order of their
 /// first triangles; `source` refers to what the mesh's refers to.
 ///
-/// Cost: linear, and for each pair of a part and a closed part whose boxes overlap one test of a point.
+/// Cost: n log n, and one test of a point for each part and each closed part whose box holds that point.
 #[must_use]
 pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
-    let mut parent: Vec<u32> = (0..mesh.positions.len() as u32).collect();
-    for &[a, b, c] in &mesh.triangles {
-        for v in [b, c] {
-            let (p, q) = (root(&mut parent, a), root(&mut parent, v));
-            parent[p.max(q) as usize] = p.min(q);
-        }
-    }
-    let roots: Vec<u32> = mesh.triangles.iter().map(|t| root(&mut parent, t[0])).collect();
+    let least = connected(mesh.positions.len(), &mesh.triangles);
     let mut number = vec![usize::MAX; mesh.positions.len()];
     let mut loose: Vec<Vec<usize>> = Vec::new();
-    for (triangle, &root) in roots.iter().enumerate() {
-        let part = &mut number[root as usize];
+    for (triangle, &[a, ..]) in mesh.triangles.iter().enumerate() {
+        let part = &mut number[least[a as usize] as usize];
         if *part == usize::MAX {
             *part = loose.len();
             loose.push(Vec::new());
@@ -30,25 +26,18 @@ pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
     if loose.len() < 2 {
         return vec![mesh.clone()];
     }
+    let mut select = Selection::of(mesh);
     let closed: Vec<(usize, Enclosure)> = loose
         .iter()
         .enumerate()
-        .filter(|(_, part)| bounds_a_volume(&select(mesh, part)))
+        .filter(|(_, part)| bounds_a_volume(&select.take(part)))
         .map(|(i, part)| (i, Enclosure::new(part.iter().filter_map(|&t| mesh.corners(t)).collect())))
         .collect();
+    let around = around(mesh, &loose, &closed);
     let mut grouped: Vec<Vec<usize>> = vec![Vec::new(); loose.len()];
     for (i, part) in loose.iter().enumerate() {
-        let witness = part.first().and_then(|&t| mesh.corners(t)).map(|[p, ..]| p);
-        let around: Vec<usize> = closed
-            .iter()
-            .filter(|(j, enclosure)| *j != i && witness.is_some_and(|p| enclosure.holds(p)))
-            .map(|(j, _)| *j)
-            .collect();
-        // The outermost of those around is around the fewest of the others' witnesses, and comes first among equals.
-        let home = around.iter().copied().min_by_key(|&j| {
-            let p = loose[j].first().and_then(|&t| mesh.corners(t)).map(|[p, ..]| p);
-            closed.iter().filter(|(k, e)| *k != j && p.is_some_and(|p| e.holds(p))).count()
-        });
+        // The outermost of those around has the fewest around itself, and comes first among equals.
+        let home = around[i].iter().copied().min_by_key(|&j| around[j].len());
         grouped[home.unwrap_or(i)].extend(part);
     }
     grouped
@@ -56,9 +45,38 @@ pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
         .filter(|part| !part.is_empty())
         .map(|mut part| {
             part.sort_unstable();
-            select(mesh, &part)
+            select.take(&part)
         })
         .collect()
+}
+
+/// For each part the closed ones that hold its first vertex, in order.
+fn around(mesh: &Mesh, loose: &[Vec<usize>], closed: &[(usize, Enclosure)]) -> Vec<Vec<usize>> {
+    let boxes: Vec<Bounds> = closed
+        .iter()
+        .map(|(_, e)| [e.low, e.high].map(|p| Vec3::from(p).as_dvec3()))
+        .map(|[low, high]| Bounds { low, high })
+        .collect();
+    let (tree, order) = BoxTree::new(&boxes);
+    let around = |(i, part): (usize, &Vec<usize>)| {
+        let mut found = Vec::new();
+        if let Some([witness, ..]) = part.first().and_then(|&t| mesh.corners(t)) {
+            let at = Bounds::of(&[Vec3::from(witness).as_dvec3()]);
+            tree.visit(
+                |of| of.meets(&at),
+                |item| {
+                    let (j, enclosure) = &closed[order[item] as usize];
+                    if *j != i && enclosure.holds(witness) {
+                        found.push(*j);
+                    }
+                    true
+                },
+            );
+        }
+        found.sort_unstable();
+        found
+    };
+    loose.iter().enumerate().map(around).collect()
 }
 
 /// A mesh and the further triangles, by their corners, that its hull has to enclose.
@@ -105,30 +123,36 @@ fn bounds_a_volume(part: &Mesh) -> bool {
     require_closed_manifold(part).is_ok() || require_closed_manifold(&turned).is_ok()
 }
 
-fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        parent[v as usize] = parent[parent[v as usize] as usize];
-        v = parent[v as usize];
-    }
-    v
+/// Takes parts out of a mesh in time that does not depend on how many there are.
+struct Selection<'a> {
+    mesh: &'a Mesh,
+    /// Per vertex of the mesh its number in the part that is being taken, and `u32::MAX` otherwise.
+    number: Vec<u32>,
 }
 
-/// Some triangles, and the vertices that they have.
-fn select(mesh: &Mesh, triangles: &[usize]) -> Mesh {
-    let mut number = vec![u32::MAX; mesh.positions.len()];
-    let mut part = Mesh { rounding: mesh.rounding, ..Mesh::default() };
-    for &t in triangles {
-        part.source.push(mesh.source[t]);
-        part.triangles.push(mesh.triangles[t].map(|v| {
-            let number = &mut number[v as usize];
-            if *number == u32::MAX {
-                *number = part.positions.len() as u32;
-                part.positions.push(mesh.positions[v as usize]);
-            }
-            *number
-        }));
+impl<'a> Selection<'a> {
+    fn of(mesh: &'a Mesh) -> Self {
+        Self { mesh, number: vec![u32::MAX; mesh.positions.len()] }
     }
-    part
+
+    /// Some triangles, and the vertices that they have.
+    fn take(&mut self, triangles: &[usize]) -> Mesh {
+        let Self { mesh, number } = self;
+        let mut part = Mesh { rounding: mesh.rounding, ..Mesh::default() };
+        for &t in triangles {
+            part.source.push(mesh.source[t]);
+            part.triangles.push(mesh.triangles[t].map(|v| {
+                let number = &mut number[v as usize];
+                if *number == u32::MAX {
+                    *number = part.positions.len() as u32;
+                    part.positions.push(mesh.positions[v as usize]);
+                }
+                *number
+            }));
+        }
+        triangles.iter().flat_map(|&t| mesh.triangles[t]).for_each(|v| number[v as usize] = u32::MAX);
+        part
+    }
 }
 
 #[cfg(test)]

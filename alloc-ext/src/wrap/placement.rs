@@ -108,13 +108,9 @@ impl Placer {
             // Vertices of the mesh are cheap to look for and find nearly every plane; edges are looked at once no vertex is in the way.
             let near = if reach.with(x) == reach { &near } else { &everywhere };
             let search = |edges: bool| Search { obstacle, near, edges };
-            let mut clear = [false, true].into_iter().all(|edges| {
-                if margin > 0.0 {
-                    self.cut_apart(star, &frame, x, wish.clearance, &search(edges))
-                } else {
-                    self.cut(star, &frame, x, wish.clearance, &search(edges))
-                }
-            });
+            let mut clear = [false, true]
+                .into_iter()
+                .all(|edges| self.cut(star, &frame, x, wish.clearance, &search(edges)));
             if margin > 0.0 && clear {
                 clear = self.push_apart(star, &frame, x, wish.clearance, &search(true));
             }
@@ -161,73 +157,24 @@ impl Placer {
         search: &Search<'_>,
     ) -> bool {
         let tolerance = LEVEL * frame.radius;
-        let clearance = clearance / frame.radius;
+        let margin = search.obstacle.margin();
         let mut clear = true;
         for (face, cut) in star.iter().zip(&mut self.cuts) {
-            if face.normal.dot(x - face.corners[0]) >= -tolerance {
-                continue;
-            }
-            let tetrahedron = Tetrahedron::new(&face.corners, x);
+            let rises = face.normal.dot(x - face.corners[0]) >= -tolerance;
             let found = match face.ring {
-                Some([a, b]) => {
-                    let edge = b - a;
-                    let least = 10.0 * tolerance * edge.length();
-                    let height = Cell::new(tolerance);
-                    let turned = |q: DVec3| {
-                        let normal = edge.cross(q - a);
-                        let length = normal.length();
-                        // The edge itself turns no plane about it.
-                        if length <= least {
-                            return None;
-                        }
-                        let normal = normal / length;
-                        let above = normal.dot(a - x);
-                        (above > height.get()).then(|| {
-                            height.set(above);
-                            Plane { normal, offset: normal.dot(a) }
-                        })
-                    };
-                    search.highest(&tetrahedron, turned).map(|plane| {
-                        let offset = plane.normal.dot(frame.local(a)) + clearance;
-                        HalfSpace { normal: plane.normal, offset }
-                    })
+                // A face that rises cuts nothing off, but may turn towards what it has to keep away from.
+                Some(ring) if margin > 0.0 => {
+                    let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+                    if search.edges { sweep.pieces(&search.near[1]) } else { sweep.points(&search.near[0]) }
                 }
-                None => raised(&tetrahedron, face, frame, x, clearance, search),
+                _ if rises => None,
+                Some(ring) => turned(face, ring, frame, x, clearance / frame.radius, search),
+                None => raised(face, frame, x, (margin + clearance) / frame.radius, search),
             };
             if found.is_some() {
                 *cut = found;
                 clear = false;
             }
-        }
-        clear
-    }
-
-    /// As [`cut`](Self::cut), where a margin is kept.
-    fn cut_apart(
-        &mut self,
-        star: &[StarFace],
-        frame: &Frame,
-        x: DVec3,
-        clearance: f64,
-        search: &Search<'_>,
-    ) -> bool {
-        let tolerance = LEVEL * frame.radius;
-        let margin = search.obstacle.margin();
-        let mut clear = true;
-        for (face, cut) in star.iter().zip(&mut self.cuts) {
-            let found = match face.ring {
-                Some(ring) => {
-                    let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
-                    if search.edges { sweep.pieces(&search.near[1]) } else { sweep.points(&search.near[0]) }
-                }
-                None if face.normal.dot(x - face.corners[0]) >= -tolerance => None,
-                None => {
-                    let tetrahedron = Tetrahedron::new(&face.corners, x);
-                    raised(&tetrahedron, face, frame, x, (margin + clearance) / frame.radius, search)
-                }
-            };
-            clear &= found.is_none();
-            *cut = found.or(*cut);
         }
         clear
     }
@@ -252,9 +199,41 @@ impl Placer {
     }
 }
 
+/// The plane about a ring edge that keeps the new face above the mesh below the old one; `clearance` in the frame's unit.
+fn turned(
+    face: &StarFace,
+    [a, b]: [DVec3; 2],
+    frame: &Frame,
+    x: DVec3,
+    clearance: f64,
+    search: &Search<'_>,
+) -> Option<HalfSpace> {
+    let edge = b - a;
+    let tolerance = LEVEL * frame.radius;
+    let least = 10.0 * tolerance * edge.length();
+    let height = Cell::new(tolerance);
+    let turned = |q: DVec3| {
+        let normal = edge.cross(q - a);
+        let length = normal.length();
+        // The edge itself turns no plane about it.
+        if length <= least {
+            return None;
+        }
+        let normal = normal / length;
+        let above = normal.dot(a - x);
+        (above > height.get()).then(|| {
+            height.set(above);
+            Plane { normal, offset: normal.dot(a) }
+        })
+    };
+    search.highest(&Tetrahedron::new(&face.corners, x), turned).map(|plane| {
+        let offset = plane.normal.dot(frame.local(a)) + clearance;
+        HalfSpace { normal: plane.normal, offset }
+    })
+}
+
 /// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` in the frame's unit.
 fn raised(
-    tetrahedron: &Tetrahedron,
     face: &StarFace,
     frame: &Frame,
     x: DVec3,
@@ -270,7 +249,7 @@ fn raised(
             Plane { normal: face.normal, offset }
         })
     };
-    search.highest(tetrahedron, raised).map(|plane| {
+    search.highest(&Tetrahedron::new(&face.corners, x), raised).map(|plane| {
         let normal = plane.normal;
         let offset = normal.dot(frame.local(x)) + height.get() / frame.radius + clearance;
         HalfSpace { normal, offset }

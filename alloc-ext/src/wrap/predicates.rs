@@ -54,7 +54,7 @@ fn same_strict_side([a, b, c]: [f64; 3]) -> bool {
     (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0)
 }
 
-/// Whether two closed triangles have a point in common. Either may have no area.
+/// Whether two closed triangles have a point in common. One of them may have no area.
 pub(super) fn meet(s: &Triangle, t: &Triangle) -> bool {
     let of_t = t.map(|p| side(s, p));
     if same_strict_side(of_t) {

@@ -3,7 +3,7 @@
 use super::{mesh, of, options};
 use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::precision::VertexBits;
-use meshsweep_alloc::tight::{ChainOptions, hull_mesh};
+use meshsweep_alloc::tight::{ChainOptions, HullReport, hull_mesh};
 use meshsweep_core::blob::TightHull;
 use meshsweep_core::query::tight::{closest_point, is_within};
 use meshsweep_core::query::tree::{TreeEntry, Verdict};
@@ -13,6 +13,7 @@ use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, groove_block, icosphere, rough_sphere, scaled, torus, transformed, two_parts,
 };
 use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
+use std::sync::LazyLock;
 
 /// Points everywhere: far, around, on the surface of mesh and hull, at corners of both, and within.
 fn points(of: &Mesh, hull: &Mesh, count: usize, rng: &mut Rng) -> Vec<[f32; 3]> {
@@ -91,7 +92,24 @@ fn check(name: &str, hull: &TightHull<'_>, truth: &Triangles, points: &[[f32; 3]
     [clear, near]
 }
 
-fn solids() -> Vec<(&'static str, Triangles)> {
+/// A shape, and a blob of its hulls of 64 and of 90 faces.
+struct Solid {
+    name: &'static str,
+    shape: Triangles,
+    bytes: Vec<u8>,
+    reports: Vec<HullReport>,
+}
+
+/// With vertices as they come: to build them takes most of the time of what asks them.
+static SOLIDS: LazyLock<Vec<Solid>> = LazyLock::new(|| {
+    let solid = |(name, shape): (&'static str, Triangles)| {
+        let (bytes, reports) = of(&mesh(&shape), 0.0, &options(&[64, 90]));
+        Solid { name, shape, bytes, reports }
+    };
+    shapes().into_iter().map(solid).collect()
+});
+
+fn shapes() -> Vec<(&'static str, Triangles)> {
     let mut open = rough_sphere(2, 0.4, 9);
     open.1.truncate(200);
     let shear = [[1.0, 0.5, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.3, 1.0]];
@@ -111,22 +129,25 @@ const IDENTITY: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.
 #[test]
 fn intervals_and_verdicts_hold_for_the_mesh_within() {
     let (mut clear, mut near) = (0, 0);
-    for (name, shape) in solids() {
-        let mesh = mesh(&shape);
-        for bits in [VertexBits::Auto, VertexBits::F32] {
-            let options = ChainOptions { vertex_bits: bits, ..options(&[64, 90]) };
-            let (bytes, _) = of(&mesh, 0.0, &options);
-            let hulls = TightHulls::open(&bytes).expect("opens");
-            for index in 0..hulls.count() {
-                let hull = hulls.get(index).expect("a hull");
-                let points = points(&mesh, &hull_mesh(&hull), 240, &mut Rng::new(7 + u64::from(index)));
-                let [no, yes] = check(name, &hull, &shape, &points, 0.0);
-                (clear, near) = (clear + no, near + yes);
-            }
+    let mut ask = |name: &str, shape: &Triangles, bytes: &[u8]| {
+        let hulls = TightHulls::open(bytes).expect("opens");
+        for index in 0..hulls.count() {
+            let hull = hulls.get(index).expect("a hull");
+            let points = points(&mesh(shape), &hull_mesh(&hull), 240, &mut Rng::new(7 + u64::from(index)));
+            let [no, yes] = check(name, &hull, shape, &points, 0.0);
+            (clear, near) = (clear + no, near + yes);
         }
+    };
+    for Solid { name, shape, bytes, .. } in &*SOLIDS {
+        ask(name, shape, bytes);
     }
-    // The hulls do tell: of 40,320 verdicts two in six can be no, and three yes.
-    assert!(clear > 5000 && near > 8000, "{clear} {near}");
+    // How vertices are stored has nothing to do with how a hull begins, which takes long where a mesh is open.
+    for (name, shape) in shapes().into_iter().filter(|(name, _)| !name.contains("open")) {
+        let options = ChainOptions { vertex_bits: VertexBits::F32, ..options(&[64]) };
+        ask(name, &shape, &of(&mesh(&shape), 0.0, &options).0);
+    }
+    // The hulls do tell: of 28,800 verdicts two in six can be no, and three yes.
+    assert!(clear > 3500 && near > 5700, "{clear} {near}");
 }
 
 #[test]
@@ -161,10 +182,8 @@ fn answers_hold_for_the_mesh_before_its_vertices_were_moved() {
 
 #[test]
 fn no_point_of_a_face_is_farther_from_the_mesh_than_the_face_says() {
-    for (name, shape) in solids() {
-        let mesh = mesh(&shape);
-        let (bytes, reports) = of(&mesh, 0.0, &options(&[64]));
-        let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
+    for Solid { name, shape, bytes, reports } in &*SOLIDS {
+        let hull = TightHulls::open(bytes).expect("opens").get(0).expect("a hull");
         let faces = hull_mesh(&hull);
         let rng = &mut Rng::new(2);
         let (mut most, mut said) = (0f64, 0f32);
@@ -272,7 +291,7 @@ fn a_tolerance_is_met_or_the_level_is_said_to_decide() {
 
 #[test]
 fn what_cannot_be_answered_is_refused() {
-    let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &options(&[20]));
+    let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &options(&[64]));
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
     let stack = &mut [TreeEntry::EMPTY; 64];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
@@ -284,7 +303,7 @@ fn what_cannot_be_answered_is_refused() {
     }
     assert_eq!(is_within(&hull, [0.0; 3], -1.0, &Stop::EXACT, stack), Err(QueryError::Tolerance));
     assert_eq!(closest_point(&hull, [0.0; 3], &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
-    let segments = ChainOptions { closest: false, ..options(&[20]) };
+    let segments = ChainOptions { closest: false, ..options(&[64]) };
     let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &segments);
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
     assert_eq!(closest_point(&hull, [0.0; 3], &Stop::EXACT, stack), Err(QueryError::NotServed));
