@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::time::Duration;
 
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair};
@@ -12,6 +13,7 @@ use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb, rough_sphere,
     scaled, torus, transformed, two_parts,
 };
+use meshsweep_host_tests::oracle::rough_distance_sq;
 
 fn mesh_of((positions, triangles): &Triangles) -> Mesh {
     repair(RawMesh::from_f32(positions, triangles)).expect("a mesh").0
@@ -216,7 +218,7 @@ fn triangles_without_area_are_enclosed_with_the_mesh() {
 fn a_short_time_has_a_hull_and_says_so() {
     let mesh = mesh_of(&rough_sphere(5, 0.3, 2));
     for micros in [0, 20_000] {
-        let limit = Some(std::time::Duration::from_micros(micros));
+        let limit = Some(Duration::from_micros(micros));
         let hull = proved("hurried", &mesh, &Options { time_limit: limit, effort: 1e6, ..options(200) });
         assert_eq!(hull.report.stop, Stop::OutOfTime);
     }
@@ -326,4 +328,83 @@ fn no_vertex_is_farther_from_the_mesh_than_the_mesh_is_large() {
     let hull = proved("a small ball over a pit", &mesh_of(&ball_in_a_pit(0.05, 0.5)), &options(32));
     // The longest side is 4, and a vertex may be beyond three of them at once.
     assert!(hull.report.slack.upper < 4.0 * 3f64.sqrt() * 1.1, "{:?}", hull.report.slack);
+}
+
+/// The largest of the distances to a mesh from points spread over a hull's faces, by brute force.
+fn farthest_of(hull: &Mesh, mesh: &Mesh) -> f64 {
+    let corners = |mesh: &Mesh| -> Vec<[[f32; 3]; 3]> {
+        mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize])).collect()
+    };
+    let mesh = corners(mesh);
+    let mut farthest_sq = 0f64;
+    for face in corners(hull) {
+        for (i, j) in (0..=STEPS).flat_map(|i| (0..=STEPS - i).map(move |j| (i, j))) {
+            let weights = [i, j, STEPS - i - j].map(|w| w as f32 / STEPS as f32);
+            let p = [0, 1, 2].map(|axis| (0..3).map(|k| weights[k] * face[k][axis]).sum::<f32>());
+            let nearest_sq = mesh.iter().map(|t| rough_distance_sq(p, *t)).fold(f64::INFINITY, f64::min);
+            farthest_sq = farthest_sq.max(nearest_sq);
+        }
+    }
+    // The points are rounded to single precision, next to a face.
+    farthest_sq.sqrt() * (1.0 - 1e-5)
+}
+
+/// Points along an edge.
+const STEPS: u32 = 6;
+
+#[test]
+fn within_a_slack_no_point_of_a_hull_is_farther_and_faces_are_fewer_than_by_number() {
+    let cases = [("turned bracket", turned(&bracket()), 120), ("rough sphere", rough_sphere(3, 0.2, 4), 150)];
+    for (name, triangles, faces) in cases {
+        let mesh = mesh_of(&triangles);
+        let by_number = proved(name, &mesh, &options(faces));
+        let most = by_number.report.slack.upper;
+        let by_slack = proved(name, &mesh, &Options { goal: Goal::Slack(most), ..options(0) });
+        assert_eq!(by_slack.report.stop, Stop::Reached, "{name}");
+        assert!(by_slack.report.slack.upper <= most, "{name}");
+        let found = farthest_of(&by_slack.mesh, &mesh);
+        assert!(found <= most, "{name}: {found} {most}");
+        // A hull that wastes no slack is near it somewhere.
+        assert!(found >= 0.5 * most, "{name}: {found} {most}");
+        let few = by_slack.report.faces;
+        assert!(few * 20 <= by_number.report.faces * 19, "{name}: {few} of {}", by_number.report.faces);
+    }
+}
+
+#[test]
+fn a_slack_beyond_a_margin_leaves_no_spikes() {
+    let mesh = mesh_of(&turned(&cube(1)));
+    let options = Options { goal: Goal::Slack(0.3), margin: 0.2, effort: 0.1, ..options(0) };
+    let hull = proved("a box with a margin", &mesh, &options);
+    assert_eq!(hull.report.stop, Stop::Reached);
+    let found = farthest_of(&hull.mesh, &mesh);
+    // Mitred corners would be 0.35 away: they have to be cut off, and with few faces.
+    assert!((0.2..=0.3).contains(&found), "{found}");
+    assert!(hull.report.faces <= 80, "{}", hull.report.faces);
+}
+
+#[test]
+fn a_slack_that_no_hull_can_keep_is_said_to_be_unmet() {
+    let mesh = mesh_of(&turned(&cube(1)));
+    let hull = proved("tiny slack", &mesh, &Options { goal: Goal::Slack(1e-12), effort: 0.0, ..options(0) });
+    assert_eq!(hull.report.stop, Stop::TooLoose);
+    assert!(hull.report.slack.upper > 1e-12);
+}
+
+#[test]
+fn no_slack_is_said_to_be_kept_before_it_is_proved() {
+    for triangles in [turned(&torus(1.0, 0.3, 20, 10)), turned(&cube(2))] {
+        for time in [0, 1, 20_000, 200_000] {
+            let mesh = mesh_of(&triangles);
+            let time_limit = Some(Duration::from_micros(time));
+            let options = Options { goal: Goal::Slack(1e-3), time_limit, effort: 0.0, ..options(0) };
+            let hull = proved("late", &mesh, &options);
+            let report = hull.report;
+            let is_kept = farthest_of(&hull.mesh, &mesh) <= 1e-3;
+            assert!(is_kept || report.slack.upper > 1e-3, "{time} {report:?}");
+            assert!(time > 1 || report.stop == Stop::OutOfTime, "{time} {report:?}");
+        }
+    }
+    let refused = wrap(&mesh_of(&cube(1)), &Options { goal: Goal::Slack(f64::NAN), ..options(0) }, |_| {});
+    assert_eq!(refused.unwrap_err(), WrapError::SlackWithinMargin);
 }

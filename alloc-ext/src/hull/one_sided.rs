@@ -15,8 +15,8 @@ use std::collections::BinaryHeap;
 /// The bound may exceed the true distance by this factor.
 const SLACK: f64 = 1.05;
 
-/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2^-51 of a coordinate: this for [`BUDGET`] cuts, one in another.
-const MIDPOINTS: f64 = 1.0 / (1u64 << 36) as f64;
+/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2^-50 of a coordinate: this for [`BUDGET`] cuts, one in another.
+const MIDPOINTS: f64 = 1.0 / (1u64 << 35) as f64;
 
 /// Enough to settle any mesh at hand; what is left over keeps its bound.
 const BUDGET: usize = 20_000;
@@ -145,7 +145,7 @@ pub fn is_within(
     while let Some(corners) = open.pop() {
         let (centre, reach) = ball(&corners);
         let [lower, upper] = about(centre);
-        if lower > most || budget == 0 {
+        if lower > most || most.is_nan() || budget == 0 {
             return false;
         }
         budget -= 1;
@@ -228,4 +228,37 @@ fn bisect([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 2] {
     };
     let middle = (p + q) * 0.5;
     [[p, middle, r], [middle, q, r]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SURFACE: [[[f64; 3]; 3]; 3] = [
+        [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
+        [[4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]],
+        [[4.0, 0.0, 0.0], [4.0, 0.0, 3.0], [4.0, 4.0, 0.0]],
+    ];
+
+    fn nearest(p: DVec3) -> Option<Nearest> {
+        let of = |t: [[f64; 3]; 3]| {
+            let [a, b, c] = t.map(DVec3::from);
+            (point_triangle(p, a, b, c), [a, b, c])
+        };
+        let (near, triangle) = SURFACE.map(of).into_iter().min_by(|a, b| a.0.upper.total_cmp(&b.0.upper))?;
+        Some(Nearest { lower: near.lower, upper: near.upper, triangle: Some(triangle) })
+    }
+
+    #[test]
+    fn a_triangle_is_within_what_its_farthest_point_is_and_no_less() {
+        let about = |p: DVec3| nearest(p).map_or([0.0, f64::INFINITY], |n| [n.lower - 0.1, n.upper + 0.1]);
+        for i in 0..500u32 {
+            let at = |k: u32| f64::from(i.wrapping_mul(k) % 997) / 997.0 * 6.0 - 1.0;
+            let corners = [[3, 17, 101], [5, 37, 211], [11, 71, 307]].map(|c| DVec3::from(c.map(at)));
+            let far = farthest(std::iter::once(corners), 0.0, nearest);
+            assert!(is_within(corners, far.upper * 1.01, 100_000, about, nearest), "{corners:?} {far:?}");
+            assert!(!is_within(corners, far.lower * 0.99, 100_000, about, nearest), "{corners:?} {far:?}");
+            assert!(!is_within(corners, far.upper * 1.01, 0, about, nearest));
+        }
+    }
 }

@@ -152,8 +152,10 @@ impl Work<'_> {
                 return Some(nearer);
             }
         }
-        // Far away now is far away whenever it is asked again.
-        self.memo.put(Key::new(Question::Collapse, self.salt(), star), None);
+        // Far away now is far away whenever it is asked again, which begins with the least clearance.
+        if steps == CLEARANCES[0] {
+            self.memo.put(Key::new(Question::Collapse, self.salt(), star), None);
+        }
         None
     }
 

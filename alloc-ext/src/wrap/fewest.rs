@@ -42,8 +42,13 @@ impl<'a> Builder<'a, '_, '_> {
         }
         let mut faces = COARSEST;
         let mut cells = self.closure_cells(most);
+        // A closure of more cubes takes eight times as long, and where two do not do it seldom does.
+        let finest = (2 * cells).min(CELLS.1);
         let is_solid = self.volume.is_some() && self.round_cells().is_none();
         let mut any_level = false;
+        // Moves keep some steps of the grid off the mesh: nothing comes nearer than one.
+        let size = self.obstacle.bounds().low.abs().max(self.obstacle.bounds().high.abs()).max_element();
+        let is_vain = most - self.obstacle.margin() <= rounding.half_step(size);
         while !self.is_late() {
             let mut came = false;
             if is_solid {
@@ -66,8 +71,8 @@ impl<'a> Builder<'a, '_, '_> {
                 came |= done.stop == Stop::Reached;
                 better(&mut best, done);
             }
-            let finest = if any_level { faces >= from.mesh.triangles.len() } else { cells >= CELLS.1 };
-            if came || finest {
+            let is_finest = if any_level { faces >= from.mesh.triangles.len() } else { cells >= finest };
+            if came || is_finest || is_vain {
                 break;
             }
             faces = faces.saturating_mul(FINER);
@@ -94,6 +99,10 @@ impl<'a> Builder<'a, '_, '_> {
         let mut work = Work::new(self.obstacle, shell, rounding, SHAPE);
         work.deadline = self.deadline;
         if !work.come_within(most) {
+            if work.is_late() {
+                work.drop_swallowed();
+                return Done { work, start, filled, stop: Stop::TooLoose };
+            }
             // What is large is also far: the least volume within what it has may let it come nearer.
             work.stay_within(slack(&work.shell, self.obstacle).upper);
             work.relax(self.floor(), 1e-2, 4);
@@ -107,7 +116,7 @@ impl<'a> Builder<'a, '_, '_> {
         loop {
             self.descend(&mut work, TOO_FEW + 1);
             let now = work.shell.face_count();
-            let saved = faces - now;
+            let saved = faces.saturating_sub(now);
             faces = now;
             if saved < (now / NEAR_ENOUGH).max(2) || work.is_late() {
                 return Done { work, start, filled, stop: Stop::Reached };

@@ -43,3 +43,26 @@ impl Field {
         [lower * (1.0 - ROUNDING) - away * (1.0 + ROUNDING), (upper + away) * (1.0 + ROUNDING)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_distance_is_about_holds_it_near_and_far() {
+        let corners = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [1.0, 4.0, 2.0]].map(DVec3::from);
+        let obstacle = Obstacle::new(&corners, &[[0, 1, 2]]);
+        for step in [1e-30, 1e-3, 0.25, 7.0, 1e30] {
+            let mut field = Field::new(step);
+            for i in 0..2000u32 {
+                // Points of a lattice that no step divides, up to where cells have no number.
+                let at = |k: u32| f64::from(i.wrapping_mul(k) % 1013) / 101.3 - 5.0;
+                let p = DVec3::new(at(7), at(131), at(577)) * if i % 3 == 0 { 1e6 } else { 1.0 };
+                let [lower, upper] = obstacle.nearest(p).map(|(_, bounds)| bounds).unwrap();
+                let about = field.about(&obstacle, p);
+                assert!(about[0] <= lower && upper <= about[1], "{p} {about:?} {lower} {upper} {step}");
+                assert!(step != 0.25 || i % 3 == 0 || about[1] - about[0] <= 2.0 * step, "{about:?}");
+            }
+        }
+    }
+}

@@ -50,7 +50,7 @@ pub fn wrap_all(
     if !(options.margin >= 0.0 && options.margin.is_finite()) {
         return Err(WrapError::BadMargin);
     }
-    if matches!(options.goal, Goal::Slack(most) if most <= options.margin) {
+    if matches!(options.goal, Goal::Slack(most) if most.is_nan() || most <= options.margin) {
         return Err(WrapError::SlackWithinMargin);
     }
     let positions: Vec<DVec3> =
@@ -98,7 +98,7 @@ pub fn wrap_all(
     if let Goal::Slack(most) = options.goal
         && work.reach <= most
     {
-        slack.upper = slack.upper.min(most);
+        slack.upper = slack.upper.min(most).max(slack.lower);
     }
     let report = Report {
         faces: triangles.len(),

@@ -22,7 +22,7 @@ pub(super) enum Question {
 pub(super) struct Key(u64);
 
 /// Odd, and its bits without pattern (the golden ratio's).
-const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+pub(super) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Key {
     /// `salt` is what else the answer depends on. Neither the order of the faces counts nor which of their corners is first.

@@ -34,6 +34,15 @@ const STEPS: f64 = 8.0;
 /// Least part by which a move brings the worst face nearer.
 const NEARER: f64 = 0.05;
 
+/// A hull is given up where fewer than one in this many of its far faces came nearer in a round.
+const HOPELESS: usize = 20;
+
+/// A hull is given up, too, where splits have made so many times as many faces, and these more.
+const SPLIT: usize = 2;
+
+/// See [`SPLIT`].
+const SPLIT_BESIDES: usize = 500;
+
 /// Pulls a vertex to a place, whatever volume that costs.
 const PULL: Wish = Wish { second_term: 1e3, tilt: DVec3::ZERO, upright: Some(0.01), clearance: 0.0 };
 
@@ -76,44 +85,73 @@ impl Work<'_> {
         }
     }
 
-    fn distance(&self, faces: &[u32]) -> f64 {
-        farthest(faces.iter().map(|&f| self.shell.triangle(f)), 0.0, |p| nearest(self.obstacle, p)).upper
+    /// Not below the largest distance of some faces from the mesh, as far as it is more than `enough`.
+    fn distance(&self, faces: &[u32], enough: f64) -> f64 {
+        let corners = faces.iter().map(|&f| self.shell.triangle(f));
+        farthest(corners, enough, |p| nearest(self.obstacle, p)).upper
     }
 
-    /// Brings every face within a distance of the mesh and keeps it there from then on; false, and the reach is as before, if some stay outside.
+    /// Brings every face within a distance of the mesh and keeps it there from then on; false, and the reach is as before, if some stay outside or
+    /// the time is up.
     pub fn come_within(&mut self, most: f64) -> bool {
         let before = self.reach;
         self.stay_within(most);
-        let mut done = true;
+        let is_done = self.bring_all_within(most);
+        self.reach = if is_done { most } else { before };
+        is_done
+    }
+
+    /// True only after each face was found to be within.
+    fn bring_all_within(&mut self, most: f64) -> bool {
         let mut faces: Vec<u32> = self.shell.alive().collect();
-        // Moves end, as each brings what it changes nearer by a part; faces that they make are looked at in the next round.
-        while !faces.is_empty() && !self.is_late() {
+        let mut is_all = true;
+        let too_many = SPLIT * faces.len() + SPLIT_BESIDES;
+        loop {
             self.reach = most;
             let mut far: Vec<(f64, u32)> = Vec::new();
             for &f in &faces {
-                if !self.is_in_reach(&self.shell.triangle(f)) {
-                    far.push((self.distance(&[f]), f));
+                if self.is_late() {
+                    return false;
                 }
+                if self.shell.mesh.is_alive(f) && !self.is_in_reach(&self.shell.triangle(f)) {
+                    far.push((self.distance(&[f], most), f));
+                }
+            }
+            if far.is_empty() {
+                if is_all {
+                    return true;
+                }
+                faces = self.shell.alive().collect();
+                is_all = true;
+                continue;
             }
             far.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            let mut moved = false;
+            // Moves end, as each brings what it changes nearer by a part.
+            let mut moved = 0;
+            let mut changed: Vec<u32> = Vec::new();
             for &(_, f) in &far {
-                if self.shell.mesh.is_alive(f) {
-                    moved |= self.bring_nearer(f, most);
+                if self.is_late() {
+                    return false;
+                }
+                changed.push(f);
+                if self.shell.mesh.is_alive(f)
+                    && let Some(faces) = self.bring_nearer(f, most)
+                {
+                    moved += 1;
+                    changed.extend(faces);
                 }
             }
-            done = far.is_empty();
-            if !moved {
-                break;
+            if moved * HOPELESS <= far.len() || self.shell.face_count() > too_many {
+                return false;
             }
-            faces = self.shell.alive().collect();
+            changed.sort_unstable();
+            changed.dedup();
+            (faces, is_all) = (changed, false);
         }
-        self.reach = if done { most } else { before };
-        done
     }
 
-    /// Tries the moves around a face until one brings what it changes nearer.
-    fn bring_nearer(&mut self, f: u32, most: f64) -> bool {
+    /// Tries the moves around a face until one brings what it changes nearer: the faces that it made.
+    fn bring_nearer(&mut self, f: u32, most: f64) -> Option<Vec<u32>> {
         let [a, b, c] = self.shell.mesh.corners[f as usize];
         // The farthest corner first.
         let mut corners = [a, b, c].map(|v| (self.height(v), v));
@@ -122,7 +160,7 @@ impl Work<'_> {
             let star = self.shell.mesh.at(v).to_vec();
             self.aim(&star, most);
             if self.pull(v) {
-                return true;
+                return Some(star);
             }
         }
         let edges = [[a, b], [b, c], [c, a]].map(|[u, v]| [u.min(v), u.max(v)]);
@@ -133,27 +171,27 @@ impl Work<'_> {
             if let Some(Candidate { position, .. }) = self.evaluate(u, v, 0)
                 && self.collapse(u, v, position)
             {
-                return true;
+                return Some(self.shell.mesh.at(u).to_vec());
             }
         }
         for [u, v] in edges {
             let Some(wings) = self.shell.mesh.wings(u, v) else { continue };
             self.aim(&wings.triangles, most);
             if self.flip(u, v) {
-                return true;
+                return Some(wings.triangles.to_vec());
             }
             if let Some(split) = self.evaluate_split(u, v)
-                && self.split(&split).is_some()
+                && let Some(new) = self.split(&split)
             {
-                return true;
+                return Some(self.shell.mesh.at(new).to_vec());
             }
         }
-        false
+        None
     }
 
     /// Sets the reach to what is an improvement for some faces.
     fn aim(&mut self, faces: &[u32], most: f64) {
-        self.reach = most.max(self.distance(faces) * (1.0 - NEARER));
+        self.reach = most.max(self.distance(faces, most) * (1.0 - NEARER));
     }
 
     fn height(&self, v: u32) -> f64 {

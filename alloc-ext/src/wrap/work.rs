@@ -10,7 +10,7 @@
 
 use super::boxes::Bounds;
 use super::field::Field;
-use super::memo::Memo;
+use super::memo::{GOLDEN, Memo};
 use super::obstacle::Obstacle;
 use super::placement::{Placer, StarFace};
 use super::predicates::{Face, Triangle, are_apart, is_degenerate};
@@ -181,7 +181,7 @@ impl<'a> Work<'a> {
 
     /// What answers about a star depend on beside it.
     pub fn salt(&self) -> u64 {
-        self.shape.max_valence as u64 ^ self.reach.to_bits().rotate_left(16)
+        (self.shape.max_valence as u64).wrapping_mul(GOLDEN) ^ self.reach.to_bits()
     }
 
     /// Distance to keep from planes so that rounding does not cross them: `steps` half-steps at the star.

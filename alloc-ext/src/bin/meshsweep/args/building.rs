@@ -227,10 +227,10 @@ pub struct HullArgs {
     /// Most faces of the hull of a mesh [default: 200]
     #[arg(long, allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
     pub faces: Option<u32>,
-    /// Fewest faces that leave at most this void space, in percent of the mesh's volume
+    /// Fewest faces found that leave at most this void space, in percent of the mesh's volume
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "progressive"])]
     pub void: Option<f64>,
-    /// Fewest faces of which no point is farther than this from the mesh, in its unit
+    /// Fewest faces found of which no point is farther than this from the mesh, in its unit
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "progressive"])]
     pub slack: Option<f64>,
     /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are inside [default: 0]
