@@ -54,8 +54,13 @@ struct How {
     wanted: usize,
     /// Whether it comes down to the wanted faces, or only up to them.
     descends: bool,
-    /// Whether it is polished at once: with few faces that decides between starts.
-    polishes: bool,
+}
+
+impl How {
+    /// So few faces that all starts compete, each polished at once: that decides between them.
+    fn is_few(&self) -> bool {
+        self.descends && self.wanted <= FEW_FACES
+    }
 }
 
 /// A hull with the wanted number of faces, or as few as can be.
@@ -146,8 +151,8 @@ impl<'a> Builder<'a, '_, '_> {
         descends: bool,
     ) -> Result<Done<'a>, WrapError> {
         let rounding = Rounding::new(around.grid, around.scale_exponent);
-        let is_few = descends && wanted <= FEW_FACES;
-        let how = How { rounding, wanted, descends, polishes: is_few };
+        let how = How { rounding, wanted, descends };
+        let is_few = how.is_few();
         let mut best: Option<Done<'a>> = None;
         let round = self.round_cells();
         if self.volume.is_some() && round.is_none() {
@@ -216,7 +221,7 @@ impl<'a> Builder<'a, '_, '_> {
         work.refine(how.wanted);
         work.relax(self.floor(), 1e-2, 4);
         let mut done = Done { work, start, filled, stop };
-        if how.polishes && stop == Stop::Reached {
+        if how.is_few() && stop == Stop::Reached {
             self.finish(&mut done);
         }
         done

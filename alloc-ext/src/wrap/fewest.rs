@@ -6,7 +6,6 @@
 use super::build::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
 use super::options::{Stop, WrapError};
 use super::rounding::Rounding;
-use super::slack::slack;
 use super::start::{First, first_box, first_closure, first_levels};
 use super::work::Work;
 
@@ -47,28 +46,26 @@ impl<'a> Builder<'a, '_, '_> {
         let is_solid = self.volume.is_some() && self.round_cells().is_none();
         let mut any_level = false;
         // Moves keep some steps of the grid off the mesh: nothing comes nearer than one.
-        let size = self.obstacle.bounds().low.abs().max(self.obstacle.bounds().high.abs()).max_element();
+        let bounds = self.obstacle.bounds();
+        let size = bounds.low.abs().max(bounds.high.abs()).max_element();
         let is_vain = most - self.obstacle.margin() <= rounding.half_step(size);
         while !self.is_late() {
-            let mut came = false;
+            let mut first = None;
             if is_solid {
                 let (mesh, stored, deadline) = (from.mesh, from.stored, self.deadline);
-                let first =
+                let levels =
                     first_levels(mesh, stored, self.obstacle, &rounding, faces, deadline, self.on_progress);
-                if let Some(first) = first.plenty.or(first.wanted) {
-                    any_level = true;
-                    let done = self.within(first, rounding, most);
-                    came |= done.stop == Stop::Reached;
-                    better(&mut best, done);
-                }
+                first = levels.plenty.or(levels.wanted);
+                any_level |= first.is_some();
             }
-            if !any_level
-                && !self.is_late()
-                && let Some(first) =
-                    first_closure(from.around, self.obstacle, &rounding, cells, faces, self.on_progress)
-            {
+            if !any_level && !self.is_late() {
+                let around = from.around;
+                first = first_closure(around, self.obstacle, &rounding, cells, faces, self.on_progress);
+            }
+            let mut came = false;
+            if let Some(first) = first {
                 let done = self.within(first, rounding, most);
-                came |= done.stop == Stop::Reached;
+                came = done.stop == Stop::Reached;
                 better(&mut best, done);
             }
             let is_finest = if any_level { faces >= from.mesh.triangles.len() } else { cells >= finest };
@@ -98,18 +95,16 @@ impl<'a> Builder<'a, '_, '_> {
         let First { shell, start, filled } = first;
         let mut work = Work::new(self.obstacle, shell, rounding, SHAPE);
         work.deadline = self.deadline;
-        if !work.come_within(most) {
-            if work.is_late() {
-                work.drop_swallowed();
-                return Done { work, start, filled, stop: Stop::TooLoose };
-            }
+        let mut came = work.come_within(most);
+        if !came && !work.is_late() {
             // What is large is also far: the least volume within what it has may let it come nearer.
-            work.stay_within(slack(&work.shell, self.obstacle).upper);
+            work.stay_within(work.slack());
             work.relax(self.floor(), 1e-2, 4);
-            if !work.come_within(most) {
-                work.drop_swallowed();
-                return Done { work, start, filled, stop: Stop::TooLoose };
-            }
+            came = work.come_within(most);
+        }
+        if !came {
+            work.drop_swallowed();
+            return Done { work, start, filled, stop: Stop::TooLoose };
         }
         work.relax(self.floor(), 1e-2, 4);
         let mut faces = usize::MAX;
