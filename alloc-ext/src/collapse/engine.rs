@@ -5,11 +5,10 @@
 //! evaluation is eager, as in the paper. `core/DESIGN.md` has the measurements.
 
 use super::history::{Collapse, History};
-use super::placement::{Facet, Placement, Refusal, StarFace, place};
+use super::placement::{Placement, Refusal};
 use super::queue::{Candidate, Queue};
-use super::star::Connectivity;
+use super::surface::Surface;
 use super::{Conditions, Priority};
-use crate::lp::HalfSpace;
 use crate::precision::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -50,9 +49,7 @@ enum EdgeState {
 
 /// A mesh being collapsed.
 pub struct Engine {
-    mesh: Connectivity,
-    positions: Vec<DVec3>,
-    facets: Vec<Facet>,
+    surface: Surface,
     /// Label of the vertex that now sits in each slot.
     labels: Vec<u32>,
     /// Instance of the triangle that now sits in each slot.
@@ -62,16 +59,9 @@ pub struct Engine {
     now: u32,
     queue: Queue,
     edges: FxHashMap<[u32; 2], EdgeState>,
-    /// Star of the edge at hand, and its program: kept to save allocations.
-    star: Vec<u32>,
-    faces: Vec<StarFace>,
-    planes: Vec<HalfSpace>,
     around: Vec<[u32; 2]>,
     history: History,
-    conditions: Conditions,
     priority: Priority,
-    grid: Grid,
-    programs: u64,
 }
 
 impl Engine {
@@ -83,21 +73,14 @@ impl Engine {
         priority: Priority,
         grid: Grid,
     ) -> Self {
-        let mesh = Connectivity::new(positions.len(), triangles);
-        let facets = triangles.iter().map(|t| Facet::of(t.map(|v| positions[v as usize]))).collect();
         let mut engine = Engine {
-            mesh,
-            positions: positions.to_vec(),
-            facets,
+            surface: Surface::new(positions.to_vec(), triangles, conditions, grid),
             labels: (0..positions.len() as u32).collect(),
             instances: (0..triangles.len() as u32).collect(),
             changed: vec![0; positions.len()],
             now: 1,
             queue: Queue::new(),
             edges: FxHashMap::default(),
-            star: Vec::new(),
-            faces: Vec::new(),
-            planes: Vec::new(),
             around: Vec::new(),
             history: History {
                 positions: positions.to_vec(),
@@ -105,10 +88,7 @@ impl Engine {
                 original_triangles: triangles.to_vec(),
                 ..History::default()
             },
-            conditions,
             priority,
-            grid,
-            programs: 0,
         };
         engine.edges.reserve(triangles.len() * 3 / 2);
         for &[a, b, c] in triangles {
@@ -124,9 +104,9 @@ impl Engine {
     /// Where the loop stands.
     pub fn progress(&self) -> Progress {
         Progress {
-            faces: self.mesh.alive_count(),
+            faces: self.surface.mesh.alive_count(),
             collapses: self.history.collapses.len(),
-            programs: self.programs,
+            programs: self.surface.programs,
         }
     }
 
@@ -142,13 +122,13 @@ impl Engine {
 
     /// Faces now, corners as labels of [`History`].
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let alive = (0..self.mesh.corners.len() as u32).filter(|&t| self.mesh.is_alive(t));
-        alive.map(|t| self.mesh.corners[t as usize].map(|v| self.labels[v as usize]))
+        let alive = (0..self.surface.mesh.corners.len() as u32).filter(|&t| self.surface.mesh.is_alive(t));
+        alive.map(|t| self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]))
     }
 
     /// Collapses until at most `target` faces are left, `Some` if no legal collapse gets there.
     pub fn run(&mut self, target: usize, mut on_progress: impl FnMut(Progress)) -> Option<Stuck> {
-        while self.mesh.alive_count() > target {
+        while self.surface.mesh.alive_count() > target {
             if !self.step() {
                 return Some(self.why_stuck());
             }
@@ -162,9 +142,9 @@ impl Engine {
 
     /// Ends the loop: labels and instances of what is left go into the history.
     pub fn finish(mut self) -> History {
-        for t in 0..self.mesh.corners.len() as u32 {
-            if self.mesh.is_alive(t) {
-                let corners = self.mesh.corners[t as usize].map(|v| self.labels[v as usize]);
+        for t in 0..self.surface.mesh.corners.len() as u32 {
+            if self.surface.mesh.is_alive(t) {
+                let corners = self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]);
                 self.history.base.push(corners);
                 self.history.base_instances.push(self.instances[t as usize]);
             }
@@ -191,45 +171,14 @@ impl Engine {
         false
     }
 
-    /// Gathers the star of an edge and what placement needs; `false` if the edge may not collapse.
-    #[inline]
-    fn gather(&mut self, [a, b]: [u32; 2]) -> bool {
-        if !self.mesh.collapsible_star(a, b, self.conditions.max_valence, &mut self.star) {
-            return false;
-        }
-        self.faces.clear();
-        for &t in &self.star {
-            let corners = self.mesh.corners[t as usize];
-            let [p, q, r] = corners.map(|v| v == a || v == b);
-            let moving = match (p, q, r) {
-                (true, false, false) => Some(0),
-                (false, true, false) => Some(1),
-                (false, false, true) => Some(2),
-                _ => None,
-            };
-            self.faces.push(StarFace {
-                corners: corners.map(|v| self.positions[v as usize]),
-                facet: self.facets[t as usize],
-                moving,
-            });
-        }
-        true
-    }
-
-    fn place(&mut self, [a, b]: [u32; 2], exact: bool) -> Result<Placement, Refusal> {
-        self.programs += 1;
-        let middle = (self.positions[a as usize] + self.positions[b as usize]) * 0.5;
-        place(&self.faces, middle, &self.conditions, &self.grid, exact, &mut self.planes)
-    }
-
     /// Queues an edge by its cost now. A refused edge is remembered and comes back when something near it changes.
     fn evaluate(&mut self, ends: [u32; 2]) {
-        let cost = if !self.gather(ends) {
+        let cost = if !self.surface.gather(ends) {
             Err(Refusal::NoVertex)
         } else if self.priority == Priority::Span {
-            Ok(span(&self.faces))
+            Ok(self.surface.span(ends))
         } else {
-            self.place(ends, false).map(|placement| placement.volume)
+            self.surface.place(ends, false).map(|placement| placement.volume)
         };
         match cost {
             Ok(cost) => self.enqueue(cost, ends, self.now),
@@ -257,7 +206,8 @@ impl Engine {
     /// at once, and keeps the worst of them from the last few hundred faces.
     fn collapse(&mut self, candidate: &Candidate) -> bool {
         let ends = candidate.ends;
-        let placed = if self.gather(ends) { self.place(ends, true) } else { Err(Refusal::NoVertex) };
+        let placed =
+            if self.surface.gather(ends) { self.surface.place(ends, true) } else { Err(Refusal::NoVertex) };
         match placed {
             Err(refusal) => {
                 self.refuse(ends, refusal);
@@ -274,8 +224,8 @@ impl Engine {
     }
 
     fn apply(&mut self, [a, b]: [u32; 2], placement: Placement) -> bool {
-        let Some(ring) = self.mesh.ring(a, b) else { return false };
-        let wings = (self.mesh.leaving(b, a), self.mesh.leaving(a, b));
+        let Some(ring) = self.surface.mesh.ring(a, b) else { return false };
+        let wings = (self.surface.mesh.leaving(b, a), self.surface.mesh.leaving(a, b));
         let (Some(right_wing), Some(left_wing)) = wings else { return false };
         let index = self.history.collapses.len();
         let vertex = self.history.positions.len() as u32;
@@ -296,17 +246,15 @@ impl Engine {
         self.history.added_volume.push(placement.volume / 6.0);
 
         self.now += 1;
-        for v in self.mesh.neighbours(b) {
+        for v in self.surface.mesh.neighbours(b) {
             self.edges.remove(&[b.min(v), b.max(v)]);
         }
-        self.mesh.collapse(a, b);
-        self.positions[a as usize] = placement.position;
+        self.surface.mesh.collapse(a, b);
+        self.surface.move_vertex(a, placement.position);
         self.labels[a as usize] = vertex;
         let first = self.history.first_coarse(index);
         for (i, &t) in ring.triangles.iter().enumerate() {
             self.instances[t as usize] = first + i as u32;
-            let corners = self.mesh.corners[t as usize];
-            self.facets[t as usize] = Facet::of(corners.map(|v| self.positions[v as usize]));
         }
         self.changed[a as usize] = self.now;
         for &v in &ring.vertices {
@@ -322,11 +270,13 @@ impl Engine {
         for &v in ring {
             self.evaluate([vertex.min(v), vertex.max(v)]);
         }
-        let eager = self.mesh.alive_count() <= EAGER_BELOW;
+        let eager = self.surface.mesh.alive_count() <= EAGER_BELOW;
         let mut around = std::mem::take(&mut self.around);
         around.clear();
         for &v in ring {
-            around.extend(self.mesh.neighbours(v).filter(|&w| w != vertex).map(|w| [v.min(w), v.max(w)]));
+            around.extend(
+                self.surface.mesh.neighbours(v).filter(|&w| w != vertex).map(|w| [v.min(w), v.max(w)]),
+            );
         }
         if eager {
             around.sort_unstable();
@@ -345,20 +295,20 @@ impl Engine {
     /// Tries every edge once more to say what is in the way.
     fn why_stuck(&mut self) -> Stuck {
         let mut stuck = Stuck::default();
-        for t in 0..self.mesh.corners.len() as u32 {
-            if !self.mesh.is_alive(t) {
+        for t in 0..self.surface.mesh.corners.len() as u32 {
+            if !self.surface.mesh.is_alive(t) {
                 continue;
             }
-            let [a, b, c] = self.mesh.corners[t as usize];
+            let [a, b, c] = self.surface.mesh.corners[t as usize];
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 if from > to {
                     continue;
                 }
-                if !self.gather([from, to]) {
+                if !self.surface.gather([from, to]) {
                     stuck.topology += 1;
                     continue;
                 }
-                match self.place([from, to], true) {
+                match self.surface.place([from, to], true) {
                     Err(Refusal::Condition(_)) => stuck.shape += 1,
                     Err(Refusal::NoVertex) | Ok(_) => stuck.no_vertex += 1,
                 }
@@ -366,20 +316,4 @@ impl Engine {
         }
         stuck
     }
-}
-
-/// The second priority: unsigned volumes of the tetrahedra between the star's faces and the centre of its link.
-fn span(faces: &[StarFace]) -> f64 {
-    let mut centre = DVec3::ZERO;
-    let mut count = 0.0;
-    for face in faces {
-        if let Some(moving) = face.moving {
-            // Each link vertex starts exactly one ring edge.
-            centre += face.corners[(moving + 1) % 3];
-            count += 1.0;
-        }
-    }
-    centre /= count;
-    let volume = |f: &StarFace| (f.facet.normal.dot(centre - f.corners[0]) * f.facet.double_area).abs();
-    faces.iter().map(volume).sum::<f64>() / 6.0
 }

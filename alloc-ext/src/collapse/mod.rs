@@ -8,10 +8,13 @@ mod history;
 mod placement;
 mod queue;
 mod star;
+mod surface;
+mod thin;
 
 pub use engine::{Engine, Progress, Stuck};
 pub use history::{Collapse, History, VertexOrder};
 pub use star::{Connectivity, MAX_STAR, Wings};
+pub use thin::thin;
 
 /// How candidate edges are ordered (paper 000, 3.1.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,13 +40,18 @@ pub struct Conditions {
     pub second_term: f64,
 }
 
+impl Conditions {
+    /// The defaults.
+    pub const PAPER: Self = Self {
+        max_valence: 12,
+        compactness_ratio: 0.8,
+        min_normal_cosine: core::f64::consts::FRAC_1_SQRT_2,
+        second_term: 1e-3,
+    };
+}
+
 impl Default for Conditions {
     fn default() -> Self {
-        Conditions {
-            max_valence: 12,
-            compactness_ratio: 0.8,
-            min_normal_cosine: core::f64::consts::FRAC_1_SQRT_2,
-            second_term: 1e-3,
-        }
+        Self::PAPER
     }
 }

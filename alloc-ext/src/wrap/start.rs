@@ -12,7 +12,7 @@ use super::placement::StarFace;
 use super::predicates::{are_apart, is_degenerate, side};
 use super::rounding::Rounding;
 use super::shell::Shell;
-use crate::collapse::{self, Conditions, Engine, MAX_STAR, Priority};
+use crate::collapse::{Conditions, Engine, MAX_STAR, Priority, thin};
 use crate::lp::{HalfSpace, minimise_bounded};
 use crate::mesh::{Enclosure, Mesh};
 use crate::precision::Stored;
@@ -59,18 +59,25 @@ pub(super) fn first_levels(
     deadline: Option<Instant>,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Levels {
-    let mut levels =
-        levels(&stored.positions, &mesh.triangles, stored, wanted, deadline, on_progress).unwrap_or_default();
-    let mut first = |level: Option<i32>| {
-        let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
-        let mut shell = Shell::new(positions, &triangles);
-        let faces = shell.face_count();
-        lift(&mut shell, rounding, obstacle.margin());
-        let (shell, filled) = keep_outermost(shell);
-        let start = Start::Progressive { faces };
-        defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+    let conditions = Conditions::PAPER;
+    let from = Surface { positions: &stored.positions, triangles: &mesh.triangles, stored, conditions };
+    let mut hulls = |thins| {
+        let mut levels = from.levels(wanted, thins, deadline, on_progress).unwrap_or_default();
+        let mut first = |level: Option<i32>| {
+            let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
+            let mut shell = Shell::new(positions, &triangles);
+            let faces = shell.face_count();
+            lift(&mut shell, rounding, obstacle.margin());
+            let (shell, filled) = keep_outermost(shell);
+            let start = Start::Progressive { faces };
+            defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+        };
+        let tried = if thins { &LEVELS[..1] } else { &LEVELS };
+        Levels { wanted: first(None), plenty: tried.iter().find_map(|&level| first(Some(level))) }
     };
-    Levels { wanted: first(None), plenty: LEVELS.into_iter().find_map(|level| first(Some(level))) }
+    // Collapses in rounds may make the surface grow into itself where those in order do not.
+    let thinned = if from.is_thinned(wanted) { hulls(true) } else { Levels::default() };
+    if thinned.plenty.is_some() { thinned } else { hulls(false) }
 }
 
 /// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's levels that does not meet itself.
@@ -93,18 +100,26 @@ pub(super) fn first_closure(
     let start = Start::Closure { cell: closure.cell, cells: closure.cells };
     let local = exp2(-stored.scale_exponent);
     let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
-    let mut levels = levels(&positions, &closure.triangles, stored, wanted, None, on_progress)?;
-    // In narrow places levels grow into each other. The closure itself never does, but each of its faces costs a collapse against the mesh.
-    let small = closure.triangles.len() <= MOST_FACES;
-    let itself = small.then_some((closure.positions, closure.triangles));
-    let in_order = LEVELS
-        .into_iter()
-        .filter(|&level| level >= 0)
-        .filter_map(|level| Some(levels.remove(levels.iter().position(|(l, _)| *l == Some(level))?).1));
-    in_order.chain(itself).find_map(|(positions, triangles)| {
+    let conditions = OF_STAIRS;
+    let from = Surface { positions: &positions, triangles: &closure.triangles, stored, conditions };
+    let hull = |(positions, triangles): Faces| {
         let (shell, filled) = keep_outermost(Shell::new(positions, &triangles));
         defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
-    })
+    };
+    // In narrow places levels grow into each other.
+    for thins in if from.is_thinned(wanted) { &[true, false][..] } else { &[false] } {
+        let mut levels = from.levels(wanted, *thins, None, on_progress)?;
+        let tried = if *thins { &LEVELS[..1] } else { &LEVELS };
+        let first = tried
+            .iter()
+            .filter(|&&level| level >= 0)
+            .find_map(|&level| hull(levels.remove(levels.iter().position(|(l, _)| *l == Some(level))?).1));
+        if first.is_some() {
+            return first;
+        }
+    }
+    // The closure itself never does, but each of its faces costs a collapse against the mesh.
+    if closure.triangles.len() <= MOST_FACES { hull((closure.positions, closure.triangles)) } else { None }
 }
 
 /// The mesh's box, a few steps of the grid larger.
@@ -132,61 +147,102 @@ const SLICE: usize = 1000;
 /// Faces of a closure that is a first hull itself.
 const MOST_FACES: usize = 10_000;
 
-type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
+/// What a hull of a closure may do to its shape. Closures of what is oblique are stairs, of which the paper's conditions refuse most collapses; what stands
+/// out where they are refused stands out for good.
+const OF_STAIRS: Conditions =
+    Conditions { compactness_ratio: 0.2, min_normal_cosine: 0.2, ..Conditions::PAPER };
 
-/// Levels of the progressive hull of a surface in the local frame, in the mesh's frame, each with its number: level `n` has [`plenty`] times 2^n faces,
-/// the one without number has `wanted`, or as few as the hull can be brought down to; level 0 and that without number may be the surface itself. `None` if the deadline passes first.
-fn levels(
-    positions: &[DVec3],
-    triangles: &[[u32; 3]],
-    stored: &Stored,
-    wanted: usize,
-    deadline: Option<Instant>,
-    on_progress: &mut dyn FnMut(Progress),
-) -> Option<Vec<(Option<i32>, Surface)>> {
-    let is_late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-    if is_late() {
-        return None;
+/// Compactness that may be lost before a level: the hull that comes of it is shrunk onto the mesh, so that needles do little harm, while the paper's
+/// condition refuses five collapses of six.
+const THINNING: f64 = 0.4;
+
+/// Positions and triangles.
+type Faces = (Vec<DVec3>, Vec<[u32; 3]>);
+
+/// Faces of the finest level.
+fn finest_level(wanted: usize) -> usize {
+    plenty(wanted) << 3
+}
+
+/// A closed manifold surface in the local frame, on its grid.
+struct Surface<'a> {
+    positions: &'a [DVec3],
+    triangles: &'a [[u32; 3]],
+    stored: &'a Stored,
+    conditions: Conditions,
+}
+
+impl Surface<'_> {
+    /// Whether it has more faces than the finest level, so that it makes a difference whether it thins.
+    fn is_thinned(&self, wanted: usize) -> bool {
+        self.triangles.len() > finest_level(wanted)
     }
-    let from = triangles.len();
-    let mut engine = Engine::new(positions, triangles, Conditions::default(), Priority::Program, stored.grid);
-    let mut show = |progress: collapse::Progress| {
-        on_progress(Progress {
-            stage: Stage::Collapsing,
-            done: from.saturating_sub(progress.faces),
-            of: from.saturating_sub(wanted),
+
+    /// Levels of the progressive hull in the mesh's frame, each with its number: level `n` has [`plenty`] times 2^n faces, the one without number has
+    /// `wanted`, or as few as the hull can be brought down to; level 0 and that without number may be the surface itself. If it `thins`, what is more
+    /// than the finest level has is [thinned](thin) first. `None` if the deadline passes first.
+    fn levels(
+        &self,
+        wanted: usize,
+        thins: bool,
+        deadline: Option<Instant>,
+        on_progress: &mut dyn FnMut(Progress),
+    ) -> Option<Vec<(Option<i32>, Faces)>> {
+        let is_late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        let Self { positions, triangles, stored, conditions } = *self;
+        let from = triangles.len();
+        let mut show = |faces: usize| {
+            on_progress(Progress {
+                stage: Stage::Collapsing,
+                done: from.saturating_sub(faces),
+                of: from.saturating_sub(wanted),
+            });
+        };
+        let mut counts: Vec<(Option<i32>, usize)> = (-3..=3)
+            .map(|level| (Some(level), (plenty(wanted) as f64 * exp2(level)) as usize))
+            .filter(|&(level, faces)| {
+                !(faces >= from && level > Some(0) || faces < LEAST_FACES && level < Some(0))
+            })
+            .chain([(None, wanted)])
+            .collect();
+        counts.sort_unstable_by_key(|&(level, faces)| (std::cmp::Reverse(faces), level));
+        let thinned = (thins && self.is_thinned(wanted)).then(|| {
+            let compactness_ratio = conditions.compactness_ratio.min(THINNING);
+            let loose = Conditions { compactness_ratio, ..conditions };
+            thin(positions, triangles, finest_level(wanted), loose, stored.grid, |faces| {
+                show(faces);
+                is_late()
+            })
         });
-    };
-    let scale = exp2(stored.scale_exponent);
-    let mut levels = Vec::new();
-    let mut counts: Vec<(Option<i32>, usize)> = (-3..=3)
-        .map(|level| (Some(level), (plenty(wanted) as f64 * exp2(level)) as usize))
-        .filter(|&(level, faces)| {
-            !(faces >= from && level > Some(0) || faces < LEAST_FACES && level < Some(0))
-        })
-        .chain([(None, wanted)])
-        .collect();
-    counts.sort_unstable_by_key(|&(level, faces)| (std::cmp::Reverse(faces), level));
-    for (level, faces) in counts {
-        // Where it gets stuck it is a level as well.
-        while engine.progress().faces > faces && !is_late() {
-            let next = engine.progress().faces.saturating_sub(SLICE).max(faces);
-            if engine.run(next, &mut show).is_some() {
-                break;
-            }
-        }
         if is_late() {
             return None;
         }
-        let all: Vec<DVec3> = engine.positions().iter().map(|&p| p * scale).collect();
-        let faces: Vec<[u32; 3]> = engine.faces().collect();
-        levels.push((level, compact(&all, &faces)));
+        let (positions, triangles) =
+            thinned.as_ref().map_or((positions, triangles), |(positions, triangles)| (positions, triangles));
+        let mut engine = Engine::new(positions, triangles, conditions, Priority::Program, stored.grid);
+        let scale = exp2(stored.scale_exponent);
+        let mut levels = Vec::new();
+        for (level, faces) in counts {
+            // Where it gets stuck it is a level as well.
+            while engine.progress().faces > faces && !is_late() {
+                let next = engine.progress().faces.saturating_sub(SLICE).max(faces);
+                if engine.run(next, |progress| show(progress.faces)).is_some() {
+                    break;
+                }
+            }
+            if is_late() {
+                return None;
+            }
+            let all: Vec<DVec3> = engine.positions().iter().map(|&p| p * scale).collect();
+            let faces: Vec<[u32; 3]> = engine.faces().collect();
+            levels.push((level, compact(&all, &faces)));
+        }
+        Some(levels)
     }
-    Some(levels)
 }
 
 /// Without positions that no triangle has.
-fn compact(positions: &[DVec3], triangles: &[[u32; 3]]) -> Surface {
+fn compact(positions: &[DVec3], triangles: &[[u32; 3]]) -> Faces {
     let mut number = vec![u32::MAX; positions.len()];
     let mut kept = Vec::new();
     let triangles = triangles

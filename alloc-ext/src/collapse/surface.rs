@@ -1,0 +1,132 @@
+//! A mesh with the planes of its faces, and the star of an edge as placement sees it.
+
+use super::Conditions;
+use super::placement::{Facet, Placement, Refusal, StarFace, place};
+use super::star::Connectivity;
+use crate::lp::HalfSpace;
+use crate::precision::Grid;
+use glam::DVec3;
+
+/// A closed manifold mesh while its edges are collapsed.
+pub struct Surface {
+    pub mesh: Connectivity,
+    pub positions: Vec<DVec3>,
+    facets: Vec<Facet>,
+    conditions: Conditions,
+    grid: Grid,
+    /// Linear programs solved.
+    pub programs: u64,
+    /// Star of the edge at hand, and its program: kept to save allocations.
+    star: Vec<u32>,
+    faces: Vec<StarFace>,
+    planes: Vec<HalfSpace>,
+}
+
+impl Surface {
+    /// Positions on `grid`.
+    pub fn new(positions: Vec<DVec3>, triangles: &[[u32; 3]], conditions: Conditions, grid: Grid) -> Self {
+        Surface {
+            mesh: Connectivity::new(positions.len(), triangles),
+            facets: triangles.iter().map(|t| Facet::of(t.map(|v| positions[v as usize]))).collect(),
+            positions,
+            conditions,
+            grid,
+            programs: 0,
+            star: Vec::new(),
+            faces: Vec::new(),
+            planes: Vec::new(),
+        }
+    }
+
+    /// Gathers the star of an edge and what placement needs; `false` if the edge may not collapse.
+    #[inline]
+    pub fn gather(&mut self, [a, b]: [u32; 2]) -> bool {
+        if !self.mesh.collapsible_star(a, b, self.conditions.max_valence, &mut self.star) {
+            return false;
+        }
+        self.faces.clear();
+        for &t in &self.star {
+            let corners = self.mesh.corners[t as usize];
+            let [p, q, r] = corners.map(|v| v == a || v == b);
+            let moving = match (p, q, r) {
+                (true, false, false) => Some(0),
+                (false, true, false) => Some(1),
+                (false, false, true) => Some(2),
+                _ => None,
+            };
+            self.faces.push(StarFace {
+                corners: corners.map(|v| self.positions[v as usize]),
+                facet: self.facets[t as usize],
+                moving,
+            });
+        }
+        true
+    }
+
+    /// Places the vertex of the edge whose star was gathered last.
+    ///
+    /// # Errors
+    /// Why there is no place.
+    pub fn place(&mut self, [a, b]: [u32; 2], exact: bool) -> Result<Placement, Refusal> {
+        self.programs += 1;
+        let middle = (self.positions[a as usize] + self.positions[b as usize]) * 0.5;
+        place(&self.faces, middle, &self.conditions, &self.grid, exact, &mut self.planes)
+    }
+
+    /// The second priority of an edge, whether it may collapse or not: unsigned volumes of the tetrahedra between its star's faces and the centre of its link.
+    #[inline]
+    pub fn span(&self, [a, b]: [u32; 2]) -> f64 {
+        let mut centre = DVec3::ZERO;
+        let mut count = 0.0;
+        for (v, other) in [(a, b), (b, a)] {
+            for &t in self.mesh.at(v) {
+                let [p, q, r] = self.mesh.corners[t as usize];
+                let [next, last] = if p == v {
+                    [q, r]
+                } else if q == v {
+                    [r, p]
+                } else {
+                    [p, q]
+                };
+                if next != other && last != other {
+                    centre += self.positions[next as usize];
+                    count += 1.0;
+                }
+            }
+        }
+        centre /= count;
+        let volume = |t: u32| {
+            let corner = self.positions[self.mesh.corners[t as usize][0] as usize];
+            let facet = &self.facets[t as usize];
+            (facet.normal.dot(centre - corner) * facet.double_area).abs()
+        };
+        let of_a: f64 = self.mesh.at(a).iter().map(|&t| volume(t)).sum();
+        let only_of_b = self.mesh.at(b).iter().filter(|&&t| !self.mesh.corners[t as usize].contains(&a));
+        only_of_b.fold(of_a, |sum, &t| sum + volume(t)) / 6.0
+    }
+
+    /// Moves a vertex, and the planes of its faces with it.
+    pub fn move_vertex(&mut self, v: u32, x: DVec3) {
+        self.positions[v as usize] = x;
+        for &t in self.mesh.at(v) {
+            let corners = self.mesh.corners[t as usize];
+            self.facets[t as usize] = Facet::of(corners.map(|v| self.positions[v as usize]));
+        }
+    }
+
+    /// Positions and triangles without gaps, each in the order that it had.
+    pub fn compact(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let mut number = vec![u32::MAX; self.positions.len()];
+        let mut positions = Vec::new();
+        for v in 0..self.positions.len() as u32 {
+            if !self.mesh.at(v).is_empty() {
+                number[v as usize] = positions.len() as u32;
+                positions.push(self.positions[v as usize]);
+            }
+        }
+        let alive = (0..self.mesh.corners.len() as u32).filter(|&t| self.mesh.is_alive(t));
+        let triangles = alive.map(|t| self.mesh.corners[t as usize].map(|v| number[v as usize]));
+        let triangles = triangles.collect();
+        (positions, triangles)
+    }
+}

@@ -1,0 +1,181 @@
+//! Many collapses at once, where their order does not show: rounds of the cheapest edges whose stars have no face in common.
+//!
+//! The queue of [`Engine`](super::Engine) gives a better hull of as many faces and takes five times as long: most of what it evaluates is stale before
+//! its turn, and it reads memory in no order.
+
+use super::Conditions;
+use super::surface::Surface;
+use crate::precision::Grid;
+use glam::DVec3;
+
+/// Part of the edges that a round tries, the cheapest: with more the hull grows into itself in narrow places.
+const TRIED: f64 = 0.1;
+
+/// A round that collapses fewer than one edge in this many that it tries is the last.
+const TOO_FEW: usize = 100;
+
+/// Collapses edges of a closed manifold mesh, positions on `grid`, until about `target` faces are left and never fewer, or hardly an edge may collapse,
+/// or `stop` says so after a round: positions, on the grid, and triangles of a hull of it. As with [`Engine`](super::Engine), what
+/// the mesh winds around it winds around.
+pub fn thin(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    target: usize,
+    conditions: Conditions,
+    grid: Grid,
+    mut stop: impl FnMut(usize) -> bool,
+) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut surface = Surface::new(positions.to_vec(), triangles, conditions, grid);
+    let mut costs = Costs::new(&surface);
+    loop {
+        costs.update(&surface);
+        let cheapest = costs.cheapest();
+        costs.is_stale.fill(false);
+        let mut collapsed = 0;
+        for &(_, edge) in &cheapest {
+            if surface.mesh.alive_count() <= target + 1 {
+                return surface.compact();
+            }
+            let [a, b] = costs.ends(&surface, edge);
+            if costs.is_stale[a as usize] || costs.is_stale[b as usize] {
+                continue;
+            }
+            let placed = if surface.gather([a, b]) { surface.place([a, b], true).ok() } else { None };
+            let Some(placement) = placed else {
+                // Refused as long as its star is the same.
+                costs.of[edge as usize] = f64::INFINITY;
+                continue;
+            };
+            surface.mesh.collapse(a, b);
+            surface.move_vertex(a, placement.position);
+            costs.is_stale[a as usize] = true;
+            surface.mesh.neighbours(a).for_each(|v| costs.is_stale[v as usize] = true);
+            collapsed += 1;
+        }
+        if collapsed * TOO_FEW <= cheapest.len() || stop(surface.mesh.alive_count()) {
+            return surface.compact();
+        }
+        if surface.mesh.alive_count() * 2 < surface.mesh.corners.len() {
+            let (positions, triangles) = surface.compact();
+            surface = Surface::new(positions, &triangles, conditions, grid);
+            costs = Costs::new(&surface);
+        }
+    }
+}
+
+/// What edges cost: edge `3 · t + k` is that between corners `k` and `k + 1` of triangle `t`, and counts where the first is the lesser.
+struct Costs {
+    of: Vec<f64>,
+    /// By vertex, whether its star is another than when its edges were evaluated.
+    is_stale: Vec<bool>,
+}
+
+impl Costs {
+    fn new(surface: &Surface) -> Self {
+        Self {
+            of: vec![f64::INFINITY; 3 * surface.mesh.corners.len()],
+            is_stale: vec![true; surface.positions.len()],
+        }
+    }
+
+    fn ends(&self, surface: &Surface, edge: u32) -> [u32; 2] {
+        let corners = surface.mesh.corners[edge as usize / 3];
+        [corners[edge as usize % 3], corners[(edge as usize + 1) % 3]]
+    }
+
+    fn update(&mut self, surface: &Surface) {
+        for t in 0..surface.mesh.corners.len() as u32 {
+            let [a, b, c] = surface.mesh.corners[t as usize];
+            let is_alive = surface.mesh.is_alive(t);
+            for (k, [a, b]) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
+                let cost = &mut self.of[3 * t as usize + k];
+                if !is_alive || a > b {
+                    *cost = f64::INFINITY;
+                } else if self.is_stale[a as usize] || self.is_stale[b as usize] {
+                    *cost = surface.span([a, b]);
+                }
+            }
+        }
+    }
+
+    fn cheapest(&self) -> Vec<(f64, u32)> {
+        let all = self.of.iter().zip(0u32..).filter(|(cost, _)| **cost < f64::INFINITY);
+        let mut all: Vec<(f64, u32)> = all.map(|(&cost, edge)| (cost, edge)).collect();
+        let tried = (all.len() as f64 * TRIED) as usize + 1;
+        let by_cost = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if tried < all.len() {
+            all.select_nth_unstable_by(tried, by_cost);
+            all.truncate(tried);
+        }
+        all.sort_unstable_by(by_cost);
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Mesh, require_closed_manifold};
+    use crate::precision::{VertexBits, store};
+    use robust::{Coord3D, orient3d};
+
+    /// A lumpy torus around the z-axis.
+    fn torus(n: u32) -> Mesh {
+        let angle = |i: u32| f64::from(i) / f64::from(n) * std::f64::consts::TAU;
+        let place = |i: u32| {
+            let (u, v) = (angle(i / n), angle(i % n));
+            let r = 3.0 + v.cos();
+            [r * u.cos(), r * u.sin(), v.sin()]
+        };
+        let positions = (0..n * n)
+            .map(|i| place(i).map(|x| (x * (1.0 + 1e-3 * f64::from(i * 7919 % 101) / 101.0)) as f32))
+            .collect();
+        let at = |i: u32, j: u32| i % n * n + j % n;
+        let quad = |i: u32, j: u32| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        let quads = (0..n).flat_map(|i| (0..n).map(move |j| quad(i, j)));
+        Mesh::new(positions, quads.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
+    }
+
+    fn crossings(from: DVec3, to: DVec3, faces: &[[DVec3; 3]]) -> i32 {
+        let side = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| {
+            let [a, b, c, d] = [a, b, c, d].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
+            orient3d(a, b, c, d)
+        };
+        let crossed = |&[a, b, c]: &[DVec3; 3]| {
+            let turns = [side(from, to, a, b), side(from, to, b, c), side(from, to, c, a)];
+            let passes = turns.iter().all(|&t| t > 0.0) || turns.iter().all(|&t| t < 0.0);
+            i32::from(passes && side(a, b, c, from) * side(a, b, c, to) < 0.0)
+        };
+        faces.iter().map(crossed).sum()
+    }
+
+    #[test]
+    fn a_thinned_surface_is_closed_has_the_faces_asked_for_and_every_vertex_inside_or_on_it() {
+        let mesh = torus(40);
+        let stored = store(&mesh, VertexBits::F32);
+        for target in [400, 1000, 3199, 3200, 5000] {
+            let conditions = Conditions { compactness_ratio: 0.4, ..Conditions::PAPER };
+            let thinned =
+                |stop| thin(&stored.positions, &mesh.triangles, target, conditions, stored.grid, |_| stop);
+            let (positions, triangles) = thinned(false);
+            assert!(triangles.len() >= target.min(3200) && triangles.len() <= target.min(3200) + 1);
+            assert_eq!(thinned(false), (positions.clone(), triangles.clone()), "not the same twice");
+            let single = positions.iter().map(|p| p.as_vec3().to_array()).collect();
+            let hull = Mesh::new(single, triangles.clone());
+            assert!(
+                hull.positions.iter().zip(&positions).all(|(p, q)| glam::Vec3::from(*p).as_dvec3() == *q)
+            );
+            require_closed_manifold(&hull).unwrap();
+            let faces: Vec<_> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
+            // Off the hull's vertices, so that none is on the line.
+            let far = DVec3::new(11.37, 23.91, 57.13);
+            for &p in stored.positions.iter().filter(|p| !positions.contains(p)) {
+                let on = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).dot(p - *a).abs() < 1e-9;
+                assert!(crossings(p, far, &faces) % 2 == 1 || faces.iter().any(on), "{target}: {p}");
+            }
+        }
+        let (_, after_a_round) =
+            thin(&stored.positions, &mesh.triangles, 100, Conditions::PAPER, stored.grid, |_| true);
+        assert!(after_a_round.len() > 2000 && after_a_round.len() < 3200, "{}", after_a_round.len());
+    }
+}
