@@ -15,15 +15,20 @@ use std::collections::BinaryHeap;
 /// The bound may exceed the true distance by this factor.
 const SLACK: f64 = 1.05;
 
-/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2.2 · 2^-51 of a coordinate: this for [`BUDGET`] cuts, one in another.
+/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2.2 · 2^-51 of a coordinate: this for [`DEEPEST`] cuts, one in another.
 const MIDPOINTS: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// Enough to settle any mesh at hand; what is left over keeps its bound.
-const BUDGET: usize = 14_000;
+/// Cuts that a piece comes of at most: it keeps its bound then.
+const DEEPEST: u32 = 14_000;
+
+/// Cuts in all: enough to settle any mesh at hand, where each of its triangles may cut a hull that hugs it a few times. What is left over keeps its bound.
+const BUDGET: usize = 200_000;
 
 struct Piece {
     bound: f64,
     corners: [DVec3; 3],
+    /// Cuts that it comes of.
+    depth: u32,
     /// The surface triangle that it is to be cut along, not halved.
     along: Option<[DVec3; 3]>,
 }
@@ -40,9 +45,16 @@ fn ball(corners: &[DVec3; 3]) -> (DVec3, f64) {
 
 impl Piece {
     /// Raises `found` to the distance of its centre.
-    fn new(corners: [DVec3; 3], found: &mut f64, nearest: &mut impl FnMut(DVec3) -> Option<Nearest>) -> Self {
+    fn new(
+        corners: [DVec3; 3],
+        depth: u32,
+        found: &mut f64,
+        nearest: &mut impl FnMut(DVec3) -> Option<Nearest>,
+    ) -> Self {
         let (centre, reach) = ball(&corners);
-        let Some(near) = nearest(centre) else { return Self { bound: f64::INFINITY, corners, along: None } };
+        let Some(near) = nearest(centre) else {
+            return Self { bound: f64::INFINITY, corners, depth, along: None };
+        };
         *found = found.max(near.lower);
         let lipschitz = near.upper + reach;
         let convex = near.triangle.map_or(f64::INFINITY, |[p, q, r]| {
@@ -52,7 +64,7 @@ impl Piece {
         let bound = lipschitz.min(convex) * (1.0 + 1e-12);
         // What is no number is no bound.
         let bound = if bound.is_nan() || reach.is_nan() { f64::INFINITY } else { bound };
-        Self { bound, corners, along }
+        Self { bound, corners, depth, along }
     }
 
     fn parts(&self) -> ArrayVec<[DVec3; 3], 3> {
@@ -99,7 +111,7 @@ pub struct Farthest {
     pub upper: f64,
 }
 
-/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper` exceeds `lower` by a twentieth where 14,000 cuts do for that, and by more where it
+/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper` exceeds `lower` by a twentieth where 200,000 cuts do for that, and by more where it
 /// is not above `enough`.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
@@ -113,16 +125,17 @@ pub fn farthest(
     let mut size = 0f64;
     for corners in triangles {
         size = corners.iter().fold(size, |size, p| size.max(p.abs().max_element()));
-        heap.push(Piece::new(corners, &mut found, &mut nearest));
+        heap.push(Piece::new(corners, 0, &mut found, &mut nearest));
     }
     let mut budget = BUDGET;
     while let Some(piece) = heap.pop() {
-        if piece.bound <= (found * SLACK).max(enough) || budget == 0 || piece.bound == 0.0 {
+        let is_spent = budget == 0 || piece.depth >= DEEPEST;
+        if piece.bound <= (found * SLACK).max(enough) || is_spent || piece.bound == 0.0 {
             return Farthest { lower: found, upper: piece.bound.max(found) + size * MIDPOINTS };
         }
         budget -= 1;
         for part in piece.parts() {
-            let part = Piece::new(part, &mut found, &mut nearest);
+            let part = Piece::new(part, piece.depth + 1, &mut found, &mut nearest);
             heap.push(Piece { bound: part.bound.min(piece.bound), ..part });
         }
     }
@@ -134,13 +147,14 @@ pub fn farthest(
 pub fn is_within(
     triangle: [DVec3; 3],
     most: f64,
-    mut budget: usize,
+    budget: usize,
     mut about: impl FnMut(DVec3) -> [f64; 2],
     mut nearest: impl FnMut(DVec3) -> Option<Nearest>,
 ) -> bool {
     let size = triangle.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     let most = most - size * MIDPOINTS;
     let mut found = 0f64;
+    let mut budget = budget.min(DEEPEST as usize);
     let mut open = vec![triangle];
     while let Some(corners) = open.pop() {
         let (centre, reach) = ball(&corners);
@@ -152,7 +166,7 @@ pub fn is_within(
         if (upper + reach) * (1.0 + 1e-12) <= most {
             continue;
         }
-        let piece = Piece::new(corners, &mut found, &mut nearest);
+        let piece = Piece::new(corners, 0, &mut found, &mut nearest);
         if found > most {
             return false;
         }

@@ -21,7 +21,14 @@ const LOOSE: Shape = Shape { min_compactness: 0.001, min_turn: -0.9, upright: No
 pub(super) const STAGE: f64 = 0.7;
 
 /// Cubes along the longest side of closures, in the order in which they are tried after the [`finest`]; `None` is the box.
-const COARSER: [Option<usize>; 4] = [Some(40), Some(16), Some(6), None];
+const COARSER: [Option<usize>; 4] = [Some(40), Some(16), LAST_RESORT, None];
+
+/// One that is tried only where all before it got stuck.
+const LAST_RESORT: Option<usize> = Some(6);
+
+/// Faces that the box grows to first where faces are few, and how many times as many each time: with all at once the first splits decide, and no polish
+/// undoes them.
+const GROWTH: (f64, f64) = (16.0, 1.2);
 
 /// Cubes along the longest side of the finest closure for so many faces: gaps of a cube are filled for good, and faces that could follow them would be
 /// there for nothing. Beyond 160 the grid takes more time than the hull.
@@ -178,9 +185,12 @@ impl<'a> Builder<'a, '_, '_> {
                 self.is_hurried = true;
                 continue;
             }
-            let settled = is_enough && !is_few && best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
-            if best.is_some() && (settled || late) {
+            let is_reached = best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
+            if best.is_some() && (late || is_enough && !is_few && is_reached) {
                 break;
+            }
+            if is_reached && cells == LAST_RESORT {
+                continue;
             }
             let first = match cells {
                 Some(cells) => {
@@ -218,6 +228,9 @@ impl<'a> Builder<'a, '_, '_> {
             work.flip_all();
         }
         let stop = if how.descends { self.descend(&mut work, how.wanted) } else { Stop::Reached };
+        if how.is_few() && start == Start::Box {
+            self.grow(&mut work, how.wanted);
+        }
         work.refine(how.wanted);
         work.relax(self.floor(), 1e-2, 4);
         let mut done = Done { work, start, filled, stop };
@@ -225,6 +238,16 @@ impl<'a> Builder<'a, '_, '_> {
             self.finish(&mut done);
         }
         done
+    }
+
+    fn grow(&mut self, work: &mut Work<'a>, wanted: usize) {
+        let mut faces = GROWTH.0;
+        while (faces as usize) < wanted && !work.is_late() {
+            work.refine(faces as usize);
+            work.relax(self.floor(), 1e-2, 4);
+            self.polish(work, self.options.effort);
+            faces *= GROWTH.1;
+        }
     }
 
     fn finish(&mut self, done: &mut Done<'a>) {
