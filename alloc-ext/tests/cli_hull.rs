@@ -167,7 +167,7 @@ fn a_margin_is_printed_and_left_around_the_mesh() {
     let output = run(["hull", arg(&mesh), "--margin", "1e39", "-o", arg(&out)]);
     assert!(cli_support::refused(&output, 1, "box.obj").contains("range of single precision"));
     let output = run(["hull", arg(&mesh), "--margin", "1", "--slack", "1", "-o", arg(&out)]);
-    assert!(cli_support::refused(&output, 1, "box.obj").contains("not more than the margin"));
+    assert!(cli_support::refused(&output, 2, "--slack 1 ").contains("no more than --margin 1:"));
 }
 
 #[test]
@@ -240,6 +240,17 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
         let both = run(["hull", arg(&mesh), pair[0], pair[1], "-o", arg(&out)]);
         assert_eq!(both.status.code(), Some(2));
     }
+    // No file is looked at before.
+    for (slack, margin) in [("0.5", "2.25"), ("1e-9", "1e-9")] {
+        let missing = directory.join("missing.stl");
+        let output = run(["hull", arg(&missing), "--slack", slack, "--margin", margin, "-o", arg(&out)]);
+        let line = cli_support::refused(&output, 2, "--slack");
+        assert!(line.contains(&format!("--slack {slack} ")), "{line}");
+        assert!(line.contains(&format!("--margin {margin}:")), "{line}");
+    }
+    let output = run(["hull", arg(&mesh), "--slack", "inf", "-o", arg(&out)]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && text.contains("a finite number above 0"), "{text}");
     let both = run(["hull", arg(&path), "--level", "0", "--faces", "9", "-o", arg(&out)]);
     assert_eq!(both.status.code(), Some(2));
     assert!(!out.exists() && !stl.exists());

@@ -1,6 +1,6 @@
 //! `meshsweep hull`: an outer hull of a mesh, or a level of a blob, as binary PLY.
 
-use super::args::HullArgs;
+use super::args::{HullArgs, slack_within_margin};
 use super::blob_file;
 use super::build::{FACES, why_stuck};
 use super::counted::Counted;
@@ -32,6 +32,9 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             "{}: the hull is written as PLY; name an output that ends in .ply",
             args.output.display()
         ));
+    }
+    if let Some(what) = slack_within_margin(args.slack, args.margin) {
+        return usage(what);
     }
     refuse_same_file(&args.output, &[&args.input])?;
     let is_blob = mesh_file::is_blob(&args.input);

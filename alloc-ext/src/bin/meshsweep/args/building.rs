@@ -1,6 +1,7 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, factor, length, percent, positive, ratio, whole};
+use super::values::{degrees, distance, factor, length, percent, positive, ratio, whole};
+use crate::describe::Given;
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep_alloc::collapse::{Conditions, Priority};
 use meshsweep_alloc::precision::VertexBits;
@@ -231,7 +232,7 @@ pub struct HullArgs {
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "progressive"])]
     pub void: Option<f64>,
     /// Fewest faces found of which no point is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "progressive"])]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["faces", "void", "progressive"])]
     pub slack: Option<f64>,
     /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are inside [default: 0]
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length, conflicts_with = "progressive")]
@@ -284,6 +285,19 @@ impl HullArgs {
     pub fn progressive_option(&self) -> Option<&'static str> {
         self.collapse.given()
     }
+}
+
+/// Why no hull has both a slack and a margin, if none has.
+pub fn slack_within_margin(slack: Option<f64>, margin: Option<f64>) -> Option<String> {
+    let (slack, margin) = (slack?, margin?);
+    let is_within = slack <= margin;
+    is_within.then(|| {
+        let (slack, margin) = (Given(slack), Given(margin));
+        format!(
+            "--slack {slack} is no more than --margin {margin}: the hull is farther from the mesh than the margin; ask \
+             for a larger --slack"
+        )
+    })
 }
 
 #[derive(Debug, Args)]
