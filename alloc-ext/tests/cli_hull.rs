@@ -183,6 +183,31 @@ fn open_meshes_have_a_tight_hull_and_each_part_one_of_its_own() {
 }
 
 #[test]
+fn what_keeps_a_mesh_from_having_a_void_is_named() {
+    let directory = scratch("hull_no_void");
+    let out = directory.join("hull.ply");
+    for (name, why) in [
+        ("open_box.stl", "the mesh is not closed: 8 boundary edges, as at triangle"),
+        ("glued_cubes.stl", "the mesh is not manifold: 4 edges with up to 3 triangles, as at triangle"),
+        ("klein_bottle.obj", "the mesh has no outside: 1 one-sided part, as at triangle"),
+        ("flat.obj", "that of triangle 0 bounds no volume, as at [0.0, 0.0, 0.0]"),
+    ] {
+        let mesh = fixture("evil").join(name);
+        let line = cli_support::refused(
+            &run(["hull", arg(&mesh), "--void", "20", "--effort", "0", "-o", arg(&out)]),
+            1,
+            name,
+        );
+        assert!(line.contains(why) && line.contains("ask for faces or slack"), "{line}");
+        assert!(!out.exists());
+    }
+    let flat = fixture("evil").join("flat.obj");
+    let text = ok(["hull", arg(&flat), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
+    assert!(!text.contains("% void") && text.contains("that of triangle 0 bounds no volume"), "{text}");
+    assert!(text.contains("; there is no volume to measure void against"), "{text}");
+}
+
+#[test]
 fn every_level_of_a_blob_is_a_closed_hull_with_the_level_s_faces() {
     let directory = scratch("hull_of_blob");
     let path = hull_blob(&directory, "bracket.stl", &[]);

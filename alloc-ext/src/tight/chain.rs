@@ -4,7 +4,7 @@ use super::distances::{Distances, distances};
 use super::store::{Stored, TightTables};
 use crate::mesh::Mesh;
 use crate::precision::VertexBits;
-use crate::wrap::{self, Goal, Hull, Options, WrapError, wrap};
+use crate::wrap::{self, Goal, Hull, NoVolume, Options, WrapError, wrap};
 use meshsweep_core::blob::layout::MAX_LEVELS;
 use meshsweep_core::num::Radius16;
 use std::time::{Duration, Instant};
@@ -68,8 +68,8 @@ pub struct HullReport {
     pub wrapped: wrap::Report,
     /// Both ways between hull and mesh, input units.
     pub distances: Distances,
-    /// Volume beyond that of the mesh as a part of it; `None` if the mesh bounds no volume.
-    pub void: Option<f64>,
+    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that against.
+    pub void: Result<f64, NoVolume>,
     /// The same of a hull with as many faces that need not enclose the finer ones; `None` where nothing was nested.
     pub free_void: Option<f64>,
     /// Bytes in the blob.
@@ -110,7 +110,7 @@ pub fn chain(
     };
     // Fine to coarse: a nested hull needs the one that it encloses.
     let mut made: Vec<(Hull, HullReport)> = Vec::new();
-    let mut volume = None;
+    let mut volume = Err(NoVolume::Invalid);
     for (index, &faces) in faces.iter().rev().enumerate() {
         let started = Instant::now();
         let options_here = wrap_options(faces);
@@ -123,7 +123,7 @@ pub fn chain(
         let (hull, free_void) = match finer {
             Some((finer, _)) => {
                 let hull = wrap(&finer.mesh, &options_here, &mut show)?;
-                (hull, free.report.void)
+                (hull, free.report.void.ok())
             }
             None => (free, None),
         };

@@ -207,7 +207,7 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
 
 /// What the table of tight hulls does not say.
 fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
-    if let (Some(void), Some(free)) = (report.void, report.free_void) {
+    if let (Ok(void), Some(free)) = (report.void, report.free_void) {
         writeln!(
             out,
             "  tight hull of {}: {:.3} % void space, {:.3} % if it did not enclose the finer ones",

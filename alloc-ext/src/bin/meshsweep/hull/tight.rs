@@ -74,7 +74,7 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
 /// `margin` is the one that was typed: the hull keeps what rounding may take from it besides.
 fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64>) -> io::Result<()> {
     write!(out, "{}, ", Counted(report.faces, "face"))?;
-    if let Some(void) = report.void {
+    if let Ok(void) = report.void {
         write!(out, "{:.3} % void space, ", void * 100.0)?;
     }
     writeln!(
@@ -87,8 +87,8 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64
     if let Some(margin) = margin.filter(|&margin| margin > 0.0) {
         writeln!(out, "  all points within {} of the mesh are inside", Given(margin))?;
     }
-    if report.void.is_none() {
-        writeln!(out, "  the mesh is not closed: there is no volume to measure void against")?;
+    if let Err(why) = report.void {
+        writeln!(out, "  {why}; there is no volume to measure void against")?;
     }
     write_start(out, report)?;
     match (report.stop, goal) {
