@@ -207,6 +207,50 @@ fn what_keeps_a_mesh_from_having_a_void_is_named() {
     assert!(text.contains("; there is no volume to measure void against"), "{text}");
 }
 
+/// Cubes as OBJ, by the first and the last of each coordinate.
+fn cubes(spans: &[[f64; 2]]) -> String {
+    let mut text = String::new();
+    for [low, high] in spans {
+        for c in 0..8u32 {
+            let at = [c & 1, c >> 1 & 1, c >> 2].map(|bit| if bit == 0 { low } else { high });
+            text += &format!("v {} {} {}\n", at[0], at[1], at[2]);
+        }
+    }
+    for cube in 0..spans.len() {
+        for quad in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+            let [a, b, c, d] = quad.map(|corner: usize| corner + 1 + 8 * cube);
+            text += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn a_mesh_that_overlaps_itself_has_no_void_that_could_be_kept() {
+    let directory = scratch("hull_overlap");
+    let (mesh, out) = (directory.join("two.obj"), directory.join("hull.ply"));
+    // One in the other, both facing outwards.
+    fs::write(&mesh, cubes(&[[0.0, 2.0], [0.0625, 1.9375]])).unwrap();
+    let why = "the mesh overlaps itself, so that its volume counts places more than once";
+    let text = ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
+    assert!(closed(&out).1 < 14.0 && text.contains(why) && !text.contains("% void"), "{text}");
+    fs::remove_file(&out).unwrap();
+    let output = run(["hull", arg(&mesh), "--void", "60", "--effort", "0", "-o", arg(&out)]);
+    let line = cli_support::refused(&output, 1, "two.obj");
+    assert!(line.contains(why) && !out.exists(), "{line}");
+    let path = directory.join("two.msw");
+    let build = ["build", arg(&mesh), "--for", "tight", "--tight", "100", "--effort", "0"];
+    ok([&build[..], &["-o", arg(&path)]].concat());
+    assert!(info(&path)["tight_hulls"]["hulls"][0]["void_ratio"].is_null());
+    // Where no hull proves it, crossing is said; the box, of what is asked for, is had at once.
+    for (spans, crosses) in [(&[[0.0, 2.0], [1.875, 4.0]][..], true), (&[[0.0, 2.0]], false)] {
+        fs::write(&mesh, cubes(spans)).unwrap();
+        let text = ok(["hull", arg(&mesh), "--void", "9000", "--seconds", "1e-3", "-o", arg(&out)]);
+        assert_eq!(text.contains("the mesh crosses or touches itself"), crosses, "{text}");
+        assert!(text.contains("% void"), "{text}");
+    }
+}
+
 #[test]
 fn every_level_of_a_blob_is_a_closed_hull_with_the_level_s_faces() {
     let directory = scratch("hull_of_blob");

@@ -4,7 +4,7 @@ use super::distances::{Distances, distances};
 use super::store::{Stored, TightTables};
 use crate::mesh::Mesh;
 use crate::precision::VertexBits;
-use crate::wrap::{self, Goal, Hull, NoVolume, Options, WrapError, wrap};
+use crate::wrap::{self, Goal, Hull, NoVolume, Options, Solid, WrapError, wrap};
 use meshsweep_core::blob::layout::MAX_LEVELS;
 use meshsweep_core::num::Radius16;
 use std::time::{Duration, Instant};
@@ -110,15 +110,13 @@ pub fn chain(
     };
     // Fine to coarse: a nested hull needs the one that it encloses.
     let mut made: Vec<(Hull, HullReport)> = Vec::new();
-    let mut volume = Err(NoVolume::Invalid);
+    let solid = Solid::of(mesh);
+    let mut overlaps = false;
     for (index, &faces) in faces.iter().rev().enumerate() {
         let started = Instant::now();
         let options_here = wrap_options(faces);
         let mut show = |progress| on_progress(Stage::Wrapping { hull: index, of, progress });
         let free = wrap(mesh, &options_here, &mut show)?;
-        if index == 0 {
-            volume = free.report.void.map(|void| free.report.volume / (1.0 + void));
-        }
         let finer = made.last().filter(|_| options.nested);
         let (hull, free_void) = match finer {
             Some((finer, _)) => {
@@ -135,7 +133,8 @@ pub fn chain(
         if !fits(&distances) {
             return Err(WrapError::NoRoom);
         }
-        let void = volume.map(|volume| hull.report.volume / volume - 1.0);
+        let void = solid.and_then(|solid| solid.void(&hull.mesh, hull.report.volume));
+        overlaps |= void == Err(NoVolume::Overlapping);
         let report = HullReport {
             asked: faces,
             wrapped: hull.report,
@@ -148,6 +147,10 @@ pub fn chain(
         made.push((hull, report));
     }
     made.reverse();
+    if overlaps {
+        // What one hull proves of the mesh holds for all.
+        made.iter_mut().for_each(|(_, report)| report.void = Err(NoVolume::Overlapping));
+    }
     let stored: Vec<Stored> = made
         .iter_mut()
         .map(|(hull, report)| {

@@ -5,6 +5,7 @@ use super::options::{Goal, Options, Progress, Stage, Start, Stop, WrapError};
 use super::polish::Polish;
 use super::rounding::Rounding;
 use super::start::{First, first_box, first_closure, first_levels};
+use super::volume::Solid;
 use super::work::{Shape, Work};
 use crate::mesh::Mesh;
 use crate::precision::Stored;
@@ -109,6 +110,7 @@ pub(super) struct Builder<'a, 'o, 'p> {
     pub obstacle: &'a Obstacle,
     /// The mesh's volume, if it bounds one.
     pub volume: Option<f64>,
+    pub solid: Option<Solid>,
     pub options: &'o Options,
     pub deadline: Option<Instant>,
     /// Whether the best start was given up for lack of time.

@@ -5,7 +5,7 @@ use super::build::{Builder, Done};
 use super::obstacle::Obstacle;
 use super::options::{Goal, Options, Progress, Report, Stop, WrapError};
 use super::slack::slack;
-use super::volume::volume;
+use super::volume::{Solid, crosses_itself};
 use crate::mesh::Mesh;
 use crate::precision::{Stored, VertexBits, store};
 use glam::DVec3;
@@ -55,10 +55,11 @@ pub fn wrap_all(
     }
     let positions: Vec<DVec3> =
         mesh.positions.iter().map(|&[x, y, z]| glam::Vec3::new(x, y, z).as_dvec3()).collect();
-    let volume = volume(mesh);
-    if let (Goal::Void(_), Err(why)) = (options.goal, volume) {
+    let solid = Solid::of(mesh);
+    if let (Goal::Void(_), Err(why)) = (options.goal, solid) {
         return Err(WrapError::NoVolume(why));
     }
+    let crosses = matches!(options.goal, Goal::Void(_)) && crosses_itself(&positions, &mesh.triangles);
     // A hull keeps some steps of its grid off the mesh: a coarse one that holds the mesh is no reason to store the hull on it.
     let bits = match options.vertex_bits {
         VertexBits::Auto => VertexBits::F32,
@@ -77,7 +78,8 @@ pub fn wrap_all(
     let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
     let mut builder = Builder {
         obstacle: &obstacle,
-        volume: volume.ok(),
+        volume: solid.ok().map(|solid| solid.volume),
+        solid: solid.ok(),
         options,
         // A limit that the clock has no number for is none.
         deadline: options.time_limit.and_then(|limit| started.checked_add(limit)),
@@ -98,11 +100,14 @@ pub fn wrap_all(
     {
         slack.upper = slack.upper.min(most).max(slack.lower);
     }
+    let single = at.iter().map(|p| p.as_vec3().to_array()).collect();
+    let hull = Mesh::new(single, triangles);
     let report = Report {
-        faces: triangles.len(),
+        faces: hull.triangles.len(),
         margin: options.margin,
         volume: hull_volume,
-        void: volume.map(|volume| hull_volume / volume - 1.0),
+        void: solid.and_then(|solid| solid.void(&hull, hull_volume)),
+        crosses,
         slack,
         start,
         filled: filled + work.swallowed,
@@ -113,8 +118,7 @@ pub fn wrap_all(
         refused: work.refused,
         time: started.elapsed(),
     };
-    let single = at.iter().map(|p| p.as_vec3().to_array()).collect();
-    Ok(Hull { mesh: Mesh::new(single, triangles), report })
+    Ok(Hull { mesh: hull, report })
 }
 
 /// Positions and triangles with further ones, which share the vertices that are at the same place.

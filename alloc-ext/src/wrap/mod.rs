@@ -56,3 +56,4 @@ pub use options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError
 pub use parts::{parts, share};
 pub use surface::Surface;
 pub use volume::NoVolume;
+pub(crate) use volume::Solid;

@@ -10,7 +10,8 @@ use std::time::Duration;
 pub enum Goal {
     /// At most so many faces, and as little volume as can be had with them.
     Faces(usize),
-    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it; a margin counts as volume beyond. For closed meshes.
+    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it; a margin counts as volume beyond. For closed meshes
+    /// that do not overlap themselves; where one is found to, that is an error.
     Void(f64),
     /// The fewest faces found of which no point is farther than this from the mesh, in its unit; more than the margin.
     Slack(f64),
@@ -88,6 +89,9 @@ pub struct Report {
     pub volume: f64,
     /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that against.
     pub void: Result<f64, NoVolume>,
+    /// Whether the mesh crosses or touches itself, which is looked for where a void is asked for: then its volume may count places more than once, and the void be
+    /// more than is said.
+    pub crosses: bool,
     /// Bounds of the largest distance from a point of the hull to the mesh, in its unit.
     pub slack: Farthest,
     /// What it was made from.

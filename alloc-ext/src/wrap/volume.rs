@@ -1,7 +1,9 @@
 //! The volume that a mesh bounds, which the void of its hull is measured against; or why there is none.
 
+use super::boxes::{Bounds, BoxTree};
+use super::predicates::{Face, are_apart, is_degenerate};
 use crate::counted::Counted;
-use crate::mesh::{EdgePlace, Mesh, MeshError, require_closed_manifold};
+use crate::mesh::{self, EdgePlace, Mesh, MeshError, Volume, require_closed_manifold};
 use glam::DVec3;
 use std::fmt;
 
@@ -163,20 +165,71 @@ impl fmt::Display for Point {
     }
 }
 
-/// The volume that a mesh bounds, in its unit: above 0.
-pub(super) fn volume(mesh: &Mesh) -> Result<f64, NoVolume> {
-    require_closed_manifold(mesh).map_err(|error| NoVolume::of(&error))?;
-    let corners = || (0..mesh.triangles.len()).filter_map(|t| mesh.corners(t));
-    let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));
-    // Around a vertex, so that nothing cancels far from the origin.
-    let origin = corners().next().map_or(DVec3::ZERO, |[a, ..]| wide(a));
-    let six = corners().map(|triangle| {
-        let [a, b, c] = triangle.map(|p| wide(p) - origin);
-        a.dot(b.cross(c))
-    });
-    let volume = six.sum::<f64>() / 6.0;
-    // Only cavities that overlap, or leave their solid, take away all that there is.
-    if volume > 0.0 { Ok(volume) } else { Err(NoVolume::Overlapping) }
+/// A mesh that bounds a volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Solid {
+    /// In the mesh's unit, above 0. What overlaps counts more than once.
+    pub volume: f64,
+    /// The same less what rounding may have added.
+    least: f64,
+}
+
+impl Solid {
+    pub fn of(mesh: &Mesh) -> Result<Self, NoVolume> {
+        require_closed_manifold(mesh).map_err(|error| NoVolume::of(&error))?;
+        let corners: Vec<[[f32; 3]; 3]> = (0..mesh.triangles.len()).filter_map(|t| mesh.corners(t)).collect();
+        let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));
+        // Around a vertex, so that nothing cancels far from the origin.
+        let origin = corners.first().map_or(DVec3::ZERO, |&[a, ..]| wide(a));
+        let six = corners.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|p| wide(p) - origin);
+            a.dot(b.cross(c))
+        });
+        let volume = six.sum::<f64>() / 6.0;
+        let Volume { value, bound } = mesh::volume(&corners);
+        let least = value - bound;
+        // Only cavities that overlap, or leave their solid, take away all that there is.
+        if volume > 0.0 && least > 0.0 { Ok(Self { volume, least }) } else { Err(NoVolume::Overlapping) }
+    }
+
+    /// Whether there is certainly more than a closed surface holds that encloses the mesh: then it overlaps. The surface by its triangles.
+    pub fn is_more_than(&self, hull: &[[[f32; 3]; 3]]) -> bool {
+        let Volume { value, bound } = mesh::volume(hull);
+        value + bound < self.least
+    }
+
+    /// Volume of a hull beyond the mesh's, as a part of that.
+    pub fn void(&self, hull: &Mesh, volume: f64) -> Result<f64, NoVolume> {
+        let triangles: Vec<[[f32; 3]; 3]> =
+            (0..hull.triangles.len()).filter_map(|t| hull.corners(t)).collect();
+        if self.is_more_than(&triangles) {
+            return Err(NoVolume::Overlapping);
+        }
+        // There is some, if rounding leaves less.
+        Ok((volume / self.volume - 1.0).max(0.0))
+    }
+}
+
+/// Whether triangles with area have more points in common than the corners and edges that they share: the surface crosses itself, or touches itself. Exact. Cost: that of
+/// a query of a tree of boxes for each triangle.
+pub(super) fn crosses_itself(positions: &[DVec3], triangles: &[[u32; 3]]) -> bool {
+    let face = |ids: &[u32; 3]| Face { ids: *ids, at: ids.map(|v| positions[v as usize]) };
+    let faces: Vec<Face> = triangles.iter().map(face).filter(|face| !is_degenerate(&face.at)).collect();
+    let boxes: Vec<Bounds> = faces.iter().map(|face| Bounds::of(&face.at)).collect();
+    let (tree, order) = BoxTree::new(&boxes);
+    let crosses = |i: usize| {
+        let mut clean = true;
+        tree.visit(
+            |of| of.meets(&boxes[i]),
+            |item| {
+                let j = order[item] as usize;
+                clean &= j <= i || !boxes[j].meets(&boxes[i]) || are_apart(&faces[i], &faces[j]);
+                clean
+            },
+        );
+        !clean
+    };
+    (0..faces.len()).any(crosses)
 }
 
 #[cfg(test)]
@@ -185,6 +238,10 @@ mod tests {
 
     /// A corner of a cube, counter-clockwise seen from outside.
     const CORNER: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+    fn volume(mesh: &Mesh) -> Result<f64, NoVolume> {
+        Solid::of(mesh).map(|solid| solid.volume)
+    }
 
     fn tetrahedron(size: f32, at: f32) -> Vec<[f32; 3]> {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f32]];
@@ -270,5 +327,35 @@ mod tests {
         let cavity = |at: f32| (tetrahedron(9.0, at), true);
         let hollow = joined(&[(tetrahedron(10.0, 0.0), false), cavity(0.1), cavity(0.2)]);
         assert_eq!(volume(&hollow), Err(NoVolume::Overlapping));
+    }
+
+    #[test]
+    fn a_mesh_that_is_more_than_its_hull_overlaps() {
+        // Two halves over each other in a hull that is a tenth larger than one.
+        let twice = joined(&[(tetrahedron(1.0, 0.0), false), (tetrahedron(1.0, 0.01), false)]);
+        let hull = joined(&[(tetrahedron(1.1, -0.01), false)]);
+        let solid = Solid::of(&twice).unwrap();
+        assert_eq!(solid.void(&hull, 1.331 / 6.0), Err(NoVolume::Overlapping));
+        // A hull of the same volume proves nothing, whatever rounding says.
+        let once = joined(&[(tetrahedron(1.1, -0.01), false)]);
+        let volume = Solid::of(&once).unwrap().volume;
+        assert_eq!(Solid::of(&once).unwrap().void(&hull, volume * (1.0 - 1e-12)), Ok(0.0));
+    }
+
+    #[test]
+    fn crossing_and_touching_are_found_and_neighbours_are_not() {
+        let crosses = |parts: &[(Vec<[f32; 3]>, bool)]| {
+            let mesh = joined(parts);
+            let positions: Vec<DVec3> =
+                mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+            crosses_itself(&positions, &mesh.triangles)
+        };
+        let one = || (tetrahedron(1.0, 0.0), false);
+        assert!(!crosses(&[one()]));
+        assert!(!crosses(&[one(), (tetrahedron(1.0, 2.0), false)]));
+        assert!(!crosses(&[one(), (tetrahedron(0.1, 0.05), true)]), "a cavity");
+        assert!(crosses(&[one(), (tetrahedron(1.0, 0.01), false)]));
+        let touching = tetrahedron(1.0, 0.0).iter().map(|p| p.map(|x| -x)).collect();
+        assert!(crosses(&[one(), (touching, true)]), "one corner for two");
     }
 }

@@ -90,6 +90,12 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64
     if let Err(why) = report.void {
         writeln!(out, "  {why}; there is no volume to measure void against")?;
     }
+    if report.crosses {
+        writeln!(
+            out,
+            "  the mesh crosses or touches itself: its volume counts what overlaps more than once, so that the void may be more than that"
+        )?;
+    }
     write_start(out, report)?;
     match (report.stop, goal) {
         (Stop::Reached, _) => Ok(()),
