@@ -134,6 +134,15 @@ fn lengths_that_were_measured_have_few_digits() {
         let length = text.split(words).nth(1).unwrap().split([' ', ',']).next().unwrap();
         assert!(length.parse::<f64>().unwrap() > 0.0 && length.len() <= 8, "{text}");
     }
+    // Next to no volume, and next to nothing beyond it.
+    let plate = directory.join("plate.obj");
+    fs::write(&plate, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1e-30\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        .unwrap();
+    for (mesh, ratio) in [(plate, 1e15..1e40), (fixture("groove.obj"), 1e-9..1e-3)] {
+        let text = ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
+        let void = text.split(" % void").next().unwrap().rsplit(' ').next().unwrap();
+        assert!(ratio.contains(&void_percent(&text)) && void.len() <= 11, "{text}");
+    }
 }
 
 #[test]

@@ -210,10 +210,10 @@ fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
     if let (Ok(void), Some(free)) = (report.void, report.free_void) {
         writeln!(
             out,
-            "  tight hull of {}: {:.3} % void space, {:.3} % if it did not enclose the finer ones",
+            "  tight hull of {}: {} % void space, {} % if it did not enclose the finer ones",
             Counted(report.wrapped.faces, "face"),
-            void * 100.0,
-            free * 100.0
+            describe::Percent(void * 100.0),
+            describe::Percent(free * 100.0)
         )?;
     }
     if report.wrapped.faces > report.asked {

@@ -8,7 +8,7 @@ mod tree;
 mod triboxes;
 
 pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
-pub use length::{About, AtLeast, AtMost, Given};
+pub use length::{About, AtLeast, AtMost, Given, Percent};
 pub use shape::Shape;
 pub use tight::as_json as tight_as_json;
 pub use tree::{bounds, half_widths, stack_bytes, tree_format_name, tree_surface_error};

@@ -4,7 +4,7 @@ use super::args::{HullArgs, slack_within_margin};
 use super::blob_file;
 use super::build::{FACES, why_stuck};
 use super::counted::Counted;
-use super::describe::AtMost;
+use super::describe::{AtMost, Percent};
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
@@ -119,10 +119,10 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         }
         writeln!(
             out,
-            "{}: {}, {:.3} % void space, {:.3} s",
+            "{}: {}, {} % void space, {:.3} s",
             args.output.display(),
             Counted(hull.triangles.len(), "face"),
-            (void * 100.0).max(0.0),
+            Percent((void * 100.0).max(0.0)),
             time.as_secs_f64()
         )?;
         stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", why_stuck(faces, &stuck)))
@@ -142,10 +142,10 @@ fn of_blob(args: &HullArgs, index: u32) -> Result<(), Failure> {
     Output::stdout().finish(|out| {
         writeln!(
             out,
-            "{}: {}, {:.3} % void space, level {index} of 0 to {}",
+            "{}: {}, {} % void space, level {index} of 0 to {}",
             args.output.display(),
             Counted(hull.triangles.len(), "face"),
-            f64::from(level.void_ratio) * 100.0,
+            Percent(f64::from(level.void_ratio) * 100.0),
             levels - 1
         )
     })

@@ -2,7 +2,7 @@
 
 use super::super::args::HullArgs;
 use super::super::counted::Counted;
-use super::super::describe::{About, AtLeast, AtMost, Given};
+use super::super::describe::{About, AtLeast, AtMost, Given, Percent};
 use super::super::failure::Failure;
 use super::super::mesh_file::load_all;
 use super::super::output::Output;
@@ -75,7 +75,7 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
 fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64>) -> io::Result<()> {
     write!(out, "{}, ", Counted(report.faces, "face"))?;
     if let Ok(void) = report.void {
-        write!(out, "{:.3} % void space, ", void * 100.0)?;
+        write!(out, "{} % void space, ", Percent(void * 100.0))?;
     }
     writeln!(
         out,
