@@ -63,6 +63,8 @@ fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
 fn a_blob_tells_its_hulls_and_gives_them_back() {
     let directory = scratch("tight_info");
     let path = blob(&directory, "torus.ply", &TIGHT);
+    let served = "  serves closest, within without --all, hull --tight, cut\n";
+    assert!(ok(["info", arg(&path)]).contains(served));
     let before = info(&path);
     assert_eq!(before["tight_hulls"]["is_nested"], false);
     assert_eq!(before["serves"], serde_json::json!(["closest", "within", "hull --tight", "cut"]));
@@ -75,6 +77,8 @@ fn a_blob_tells_its_hulls_and_gives_them_back() {
         let text = ok(["hull", arg(&path), "--tight", &faces, "-o", arg(&out)]);
         assert!(text.contains(&format!("{faces} faces")), "{text}");
         let void = volume(&triangles(&out)) / solid - 1.0;
+        let printed: f64 = text.split(" % void").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
+        assert!((printed - 100.0 * void).abs() < 1e-2, "{text}");
         assert!((void - hull["void_ratio"].as_f64().unwrap()).abs() < 1e-4, "{void}");
         let slack = hull["slack"].as_f64().unwrap();
         let surface = triangles(&fixture("torus.ply"));
@@ -163,6 +167,9 @@ fn tables_of_hulls_say_what_is_not_there_and_count_as_people_do() {
     fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n").unwrap();
     let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", "12", "--effort", "0"];
     let text = ok(build);
+    let ply = directory.join("hull.ply");
+    let hull = ok(["hull", arg(&out), "--tight", "12", "-o", arg(&ply)]);
+    assert!(hull.contains(" faces, at most ") && !hull.contains("void"), "{hull}");
     assert!(text.contains("1 hull: it encloses the mesh"), "{text}");
     assert!(text.contains("hull to mesh, at most  mesh to hull, at most"), "{text}");
     let row = text.lines().skip_while(|line| !line.contains("void %")).nth(1).unwrap();

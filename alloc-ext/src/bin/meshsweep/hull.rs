@@ -4,7 +4,7 @@ use super::args::{HullArgs, slack_within_margin};
 use super::blob_file;
 use super::build::{FACES, why_stuck};
 use super::counted::Counted;
-use super::describe::{AtMost, Percent};
+use super::describe::{AtMost, Percent, tight_void};
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
@@ -81,13 +81,11 @@ fn tight_of_blob(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     write_hull(&args.output, &tight_mesh(&hull))?;
     Output::stdout().finish(|out| {
         let record = hull.record();
-        writeln!(
-            out,
-            "{}: {}, at most {} from the mesh",
-            args.output.display(),
-            Counted(record.faces, "face"),
-            AtMost(record.slack)
-        )
+        write!(out, "{}: {}, ", args.output.display(), Counted(record.faces, "face"))?;
+        if let Some(void) = tight_void(record) {
+            write!(out, "{} % void space, ", Percent(f64::from(void) * 100.0))?;
+        }
+        writeln!(out, "at most {} from the mesh", AtMost(record.slack))
     })
 }
 

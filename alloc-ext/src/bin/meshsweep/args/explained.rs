@@ -159,7 +159,7 @@ pub const HULL: &str = "The hull of a mesh is closed, does not pass through itse
     has it, before its vertices were rounded. --void then counts the margin's volume as well, and --slack, which is measured from the mesh with its vertices \
     rounded, must be more: twice the margin, say, for corners stand off farther than walls.\n\n\
     --progressive gives the progressive hull, as the levels of a blob's hull hierarchy are: looser, at the mesh's own vertices where it can be, and only of meshes that \
-    are closed and manifold.\n\n\
+    are closed and manifold; it may touch the mesh, and itself. --effort makes for less volume, not for less distance.\n\n\
     Examples:\n  \
     meshsweep hull part.stl --faces 200 -o hull.ply\n  \
     meshsweep hull part.stl --slack 2.5 -o hull.ply\n  \

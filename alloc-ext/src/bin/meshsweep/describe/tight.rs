@@ -19,7 +19,7 @@ fn bytes(hull: &TightHull<'_>) -> usize {
 }
 
 /// Volume beyond that of the mesh as a part of it, if the mesh bounds one: a hull that encloses it leaves some.
-fn void(record: &TightRecord) -> Option<f32> {
+pub fn void(record: &TightRecord) -> Option<f32> {
     (record.void_ratio != 0.0).then_some(record.void_ratio)
 }
 
