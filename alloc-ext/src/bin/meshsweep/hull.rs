@@ -22,8 +22,8 @@ use std::time::Instant;
 mod tight;
 mod unmet;
 
-pub use tight::{WrapBars, write_start};
-pub use unmet::Unmet;
+pub use tight::{WrapBars, widened, write_margin, write_start};
+pub use unmet::{Tightness, Unmet, require_met};
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });

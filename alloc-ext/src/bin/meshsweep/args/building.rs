@@ -35,6 +35,15 @@ pub struct BuildArgs {
     /// Faces of each tight hull, with --for tight [default: 200]
     #[arg(long, value_name = "FACES", value_delimiter = ',', allow_negative_numbers = true, value_parser = whole::<4, MAX_TIGHT>)]
     pub tight: Vec<u32>,
+    /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point is farther than this from the mesh, in its unit
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["tight", "nested"])]
+    pub slack: Option<f64>,
+    /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most this void space, in percent of the mesh's volume
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["tight", "nested", "slack"])]
+    pub void: Option<f64>,
+    /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther are inside [default: 0]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length)]
+    pub margin: Option<f64>,
     /// Each tight hull encloses all finer ones
     #[arg(long)]
     pub nested: bool,
@@ -108,6 +117,9 @@ impl BuildArgs {
     pub fn tight_option(&self) -> Option<&'static str> {
         [
             ("--tight", !self.tight.is_empty()),
+            ("--slack", self.slack.is_some()),
+            ("--void", self.void.is_some()),
+            ("--margin", self.margin.is_some()),
             ("--nested", self.nested),
             ("--effort", self.effort.is_some()),
             ("--tight-for", !self.tight_for.is_empty()),
