@@ -261,6 +261,22 @@ fn a_mesh_that_overlaps_itself_has_no_void_that_could_be_kept() {
 }
 
 #[test]
+fn parts_with_no_more_faces_than_asked_for_are_their_own_hulls() {
+    let directory = scratch("hull_simple_parts");
+    let (mesh, out) = (directory.join("boxes.obj"), directory.join("hull.ply"));
+    // Where all starts are tried for each, which takes seconds, none has less void than rounding leaves.
+    let spans: Vec<[f64; 2]> = (0..200).map(|n| [f64::from(n), f64::from(n) + 0.5]).collect();
+    fs::write(&mesh, cubes(&spans)).unwrap();
+    let text = ok(["hull", arg(&mesh), "--parts", "--faces", "12", "-o", arg(&out)]);
+    let parts: Vec<&str> = text.lines().filter(|line| line.starts_with("  part ")).collect();
+    assert_eq!(parts.len(), 200);
+    for part in parts {
+        assert!(part.contains(": 12 faces, ") && void_percent(part) < 0.1, "{part}");
+    }
+    assert!(!text.contains("began as"), "{text}");
+}
+
+#[test]
 fn every_level_of_a_blob_is_a_closed_hull_with_the_level_s_faces() {
     let directory = scratch("hull_of_blob");
     let path = hull_blob(&directory, "bracket.stl", &[]);
