@@ -134,6 +134,15 @@ fn lengths_that_were_measured_have_few_digits() {
         let length = text.split(words).nth(1).unwrap().split([' ', ',']).next().unwrap();
         assert!(length.parse::<f64>().unwrap() > 0.0 && length.len() <= 8, "{text}");
     }
+    // Next to no volume, and next to nothing beyond it.
+    let plate = directory.join("plate.obj");
+    fs::write(&plate, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1e-30\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+        .unwrap();
+    for (mesh, ratio) in [(plate, 1e15..1e40), (fixture("groove.obj"), 1e-9..1e-3)] {
+        let text = ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
+        let void = text.split(" % void").next().unwrap().rsplit(' ').next().unwrap();
+        assert!(ratio.contains(&void_percent(&text)) && void.len() <= 11, "{text}");
+    }
 }
 
 #[test]
@@ -167,7 +176,7 @@ fn a_margin_is_printed_and_left_around_the_mesh() {
     let output = run(["hull", arg(&mesh), "--margin", "1e39", "-o", arg(&out)]);
     assert!(cli_support::refused(&output, 1, "box.obj").contains("range of single precision"));
     let output = run(["hull", arg(&mesh), "--margin", "1", "--slack", "1", "-o", arg(&out)]);
-    assert!(cli_support::refused(&output, 1, "box.obj").contains("not more than the margin"));
+    assert!(cli_support::refused(&output, 2, "--slack 1 ").contains("no more than --margin 1:"));
 }
 
 #[test]
@@ -180,6 +189,91 @@ fn open_meshes_have_a_tight_hull_and_each_part_one_of_its_own() {
     let text = ok(["hull", arg(&mesh), "--faces", "70", "--effort", "0", "--parts", "-o", arg(&out)]);
     assert!(text.contains("2 hulls") && text.contains("part 1: "), "{text}");
     assert!(closed(&out).0 <= 140);
+}
+
+#[test]
+fn what_keeps_a_mesh_from_having_a_void_is_named() {
+    let directory = scratch("hull_no_void");
+    let out = directory.join("hull.ply");
+    for (name, why) in [
+        ("open_box.stl", "the mesh is not closed: 8 boundary edges, as at triangle"),
+        ("glued_cubes.stl", "the mesh is not manifold: 4 edges with up to 3 triangles, as at triangle"),
+        ("klein_bottle.obj", "the mesh has no outside: 1 one-sided part, as at triangle"),
+        ("flat.obj", "that of triangle 0 bounds no volume, as at [0.0, 0.0, 0.0]"),
+    ] {
+        let mesh = fixture("evil").join(name);
+        let line = cli_support::refused(
+            &run(["hull", arg(&mesh), "--void", "20", "--effort", "0", "-o", arg(&out)]),
+            1,
+            name,
+        );
+        assert!(line.contains(why) && line.contains("ask for faces or slack"), "{line}");
+        assert!(!out.exists());
+    }
+    let flat = fixture("evil").join("flat.obj");
+    let text = ok(["hull", arg(&flat), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
+    assert!(!text.contains("% void") && text.contains("that of triangle 0 bounds no volume"), "{text}");
+    assert!(text.contains("; there is no volume to measure void against"), "{text}");
+}
+
+/// Cubes as OBJ, by the first and the last of each coordinate.
+fn cubes(spans: &[[f64; 2]]) -> String {
+    let mut text = String::new();
+    for [low, high] in spans {
+        for c in 0..8u32 {
+            let at = [c & 1, c >> 1 & 1, c >> 2].map(|bit| if bit == 0 { low } else { high });
+            text += &format!("v {} {} {}\n", at[0], at[1], at[2]);
+        }
+    }
+    for cube in 0..spans.len() {
+        for quad in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+            let [a, b, c, d] = quad.map(|corner: usize| corner + 1 + 8 * cube);
+            text += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn a_mesh_that_overlaps_itself_has_no_void_that_could_be_kept() {
+    let directory = scratch("hull_overlap");
+    let (mesh, out) = (directory.join("two.obj"), directory.join("hull.ply"));
+    // One in the other, both facing outwards.
+    fs::write(&mesh, cubes(&[[0.0, 2.0], [0.0625, 1.9375]])).unwrap();
+    let why = "the mesh overlaps itself, so that its volume counts places more than once";
+    let text = ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
+    assert!(closed(&out).1 < 14.0 && text.contains(why) && !text.contains("% void"), "{text}");
+    fs::remove_file(&out).unwrap();
+    let output = run(["hull", arg(&mesh), "--void", "60", "--effort", "0", "-o", arg(&out)]);
+    let line = cli_support::refused(&output, 1, "two.obj");
+    assert!(line.contains(why) && !out.exists(), "{line}");
+    let path = directory.join("two.msw");
+    let build = ["build", arg(&mesh), "--for", "tight", "--tight", "100", "--effort", "0"];
+    ok([&build[..], &["-o", arg(&path)]].concat());
+    assert!(info(&path)["tight_hulls"]["hulls"][0]["void_ratio"].is_null());
+    // Where no hull proves it, crossing is said; the box, of what is asked for, is had at once.
+    for (spans, crosses) in [(&[[0.0, 2.0], [1.875, 4.0]][..], true), (&[[0.0, 2.0]], false)] {
+        fs::write(&mesh, cubes(spans)).unwrap();
+        let text = ok(["hull", arg(&mesh), "--void", "9000", "--seconds", "1e-3", "-o", arg(&out)]);
+        assert_eq!(text.contains("the mesh crosses or touches itself"), crosses, "{text}");
+        assert!(text.contains("% void"), "{text}");
+    }
+}
+
+#[test]
+fn parts_with_no_more_faces_than_asked_for_are_their_own_hulls() {
+    let directory = scratch("hull_simple_parts");
+    let (mesh, out) = (directory.join("boxes.obj"), directory.join("hull.ply"));
+    // Where all starts are tried for each, which takes seconds, none has less void than rounding leaves.
+    let spans: Vec<[f64; 2]> = (0..200).map(|n| [f64::from(n), f64::from(n) + 0.5]).collect();
+    fs::write(&mesh, cubes(&spans)).unwrap();
+    let text = ok(["hull", arg(&mesh), "--parts", "--faces", "12", "-o", arg(&out)]);
+    let parts: Vec<&str> = text.lines().filter(|line| line.starts_with("  part ")).collect();
+    assert_eq!(parts.len(), 200);
+    for part in parts {
+        assert!(part.contains(": 12 faces, ") && void_percent(part) < 0.1, "{part}");
+    }
+    assert!(!text.contains("began as"), "{text}");
 }
 
 #[test]
@@ -240,6 +334,17 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
         let both = run(["hull", arg(&mesh), pair[0], pair[1], "-o", arg(&out)]);
         assert_eq!(both.status.code(), Some(2));
     }
+    // No file is looked at before.
+    for (slack, margin) in [("0.5", "2.25"), ("1e-9", "1e-9")] {
+        let missing = directory.join("missing.stl");
+        let output = run(["hull", arg(&missing), "--slack", slack, "--margin", margin, "-o", arg(&out)]);
+        let line = cli_support::refused(&output, 2, "--slack");
+        assert!(line.contains(&format!("--slack {slack} ")), "{line}");
+        assert!(line.contains(&format!("--margin {margin}:")), "{line}");
+    }
+    let output = run(["hull", arg(&mesh), "--slack", "inf", "-o", arg(&out)]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && text.contains("a finite number above 0"), "{text}");
     let both = run(["hull", arg(&path), "--level", "0", "--faces", "9", "-o", arg(&out)]);
     assert_eq!(both.status.code(), Some(2));
     assert!(!out.exists() && !stl.exists());

@@ -8,6 +8,7 @@ use cli_support::{
 };
 use serde_json::Value;
 use std::fs;
+use std::path::Path;
 
 /// Little polish, faces enough for a quick start.
 const TIGHT: [&str; 6] = ["--for", "tight", "--tight", "150,70", "--effort", "0.02"];
@@ -59,10 +60,101 @@ fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
     assert!(widths[0] == widths[1] && widths[2] == widths[3] && widths[2] < 0.9 * widths[0], "{widths:?}");
 }
 
+/// Whether lower and upper ends of closest points, and verdicts for a distance, are true of a surface; how many are yes and no.
+fn checked(
+    path: &Path,
+    surface: &[cli_support::Triangle],
+    points: &[[f32; 3]],
+    distance_of: f64,
+) -> [usize; 2] {
+    let file = path.with_extension("csv");
+    write_csv(&file, points);
+    let rows = parse_csv(&ok(["closest", arg(path), arg(&file)]), "x,y,z,lower,upper,px,py,pz,triangle,work");
+    let verdicts = ok(["within", arg(path), arg(&file), "--distance", &distance_of.to_string()]);
+    let verdicts = parse_csv(&verdicts, "x,y,z,within,triangle,work");
+    assert_eq!((rows.len(), verdicts.len()), (points.len(), points.len()));
+    let mut counts = [0; 2];
+    for ((row, verdict), point) in rows.iter().zip(&verdicts).zip(points) {
+        let real = distance(wide(point), surface);
+        let (lower, upper) = (number(&row[3]), number(&row[4]));
+        assert!(lower <= real * (1.0 + 1e-6) + 1e-9 && upper >= real * (1.0 - 1e-6) - 1e-9, "{row:?} {real}");
+        match verdict[3].as_str() {
+            "yes" => assert!(real <= distance_of + 1e-6, "{verdict:?} {real}"),
+            "no" => assert!(real >= distance_of - 1e-6, "{verdict:?} {real}"),
+            other => assert_eq!(other, "unknown"),
+        }
+        counts[0] += usize::from(verdict[3] == "yes");
+        counts[1] += usize::from(verdict[3] == "no");
+    }
+    counts
+}
+
+#[test]
+fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
+    let directory = scratch("tight_goals");
+    let mesh = fixture("torus.ply");
+    let surface = triangles(&mesh);
+    let solid = volume(&surface);
+    let points: Vec<[f32; 3]> = random_queries(&surface, 200);
+    let goals: [(&str, &[&str]); 5] = [
+        ("margin", &["--margin", "0.25", "--tight", "70,150"]),
+        ("nested", &["--margin", "0.25", "--tight", "70,150", "--nested"]),
+        ("slack", &["--slack", "0.4"]),
+        ("both", &["--slack", "0.6", "--margin", "0.25"]),
+        ("void", &["--void", "30"]),
+    ];
+    for (name, options) in goals {
+        let path = directory.join(format!("{name}.msw"));
+        let build = ["build", arg(&mesh), "-o", arg(&path), "--for", "tight", "--effort", "0"];
+        let text = ok([&build[..], options].concat());
+        let [yes, no] = checked(&path, &surface, &points, 0.75);
+        assert!(yes > 5 && no > 5, "{name}: {yes} {no}");
+        let blob = info(&path);
+        assert_eq!(hulls(&blob).len(), if options.contains(&"--tight") { 2 } else { 1 });
+        let keeps = options.contains(&"--margin");
+        assert_eq!(text.contains("all points within 0.25 of the mesh are inside"), keeps, "{text}");
+        for hull in hulls(&blob) {
+            let (slack, out) = (hull["slack"].as_f64().unwrap(), directory.join("hull.ply"));
+            ok(["hull", arg(&path), "--tight", &hull["faces"].to_string(), "-o", arg(&out)]);
+            let hull_surface = triangles(&out);
+            if keeps {
+                // From the mesh's side: no vertex of it is nearer to the hull.
+                let near = surface.iter().flatten().map(|&p| distance(p, &hull_surface));
+                assert!(near.fold(f64::INFINITY, f64::min) >= 0.25, "{name}");
+            }
+            let far = hull_surface.iter().flatten().map(|&p| distance(p, &surface)).fold(0.0, f64::max);
+            assert!(far <= slack * (1.0 + 1e-6), "{name}: {far} {slack}");
+            if let Some(at) = options.iter().position(|&option| option == "--slack") {
+                // Single precision rounds the number up.
+                assert!(slack <= options[at + 1].parse::<f64>().unwrap() * (1.0 + 1e-7), "{name}: {slack}");
+            }
+            if name == "void" {
+                assert!(volume(&hull_surface) <= 1.3 * solid);
+            }
+        }
+    }
+    let out = directory.join("none.msw");
+    let refuse = |options: &[&str], status: i32, named: &str| {
+        let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--effort", "0"];
+        let line = refused(&run([&build[..], options].concat()), status, named);
+        assert!(!out.exists());
+        line
+    };
+    assert!(refuse(&["--slack", "0.2", "--margin", "0.25"], 2, "--slack 0.2").contains("--margin 0.25:"));
+    let line = refuse(&["--slack", "1e-9"], 1, "torus.ply");
+    assert!(line.contains("a larger --slack") && line.contains("faces with --tight; nothing"), "{line}");
+    for pair in [["--slack=1", "--tight=70"], ["--void=9", "--nested"], ["--slack=1", "--void=9"]] {
+        let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight"];
+        assert_eq!(run([&build[..], &pair].concat()).status.code(), Some(2), "{pair:?}");
+    }
+}
+
 #[test]
 fn a_blob_tells_its_hulls_and_gives_them_back() {
     let directory = scratch("tight_info");
     let path = blob(&directory, "torus.ply", &TIGHT);
+    let served = "  serves closest, within without --all, hull --tight, cut\n";
+    assert!(ok(["info", arg(&path)]).contains(served));
     let before = info(&path);
     assert_eq!(before["tight_hulls"]["is_nested"], false);
     assert_eq!(before["serves"], serde_json::json!(["closest", "within", "hull --tight", "cut"]));
@@ -75,6 +167,8 @@ fn a_blob_tells_its_hulls_and_gives_them_back() {
         let text = ok(["hull", arg(&path), "--tight", &faces, "-o", arg(&out)]);
         assert!(text.contains(&format!("{faces} faces")), "{text}");
         let void = volume(&triangles(&out)) / solid - 1.0;
+        let printed: f64 = text.split(" % void").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
+        assert!((printed - 100.0 * void).abs() < 1e-2, "{text}");
         assert!((void - hull["void_ratio"].as_f64().unwrap()).abs() < 1e-4, "{void}");
         let slack = hull["slack"].as_f64().unwrap();
         let surface = triangles(&fixture("torus.ply"));
@@ -163,6 +257,10 @@ fn tables_of_hulls_say_what_is_not_there_and_count_as_people_do() {
     fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n").unwrap();
     let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", "12", "--effort", "0"];
     let text = ok(build);
+    let ply = directory.join("hull.ply");
+    let hull = ok(["hull", arg(&out), "--tight", "12", "-o", arg(&ply)]);
+    assert!(hull.contains(" faces, at most ") && !hull.contains("void"), "{hull}");
+    assert!(text.contains("  the mesh is not closed: 4 boundary edges, as at triangle "), "{text}");
     assert!(text.contains("1 hull: it encloses the mesh"), "{text}");
     assert!(text.contains("hull to mesh, at most  mesh to hull, at most"), "{text}");
     let row = text.lines().skip_while(|line| !line.contains("void %")).nth(1).unwrap();
@@ -174,7 +272,15 @@ fn tables_of_hulls_say_what_is_not_there_and_count_as_people_do() {
 fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
     let directory = scratch("tight_usage");
     let (mesh, out) = (fixture("torus.ply"), directory.join("out.msw"));
-    for option in [&["--tight", "50"][..], &["--nested"], &["--effort", "1"], &["--tight-for", "closest"]] {
+    for option in [
+        &["--tight", "50"][..],
+        &["--slack", "1"],
+        &["--void", "1"],
+        &["--margin", "1"],
+        &["--nested"],
+        &["--effort", "1"],
+        &["--tight-for", "closest"],
+    ] {
         let output = run([&["build", arg(&mesh), "-o", arg(&out)], option].concat());
         let line = refused(&output, 2, option[0]);
         assert!(line.contains("add tight to --for"), "{line}");

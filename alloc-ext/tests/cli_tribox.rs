@@ -229,4 +229,9 @@ fn triboxes_are_cut_alone_or_with_the_hull_and_stay_else() {
     let mesh = fixture("groove.obj");
     let stray = ["build", arg(&mesh), "--triboxes", "2", "-o", arg(&plain)];
     refused(&run(stray), 2, "add triboxes to --for");
+    for (option, wanted) in [("--levels", "a whole number from 1 to 12"), ("--simplify", "a number from 0")] {
+        let output = run(["tribox", arg(&mesh), option, "-1"]);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && text.contains(wanted), "{text}");
+    }
 }

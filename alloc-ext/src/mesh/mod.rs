@@ -39,6 +39,7 @@ use std::path::{Path, PathBuf};
 pub use error::{EdgePlace, MeshError};
 pub use manifold::require_closed_manifold;
 pub(crate) use nesting::Part as Enclosure;
+pub(crate) use outward::{Volume, volume};
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};

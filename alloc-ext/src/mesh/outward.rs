@@ -11,7 +11,7 @@ use super::winding::Parts;
 
 /// A signed volume and the bound of its rounding error.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Volume {
+pub(crate) struct Volume {
     pub value: f64,
     pub bound: f64,
 }
@@ -91,7 +91,7 @@ pub(super) fn closed_parts(positions: &[[f32; 3]], triangles: &[[u32; 3]], parts
 /// Each of the six products of a determinant carries at most 5 roundings (three differences, two products) and 5
 /// additions, and the sum over n triangles n more, each relative to the sum of absolute products: (n + 11) u of it,
 /// which (n + 16) ε covers with its own rounding. Coordinates are f32, so nothing over- or underflows.
-fn volume(triangles: &[[[f32; 3]; 3]]) -> Volume {
+pub(crate) fn volume(triangles: &[[[f32; 3]; 3]]) -> Volume {
     let origin = triangles.first().map_or([0.0; 3], |t| t[0].map(f64::from));
     let (mut sum, mut absolute) = (0.0, 0.0);
     for triangle in triangles {

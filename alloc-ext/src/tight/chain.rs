@@ -4,7 +4,7 @@ use super::distances::{Distances, distances};
 use super::store::{Stored, TightTables};
 use crate::mesh::Mesh;
 use crate::precision::VertexBits;
-use crate::wrap::{self, Goal, Hull, Options, WrapError, wrap};
+use crate::wrap::{self, Goal, Hull, NoVolume, Options, Solid, WrapError, wrap};
 use meshsweep_core::blob::layout::MAX_LEVELS;
 use meshsweep_core::num::Radius16;
 use std::time::{Duration, Instant};
@@ -17,6 +17,10 @@ pub const MAX_HULLS: usize = MAX_LEVELS as usize;
 pub struct ChainOptions {
     /// Most faces of each hull, in any order.
     pub faces: Vec<usize>,
+    /// What one hull has to reach, instead of numbers of faces.
+    pub goal: Option<Goal>,
+    /// Distance that every hull keeps from the mesh; see [`Options::margin`]. Answers about the mesh hold as they do without: of the margin they know nothing.
+    pub margin: f64,
     /// Whether each hull shall enclose all finer ones.
     pub nested: bool,
     /// How long to polish; see [`Options::effort`].
@@ -34,6 +38,8 @@ impl Default for ChainOptions {
     fn default() -> Self {
         Self {
             faces: vec![200],
+            goal: None,
+            margin: 0.0,
             nested: false,
             effort: 1.0,
             vertex_bits: VertexBits::Auto,
@@ -62,14 +68,14 @@ pub enum Stage {
 /// A hull of the chain, and what it took.
 #[derive(Clone, Debug)]
 pub struct HullReport {
-    /// Faces asked for.
-    pub asked: usize,
+    /// What was asked for.
+    pub asked: Goal,
     /// What `wrap` says; of a nested hull its `slack` is measured to the next finer hull, and so is its `void`.
     pub wrapped: wrap::Report,
     /// Both ways between hull and mesh, input units.
     pub distances: Distances,
-    /// Volume beyond that of the mesh as a part of it; `None` if the mesh bounds no volume.
-    pub void: Option<f64>,
+    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that against.
+    pub void: Result<f64, NoVolume>,
     /// The same of a hull with as many faces that need not enclose the finer ones; `None` where nothing was nested.
     pub free_void: Option<f64>,
     /// Bytes in the blob.
@@ -98,9 +104,12 @@ pub fn chain(
     faces.dedup();
     // A mesh that is to have no hull has the one that is made unless told otherwise.
     let faces: Vec<usize> = if faces.is_empty() { ChainOptions::default().faces } else { faces };
-    let of = faces.len();
-    let wrap_options = |faces: usize| Options {
-        goal: Goal::Faces(faces),
+    let goals: Vec<Goal> =
+        options.goal.map_or_else(|| faces.into_iter().map(Goal::Faces).collect(), |goal| vec![goal]);
+    let of = goals.len();
+    let wrap_options = |goal: Goal| Options {
+        goal,
+        margin: options.margin,
         effort: options.effort,
         vertex_bits: match options.vertex_bits {
             VertexBits::Auto => VertexBits::Grid16,
@@ -110,20 +119,20 @@ pub fn chain(
     };
     // Fine to coarse: a nested hull needs the one that it encloses.
     let mut made: Vec<(Hull, HullReport)> = Vec::new();
-    let mut volume = None;
-    for (index, &faces) in faces.iter().rev().enumerate() {
+    let solid = Solid::of(mesh);
+    let mut overlaps = false;
+    for (index, &goal) in goals.iter().rev().enumerate() {
         let started = Instant::now();
-        let options_here = wrap_options(faces);
+        let options_here = wrap_options(goal);
         let mut show = |progress| on_progress(Stage::Wrapping { hull: index, of, progress });
         let free = wrap(mesh, &options_here, &mut show)?;
-        if index == 0 {
-            volume = free.report.void.map(|void| free.report.volume / (1.0 + void));
-        }
         let finer = made.last().filter(|_| options.nested);
         let (hull, free_void) = match finer {
             Some((finer, _)) => {
+                // The finer one keeps the margin for it.
+                let options_here = Options { margin: 0.0, ..options_here };
                 let hull = wrap(&finer.mesh, &options_here, &mut show)?;
-                (hull, free.report.void)
+                (hull, free.report.void.ok())
             }
             None => (free, None),
         };
@@ -131,13 +140,20 @@ pub fn chain(
             continue;
         }
         on_progress(Stage::Certifying);
-        let distances = distances(&hull.mesh, mesh);
+        let mut distances = distances(&hull.mesh, mesh);
+        if let Goal::Slack(_) = goal {
+            // Proved face by face, which bounds of the farthest point are not as fine as.
+            let most = hull.report.slack.upper;
+            let slacks = distances.slacks.iter_mut().chain([&mut distances.slack.upper]);
+            slacks.for_each(|slack| *slack = slack.min(most));
+        }
         if !fits(&distances) {
             return Err(WrapError::NoRoom);
         }
-        let void = volume.map(|volume| hull.report.volume / volume - 1.0);
+        let void = solid.and_then(|solid| solid.void(&hull.mesh, hull.report.volume));
+        overlaps |= void == Err(NoVolume::Overlapping);
         let report = HullReport {
-            asked: faces,
+            asked: goal,
             wrapped: hull.report,
             distances,
             void,
@@ -148,6 +164,10 @@ pub fn chain(
         made.push((hull, report));
     }
     made.reverse();
+    if overlaps {
+        // What one hull proves of the mesh holds for all.
+        made.iter_mut().for_each(|(_, report)| report.void = Err(NoVolume::Overlapping));
+    }
     let stored: Vec<Stored> = made
         .iter_mut()
         .map(|(hull, report)| {

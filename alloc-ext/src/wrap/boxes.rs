@@ -1,6 +1,7 @@
 //! A static tree of boxes, for local queries on what does not move.
 
-use glam::DVec3;
+use crate::mesh::Enclosure;
+use glam::{DVec3, Vec3};
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +15,12 @@ impl Bounds {
 
     pub fn of(points: &[DVec3]) -> Self {
         points.iter().fold(Self::EMPTY, |bounds, &p| bounds.with(p))
+    }
+
+    /// Of a closed part.
+    pub fn around(part: &Enclosure) -> Self {
+        let [low, high] = [part.low, part.high].map(|p| Vec3::from(p).as_dvec3());
+        Self { low, high }
     }
 
     pub fn with(self, p: DVec3) -> Self {

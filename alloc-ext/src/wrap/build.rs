@@ -5,6 +5,7 @@ use super::options::{Goal, Options, Progress, Stage, Start, Stop, WrapError};
 use super::polish::Polish;
 use super::rounding::Rounding;
 use super::start::{First, first_box, first_closure, first_levels};
+use super::volume::Solid;
 use super::work::{Shape, Work};
 use crate::mesh::Mesh;
 use crate::precision::Stored;
@@ -45,6 +46,12 @@ const ROUND_CELLS: [usize; 2] = [12, 32];
 
 /// Faces up to which closures are tried beside the progressive hull.
 pub(super) const FEW_FACES: usize = 60;
+
+/// Void with which the solid's own faces are a hull that no other start can better by more.
+const NEXT_TO_NONE: f64 = 1e-4;
+
+/// Half-steps of the grid that keep such a hull off the mesh.
+const STEPS_OFF: f64 = 12.0;
 
 /// What a hull is made of.
 pub(super) struct From<'m> {
@@ -116,6 +123,7 @@ pub(super) struct Builder<'a, 'o, 'p> {
     pub obstacle: &'a Obstacle,
     /// The mesh's volume, if it bounds one.
     pub volume: Option<f64>,
+    pub solid: Option<Solid>,
     pub options: &'o Options,
     pub deadline: Option<Instant>,
     /// Whether the best start was given up for lack of time.
@@ -170,11 +178,14 @@ impl<'a> Builder<'a, '_, '_> {
             });
             let first = first_levels(mesh, stored, self.obstacle, &rounding, wanted, half, self.on_progress);
             for first in [first.plenty, first.wanted].into_iter().flatten() {
-                let done = self.prepare(first, &how);
-                better(&mut best, done);
+                if !best.as_ref().is_some_and(|best| self.is_solid_itself(best)) {
+                    let done = self.prepare(first, &how);
+                    better(&mut best, done);
+                }
             }
             self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
         }
+        let is_itself = best.as_ref().is_some_and(|best| self.is_solid_itself(best));
         let is_enough = best.is_some() || round.is_some();
         let finest = Some(finest(wanted));
         let coarser = COARSER.into_iter().filter(|&cells| cells != finest);
@@ -186,7 +197,8 @@ impl<'a> Builder<'a, '_, '_> {
                 continue;
             }
             let is_reached = best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
-            if best.is_some() && (late || is_enough && !is_few && is_reached) {
+            let settled = is_enough && (!is_few || is_itself) && is_reached;
+            if best.is_some() && (settled || late) {
                 break;
             }
             if is_reached && cells == LAST_RESORT {
@@ -207,6 +219,20 @@ impl<'a> Builder<'a, '_, '_> {
             self.finish(&mut done);
         }
         Ok(done)
+    }
+
+    /// Whether a hull that reached its goal has next to no void. One that holds less than the mesh's volume says nothing: parts overlap.
+    fn is_solid_itself(&self, done: &Done<'a>) -> bool {
+        let Work { shell, rounding, .. } = &done.work;
+        let bounds = self.obstacle.bounds();
+        let size = bounds.low.abs().max(bounds.high.abs()).max_element();
+        let area = shell.alive().map(|f| {
+            let [a, b, c] = shell.triangle(f);
+            0.5 * (b - a).cross(c - a).length()
+        });
+        let off = STEPS_OFF * rounding.half_step(size) * area.sum::<f64>();
+        let near = |volume: f64| (volume..=volume * (1.0 + NEXT_TO_NONE) + off).contains(&shell.volume());
+        done.stop == Stop::Reached && self.volume.is_some_and(near)
     }
 
     /// Why there is no start.

@@ -7,6 +7,7 @@ use super::build::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
 use super::options::{Stop, WrapError};
 use super::rounding::Rounding;
 use super::start::{First, first_box, first_closure, first_levels};
+use super::volume::NoVolume;
 use super::work::Work;
 
 /// Faces that a search for a void begins with.
@@ -138,6 +139,7 @@ impl<'a> Builder<'a, '_, '_> {
         }
         let mut too_few = TOO_FEW;
         loop {
+            self.require_measure(&done.work)?;
             let faces = done.work.shell.face_count();
             let staged = (faces as f64 * STAGE) as usize;
             let next = if staged > too_few { staged } else { usize::midpoint(faces, too_few) };
@@ -170,6 +172,16 @@ impl<'a> Builder<'a, '_, '_> {
                 done.work.take_counts(&trial.work);
                 too_few = next;
             }
+        }
+    }
+
+    /// That the mesh's volume is not known to count places more than once.
+    fn require_measure(&self, work: &Work<'a>) -> Result<(), WrapError> {
+        let hull: Vec<[[f32; 3]; 3]> =
+            work.shell.alive().map(|f| work.shell.triangle(f).map(|p| p.as_vec3().to_array())).collect();
+        match self.solid.filter(|solid| solid.is_more_than(&hull)) {
+            Some(_) => Err(WrapError::NoVolume(NoVolume::Overlapping)),
+            None => Ok(()),
         }
     }
 

@@ -4,9 +4,9 @@ use super::boxes::Bounds;
 use super::build::{Builder, Done};
 use super::obstacle::Obstacle;
 use super::options::{Goal, Options, Progress, Report, Stop, WrapError};
-use super::shell::Shell;
 use super::slack::slack;
-use crate::mesh::{Mesh, require_closed_manifold};
+use super::volume::{Solid, crosses_itself};
+use crate::mesh::Mesh;
 use crate::precision::{Stored, VertexBits, store};
 use glam::DVec3;
 use meshsweep_core::num::exp2;
@@ -55,11 +55,11 @@ pub fn wrap_all(
     }
     let positions: Vec<DVec3> =
         mesh.positions.iter().map(|&[x, y, z]| glam::Vec3::new(x, y, z).as_dvec3()).collect();
-    let solid = require_closed_manifold(mesh).is_ok();
-    let volume = if solid { Shell::new(positions.clone(), &mesh.triangles).volume() } else { 0.0 };
-    if matches!(options.goal, Goal::Void(_)) && volume <= 0.0 {
-        return Err(WrapError::NoVolume);
+    let solid = Solid::of(mesh);
+    if let (Goal::Void(_), Err(why)) = (options.goal, solid) {
+        return Err(WrapError::NoVolume(why));
     }
+    let crosses = matches!(options.goal, Goal::Void(_)) && crosses_itself(&positions, &mesh.triangles);
     // A hull keeps some steps of its grid off the mesh: a coarse one that holds the mesh is no reason to store the hull on it.
     let bits = match options.vertex_bits {
         VertexBits::Auto => VertexBits::F32,
@@ -76,10 +76,10 @@ pub fn wrap_all(
     // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where it is.
     let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
     let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
-    let solid = solid && volume > 0.0;
     let mut builder = Builder {
         obstacle: &obstacle,
-        volume: solid.then_some(volume),
+        volume: solid.ok().map(|solid| solid.volume),
+        solid: solid.ok(),
         options,
         // A limit that the clock has no number for is none.
         deadline: options.time_limit.and_then(|limit| started.checked_add(limit)),
@@ -100,11 +100,14 @@ pub fn wrap_all(
     {
         slack.upper = slack.upper.min(most).max(slack.lower);
     }
+    let single = at.iter().map(|p| p.as_vec3().to_array()).collect();
+    let hull = Mesh::new(single, triangles);
     let report = Report {
-        faces: triangles.len(),
+        faces: hull.triangles.len(),
         margin: options.margin,
         volume: hull_volume,
-        void: solid.then(|| hull_volume / volume - 1.0),
+        void: solid.and_then(|solid| solid.void(&hull, hull_volume)),
+        crosses,
         slack,
         start,
         filled: filled + work.swallowed,
@@ -115,8 +118,7 @@ pub fn wrap_all(
         refused: work.refused,
         time: started.elapsed(),
     };
-    let single = at.iter().map(|p| p.as_vec3().to_array()).collect();
-    Ok(Hull { mesh: Mesh::new(single, triangles), report })
+    Ok(Hull { mesh: hull, report })
 }
 
 /// Positions and triangles with further ones, which share the vertices that are at the same place.

@@ -48,9 +48,12 @@ mod slack;
 mod start;
 mod surface;
 mod vertex;
+mod volume;
 mod work;
 
 pub use hull::{Hull, wrap, wrap_all};
 pub use options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError};
 pub use parts::{parts, share};
 pub use surface::Surface;
+pub use volume::NoVolume;
+pub(crate) use volume::Solid;

@@ -1,5 +1,6 @@
 //! What is asked of a hull, and what is said about it.
 
+use super::volume::NoVolume;
 use crate::hull::Farthest;
 use crate::precision::VertexBits;
 use std::time::Duration;
@@ -9,7 +10,8 @@ use std::time::Duration;
 pub enum Goal {
     /// At most so many faces, and as little volume as can be had with them.
     Faces(usize),
-    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it; a margin counts as volume beyond. For closed meshes.
+    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it; a margin counts as volume beyond. For closed meshes
+    /// that do not overlap themselves; where one is found to, that is an error.
     Void(f64),
     /// The fewest faces found of which no point is farther than this from the mesh, in its unit; more than the margin.
     Slack(f64),
@@ -85,8 +87,11 @@ pub struct Report {
     pub margin: f64,
     /// Volume, in the mesh's unit.
     pub volume: f64,
-    /// Volume beyond that of the mesh as a part of it; `None` if the mesh does not bound a volume.
-    pub void: Option<f64>,
+    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that against.
+    pub void: Result<f64, NoVolume>,
+    /// Whether the mesh crosses or touches itself, which is looked for where a void is asked for: then its volume may count places more than once, and the void be
+    /// more than is said.
+    pub crosses: bool,
     /// Bounds of the largest distance from a point of the hull to the mesh, in its unit.
     pub slack: Farthest,
     /// What it was made from.
@@ -134,8 +139,8 @@ pub enum Stage {
 pub enum WrapError {
     /// No triangle.
     Empty,
-    /// A void was asked for, and the mesh does not bound a positive volume.
-    NoVolume,
+    /// A void was asked for, and the mesh has no volume to measure it against.
+    NoVolume(NoVolume),
     /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the mesh is as small as the steps of its
     /// coordinates.
     NoRoom,
@@ -149,11 +154,12 @@ pub enum WrapError {
 
 impl std::fmt::Display for WrapError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if let WrapError::NoVolume(why) = self {
+            return write!(f, "{why}; there is no volume to measure void against: ask for faces or slack");
+        }
         f.write_str(match self {
             WrapError::Empty => "the mesh has no triangles; give one that has",
-            WrapError::NoVolume => {
-                "the mesh bounds no positive volume, which void is measured against; ask for faces or slack"
-            }
+            WrapError::NoVolume(_) => "there is no volume to measure void against",
             WrapError::NoRoom => {
                 "there are no coordinates of single precision around the mesh to put a hull on; move or scale it"
             }

@@ -52,11 +52,7 @@ pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
 
 /// For each part the closed ones that hold its first vertex, in order.
 fn around(mesh: &Mesh, loose: &[Vec<usize>], closed: &[(usize, Enclosure)]) -> Vec<Vec<usize>> {
-    let boxes: Vec<Bounds> = closed
-        .iter()
-        .map(|(_, e)| [e.low, e.high].map(|p| Vec3::from(p).as_dvec3()))
-        .map(|[low, high]| Bounds { low, high })
-        .collect();
+    let boxes: Vec<Bounds> = closed.iter().map(|(_, enclosure)| Bounds::around(enclosure)).collect();
     let (tree, order) = BoxTree::new(&boxes);
     let around = |(i, part): (usize, &Vec<usize>)| {
         let mut found = Vec::new();

@@ -361,10 +361,23 @@ pub(super) fn keep_outermost(shell: Shell) -> (Shell, usize) {
         return (shell, 0);
     }
     let enclosures: Vec<Enclosure> = all.iter().map(|faces| enclosure(&shell, faces)).collect();
+    // Thousands of parts: only those are asked whose boxes hold the point.
+    let boxes: Vec<Bounds> = enclosures.iter().map(Bounds::around).collect();
+    let (tree, order) = BoxTree::new(&boxes);
     let inside = |i: usize| {
         let Some(&first) = all[i].first() else { return true };
-        let p = shell.triangle(first)[0].as_vec3().to_array();
-        (0..all.len()).any(|j| j != i && enclosures[j].holds(p))
+        let p = shell.triangle(first)[0];
+        let at = Bounds::of(&[p]);
+        let mut is_inside = false;
+        tree.visit(
+            |of| of.meets(&at),
+            |item| {
+                let j = order[item] as usize;
+                is_inside = j != i && enclosures[j].holds(p.as_vec3().to_array());
+                !is_inside
+            },
+        );
+        is_inside
     };
     let kept: Vec<u32> =
         (0..all.len()).filter(|&i| !inside(i)).flat_map(|i| all[i].iter().copied()).collect();
@@ -421,4 +434,46 @@ pub(super) fn defects(shell: &Shell, obstacle: &Obstacle) -> Defects {
     let is_out = |p: &&DVec3| !hull.holds(p.as_vec3().to_array());
     defects.outside = obstacle.witnesses().iter().filter(is_out).count();
     defects
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wrap::polish::Dice;
+
+    /// Tetrahedra at the points of a lattice, every third with another in it, and every sixth with one in that.
+    fn tetrahedra(side: usize) -> (Shell, usize) {
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        let mut add = |at: DVec3, size: f64| {
+            let first = positions.len() as u32;
+            let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+            positions.extend(corners.map(|p| (at + p * size).as_vec3().as_dvec3()));
+            triangles.extend([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3u32]].map(|t| t.map(|v| v + first)));
+        };
+        let mut dice = Dice::new(3);
+        let mut within = 0;
+        for n in 0..side.pow(3) {
+            let at = [n % side, n / side % side, n / side / side].map(|x| 2.0 * x as f64);
+            let at = DVec3::from(at) + DVec3::new(dice.roll(), dice.roll(), dice.roll());
+            add(at, 1.0);
+            for (size, every) in [(0.5, 3), (0.25, 6)] {
+                if n % every == 0 {
+                    add(at + 0.1, size);
+                    within += 1;
+                }
+            }
+        }
+        (Shell::new(positions, &triangles), within)
+    }
+
+    #[test]
+    fn of_many_parts_those_inside_others_are_dropped() {
+        for side in [1, 2, 6] {
+            let (shell, within) = tetrahedra(side);
+            let parts = shell.face_count() / 4;
+            let (left, dropped) = keep_outermost(shell);
+            assert_eq!((dropped, left.face_count()), (within, 4 * (parts - within)));
+            assert!(left.volume() > (parts - within) as f64 / 6.001);
+        }
+    }
 }

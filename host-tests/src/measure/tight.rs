@@ -109,7 +109,7 @@ fn hulls(subject: &Subject, volume: Option<f64>, measured: &mut Vec<Measured>) -
             lp,
             span,
         ]);
-        measured.push(Measured { asked: faces, void: report.void, hull: mesh });
+        measured.push(Measured { asked: faces, void: report.void.ok(), hull: mesh });
     }
     table.note("distance: no point of the hull is farther from the mesh, and one is at least so far; input units; seconds of processor time from the mesh in memory");
     table.note("lp, span: progressive hulls by the two priorities of paper 000; empty if they do not come down to so few faces");

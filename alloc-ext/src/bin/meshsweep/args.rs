@@ -12,7 +12,7 @@ pub use asking::{
     SegmentArgs, SegmentEngine, SignedArgs, WithinArgs,
 };
 pub use bounding::TriboxArgs;
-pub use building::{BuildArgs, CutArgs, HullArgs, HullServes, InfoArgs, StoredBits};
+pub use building::{BuildArgs, CutArgs, HullArgs, HullServes, InfoArgs, StoredBits, slack_within_margin};
 pub use given::{Given, number};
 pub use values::Margin;
 

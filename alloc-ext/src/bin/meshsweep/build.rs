@@ -1,10 +1,10 @@
 //! `meshsweep build`: a mesh file in, a blob and a report out.
 
-use super::args::{BuildArgs, HullServes, StoredBits};
+use super::args::{BuildArgs, HullServes, StoredBits, slack_within_margin};
 use super::counted::Counted;
 use super::describe;
 use super::failure::Failure;
-use super::hull::{WrapBars, write_start};
+use super::hull::{Tightness, WrapBars, require_met, widened, write_margin, write_start};
 use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
@@ -13,6 +13,7 @@ use meshsweep_alloc::hull::{self, BuildError, BuildOptions, BuildReport, Built};
 use meshsweep_alloc::tight::{self, ChainOptions, HullReport, Stage, TightTables};
 use meshsweep_alloc::tree::{self, TreeOptions};
 use meshsweep_alloc::tribox::{self, TriboxReport, TriboxTables};
+use meshsweep_alloc::wrap::Goal;
 use meshsweep_alloc::{emit, emit::Parts, precision::VertexBits};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::VertexFormat;
@@ -38,6 +39,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     }
     if let Some(option) = args.tight_option().filter(|_| !wanted.tight) {
         return Err(Failure::Usage { what: format!("{option} is for tight hulls; add tight to --for") });
+    }
+    if let Some(what) = slack_within_margin(args.slack, args.margin) {
+        return Err(Failure::Usage { what });
     }
     if args.tight.len() > tight::MAX_HULLS {
         let what = format!("--tight takes at most {} numbers of faces", tight::MAX_HULLS);
@@ -113,6 +117,8 @@ fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(TightTables, Vec<Hu
     let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
     let options = ChainOptions {
         faces: args.tight.iter().map(|&faces| faces as usize).collect(),
+        goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
+        margin: widened(args.margin.unwrap_or(0.0), loaded),
         nested: args.nested,
         effort: args.effort.unwrap_or(1.0),
         vertex_bits: args.vertex_bits.format(),
@@ -120,11 +126,14 @@ fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(TightTables, Vec<Hu
         segments: asked(HullServes::Segment),
     };
     let mut bars = WrapBars::default();
-    tight::chain(mesh, *moved, *input_triangles, &options, |stage| match stage {
+    let made = tight::chain(mesh, *moved, *input_triangles, &options, |stage| match stage {
         Stage::Wrapping { progress, .. } => bars.show(progress),
         Stage::Certifying => bars = WrapBars::default(),
     })
-    .map_err(|error| Failure::Wrap { file: args.mesh.clone(), error })
+    .map_err(|error| Failure::Wrap { file: args.mesh.clone(), error })?;
+    let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--tight" };
+    require_met(&args.mesh, &asked, made.1.iter().map(|report| &report.wrapped))?;
+    Ok(made)
 }
 
 fn failed(args: &BuildArgs, error: BuildError) -> Failure {
@@ -166,6 +175,10 @@ impl Report<'_> {
         describe::write_blob(out, model)?;
         if let Some(reports) = tight {
             write_left_out(out, args, reports)?;
+            write_margin(out, args.margin)?;
+            if let Some(Err(why)) = reports.first().map(|report| report.void) {
+                writeln!(out, "  {why}; there is no volume to measure void against")?;
+            }
             reports.iter().try_for_each(|report| write_tight(out, report))?;
         }
         write!(out, "seconds: read and repair {:.3}", loaded.time.as_secs_f64())?;
@@ -198,7 +211,7 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
     let mut asked: Vec<u32> = args.tight.clone();
     asked.sort_unstable();
     asked.dedup();
-    asked.retain(|&faces| reports.iter().all(|report| report.asked != faces as usize));
+    asked.retain(|&faces| reports.iter().all(|report| report.asked != Goal::Faces(faces as usize)));
     for faces in asked {
         writeln!(out, "  no tight hull of {faces} faces: it came to no fewer than the next finer one")?;
     }
@@ -207,21 +220,23 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
 
 /// What the table of tight hulls does not say.
 fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
-    if let (Some(void), Some(free)) = (report.void, report.free_void) {
+    if let (Ok(void), Some(free)) = (report.void, report.free_void) {
         writeln!(
             out,
-            "  tight hull of {}: {:.3} % void space, {:.3} % if it did not enclose the finer ones",
+            "  tight hull of {}: {} % void space, {} % if it did not enclose the finer ones",
             Counted(report.wrapped.faces, "face"),
-            void * 100.0,
-            free * 100.0
+            describe::Percent(void * 100.0),
+            describe::Percent(free * 100.0)
         )?;
     }
-    if report.wrapped.faces > report.asked {
+    if let Goal::Faces(asked) = report.asked
+        && report.wrapped.faces > asked
+    {
         writeln!(
             out,
             "  tight hull of {}: stopped before {}, where no edge may collapse and leave it closed, clear of the mesh and of itself",
             Counted(report.wrapped.faces, "face"),
-            report.asked
+            asked
         )?;
     }
     write_start(out, &report.wrapped)

@@ -8,9 +8,9 @@ mod tree;
 mod triboxes;
 
 pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
-pub use length::{About, AtLeast, AtMost, Given};
+pub use length::{About, AtLeast, AtMost, Given, Percent};
 pub use shape::Shape;
-pub use tight::as_json as tight_as_json;
+pub use tight::{as_json as tight_as_json, void as tight_void};
 pub use tree::{bounds, half_widths, stack_bytes, tree_format_name, tree_surface_error};
 pub use triboxes::as_json as triboxes_as_json;
 
@@ -90,7 +90,7 @@ fn write_sections(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
 
 /// Everything that both `build` and `info` print of a blob.
 pub fn write_blob(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    writeln!(out, "  serves {}", served::questions(model).join(", "))?;
+    writeln!(out, "  serves {}", served::listed(model))?;
     writeln!(out, "section                               bytes per triangle")?;
     write_sections(out, model)?;
     if model.has_hull() {

@@ -1,10 +1,10 @@
 //! `meshsweep hull`: an outer hull of a mesh, or a level of a blob, as binary PLY.
 
-use super::args::HullArgs;
+use super::args::{HullArgs, slack_within_margin};
 use super::blob_file;
 use super::build::{FACES, why_stuck};
 use super::counted::Counted;
-use super::describe::AtMost;
+use super::describe::{AtMost, Percent, tight_void};
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
@@ -22,8 +22,8 @@ use std::time::Instant;
 mod tight;
 mod unmet;
 
-pub use tight::{WrapBars, write_start};
-pub use unmet::Unmet;
+pub use tight::{WrapBars, widened, write_margin, write_start};
+pub use unmet::{Tightness, Unmet, require_met};
 
 pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let usage = |what: String| Err(Failure::Usage { what });
@@ -32,6 +32,9 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             "{}: the hull is written as PLY; name an output that ends in .ply",
             args.output.display()
         ));
+    }
+    if let Some(what) = slack_within_margin(args.slack, args.margin) {
+        return usage(what);
     }
     refuse_same_file(&args.output, &[&args.input])?;
     let is_blob = mesh_file::is_blob(&args.input);
@@ -78,13 +81,11 @@ fn tight_of_blob(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     write_hull(&args.output, &tight_mesh(&hull))?;
     Output::stdout().finish(|out| {
         let record = hull.record();
-        writeln!(
-            out,
-            "{}: {}, at most {} from the mesh",
-            args.output.display(),
-            Counted(record.faces, "face"),
-            AtMost(record.slack)
-        )
+        write!(out, "{}: {}, ", args.output.display(), Counted(record.faces, "face"))?;
+        if let Some(void) = tight_void(record) {
+            write!(out, "{} % void space, ", Percent(f64::from(void) * 100.0))?;
+        }
+        writeln!(out, "at most {} from the mesh", AtMost(record.slack))
     })
 }
 
@@ -116,10 +117,10 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         }
         writeln!(
             out,
-            "{}: {}, {:.3} % void space, {:.3} s",
+            "{}: {}, {} % void space, {:.3} s",
             args.output.display(),
             Counted(hull.triangles.len(), "face"),
-            (void * 100.0).max(0.0),
+            Percent((void * 100.0).max(0.0)),
             time.as_secs_f64()
         )?;
         stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", why_stuck(faces, &stuck)))
@@ -139,10 +140,10 @@ fn of_blob(args: &HullArgs, index: u32) -> Result<(), Failure> {
     Output::stdout().finish(|out| {
         writeln!(
             out,
-            "{}: {}, {:.3} % void space, level {index} of 0 to {}",
+            "{}: {}, {} % void space, level {index} of 0 to {}",
             args.output.display(),
             Counted(hull.triangles.len(), "face"),
-            f64::from(level.void_ratio) * 100.0,
+            Percent(f64::from(level.void_ratio) * 100.0),
             levels - 1
         )
     })

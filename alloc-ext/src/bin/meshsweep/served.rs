@@ -30,18 +30,19 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
     .collect()
 }
 
+/// The same for people: what `model` serves in part only says so.
+pub fn listed(model: &Model<'_>) -> String {
+    let knows_triangles = tree(model, Need::Distances).is_some();
+    let said = |question| match question {
+        "within" if !knows_triangles => "within without --all",
+        other => other,
+    };
+    questions(model).into_iter().map(said).collect::<Vec<_>>().join(", ")
+}
+
 /// A refusal of what `model` does not serve, which says what it does.
 fn not_served(file: &Path, model: &Model<'_>, need: Need, other: Option<&'static str>) -> Failure {
-    let knows_triangles = tree(model, Need::Distances).is_some();
-    let served: Vec<&str> = questions(model)
-        .into_iter()
-        .map(
-            |question| {
-                if question == "within" && !knows_triangles { "within without --all" } else { question }
-            },
-        )
-        .collect();
-    Failure::NotServed { file: file.to_owned(), need, other, served: served.join(", ") }
+    Failure::NotServed { file: file.to_owned(), need, other, served: listed(model) }
 }
 
 /// What a question needs of a blob.

@@ -2,7 +2,7 @@
 
 use super::args::TriboxArgs;
 use super::counted::Counted;
-use super::describe::{About, AtLeast, AtMost};
+use super::describe::{About, AtLeast, AtMost, Percent};
 use super::failure::Failure;
 use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
@@ -126,7 +126,7 @@ impl Report<'_> {
             "triboxes   faces compression      volume    void %  hull error  largest distance to the mesh"
         )?;
         for level in self.levels {
-            let void = self.void(level).map_or("-".to_owned(), |void| format!("{:.3}", void * 100.0));
+            let void = self.void(level).map_or("-".to_owned(), |void| Percent(void * 100.0).to_string());
             writeln!(
                 out,
                 "{:>8} {:>7} {:>11.2} {:>11} {:>9} {:>11}  {} to {}",

@@ -1,6 +1,6 @@
 //! Arguments of the command that covers meshes with triboxes.
 
-use super::values::tolerance;
+use super::values::{tolerance, whole};
 use clap::{Args, ValueEnum};
 use meshsweep_alloc::tribox::{Measure, Planes, SplitOptions};
 use std::path::PathBuf;
@@ -13,10 +13,10 @@ pub struct TriboxArgs {
     #[arg(short, long, value_name = "PLY")]
     pub output: Option<PathBuf>,
     /// Levels, of 1, 2, 4, ... triboxes
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=12))]
+    #[arg(long, value_name = "N", default_value_t = 7, allow_negative_numbers = true, value_parser = whole::<1, 12>)]
     pub levels: u32,
     /// How far planes may move outward so that small faces vanish, in the mesh's unit
-    #[arg(long, value_name = "T", default_value_t = 0.0, value_parser = tolerance, hide_default_value = true)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance, hide_default_value = true)]
     pub simplify: f32,
     /// What splits make little of: volume, or area [default: volume if the mesh is closed, else area]
     #[arg(long, value_enum, hide_possible_values = true)]

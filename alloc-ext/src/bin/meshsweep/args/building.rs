@@ -1,6 +1,7 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, factor, length, percent, positive, ratio, whole};
+use super::values::{degrees, distance, factor, length, percent, positive, ratio, whole};
+use crate::describe::Given;
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep_alloc::collapse::{Conditions, Priority};
 use meshsweep_alloc::precision::VertexBits;
@@ -34,6 +35,15 @@ pub struct BuildArgs {
     /// Faces of each tight hull, with --for tight [default: 200]
     #[arg(long, value_name = "FACES", value_delimiter = ',', allow_negative_numbers = true, value_parser = whole::<4, MAX_TIGHT>)]
     pub tight: Vec<u32>,
+    /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point is farther than this from the mesh, in its unit
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["tight", "nested"])]
+    pub slack: Option<f64>,
+    /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most this void space, in percent of the mesh's volume
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["tight", "nested", "slack"])]
+    pub void: Option<f64>,
+    /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther are inside [default: 0]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length)]
+    pub margin: Option<f64>,
     /// Each tight hull encloses all finer ones
     #[arg(long)]
     pub nested: bool,
@@ -107,6 +117,9 @@ impl BuildArgs {
     pub fn tight_option(&self) -> Option<&'static str> {
         [
             ("--tight", !self.tight.is_empty()),
+            ("--slack", self.slack.is_some()),
+            ("--void", self.void.is_some()),
+            ("--margin", self.margin.is_some()),
             ("--nested", self.nested),
             ("--effort", self.effort.is_some()),
             ("--tight-for", !self.tight_for.is_empty()),
@@ -231,7 +244,7 @@ pub struct HullArgs {
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "progressive"])]
     pub void: Option<f64>,
     /// Fewest faces found of which no point is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = positive, conflicts_with_all = ["faces", "void", "progressive"])]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["faces", "void", "progressive"])]
     pub slack: Option<f64>,
     /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are inside [default: 0]
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length, conflicts_with = "progressive")]
@@ -284,6 +297,19 @@ impl HullArgs {
     pub fn progressive_option(&self) -> Option<&'static str> {
         self.collapse.given()
     }
+}
+
+/// Why no hull has both a slack and a margin, if none has.
+pub fn slack_within_margin(slack: Option<f64>, margin: Option<f64>) -> Option<String> {
+    let (slack, margin) = (slack?, margin?);
+    let is_within = slack <= margin;
+    is_within.then(|| {
+        let (slack, margin) = (Given(slack), Given(margin));
+        format!(
+            "--slack {slack} is no more than --margin {margin}: the hull is farther from the mesh than the margin; ask \
+             for a larger --slack"
+        )
+    })
 }
 
 #[derive(Debug, Args)]

@@ -30,6 +30,8 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     hundred thousand triangles. hull is the progressive hull with its split tables; it needs a closed manifold mesh and takes far \
     longer. triboxes will do with any mesh; if it is closed they hold its inside too. They take as long as the command tribox. tight wraps the mesh in hulls of \
     --tight faces, as the command hull does: each encloses it, and knows how far its faces are from the mesh. They too will do with any mesh, and take some seconds each. \
+    With --slack or --void there is one hull, with the fewest faces found that are as tight, and none is written if no hull is. With --margin hulls keep a distance from the mesh; answers \
+    are about the mesh all the same, by wider intervals. \
     With --tight-for closest they take about 2 bytes a face less: boxes for segments and for overlap with a hull are left out, which no command asks, only who links the library.\n\n\
     What --vertex-bits means:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
@@ -43,7 +45,8 @@ pub const BUILD: &str = "What --for takes, and what it costs:\n  \
     meshsweep build scan.ply -o scan.msw --for closest\n  \
     meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500\n  \
     meshsweep build part.stl -o proxy.msw --for triboxes --triboxes 16\n  \
-    meshsweep build part.stl -o hulls.msw --for tight --tight 50,200,1000";
+    meshsweep build part.stl -o hulls.msw --for tight --tight 50,200,1000\n  \
+    meshsweep build part.stl -o hull.msw --for tight --slack 0.5";
 
 pub const INFO: &str = "Examples:\n  \
     meshsweep info part.msw\n  \
@@ -159,7 +162,7 @@ pub const HULL: &str = "The hull of a mesh is closed, does not pass through itse
     has it, before its vertices were rounded. --void then counts the margin's volume as well, and --slack, which is measured from the mesh with its vertices \
     rounded, must be more: twice the margin, say, for corners stand off farther than walls.\n\n\
     --progressive gives the progressive hull, as the levels of a blob's hull hierarchy are: looser, at the mesh's own vertices where it can be, and only of meshes that \
-    are closed and manifold.\n\n\
+    are closed and manifold; it may touch the mesh, and itself. --effort makes for less volume, not for less distance.\n\n\
     Examples:\n  \
     meshsweep hull part.stl --faces 200 -o hull.ply\n  \
     meshsweep hull part.stl --slack 2.5 -o hull.ply\n  \

@@ -78,8 +78,14 @@ fn up_to(text: &str, most: f64) -> Result<f64, String> {
 
 /// A number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
-    let wanted = || "a number above 0 is wanted".to_owned();
+    let wanted = || "a finite number above 0 is wanted".to_owned();
     text.parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite()).ok_or_else(wanted)
+}
+
+/// A length above 0, in the mesh's unit.
+pub fn distance(text: &str) -> Result<f64, String> {
+    let wanted = |_| "a finite number above 0 is wanted, in the mesh's unit".to_owned();
+    positive(text).map_err(wanted)
 }
 
 /// A length from 0, in the mesh's unit.
@@ -158,8 +164,11 @@ mod tests {
     fn lengths_are_finite_and_not_negative() {
         assert_eq!((length("0"), length("2.5e-30"), length("1e39")), (Ok(0.0), Ok(2.5e-30), Ok(1e39)));
         for wrong in ["", "-1", "-1e-300", "nan", "inf", "1e999", "2%"] {
-            assert!(length(wrong).is_err(), "{wrong}");
+            for error in [length(wrong).unwrap_err(), distance(wrong).unwrap_err()] {
+                assert!(error.contains("finite") && error.contains("the mesh's unit"), "{wrong}: {error}");
+            }
         }
+        assert!(distance("0").is_err() && distance("1e-30") == Ok(1e-30));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The hull hierarchy: memory, levels, surface error.
 
-use super::AtMost;
+use super::{AtMost, Percent};
 use crate::counted::Counted;
 use meshsweep_core::blob::layout::VertexFormat;
 use meshsweep_core::blob::{Header, Level};
@@ -96,11 +96,11 @@ fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
         let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(model.header(), &level);
         writeln!(
             out,
-            "  {index:>5} {:>10} {:>10} {:>10} {:>10.3} {:>15} {:>15}",
+            "  {index:>5} {:>10} {:>10} {:>10} {:>10} {:>15} {:>15}",
             level.faces,
             level.splits,
             level.nodes,
-            f64::from(level.void_ratio) * 100.0,
+            Percent(f64::from(level.void_ratio) * 100.0),
             AtMost(cover_to_mesh),
             AtMost(mesh_to_cover)
         )?;

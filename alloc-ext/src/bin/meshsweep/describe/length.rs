@@ -14,6 +14,12 @@ pub struct AtLeast<T>(pub T);
 /// A number that is no bound: rounded to the nearest.
 pub struct About<T>(pub T);
 
+/// A percentage: three decimals where they tell it, else few digits that are not below it.
+pub struct Percent<T>(pub T);
+
+/// Percentages that three decimals tell: smaller ones would read as nothing, larger ones be all digits.
+const THREE_DECIMALS: std::ops::Range<f64> = 1e-3..1e6;
+
 /// A number that somebody gave: as many digits as it has.
 pub struct Given<T>(pub T);
 
@@ -42,6 +48,17 @@ impl<T: Copy + Into<f64>> fmt::Display for Given<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let x = self.0.into();
         f.pad(&text(format!("{x:e}"), is_everyday(x)))
+    }
+}
+
+impl<T: Copy + Into<f64>> fmt::Display for Percent<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let x = self.0.into();
+        if x == 0.0 || THREE_DECIMALS.contains(&x.abs()) {
+            f.pad(&format!("{x:.3}"))
+        } else {
+            f.pad(&AtMost(x).to_string())
+        }
     }
 }
 
@@ -114,6 +131,24 @@ mod tests {
             ("1.23456789e-4".into(), "0.1".into())
         );
         assert_eq!(format!("{:>8}|{:>8}", AtMost(2.5), AtLeast(0.0)), "     2.5|       0");
+    }
+
+    #[test]
+    fn percentages_are_neither_nothing_nor_all_digits() {
+        for (x, text) in [
+            (0.0, "0.000"),
+            (12.345_67, "12.346"),
+            (1e-3, "0.001"),
+            (999_999.0, "999999.000"),
+            (9.99e-4, "9.99e-4"),
+            (1.234_567_8e-9, "1.23457e-9"),
+            (1e6, "1000000"),
+            (1.234_561_2e85, "1.23457e85"),
+            (-25.0, "-25.000"),
+        ] {
+            assert_eq!(Percent(x).to_string(), text);
+        }
+        assert_eq!(format!("{:>9}", Percent(1.5f32)), "    1.500");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Tight hulls: faces, void, distances, bytes, memory.
 
-use super::AtMost;
 use super::tree::{stack_bytes, tree_format_name};
+use super::{AtMost, Percent};
 use crate::counted::Counted;
 use meshsweep_core::blob::TightRecord;
 use meshsweep_core::{TightHull, TightHulls};
@@ -19,7 +19,7 @@ fn bytes(hull: &TightHull<'_>) -> usize {
 }
 
 /// Volume beyond that of the mesh as a part of it, if the mesh bounds one: a hull that encloses it leaves some.
-fn void(record: &TightRecord) -> Option<f32> {
+pub fn void(record: &TightRecord) -> Option<f32> {
     (record.void_ratio != 0.0).then_some(record.void_ratio)
 }
 
@@ -37,7 +37,7 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     )?;
     for hull in all(hulls) {
         let record = hull.record();
-        let void = void(record).map_or("-".to_owned(), |void| format!("{:.3}", void * 100.0));
+        let void = void(record).map_or("-".to_owned(), |void| Percent(f64::from(void) * 100.0).to_string());
         writeln!(
             out,
             "  {:>8} {void:>9} {:>9} {:>12}  {:<11}  {:>21}  {:>21}",

@@ -1,6 +1,6 @@
 //! The tribox hierarchy: size, levels, memory.
 
-use super::AtMost;
+use super::{AtMost, Percent};
 use crate::counted::Counted;
 use meshsweep_core::Triboxes;
 use meshsweep_core::blob::TriboxLevel;
@@ -24,7 +24,8 @@ pub(super) fn write(out: &mut dyn Write, triboxes: &Triboxes<'_>) -> io::Result<
     )?;
     writeln!(out, "  triboxes    void %  hull error  largest distance to the mesh")?;
     for level in triboxes.levels() {
-        let void = void(triboxes, &level).map_or("-".to_owned(), |void| format!("{:.3}", void * 100.0));
+        let void = void(triboxes, &level)
+            .map_or("-".to_owned(), |void| Percent(f64::from(void) * 100.0).to_string());
         writeln!(
             out,
             "  {:>8} {void:>9} {:>11}  {}",

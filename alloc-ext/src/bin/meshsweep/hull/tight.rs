@@ -2,12 +2,12 @@
 
 use super::super::args::HullArgs;
 use super::super::counted::Counted;
-use super::super::describe::{About, AtLeast, AtMost, Given};
+use super::super::describe::{About, AtLeast, AtMost, Given, Percent};
 use super::super::failure::Failure;
-use super::super::mesh_file::load_all;
+use super::super::mesh_file::{Loaded, load_all};
 use super::super::output::Output;
 use super::super::progress::Bar;
-use super::unmet::require_met;
+use super::unmet::{Tightness, require_met};
 use super::write_hull;
 use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::wrap::{
@@ -31,10 +31,7 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         vertex_bits: args.vertex_bits.format(),
     };
     let (loaded, left_out) = load_all(&args.input, options.vertex_bits)?;
-    if options.margin > 0.0 {
-        // The file's vertices, decimal or not on the grid, have the margin around them too.
-        options.margin += (loaded.moved + loaded.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
-    }
+    options.margin = widened(options.margin, &loaded);
     let meshes =
         if args.parts { share(parts(&loaded.mesh), &left_out) } else { vec![(loaded.mesh, left_out)] };
     let mut hulls = Vec::new();
@@ -43,7 +40,8 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         let hull = wrap_all(mesh, further, &options, |progress| bars.show(progress));
         hulls.push(hull.map_err(|error| Failure::Wrap { file: args.input.clone(), error })?);
     }
-    require_met(args, hulls.iter().map(|hull| &hull.report))?;
+    let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--faces" };
+    require_met(&args.input, &asked, hulls.iter().map(|hull| &hull.report))?;
     write_hull(&args.output, &joined(&hulls))?;
     Output::stdout().finish(|out| {
         if !loaded.report.is_clean() {
@@ -71,11 +69,17 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     })
 }
 
+/// A margin that the file's vertices, decimal or not on the grid, have around them too.
+pub fn widened(margin: f64, loaded: &Loaded) -> f64 {
+    let moved = (loaded.moved + loaded.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
+    if margin > 0.0 { margin + moved } else { margin }
+}
+
 /// `margin` is the one that was typed: the hull keeps what rounding may take from it besides.
 fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64>) -> io::Result<()> {
     write!(out, "{}, ", Counted(report.faces, "face"))?;
-    if let Some(void) = report.void {
-        write!(out, "{:.3} % void space, ", void * 100.0)?;
+    if let Ok(void) = report.void {
+        write!(out, "{} % void space, ", Percent(void * 100.0))?;
     }
     writeln!(
         out,
@@ -84,11 +88,9 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64
         AtLeast(report.slack.lower),
         report.time.as_secs_f64()
     )?;
-    if let Some(margin) = margin.filter(|&margin| margin > 0.0) {
-        writeln!(out, "  all points within {} of the mesh are inside", Given(margin))?;
-    }
-    if report.void.is_none() {
-        writeln!(out, "  the mesh is not closed: there is no volume to measure void against")?;
+    write_margin(out, margin)?;
+    if let Err(why) = report.void {
+        writeln!(out, "  {why}; there is no volume to measure void against")?;
     }
     write_start(out, report)?;
     match (report.stop, goal) {
@@ -112,8 +114,21 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64
     }
 }
 
-/// What a hull was made from, if not from the mesh's progressive hull, and what it filled.
+/// That a margin is kept, if there is one.
+pub fn write_margin(out: &mut dyn Write, margin: Option<f64>) -> io::Result<()> {
+    margin.filter(|&margin| margin > 0.0).map_or(Ok(()), |margin| {
+        writeln!(out, "  all points within {} of the mesh are inside", Given(margin))
+    })
+}
+
+/// What a hull's void is measured against where that is not sure, what it was made from, if not from the mesh's progressive hull, and what it filled.
 pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    if report.crosses {
+        writeln!(
+            out,
+            "  the mesh crosses or touches itself: its volume counts what overlaps more than once, so that the void may be more than that"
+        )?;
+    }
     if let Start::Closure { cell, .. } = report.start {
         writeln!(
             out,

@@ -1,10 +1,10 @@
 //! Whether hulls are as tight as asked for, by what was measured of them.
 
-use super::super::args::HullArgs;
 use super::super::describe::{AtMost, Given};
 use super::super::failure::Failure;
 use meshsweep_alloc::wrap::{Report, Stop};
 use std::fmt;
+use std::path::Path;
 
 /// A hull that is looser than asked for. Lengths are in the mesh's unit.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +12,8 @@ pub struct Unmet {
     bound: Bound,
     faces: usize,
     is_late: bool,
+    /// The option that takes a number of faces instead.
+    by_faces: &'static str,
     /// Which part's, if each has one of its own.
     part: Option<usize>,
 }
@@ -30,29 +32,41 @@ enum Bound {
     },
 }
 
-/// That each hull is as tight as asked for.
+/// How tight a hull has to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Tightness {
+    /// Distance from the mesh.
+    pub slack: Option<f64>,
+    /// Percentage of the mesh's volume.
+    pub void: Option<f64>,
+    /// The option that takes a number of faces instead.
+    pub by_faces: &'static str,
+}
+
+/// That each hull of a file is as tight as asked for.
 pub fn require_met<'a>(
-    args: &HullArgs,
+    file: &Path,
+    asked: &Tightness,
     reports: impl ExactSizeIterator<Item = &'a Report>,
 ) -> Result<(), Failure> {
     let parts = reports.len();
     let unmet = |(index, report): (usize, &Report)| {
-        let bound = bound(args, report)?;
+        let bound = bound(asked, report)?;
         let part = (parts > 1).then_some(index);
         let is_late = report.stop == Stop::OutOfTime;
-        let unmet = Unmet { bound, faces: report.faces, is_late, part };
-        Some(Failure::Unmet { file: args.input.clone(), unmet })
+        let unmet = Unmet { bound, faces: report.faces, is_late, by_faces: asked.by_faces, part };
+        Some(Failure::Unmet { file: file.to_owned(), unmet })
     };
     reports.enumerate().find_map(unmet).map_or(Ok(()), Err)
 }
 
-fn bound(args: &HullArgs, report: &Report) -> Option<Bound> {
-    match (args.slack, args.void) {
+fn bound(asked: &Tightness, report: &Report) -> Option<Bound> {
+    match (asked.slack, asked.void) {
         (Some(asked), _) if report.slack.upper > asked => {
             Some(Bound::Slack { asked, found: report.slack.upper })
         }
         (_, Some(asked)) => {
-            let found = 100.0 * report.void?;
+            let found = 100.0 * report.void.ok()?;
             // The search compares volumes, of which this is a rounded ratio.
             let is_above = found - asked > 4.0 * f64::EPSILON * (100.0 + asked);
             is_above.then_some(Bound::Void { asked, found })
@@ -63,7 +77,7 @@ fn bound(args: &HullArgs, report: &Report) -> Option<Bound> {
 
 impl fmt::Display for Unmet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let &Unmet { bound, faces, is_late, part } = self;
+        let &Unmet { bound, faces, is_late, by_faces, part } = self;
         part.map_or(Ok(()), |part| write!(f, "part {part}: "))?;
         f.write_str(if is_late { "the time was up before a hull" } else { "no hull that was tried" })?;
         let option = match bound {
@@ -85,6 +99,6 @@ impl fmt::Display for Unmet {
             }
         };
         f.write_str(if is_late { "; give more --seconds, " } else { "; " })?;
-        write!(f, "ask for a larger {option}, or choose a number of faces with --faces")
+        write!(f, "ask for a larger {option}, or choose a number of faces with {by_faces}")
     }
 }
