@@ -7,6 +7,7 @@ use super::rounding::Rounding;
 use super::start::{First, first_box, first_closure, first_levels};
 use super::volume::Solid;
 use super::work::{Shape, Work};
+use crate::collapse::Conditions;
 use crate::mesh::Mesh;
 use crate::precision::Stored;
 use std::time::Instant;
@@ -206,7 +207,8 @@ impl<'a> Builder<'a, '_, '_> {
             }
             let first = match cells {
                 Some(cells) => {
-                    first_closure(around, self.obstacle, &rounding, cells, wanted, self.on_progress)
+                    let (paper, on_progress) = (Conditions::PAPER, &mut *self.on_progress);
+                    first_closure(around, self.obstacle, &rounding, cells, wanted, paper, on_progress)
                 }
                 None => first_box(self.obstacle, &rounding),
             };

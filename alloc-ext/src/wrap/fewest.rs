@@ -6,7 +6,7 @@
 use super::build::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
 use super::options::{Stop, WrapError};
 use super::rounding::Rounding;
-use super::start::{First, first_box, first_closure, first_levels};
+use super::start::{First, OF_STAIRS, first_box, first_closure, first_levels};
 use super::volume::NoVolume;
 use super::work::Work;
 
@@ -60,8 +60,8 @@ impl<'a> Builder<'a, '_, '_> {
                 any_level |= first.is_some();
             }
             if !any_level && !self.is_late() {
-                let around = from.around;
-                first = first_closure(around, self.obstacle, &rounding, cells, faces, self.on_progress);
+                let (around, on_progress) = (from.around, &mut *self.on_progress);
+                first = first_closure(around, self.obstacle, &rounding, cells, faces, OF_STAIRS, on_progress);
             }
             let mut came = false;
             if let Some(first) = first {

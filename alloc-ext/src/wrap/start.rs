@@ -87,6 +87,7 @@ pub(super) fn first_closure(
     rounding: &Rounding,
     cells: usize,
     wanted: usize,
+    conditions: Conditions,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Option<First> {
     let mut closure = closure(obstacle, cells)?;
@@ -100,7 +101,6 @@ pub(super) fn first_closure(
     let start = Start::Closure { cell: closure.cell, cells: closure.cells };
     let local = exp2(-stored.scale_exponent);
     let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
-    let conditions = OF_STAIRS;
     let from = Surface { positions: &positions, triangles: &closure.triangles, stored, conditions };
     let hull = |(positions, triangles): Faces| {
         let (shell, filled) = keep_outermost(Shell::new(positions, &triangles));
@@ -147,9 +147,9 @@ const SLICE: usize = 1000;
 /// Faces of a closure that is a first hull itself.
 const MOST_FACES: usize = 10_000;
 
-/// What a hull of a closure may do to its shape. Closures of what is oblique are stairs, of which the paper's conditions refuse most collapses; what stands
-/// out where they are refused stands out for good.
-const OF_STAIRS: Conditions =
+/// What the hull of a closure may do to its shape where it has to stay near. Closures of what is oblique are stairs, of which the paper's conditions
+/// refuse most collapses, and what is left stands out. Where volume decides those conditions make the better start.
+pub(super) const OF_STAIRS: Conditions =
     Conditions { compactness_ratio: 0.2, min_normal_cosine: 0.2, ..Conditions::PAPER };
 
 /// Compactness that may be lost before a level: the hull that comes of it is shrunk onto the mesh, so that needles do little harm, while the paper's
