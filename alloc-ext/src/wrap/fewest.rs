@@ -9,6 +9,7 @@ use super::rounding::Rounding;
 use super::start::{First, OF_STAIRS, first_box, first_closure, first_levels};
 use super::volume::NoVolume;
 use super::work::Work;
+use crate::collapse::Conditions;
 
 /// Faces that a search for a void begins with.
 const FINEST: usize = 2000;
@@ -51,23 +52,33 @@ impl<'a> Builder<'a, '_, '_> {
         let size = bounds.low.abs().max(bounds.high.abs()).max_element();
         let is_vain = most - self.obstacle.margin() <= rounding.half_step(size);
         while !self.is_late() {
-            let mut first = None;
+            let mut came = false;
+            let mut level = None;
             if is_solid {
                 let (mesh, stored, deadline) = (from.mesh, from.stored, self.deadline);
                 let levels =
                     first_levels(mesh, stored, self.obstacle, &rounding, faces, deadline, self.on_progress);
-                first = levels.plenty.or(levels.wanted);
-                any_level |= first.is_some();
+                level = levels.plenty.or(levels.wanted);
             }
-            if !any_level && !self.is_late() {
-                let (around, on_progress) = (from.around, &mut *self.on_progress);
-                first = first_closure(around, self.obstacle, &rounding, cells, faces, OF_STAIRS, on_progress);
-            }
-            let mut came = false;
-            if let Some(first) = first {
-                let done = self.within(first, rounding, most);
+            if let Some(level) = level {
+                any_level = true;
+                let done = self.within(level, rounding, most);
                 came = done.stop == Stop::Reached;
                 better(&mut best, done);
+            }
+            // Walls along the axes do better by the one, all else by the other.
+            for conditions in [Conditions::PAPER, OF_STAIRS] {
+                if any_level || self.is_late() {
+                    break;
+                }
+                let (around, on_progress) = (from.around, &mut *self.on_progress);
+                let first =
+                    first_closure(around, self.obstacle, &rounding, cells, faces, conditions, on_progress);
+                if let Some(first) = first {
+                    let done = self.within(first, rounding, most);
+                    came |= done.stop == Stop::Reached;
+                    better(&mut best, done);
+                }
             }
             let is_finest = if any_level { faces >= from.mesh.triangles.len() } else { cells >= finest };
             if came || is_finest || is_vain {

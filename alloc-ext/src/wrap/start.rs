@@ -148,7 +148,7 @@ const SLICE: usize = 1000;
 const MOST_FACES: usize = 10_000;
 
 /// What the hull of a closure may do to its shape where it has to stay near. Closures of what is oblique are stairs, of which the paper's conditions
-/// refuse most collapses, and what is left stands out. Where volume decides those conditions make the better start.
+/// refuse most collapses, and what is left stands out.
 pub(super) const OF_STAIRS: Conditions =
     Conditions { compactness_ratio: 0.2, min_normal_cosine: 0.2, ..Conditions::PAPER };
 
