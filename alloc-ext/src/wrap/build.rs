@@ -4,7 +4,7 @@ use super::obstacle::Obstacle;
 use super::options::{Goal, Options, Progress, Stage, Start, Stop, WrapError};
 use super::polish::Polish;
 use super::rounding::Rounding;
-use super::start::{First, first_box, first_closure, first_levels};
+use super::start::{First, Place, first_box, first_closure, first_levels};
 use super::volume::Solid;
 use super::work::{Shape, Work};
 use crate::collapse::Conditions;
@@ -50,6 +50,9 @@ pub(super) const FEW_FACES: usize = 60;
 
 /// Void with which the solid's own faces are a hull that no other start can better by more.
 const NEXT_TO_NONE: f64 = 1e-4;
+
+/// The most that may be due to the grid's steps.
+const NEARLY_NONE: f64 = 1e-2;
 
 /// Half-steps of the grid that keep such a hull off the mesh.
 const STEPS_OFF: f64 = 12.0;
@@ -167,8 +170,10 @@ impl<'a> Builder<'a, '_, '_> {
         descends: bool,
     ) -> Result<Done<'a>, WrapError> {
         let rounding = Rounding::new(around.grid, around.scale_exponent);
+        let place = Place { stored: around, obstacle: self.obstacle, rounding, deadline: self.deadline };
         let how = How { rounding, wanted, descends };
         let is_few = how.is_few();
+        let is_small = mesh.triangles.len() <= wanted;
         let mut best: Option<Done<'a>> = None;
         let round = self.round_cells();
         if self.volume.is_some() && round.is_none() {
@@ -177,19 +182,22 @@ impl<'a> Builder<'a, '_, '_> {
                 let now = Instant::now();
                 now + deadline.saturating_duration_since(now) / 2
             });
-            let first = first_levels(mesh, stored, self.obstacle, &rounding, wanted, half, self.on_progress);
+            let first =
+                first_levels(&Place { stored, deadline: half, ..place }, mesh, wanted, self.on_progress);
             for first in [first.plenty, first.wanted].into_iter().flatten() {
-                if !best.as_ref().is_some_and(|best| self.is_solid_itself(best)) {
+                if !is_small || !best.as_ref().is_some_and(|best| self.is_solid_itself(best)) {
                     let done = self.prepare(first, &how);
                     better(&mut best, done);
                 }
             }
             self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
         }
-        let is_itself = best.as_ref().is_some_and(|best| self.is_solid_itself(best));
+        let is_itself = is_small && best.as_ref().is_some_and(|best| self.is_solid_itself(best));
         let is_enough = best.is_some() || round.is_some();
         let finest = Some(finest(wanted));
-        let coarser = COARSER.into_iter().filter(|&cells| cells != finest);
+        // Where the finest has narrow places that its levels grow together in, half as fine may do.
+        let finer = finest.map(|cells| cells * 2 / 3).filter(|&cells| Some(cells) > COARSER[0]);
+        let coarser = finer.map(Some).into_iter().chain(COARSER.into_iter().filter(|&cells| cells != finest));
         let first = if self.is_hurried { None } else { Some(finest) };
         for cells in round.map(Some).into_iter().chain(first).chain(coarser) {
             let late = self.is_late();
@@ -206,10 +214,7 @@ impl<'a> Builder<'a, '_, '_> {
                 continue;
             }
             let first = match cells {
-                Some(cells) => {
-                    let (paper, on_progress) = (Conditions::PAPER, &mut *self.on_progress);
-                    first_closure(around, self.obstacle, &rounding, cells, wanted, paper, on_progress)
-                }
+                Some(cells) => first_closure(&place, cells, wanted, Conditions::PAPER, self.on_progress),
                 None => first_box(self.obstacle, &rounding),
             };
             let Some(first) = first else { continue };
@@ -233,7 +238,10 @@ impl<'a> Builder<'a, '_, '_> {
             0.5 * (b - a).cross(c - a).length()
         });
         let off = STEPS_OFF * rounding.half_step(size) * area.sum::<f64>();
-        let near = |volume: f64| (volume..=volume * (1.0 + NEXT_TO_NONE) + off).contains(&shell.volume());
+        let near = |volume: f64| {
+            let more = volume * NEXT_TO_NONE + off.min(volume * NEARLY_NONE);
+            (volume..=volume + more).contains(&shell.volume())
+        };
         done.stop == Stop::Reached && self.volume.is_some_and(near)
     }
 

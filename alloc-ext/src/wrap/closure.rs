@@ -24,6 +24,7 @@ use crate::precision::split_exponent;
 use glam::DVec3;
 use meshsweep_core::num::exp2;
 use rustc_hash::FxHashMap;
+use std::time::Instant;
 
 /// A surface around triangles, and the grid that it came from.
 #[derive(Clone, Debug)]
@@ -46,8 +47,8 @@ const GROWN: f64 = 1.0 + 1e-6;
 const MOST: f64 = 16_777_216.0;
 
 /// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the longest side of the mesh and its margin; with fewer where
-/// single precision has no room for more. `None` if it has none at all, or mesh and margin are one point.
-pub(super) fn closure(obstacle: &Obstacle, cells: usize) -> Option<Closure> {
+/// single precision has no room for more. `None` if it has none at all, or mesh and margin are one point, or the deadline passes.
+pub(super) fn closure(obstacle: &Obstacle, cells: usize, deadline: Option<Instant>) -> Option<Closure> {
     let bounds = obstacle.bounds().grown(obstacle.margin());
     let extent = (bounds.high - bounds.low).max_element();
     let farthest = bounds.low.abs().max(bounds.high.abs()).max_element();
@@ -69,7 +70,7 @@ pub(super) fn closure(obstacle: &Obstacle, cells: usize) -> Option<Closure> {
     }
     let level = grid.level(obstacle.margin());
     let mut inside = match level {
-        Some(level) => grid.near(obstacle, level),
+        Some(level) => grid.near(obstacle, level, deadline)?,
         None => grid.met(obstacle.triangles()),
     };
     grid.fill(&mut inside);
@@ -166,16 +167,19 @@ impl Grid {
         (margin > 0.0).then(|| margin + flattened + 2.0 * (1.0 - ENDS[1]) * self.cell)
     }
 
-    /// Corners that are no farther from the mesh than `level`, about.
-    fn near(&self, obstacle: &Obstacle, level: f64) -> Vec<bool> {
+    /// Corners that are no farther from the mesh than `level`, about; `None` if the deadline passes.
+    fn near(&self, obstacle: &Obstacle, level: f64, deadline: Option<Instant>) -> Option<Vec<bool>> {
         let mut near = vec![false; self.all().len()];
         let [nx, ny, nz] = self.corners;
         for k in 0..nz {
+            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+                return None;
+            }
             for j in 0..ny {
                 let mut i = 0;
                 while i < nx {
                     let Some(distance) = distance(obstacle, self.at([2 * i, 2 * j, 2 * k])) else {
-                        return near;
+                        return Some(near);
                     };
                     // The distance changes by no more than one walks: the next corners are known as well.
                     let same = 1 + ((distance - level).abs() / (self.cell * GROWN)).min(1e9) as i64;
@@ -186,7 +190,7 @@ impl Grid {
                 }
             }
         }
-        near
+        Some(near)
     }
 
     /// A point, in half-cubes from the first corner.
@@ -322,7 +326,7 @@ mod tests {
     fn one_triangle_is_enclosed_by_a_closed_surface_that_faces_outwards() {
         let triangle = [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
         for cells in [1, 2, 5, 16] {
-            let surface = closure(&around(&[triangle]), cells).unwrap();
+            let surface = closure(&around(&[triangle]), cells, None).unwrap();
             assert!(volume(&surface) > 0.0);
             let mut edges: Vec<_> =
                 surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
@@ -339,15 +343,15 @@ mod tests {
         let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles: Vec<Triangle> =
             quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner))).collect();
-        let surface = closure(&around(&triangles), 16).unwrap();
+        let surface = closure(&around(&triangles), 16, None).unwrap();
         assert!(volume(&surface) > 1.0 && volume(&surface) < 2.0, "{}", volume(&surface));
     }
 
     #[test]
     fn a_point_has_no_closure_and_far_triangles_have_larger_cubes() {
-        assert!(closure(&around(&[[DVec3::ONE; 3]]), 8).is_none());
+        assert!(closure(&around(&[[DVec3::ONE; 3]]), 8, None).is_none());
         let far = [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
-        let surface = closure(&around(&[far]), 64).unwrap();
+        let surface = closure(&around(&[far]), 64, None).unwrap();
         assert!(surface.cells < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p));
     }
 }

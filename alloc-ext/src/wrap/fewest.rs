@@ -6,7 +6,7 @@
 use super::build::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
 use super::options::{Stop, WrapError};
 use super::rounding::Rounding;
-use super::start::{First, OF_STAIRS, first_box, first_closure, first_levels};
+use super::start::{First, OF_STAIRS, Place, first_box, first_closure, first_levels};
 use super::volume::NoVolume;
 use super::work::Work;
 use crate::collapse::Conditions;
@@ -36,6 +36,7 @@ impl<'a> Builder<'a, '_, '_> {
     /// See [`Goal::Slack`](super::options::Goal::Slack).
     pub fn least_faces_by_slack(&mut self, from: &From<'_>, most: f64) -> Result<Done<'a>, WrapError> {
         let rounding = Rounding::new(from.around.grid, from.around.scale_exponent);
+        let place = Place { stored: from.around, obstacle: self.obstacle, rounding, deadline: self.deadline };
         let mut best: Option<Done<'a>> = None;
         if let Some(first) = first_box(self.obstacle, &rounding) {
             let done = self.within(first, rounding, most);
@@ -55,9 +56,8 @@ impl<'a> Builder<'a, '_, '_> {
             let mut came = false;
             let mut level = None;
             if is_solid {
-                let (mesh, stored, deadline) = (from.mesh, from.stored, self.deadline);
-                let levels =
-                    first_levels(mesh, stored, self.obstacle, &rounding, faces, deadline, self.on_progress);
+                let place = Place { stored: from.stored, ..place };
+                let levels = first_levels(&place, from.mesh, faces, self.on_progress);
                 level = levels.plenty.or(levels.wanted);
             }
             if let Some(level) = level {
@@ -71,9 +71,7 @@ impl<'a> Builder<'a, '_, '_> {
                 if any_level || self.is_late() {
                     break;
                 }
-                let (around, on_progress) = (from.around, &mut *self.on_progress);
-                let first =
-                    first_closure(around, self.obstacle, &rounding, cells, faces, conditions, on_progress);
+                let first = first_closure(&place, cells, faces, conditions, self.on_progress);
                 if let Some(first) = first {
                     let done = self.within(first, rounding, most);
                     came |= done.stop == Stop::Reached;
@@ -152,10 +150,9 @@ impl<'a> Builder<'a, '_, '_> {
         loop {
             self.require_measure(&done.work)?;
             let faces = done.work.shell.face_count();
-            let staged = (faces as f64 * STAGE) as usize;
-            let next = if staged > too_few { staged } else { usize::midpoint(faces, too_few) };
             // A hull has an even number of faces.
-            let next = next & !1;
+            let staged = (faces as f64 * STAGE) as usize & !1;
+            let next = if staged > too_few { staged } else { usize::midpoint(faces, too_few) & !1 };
             if next <= too_few || next >= faces || faces - next < (faces / NEAR_ENOUGH).max(2) {
                 done.stop = Stop::Reached;
                 return Ok(done);

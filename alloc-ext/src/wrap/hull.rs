@@ -51,7 +51,7 @@ pub fn wrap_all(
         return Err(WrapError::BadMargin);
     }
     if matches!(options.goal, Goal::Slack(most) if most.is_nan() || most <= options.margin) {
-        return Err(WrapError::SlackWithinMargin);
+        return Err(WrapError::SlackWithinMargin { margin: options.margin });
     }
     let positions: Vec<DVec3> =
         mesh.positions.iter().map(|&[x, y, z]| glam::Vec3::new(x, y, z).as_dvec3()).collect();

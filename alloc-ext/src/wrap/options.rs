@@ -149,13 +149,22 @@ pub enum WrapError {
     /// With its margin the mesh does not fit in single precision's range.
     MarginTooLarge,
     /// A slack was asked for that is not more than the margin.
-    SlackWithinMargin,
+    SlackWithinMargin {
+        /// The margin.
+        margin: f64,
+    },
 }
 
 impl std::fmt::Display for WrapError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if let WrapError::NoVolume(why) = self {
             return write!(f, "{why}; there is no volume to measure void against: ask for faces or slack");
+        }
+        if let WrapError::SlackWithinMargin { margin } = self {
+            return write!(
+                f,
+                "no hull can be within the slack: it is not more than {margin:e}, the margin with what rounding may take from it; ask for a larger slack"
+            );
         }
         f.write_str(match self {
             WrapError::Empty => "the mesh has no triangles; give one that has",
@@ -167,9 +176,7 @@ impl std::fmt::Display for WrapError {
             WrapError::MarginTooLarge => {
                 "the mesh and its margin leave the range of single precision, 3.4e38; ask for less, or scale both down"
             }
-            WrapError::SlackWithinMargin => {
-                "no hull can be within the slack, which is not more than the margin; ask for a larger slack"
-            }
+            WrapError::SlackWithinMargin { .. } => "the slack is not more than the margin",
         })
     }
 }

@@ -28,6 +28,16 @@ pub(super) struct First {
     pub filled: usize,
 }
 
+/// Where first hulls are looked for, and until when.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// Frame and grid.
+    pub stored: &'a Stored,
+    pub obstacle: &'a Obstacle,
+    pub rounding: Rounding,
+    pub deadline: Option<Instant>,
+}
+
 /// Faces of the level to start from: enough to choose from for `wanted`, and no more, for each costs a collapse.
 fn plenty(wanted: usize) -> usize {
     (wanted + wanted / 2).saturating_add(800)
@@ -51,12 +61,9 @@ pub(super) struct Levels {
 
 /// The levels of the progressive hull that are hulls to start from, if they are found before the deadline.
 pub(super) fn first_levels(
+    &Place { stored, obstacle, rounding, deadline }: &Place<'_>,
     mesh: &Mesh,
-    stored: &Stored,
-    obstacle: &Obstacle,
-    rounding: &Rounding,
     wanted: usize,
-    deadline: Option<Instant>,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Levels {
     let conditions = Conditions::PAPER;
@@ -67,7 +74,7 @@ pub(super) fn first_levels(
             let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
             let mut shell = Shell::new(positions, &triangles);
             let faces = shell.face_count();
-            lift(&mut shell, rounding, obstacle.margin());
+            lift(&mut shell, &rounding, obstacle.margin());
             let (shell, filled) = keep_outermost(shell);
             let start = Start::Progressive { faces };
             defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
@@ -80,17 +87,15 @@ pub(super) fn first_levels(
     if thinned.plenty.is_some() { thinned } else { hulls(false) }
 }
 
-/// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's levels that does not meet itself.
+/// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's levels that does not meet itself, if it is found before the deadline.
 pub(super) fn first_closure(
-    stored: &Stored,
-    obstacle: &Obstacle,
-    rounding: &Rounding,
+    &Place { stored, obstacle, rounding, deadline }: &Place<'_>,
     cells: usize,
     wanted: usize,
     conditions: Conditions,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Option<First> {
-    let mut closure = closure(obstacle, cells)?;
+    let mut closure = closure(obstacle, cells, deadline)?;
     if obstacle.margin() > 0.0 {
         closure.positions =
             closure.positions.iter().map(|&p| rounding.round(p)).collect::<Option<Vec<DVec3>>>()?;
@@ -108,7 +113,7 @@ pub(super) fn first_closure(
     };
     // In narrow places levels grow into each other.
     for thins in if from.is_thinned(wanted) { &[true, false][..] } else { &[false] } {
-        let mut levels = from.levels(wanted, *thins, None, on_progress)?;
+        let mut levels = from.levels(wanted, *thins, deadline, on_progress)?;
         let tried = if *thins { &LEVELS[..1] } else { &LEVELS };
         let first = tried
             .iter()

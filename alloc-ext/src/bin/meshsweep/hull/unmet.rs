@@ -66,7 +66,7 @@ fn bound(asked: &Tightness, report: &Report) -> Option<Bound> {
             Some(Bound::Slack { asked, found: report.slack.upper })
         }
         (_, Some(asked)) => {
-            let found = 100.0 * report.void.ok()?;
+            let found = 100.0 * report.void.unwrap_or(f64::INFINITY);
             // The search compares volumes, of which this is a rounded ratio.
             let is_above = found - asked > 4.0 * f64::EPSILON * (100.0 + asked);
             is_above.then_some(Bound::Void { asked, found })
