@@ -48,42 +48,46 @@ impl<'a> Builder<'a, '_, '_> {
         let finest = (2 * cells).min(CELLS.1);
         let is_solid = self.volume.is_some() && self.round_cells().is_none();
         let mut any_level = false;
+        let mut levels_end = !is_solid;
         // Moves keep some steps of the grid off the mesh: nothing comes nearer than one.
         let bounds = self.obstacle.bounds();
         let size = bounds.low.abs().max(bounds.high.abs()).max_element();
         let is_vain = most - self.obstacle.margin() <= rounding.half_step(size);
-        while !self.is_late() {
-            let mut came = false;
-            let mut level = None;
-            if is_solid {
+        let mut came = false;
+        while !came && !self.is_late() {
+            if !levels_end {
                 let place = Place { stored: from.stored, ..place };
                 let levels = first_levels(&place, from.mesh, faces, self.on_progress);
-                level = levels.plenty.or(levels.wanted);
-            }
-            if let Some(level) = level {
-                any_level = true;
-                let done = self.within(level, rounding, most);
-                came = done.stop == Stop::Reached;
-                better(&mut best, done);
-            }
-            // Walls along the axes do better by the one, all else by the other.
-            for conditions in [Conditions::PAPER, OF_STAIRS] {
-                if any_level || self.is_late() {
-                    break;
-                }
-                let first = first_closure(&place, cells, faces, conditions, self.on_progress);
-                if let Some(first) = first {
-                    let done = self.within(first, rounding, most);
-                    came |= done.stop == Stop::Reached;
+                if let Some(level) = levels.plenty.or(levels.wanted) {
+                    any_level = true;
+                    let done = self.within(level, rounding, most);
+                    came = done.stop == Stop::Reached;
                     better(&mut best, done);
                 }
+                levels_end = faces >= from.mesh.triangles.len();
             }
-            let is_finest = if any_level { faces >= from.mesh.triangles.len() } else { cells >= finest };
-            if came || is_finest || is_vain {
+            // Closures where there is no level, or none does.
+            let mut is_finest = false;
+            if !came && (!any_level || levels_end && !is_vain) {
+                // Walls along the axes do better by the one, all else by the other.
+                for conditions in [Conditions::PAPER, OF_STAIRS] {
+                    if self.is_late() {
+                        break;
+                    }
+                    let first = first_closure(&place, cells, faces, conditions, self.on_progress);
+                    if let Some(first) = first {
+                        let done = self.within(first, rounding, most);
+                        came |= done.stop == Stop::Reached;
+                        better(&mut best, done);
+                    }
+                }
+                is_finest = cells >= finest;
+                cells = (2 * cells).min(CELLS.1);
+            }
+            if is_vain || is_finest && (levels_end || !any_level) {
                 break;
             }
             faces = faces.saturating_mul(FINER);
-            cells = (2 * cells).min(CELLS.1);
         }
         if self.is_late()
             && let Some(done) = &mut best

@@ -175,7 +175,7 @@ impl Report<'_> {
         describe::write_blob(out, model)?;
         if let Some(reports) = tight {
             write_left_out(out, args, reports)?;
-            write_margin(out, args.margin)?;
+            write_margin(out, args.margin, "mesh")?;
             if let Some(Err(why)) = reports.first().map(|report| report.void) {
                 writeln!(out, "  {why}; there is no volume to measure void against")?;
             }

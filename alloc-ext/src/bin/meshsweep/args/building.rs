@@ -255,7 +255,7 @@ pub struct HullArgs {
     /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
-    /// Stop after about so many seconds: with more faces than asked for, if they are not gone by then
+    /// Stop each hull after about so many seconds: with more faces than asked for, if they are not gone by then
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
     /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so

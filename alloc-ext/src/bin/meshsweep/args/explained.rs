@@ -155,9 +155,10 @@ pub const CULL: &str = "Leaves of up to eight triangles are kept or left out who
 
 pub const HULL: &str = "The hull of a mesh is closed, does not pass through itself, and has every triangle of the mesh strictly inside: proved by exact \
     arithmetic on the vertices that are written. The mesh may be open, or a heap of loose triangles; cavities are filled. With --void or --slack \
-    few faces are searched for, which takes several times as long as a number of --faces, and minutes where the mesh is open or its parts touch; \
+    few faces are searched for, which may take several times as long as a number of --faces, and minutes where the mesh is open, its parts touch, or a margin is asked for; \
     if none is found that is as tight, nothing is written. With --seconds the hull depends on the machine, and has more faces than asked for if the time did not \
-    suffice to get rid of them. With --faces the hull has as little volume as is found: something thin may stand out far, which --slack forbids.\n\n\
+    suffice to get rid of them. With --faces the hull has as little volume as is found: something thin may stand out far, which --slack forbids. With --parts there is a hull for each part, each with the faces and the seconds that are asked for; those of \
+    neighbours may cross.\n\n\
     With --margin the hull has no point as near to the mesh as that, so that everything within the margin is inside: proved too, and for the mesh as the file \
     has it, before its vertices were rounded. --void then counts the margin's volume as well, and --slack, which is measured from the mesh with its vertices \
     rounded, must be more: twice the margin, say, for corners stand off farther than walls.\n\n\

@@ -96,7 +96,7 @@ pub fn length(text: &str) -> Result<f64, String> {
 
 /// A percentage above 0, with or without its sign.
 pub fn percent(text: &str) -> Result<f64, String> {
-    let wanted = || "a percentage above 0 is wanted, as 15 or 15%".to_owned();
+    let wanted = || "a finite percentage above 0 is wanted, as 15 or 15%".to_owned();
     positive(text.strip_suffix('%').unwrap_or(text).trim()).map_err(|_| wanted())
 }
 

@@ -53,7 +53,7 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         match &hulls[..] {
             [hull] => {
                 write!(out, "{}: ", args.output.display())?;
-                describe(out, &hull.report, goal, args.margin)
+                describe(out, &hull.report, goal, args.margin, "mesh")
             }
             _ => {
                 let faces: usize = hulls.iter().map(|hull| hull.report.faces).sum();
@@ -61,7 +61,7 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
                 writeln!(out, "{}: {count}, {} in all", args.output.display(), Counted(faces, "face"))?;
                 for (index, hull) in hulls.iter().enumerate() {
                     write!(out, "  part {index}: ")?;
-                    describe(out, &hull.report, goal, args.margin)?;
+                    describe(out, &hull.report, goal, args.margin, "part")?;
                 }
                 Ok(())
             }
@@ -75,20 +75,26 @@ pub fn widened(margin: f64, loaded: &Loaded) -> f64 {
     if margin > 0.0 { margin + moved } else { margin }
 }
 
-/// `margin` is the one that was typed: the hull keeps what rounding may take from it besides.
-fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64>) -> io::Result<()> {
+/// `margin` is the one that was typed: the hull keeps what rounding may take from it besides. `of` says what the hull is of.
+fn describe(
+    out: &mut dyn Write,
+    report: &Report,
+    goal: Goal,
+    margin: Option<f64>,
+    of: &str,
+) -> io::Result<()> {
     write!(out, "{}, ", Counted(report.faces, "face"))?;
     if let Ok(void) = report.void {
         write!(out, "{} % void space, ", Percent(void * 100.0))?;
     }
     writeln!(
         out,
-        "at most {} from the mesh and in one place at least {}, {:.3} s",
+        "at most {} from the {of} and in one place at least {}, {:.3} s",
         AtMost(report.slack.upper),
         AtLeast(report.slack.lower),
         report.time.as_secs_f64()
     )?;
-    write_margin(out, margin)?;
+    write_margin(out, margin, of)?;
     if let Err(why) = report.void {
         writeln!(out, "  {why}; there is no volume to measure void against")?;
     }
@@ -115,9 +121,9 @@ fn describe(out: &mut dyn Write, report: &Report, goal: Goal, margin: Option<f64
 }
 
 /// That a margin is kept, if there is one.
-pub fn write_margin(out: &mut dyn Write, margin: Option<f64>) -> io::Result<()> {
+pub fn write_margin(out: &mut dyn Write, margin: Option<f64>, of: &str) -> io::Result<()> {
     margin.filter(|&margin| margin > 0.0).map_or(Ok(()), |margin| {
-        writeln!(out, "  all points within {} of the mesh are inside", Given(margin))
+        writeln!(out, "  all points within {} of the {of} are inside", Given(margin))
     })
 }
 
