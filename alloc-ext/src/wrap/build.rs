@@ -195,7 +195,7 @@ impl<'a> Builder<'a, '_, '_> {
         let is_itself = is_small && best.as_ref().is_some_and(|best| self.is_solid_itself(best));
         let is_enough = best.is_some() || round.is_some();
         let finest = Some(finest(wanted));
-        // Where the finest has narrow places that its levels grow together in, half as fine may do.
+        // Where the finest has narrow places that its levels grow together in, the grid next to it may do.
         let finer = finest.map(|cells| cells * 2 / 3).filter(|&cells| Some(cells) > COARSER[0]);
         let coarser = finer.map(Some).into_iter().chain(COARSER.into_iter().filter(|&cells| cells != finest));
         let first = if self.is_hurried { None } else { Some(finest) };

@@ -40,7 +40,7 @@ pub(super) struct Place<'a> {
 
 /// Faces of the level to start from: enough to choose from for `wanted`, and no more, for each costs a collapse.
 fn plenty(wanted: usize) -> usize {
-    (wanted + wanted / 2).saturating_add(800)
+    wanted.saturating_add(wanted / 2).saturating_add(800)
 }
 
 /// Levels that are tried: [`plenty`] times 2 to this, in this order. Finer ones are closer to the mesh; coarser ones pass over places where the mesh
@@ -158,7 +158,7 @@ pub(super) const OF_STAIRS: Conditions =
     Conditions { compactness_ratio: 0.2, min_normal_cosine: 0.2, ..Conditions::PAPER };
 
 /// Compactness that may be lost before a level: the hull that comes of it is shrunk onto the mesh, so that needles do little harm, while the paper's
-/// condition refuses five collapses of six.
+/// condition refuses most collapses of a fine mesh.
 const THINNING: f64 = 0.4;
 
 /// Positions and triangles.
@@ -166,7 +166,7 @@ type Faces = (Vec<DVec3>, Vec<[u32; 3]>);
 
 /// Faces of the finest level.
 fn finest_level(wanted: usize) -> usize {
-    plenty(wanted) << 3
+    plenty(wanted).saturating_mul(8)
 }
 
 /// A closed manifold surface in the local frame, on its grid.
