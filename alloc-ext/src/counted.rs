@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// `1 face`, `2 faces`, `2 patches`, `3 entries`, `4 leaves`, `5 vertices`, `6 triboxes`. The noun is given in the singular.
+/// `1 face`, `2 faces`, `2 patches`, `3 entries`, `4 leaves`, `5 vertices`, `6 triboxes`. The noun
+/// is given in the singular.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted<T>(
     /// The number.
@@ -15,9 +16,11 @@ impl<T: Copy + TryInto<u64> + fmt::Display> fmt::Display for Counted<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Counted(count, noun) = *self;
         let is_one = count.try_into().is_ok_and(|count| count == 1);
-        let endings = [("y", "ies"), ("f", "ves"), ("ex", "ices"), ("ox", "oxes"), ("ch", "ches"), ("", "s")];
+        let endings =
+            [("y", "ies"), ("f", "ves"), ("ex", "ices"), ("ox", "oxes"), ("ch", "ches"), ("", "s")];
         let plural = |(from, to)| Some((noun.strip_suffix(from)?, to));
-        let (stem, ending) = endings.into_iter().find_map(plural).filter(|_| !is_one).unwrap_or((noun, ""));
+        let (stem, ending) =
+            endings.into_iter().find_map(plural).filter(|_| !is_one).unwrap_or((noun, ""));
         write!(f, "{count} {stem}{ending}")
     }
 }

@@ -4,8 +4,9 @@
 //! mesh file ─ mesh::read ─ mesh::repair ─ precision::store ─ collapse ─ sweep ─ emit ─ blob
 //! ```
 //!
-//! Each stage takes a value and returns a value and one invariant more; [`hull::build()`] runs them. The kernels are
-//! `meshsweep-core`'s, so that builder and reader compute the same bits; the core opens what was written before it is handed out.
+//! Each stage takes a value and returns a value and one invariant more; [`hull::build()`] runs
+//! them. The kernels are `meshsweep-core`'s, so that builder and reader compute the same bits; the
+//! core opens what was written before it is handed out.
 
 pub mod collapse;
 pub mod counted;

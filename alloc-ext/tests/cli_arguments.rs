@@ -3,8 +3,8 @@
 mod cli_support;
 
 use cli_support::{
-    Triangle, arg, blob, fixture, hull_blob, meshsweep, ok, random_queries, scratch, triangles, write_csv,
-    write_raw,
+    Triangle, arg, blob, fixture, hull_blob, meshsweep, ok, random_queries, scratch, triangles,
+    write_csv, write_raw,
 };
 use std::fs;
 use std::io::Write;
@@ -13,8 +13,12 @@ use std::process::Stdio;
 
 /// Standard output of the program with this standard input.
 fn with_input(args: &[&str], input: &str) -> String {
-    let mut child =
-        meshsweep().args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("it starts");
+    let mut child = meshsweep()
+        .args(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("it starts");
     child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success());
@@ -46,7 +50,8 @@ fn queries_are_arguments_files_and_the_standard_input_in_the_order_given() {
         ("closest", &["--rel", "0.5"]),
     ] {
         let mixed = ["-1,-2,3.5", arg(&csv), "-", arg(&raw), "-.5, 0,-2e-3"];
-        let answers = with_input(&[&[command, arg(&path)], &mixed[..], options].concat(), "x y z\n1 2 3\n");
+        let answers =
+            with_input(&[&[command, arg(&path)], &mixed[..], options].concat(), "x y z\n1 2 3\n");
         assert_eq!(answers, ok([&[command, arg(&path), arg(&all)], options].concat()), "{command}");
         assert!(answers.lines().count() > rows.len());
     }
@@ -77,8 +82,9 @@ fn answers_do_not_depend_on_the_number_of_threads() {
         ("segment", &tree, &segments, &["--all"]),
         ("segment", &hull, &segments, &["--engine", "hull"]),
     ] {
-        let on =
-            |threads: &str| ok([&[command, arg(blob), arg(queries), "--threads", threads], options].concat());
+        let on = |threads: &str| {
+            ok([&[command, arg(blob), arg(queries), "--threads", threads], options].concat())
+        };
         let one = on("1");
         assert!(one.lines().count() > 2000);
         assert!(one == on("3") && one == on("64"), "{command} {options:?}");
@@ -95,7 +101,10 @@ fn batches_give_the_answers_of_single_queries() {
     let ask = |options: &[&str]| ok([&["closest", arg(&path), arg(&points)], options].concat());
     let one_by_one = ask(&["--steps", "1000000", "--threads", "1"]);
     let batches = ask(&["--threads", "1"]);
-    assert!(batches == ask(&["--threads", "2"]), "work, too, is the same for any number of threads");
+    assert!(
+        batches == ask(&["--threads", "2"]),
+        "work, too, is the same for any number of threads"
+    );
     let without_work = |line: &str| line.rsplit_once(',').map(|(answer, _)| answer.to_owned());
     let pairs = batches.lines().zip(one_by_one.lines());
     assert!(pairs.clone().all(|(batch, one)| without_work(batch) == without_work(one)));
@@ -125,14 +134,19 @@ fn every_command_s_help_has_examples_that_run() {
     assert_eq!(commands.len(), 13, "{commands:?}");
     for command in commands {
         let help = ok(["help", command]);
-        let examples: Vec<&str> = help.lines().filter_map(|line| line.strip_prefix("  meshsweep ")).collect();
+        let examples: Vec<&str> =
+            help.lines().filter_map(|line| line.strip_prefix("  meshsweep ")).collect();
         assert!(examples.iter().any(|example| example.starts_with(command)), "{command}: {help}");
         for example in examples {
             fs::copy(&part, directory.join("part.msw")).unwrap();
             fs::copy(&part, directory.join("tool.msw")).unwrap();
             let words: Vec<&str> = example.split_whitespace().collect();
             let output = meshsweep().args(words).current_dir(&directory).output().unwrap();
-            assert!(output.status.success(), "{example}: {}", String::from_utf8_lossy(&output.stderr));
+            assert!(
+                output.status.success(),
+                "{example}: {}",
+                String::from_utf8_lossy(&output.stderr)
+            );
             assert!(!output.stdout.is_empty() || writes(example, &directory), "{example}");
         }
     }
@@ -156,14 +170,17 @@ fn writes(example: &str, directory: &Path) -> bool {
 #[test]
 fn help_names_every_option_with_a_sentence() {
     for command in [
-        "build", "info", "closest", "within", "nearest", "signed", "field", "segment", "overlap", "cull",
-        "hull", "cut",
+        "build", "info", "closest", "within", "nearest", "signed", "field", "segment", "overlap",
+        "cull", "hull", "cut",
     ] {
         let help = ok(["help", command]);
         // Options are indented; a line of prose may begin with one, too.
         let is_option = |line: &&str| line.starts_with("  ") && line.trim_start().starts_with('-');
         let options: Vec<&str> = help.lines().filter(is_option).collect();
-        assert!(options.iter().all(|line| line.trim().split("  ").count() > 1), "{command}: {help}");
+        assert!(
+            options.iter().all(|line| line.trim().split("  ").count() > 1),
+            "{command}: {help}"
+        );
         // No line is wider than a terminal shows.
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{command}");
     }

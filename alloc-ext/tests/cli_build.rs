@@ -19,7 +19,8 @@ fn without_arguments_it_explains_itself_in_ten_lines_with_numbers() {
 
 #[test]
 fn the_built_in_bracket_is_the_fixture() {
-    let copy = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/src/bin/meshsweep/demo/bracket.stl")).unwrap();
+    let copy = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/src/bin/meshsweep/demo/bracket.stl"))
+        .unwrap();
     assert!(copy == fs::read(fixture("bracket.stl")).unwrap());
 }
 
@@ -69,8 +70,12 @@ fn a_blob_holds_what_was_asked_for_and_no_more() {
     ] {
         let info = info(&blob(&directory, "torus.ply", questions));
         let mut wanted: Vec<&str> = links.iter().chain(more).copied().collect();
-        let mut found: Vec<&str> =
-            info["sections"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+        let mut found: Vec<&str> = info["sections"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|s| s["name"].as_str().unwrap())
+            .collect();
         wanted.sort_unstable();
         found.sort_unstable();
         assert_eq!(found, wanted, "{questions:?}");
@@ -85,7 +90,8 @@ fn a_blob_holds_what_was_asked_for_and_no_more() {
 #[test]
 fn an_open_mesh_is_built_and_its_report_says_that_it_is_open() {
     let directory = scratch("open_mesh");
-    for name in ["evil/open_box.stl", "evil/moebius.obj", "evil/klein_bottle.obj", "evil/flat.obj"] {
+    for name in ["evil/open_box.stl", "evil/moebius.obj", "evil/klein_bottle.obj", "evil/flat.obj"]
+    {
         let (mesh, out) = (fixture(name), directory.join("out.msw"));
         let text = ok(["build", arg(&mesh), "-o", arg(&out)]);
         let is_open = text.contains("open: signed distance is undefined");
@@ -103,7 +109,10 @@ fn build_honours_its_options() {
     let faces = |options: &[&str]| {
         let info = info(&hull_blob(&directory, "torus.ply", options));
         let hull = &info["hull"];
-        (hull["base_triangles"].as_u64().unwrap(), hull["vertex_format"].as_str().unwrap().to_owned())
+        (
+            hull["base_triangles"].as_u64().unwrap(),
+            hull["vertex_format"].as_str().unwrap().to_owned(),
+        )
     };
     assert_eq!(faces(&["--base", "400"]).0, 400);
     assert_eq!(faces(&["--base", "400", "--priority", "span"]).0, 400);
@@ -112,7 +121,9 @@ fn build_honours_its_options() {
     assert_eq!(faces(&["--vertex-bits", "32"]).1, "f32");
     let strict = ["--max-valence", "6", "--compactness", "1", "--max-normal-deviation", "5"];
     assert!(faces(&strict).0 > 400, "strict conditions stop early");
-    for (bits, format) in [("auto", "16-bit grid"), ("16", "16-bit grid"), ("24", "f32"), ("32", "f32")] {
+    for (bits, format) in
+        [("auto", "16-bit grid"), ("16", "16-bit grid"), ("24", "f32"), ("32", "f32")]
+    {
         let info = info(&blob(&directory, "torus.ply", &["--vertex-bits", bits]));
         assert_eq!(info["tree"]["vertex_format"], format);
         assert_eq!(info["tree"]["surface_error"] == 0.0, format == "f32", "{bits}");
@@ -125,7 +136,10 @@ fn a_build_that_stops_early_says_why() {
     let (mesh, out) = (fixture("torus.ply"), directory.join("t.msw"));
     let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "hull", "--base", "4"]);
     assert!(text.contains("stopped before 4 faces"), "{text}");
-    assert!(text.contains("--max-valence, --compactness and --max-normal-deviation relax"), "{text}");
+    assert!(
+        text.contains("--max-valence, --compactness and --max-normal-deviation relax"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -135,7 +149,8 @@ fn json_parses_and_its_sections_fill_the_blob() {
     let info = info(&path);
     assert_eq!(info["bytes"].as_u64(), Some(fs::metadata(&path).unwrap().len()));
     let sections = info["sections"].as_array().unwrap();
-    let end = sections.iter().map(|s| s["offset"].as_u64().unwrap() + s["bytes"].as_u64().unwrap()).max();
+    let end =
+        sections.iter().map(|s| s["offset"].as_u64().unwrap() + s["bytes"].as_u64().unwrap()).max();
     assert_eq!(end, info["bytes"].as_u64());
     let (hull, tree) = (&info["hull"], &info["tree"]);
     assert_eq!(hull["surface_triangles"], 1948);
@@ -150,7 +165,10 @@ fn json_parses_and_its_sections_fill_the_blob() {
     assert_eq!(sizes.len(), 8);
     assert_eq!((1..).zip(&sizes).map(|(size, count)| size * count).sum::<u64>(), 1948);
     let fans: u64 = sizes.iter().sum();
-    assert_eq!((tree["fans"].as_u64(), tree["single_triangle_fans"].as_u64()), (Some(fans), Some(sizes[0])));
+    assert_eq!(
+        (tree["fans"].as_u64(), tree["single_triangle_fans"].as_u64()),
+        (Some(fans), Some(sizes[0]))
+    );
     assert!((tree["triangles_per_fan"].as_f64().unwrap() - 1948.0 / fans as f64).abs() < 1e-9);
     // A leaf is one or two fans.
     let leaf_count = tree["leaves"].as_u64().unwrap();
@@ -224,7 +242,11 @@ fn polygons_that_were_split_are_reported() {
 #[test]
 fn one_of_a_thing_is_in_the_singular() {
     let directory = scratch("singular");
-    let text = report(&directory, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n");
+    let text = report(
+        &directory,
+        "a.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n",
+    );
     for part in [
         "1 triangle kept",
         "1 zero-area triangle dropped",
@@ -253,10 +275,12 @@ fn the_half_width_that_is_promised_is_that_of_the_answers() {
         let tree = &info(&path)["tree"];
         let said = |key: &str| tree[key].as_f64().unwrap();
         let [near, far] = [said("half_width_near"), said("half_width_one_diagonal_away")];
-        let low: [f64; 3] =
-            core::array::from_fn(|k| mesh.iter().flatten().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-        let high: [f64; 3] =
-            core::array::from_fn(|k| mesh.iter().flatten().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+        let low: [f64; 3] = core::array::from_fn(|k| {
+            mesh.iter().flatten().map(|p| p[k]).fold(f64::INFINITY, f64::min)
+        });
+        let high: [f64; 3] = core::array::from_fn(|k| {
+            mesh.iter().flatten().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max)
+        });
         let diagonal = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
         // Off the surface by a few of these widths, and a diagonal off the box.
         let at = |off: f64| {

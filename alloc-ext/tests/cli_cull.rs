@@ -8,7 +8,8 @@ use cli_support::{
 use std::fs;
 use std::path::Path;
 
-const EYES: [Point; 4] = [[100.0, -50.0, 30.0], [0.5, 0.25, 0.125], [-3.0, 0.0, 0.0], [1e6, 1e6, -1e6]];
+const EYES: [Point; 4] =
+    [[100.0, -50.0, 30.0], [0.5, 0.25, 0.125], [-3.0, 0.0, 0.0], [1e6, 1e6, -1e6]];
 
 /// The triangles that are listed, which must rise.
 fn listed(blob: &Path, options: &[&str]) -> Vec<usize> {
@@ -42,7 +43,12 @@ fn every_triangle_that_faces_the_viewpoint_is_listed_and_many_others_are_not() {
             let fronts = mesh.iter().filter(|&&triangle| faces(eye, triangle)).count();
             assert!(fronts <= listed.len() && listed.len() <= mesh.len());
             if name == "torus.ply" && eye[0] > 50.0 {
-                assert!(listed.len() < mesh.len() * 3 / 4, "{} of {}, {fronts}", listed.len(), mesh.len());
+                assert!(
+                    listed.len() < mesh.len() * 3 / 4,
+                    "{} of {}, {fronts}",
+                    listed.len(),
+                    mesh.len()
+                );
             }
         }
     }

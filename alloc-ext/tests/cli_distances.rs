@@ -3,8 +3,8 @@
 mod cli_support;
 
 use cli_support::{
-    Point, Triangle, arg, blob, distance, fixture, number, ok, parse_csv, random_queries, refused, run,
-    scratch, to_triangle, triangles, wide, write_csv,
+    Point, Triangle, arg, blob, distance, fixture, number, ok, parse_csv, random_queries, refused,
+    run, scratch, to_triangle, triangles, wide, write_csv,
 };
 use std::fs;
 use std::path::Path;
@@ -22,7 +22,13 @@ const SIGNED: &str = "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work";
 /// No point of the triangles is farther than this from the torus.
 const SAGITTA: f64 = 0.013;
 
-fn ask(command: &str, blob: &Path, points: &Path, options: &[&str], header: &str) -> Vec<Vec<String>> {
+fn ask(
+    command: &str,
+    blob: &Path,
+    points: &Path,
+    options: &[&str],
+    header: &str,
+) -> Vec<Vec<String>> {
     parse_csv(&ok([&[command, arg(blob), arg(points)], options].concat()), header)
 }
 
@@ -49,8 +55,14 @@ fn within_says_yes_and_no_rightly_and_unknown_only_near_the_limit() {
                     let named = mesh[answer[4].parse::<usize>().unwrap()];
                     assert!(to_triangle(wide(row), named) <= limit * (1.0 + SLACK), "{answer:?}");
                 }
-                "no" => assert!(truth * (1.0 + SLACK) > limit && answer[4].is_empty(), "{answer:?} {truth}"),
-                _ => assert!((truth - limit).abs() < 1e-2 && answer[4].is_empty(), "{answer:?} {truth}"),
+                "no" => assert!(
+                    truth * (1.0 + SLACK) > limit && answer[4].is_empty(),
+                    "{answer:?} {truth}"
+                ),
+                _ => assert!(
+                    (truth - limit).abs() < 1e-2 && answer[4].is_empty(),
+                    "{answer:?} {truth}"
+                ),
             }
         }
         let count = |what: &str| answers.iter().filter(|answer| answer[3] == what).count();
@@ -75,7 +87,9 @@ fn within_all_lists_every_triangle_that_is_near_enough() {
         let truly = (0..mesh.len()).filter(|&t| to_triangle(wide(row), mesh[t]) <= 0.75);
         assert_eq!(listed, truly.collect::<Vec<_>>(), "{row:?}");
         assert_eq!(listed.is_empty(), mine().any(|answer| answer[1] == "no"));
-        assert!(mine().filter(|answer| answer[1] == "yes").all(|answer| number(&answer[3]) <= 0.75));
+        assert!(
+            mine().filter(|answer| answer[1] == "yes").all(|answer| number(&answer[3]) <= 0.75)
+        );
     }
     assert!(answers.iter().filter(|answer| answer[0] == "0").count() > 0);
 }
@@ -134,7 +148,8 @@ fn signed_names_the_side_and_the_interval_holds() {
 #[test]
 fn an_undefined_side_has_a_reason_and_an_interval_all_the_same() {
     let directory = scratch("undefined");
-    let (open, closed) = (blob(&directory, "evil/open_box.stl", &[]), blob(&directory, "torus.ply", &[]));
+    let (open, closed) =
+        (blob(&directory, "evil/open_box.stl", &[]), blob(&directory, "torus.ply", &[]));
     let mesh = triangles(&fixture("torus.ply"));
     let vertex = mesh[0][0].map(|x| x.to_string()).join(",");
     for (blob, point, options, reason) in [
@@ -158,14 +173,21 @@ fn an_undefined_side_has_a_reason_and_an_interval_all_the_same() {
 
 /// Numbers of a raw file.
 fn raw(path: &Path) -> Vec<f32> {
-    fs::read(path).unwrap().as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect()
+    fs::read(path)
+        .unwrap()
+        .as_chunks::<4>()
+        .0
+        .iter()
+        .map(|&bytes| f32::from_le_bytes(bytes))
+        .collect()
 }
 
 /// Sample `index` of a grid of 9 by 8 by 7 around a box, x fastest.
 fn sample(mesh: &[Triangle], index: usize) -> Point {
     let at = [index % 9, index / 9 % 8, index / 72];
     let low = |k: usize| mesh.iter().flatten().map(|p| p[k]).fold(f64::INFINITY, f64::min) - 1.0;
-    let high = |k: usize| mesh.iter().flatten().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) + 1.0;
+    let high =
+        |k: usize| mesh.iter().flatten().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) + 1.0;
     core::array::from_fn(|k| low(k) + at[k] as f64 * (high(k) - low(k)) / ([9, 8, 7][k] - 1) as f64)
 }
 
@@ -196,7 +218,8 @@ fn a_field_s_intervals_hold_wherever_a_sample_is() {
 fn a_field_has_the_same_bytes_for_any_number_of_threads_and_numpy_s_header() {
     let directory = scratch("field_threads");
     let path = blob(&directory, "torus.ply", &[]);
-    let (one, many, npy) = (directory.join("1.f32"), directory.join("5.f32"), directory.join("a.npy"));
+    let (one, many, npy) =
+        (directory.join("1.f32"), directory.join("5.f32"), directory.join("a.npy"));
     ok(["field", arg(&path), "-o", arg(&one), "--size", "20", "--threads", "1"]);
     ok(["field", arg(&path), "-o", arg(&many), "--size", "20", "--threads", "5"]);
     ok(["field", arg(&path), "-o", arg(&npy), "--size", "20"]);
@@ -229,10 +252,14 @@ fn samples_without_a_sign_are_quiet_nans_and_counted() {
     let directory = scratch("field_nan");
     // The middle of a face of the box, and of an edge, are on the surface.
     let path = blob(&directory, "evil/cavity.stl", &[]);
-    let (one, many, wide) = (directory.join("1.f32"), directory.join("7.f32"), directory.join("i.f32"));
+    let (one, many, wide) =
+        (directory.join("1.f32"), directory.join("7.f32"), directory.join("i.f32"));
     let field = |out: &Path, options: &[&str]| {
-        run([&["field", arg(&path), "-o", arg(out), "--size", "9", "--margin", "0", "--signed"], options]
-            .concat())
+        run([
+            &["field", arg(&path), "-o", arg(out), "--size", "9", "--margin", "0", "--signed"],
+            options,
+        ]
+        .concat())
     };
     let output = field(&one, &["--threads", "1"]);
     assert!(output.status.success());
@@ -242,7 +269,10 @@ fn samples_without_a_sign_are_quiet_nans_and_counted() {
     assert!(nans >= 9 * 9 * 9 - 7 * 7 * 7 && nans < values.len(), "{nans}");
     assert!(values.iter().all(|x| !x.is_nan() || x.to_bits() == 0x7FC0_0000));
     let note = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(note.contains(&format!("{nans} of 729 samples have no sign: {nans} at the surface; ")), "{note}");
+    assert!(
+        note.contains(&format!("{nans} of 729 samples have no sign: {nans} at the surface; ")),
+        "{note}"
+    );
     assert!(field(&many, &["--threads", "7"]).stderr.len() == note.len());
     assert!(fs::read(&one).unwrap() == fs::read(&many).unwrap());
     let note = String::from_utf8_lossy(&field(&wide, &["--interval"]).stderr).into_owned();

@@ -103,7 +103,11 @@ fn what_is_no_whole_blob_is_refused_with_a_remedy() {
     refused(&run(["info", arg(&file(&directory, "empty.msw", ""))]), 1, "empty.msw");
     let bytes = fs::read(blob(&directory, "torus.ply", &[])).unwrap();
     for length in [8, 100, 1000, bytes.len() - 1] {
-        refused(&run(["info", arg(&file(&directory, "short.msw", &bytes[..length]))]), 1, "short.msw");
+        refused(
+            &run(["info", arg(&file(&directory, "short.msw", &bytes[..length]))]),
+            1,
+            "short.msw",
+        );
     }
     let mut damaged = bytes.clone();
     damaged[5000] ^= 4;
@@ -118,13 +122,17 @@ fn a_hull_of_a_mesh_with_holes_is_refused_in_one_line_with_places_and_a_way_out(
     let directory = scratch("holes");
     let (mesh, out) = (fixture("evil/open_box.stl"), directory.join("out.msw"));
     for questions in ["hull", "closest,hull"] {
-        let line =
-            refused(&run(["build", arg(&mesh), "-o", arg(&out), "--for", questions]), 1, "open_box.stl");
+        let line = refused(
+            &run(["build", arg(&mesh), "-o", arg(&out), "--for", questions]),
+            1,
+            "open_box.stl",
+        );
         assert!(line.contains("not closed") && line.contains("edge ["), "{line}");
         assert!(line.contains("--for closest,segment needs no closed mesh"), "{line}");
     }
     let (mesh, ply) = (fixture("evil/stuck_cap.obj"), directory.join("out.ply"));
-    let line = refused(&run(["hull", arg(&mesh), "--progressive", "-o", arg(&ply)]), 1, "stuck_cap.obj");
+    let line =
+        refused(&run(["hull", arg(&mesh), "--progressive", "-o", arg(&ply)]), 1, "stuck_cap.obj");
     assert!(line.contains("zero-area triangle") && !line.contains("--for"), "{line}");
 }
 
@@ -191,7 +199,11 @@ fn an_error_leaves_the_old_output_alone() {
     let mesh = fixture("evil/nan.stl");
     refused(&run(["build", arg(&mesh), "-o", arg(&out)]), 1, "nan.stl");
     let path = hull_blob(&directory, "torus.ply", &[]);
-    refused(&run(["cut", arg(&path), "--level", "99", "-o", arg(&out)]), 1, "level 99 does not exist");
+    refused(
+        &run(["cut", arg(&path), "--level", "99", "-o", arg(&out)]),
+        1,
+        "level 99 does not exist",
+    );
     let points = file(&directory, "p.csv", "1,2,3\n1,2\n");
     refused(&run(["closest", arg(&path), arg(&points), "-o", arg(&out)]), 1, "line 2");
     assert_eq!(fs::read_to_string(&out).unwrap(), "precious");
@@ -204,8 +216,11 @@ fn outputs_that_cannot_be_written_are_named_before_the_work() {
     let mesh = fixture("torus.ply");
     refused(&run(["build", arg(&mesh), "-o", arg(&directory)]), 1, "unwritable");
     let missing = directory.join("missing/out.msw");
-    let line =
-        refused(&run(["build", arg(&mesh), "-o", arg(&missing)]), 1, "missing/out.msw: cannot be written");
+    let line = refused(
+        &run(["build", arg(&mesh), "-o", arg(&missing)]),
+        1,
+        "missing/out.msw: cannot be written",
+    );
     assert!(line.contains("there is no directory"), "{line}");
     let path = hull_blob(&directory, "torus.ply", &[]);
     let line = refused(&run(["cut", arg(&path), "--level", "1", "-o", arg(&path)]), 1, "torus.msw");
@@ -235,11 +250,13 @@ fn malformed_queries_are_named_by_line_and_field() {
     let line = refused(&run(["segment", arg(&path), arg(&far)]), 1, "s.csv, line 2");
     assert!(line.contains("clip the segment"), "{line}");
     // The first one that is refused is named, whichever thread comes first.
-    let many: String =
-        (0..5000).map(|i| format!("0 0 {} 1 1 1\n", if i >= 1200 { "1e38" } else { "0" })).collect();
+    let many: String = (0..5000)
+        .map(|i| format!("0 0 {} 1 1 1\n", if i >= 1200 { "1e38" } else { "0" }))
+        .collect();
     let far = file(&directory, "s.csv", many);
     refused(&run(["segment", arg(&path), arg(&far), "--threads", "4"]), 1, "s.csv, line 1201:");
-    let line = refused(&run(["segment", arg(&path), "1,2,3,4,5,6", "0,0,0,1e38,0,0"]), 1, "query 0,0,0,1");
+    let line =
+        refused(&run(["segment", arg(&path), "1,2,3,4,5,6", "0,0,0,1e38,0,0"]), 1, "query 0,0,0,1");
     assert!(line.contains("clip the segment"), "{line}");
 }
 
@@ -265,8 +282,9 @@ fn answers_before_a_query_that_is_refused_are_printed_but_make_no_file() {
     ] {
         fs::write(&good, queries).unwrap();
         fs::write(&bad, format!("{queries}{refused_one}\n{queries}")).unwrap();
-        let ask =
-            |file: &Path, more: &[&str]| run([&[command, arg(blob), arg(file)], options, more].concat());
+        let ask = |file: &Path, more: &[&str]| {
+            run([&[command, arg(blob), arg(file)], options, more].concat())
+        };
         let broken = ask(&bad, &[]);
         refused(&broken, 1, "bad.csv, line 1501");
         assert!(broken.stdout == ask(&good, &[]).stdout, "{command} {options:?}");
@@ -290,7 +308,11 @@ fn a_segment_that_is_too_long_is_told_a_limit_that_holds() {
     let directory = scratch("too_far");
     let path = blob(&directory, "torus.ply", &["--for", "segment,hull"]);
     for engine in ["tree", "cover"] {
-        let line = refused(&run(["segment", arg(&path), "0,0,0,1e38,0,0", "--engine", engine]), 1, "too far");
+        let line = refused(
+            &run(["segment", arg(&path), "0,0,0,1e38,0,0", "--engine", engine]),
+            1,
+            "too far",
+        );
         let limit: f32 =
             line.split("about ").nth(1).unwrap().split([';', ' ']).next().unwrap().parse().unwrap();
         let to = |factor: f32| {
@@ -305,7 +327,8 @@ fn a_segment_that_is_too_long_is_told_a_limit_that_holds() {
 fn a_file_without_queries_is_named_and_no_error() {
     let directory = scratch("no_queries");
     let path = blob(&directory, "torus.ply", &[]);
-    let (empty, raw) = (file(&directory, "empty.csv", "x,y,z\n# none\n"), file(&directory, "empty.f32", ""));
+    let (empty, raw) =
+        (file(&directory, "empty.csv", "x,y,z\n# none\n"), file(&directory, "empty.f32", ""));
     let output = run(["closest", arg(&path), arg(&empty), "1,2,3", arg(&raw)]);
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && stderr.lines().count() == 2, "{stderr}");
@@ -345,7 +368,8 @@ fn the_hull_engine_refuses_blobs_it_can_say_nothing_about() {
     let cut = directory.join("cut.msw");
     ok(["cut", arg(&path), "--level", "1", "-o", arg(&cut)]);
     let segments = file(&directory, "s.csv", "9 9 9 0 0 0\n");
-    let line = refused(&run(["segment", arg(&cut), arg(&segments), "--engine", "hull"]), 1, "cut.msw");
+    let line =
+        refused(&run(["segment", arg(&cut), arg(&segments), "--engine", "hull"]), 1, "cut.msw");
     assert!(line.contains("--engine cover"), "{line}");
     let coarse = hull_blob(&directory, "torus.ply", &["--vertex-bits", "16"]);
     refused(&run(["segment", arg(&coarse), arg(&segments), "--engine", "hull"]), 1, "torus.msw");

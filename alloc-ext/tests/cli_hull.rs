@@ -87,7 +87,8 @@ fn a_slack_and_a_void_are_kept_and_printed() {
     let directory = scratch("hull_slack");
     let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
     let text = ok(["hull", arg(&mesh), "--slack", "0.4", "--effort", "0", "-o", arg(&out)]);
-    let most: f64 = text.split("at most ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    let most: f64 =
+        text.split("at most ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!(most <= 0.4, "{text}");
     let text = ok(["hull", arg(&mesh), "--void", "30%", "--effort", "0", "-o", arg(&out)]);
     assert!(void_percent(&text) <= 30.0, "{text}");
@@ -98,7 +99,8 @@ fn a_hull_that_is_looser_than_asked_for_is_not_written_and_the_tightest_is_named
     let directory = scratch("hull_unmet");
     let (mesh, out) = (fixture("groove.obj"), directory.join("hull.ply"));
     let refuse = |options: &[&str]| {
-        let output = run([&["hull", arg(&mesh), "--effort", "0", "-o", arg(&out)], options].concat());
+        let output =
+            run([&["hull", arg(&mesh), "--effort", "0", "-o", arg(&out)], options].concat());
         let line = cli_support::refused(&output, 1, "groove.obj");
         assert!(!out.exists() && line.contains(" faces; ") && line.contains("--faces"), "{line}");
         line
@@ -111,16 +113,23 @@ fn a_hull_that_is_looser_than_asked_for_is_not_written_and_the_tightest_is_named
         line.contains(" left 0.000001 % void space") || line.contains(" left 1e-6 % void space"),
         "{line}"
     );
-    assert!(line.contains("ask for a larger --void") && after(&line, "tightest leaves ") > 1e-6, "{line}");
+    assert!(
+        line.contains("ask for a larger --void") && after(&line, "tightest leaves ") > 1e-6,
+        "{line}"
+    );
     let line = refuse(&["--slack", "1e-8"]);
-    assert!(line.contains("within 1e-8 of the mesh") && line.contains("a larger --slack"), "{line}");
+    assert!(
+        line.contains("within 1e-8 of the mesh") && line.contains("a larger --slack"),
+        "{line}"
+    );
     assert!(after(&line, "tightest is within ") > 1e-8, "{line}");
     let line = refuse(&["--slack", "1e-5", "--seconds", "1e-3"]);
     assert!(line.contains("the time was up") && line.contains("more --seconds"), "{line}");
     // Each part has a goal of its own.
     let two = directory.join("two.obj");
     fs::write(&two, SOLIDS).unwrap();
-    let output = run(["hull", arg(&two), "--parts", "--slack", "1e-30", "--effort", "0", "-o", arg(&out)]);
+    let output =
+        run(["hull", arg(&two), "--parts", "--slack", "1e-30", "--effort", "0", "-o", arg(&out)]);
     assert!(cli_support::refused(&output, 1, "two.obj").contains("part 0: no hull"));
     assert!(!out.exists());
 }
@@ -129,15 +138,19 @@ fn a_hull_that_is_looser_than_asked_for_is_not_written_and_the_tightest_is_named
 fn lengths_that_were_measured_have_few_digits() {
     let directory = scratch("hull_digits");
     let out = directory.join("hull.ply");
-    let text = ok(["hull", arg(&fixture("torus.ply")), "--faces", "80", "--effort", "0", "-o", arg(&out)]);
+    let text =
+        ok(["hull", arg(&fixture("torus.ply")), "--faces", "80", "--effort", "0", "-o", arg(&out)]);
     for words in ["at most ", "at least "] {
         let length = text.split(words).nth(1).unwrap().split([' ', ',']).next().unwrap();
         assert!(length.parse::<f64>().unwrap() > 0.0 && length.len() <= 8, "{text}");
     }
     // Next to no volume, and next to nothing beyond it.
     let plate = directory.join("plate.obj");
-    fs::write(&plate, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1e-30\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
-        .unwrap();
+    fs::write(
+        &plate,
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1e-30\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+    )
+    .unwrap();
     for (mesh, ratio) in [(plate, 1e15..1e40), (fixture("groove.obj"), 1e-9..1e-3)] {
         let text = ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
         let void = text.split(" % void").next().unwrap().rsplit(' ').next().unwrap();
@@ -149,7 +162,8 @@ fn lengths_that_were_measured_have_few_digits() {
 fn a_margin_is_printed_and_left_around_the_mesh() {
     let directory = scratch("hull_margin");
     let (mesh, out) = (directory.join("box.obj"), directory.join("hull.ply"));
-    // A cube of edge 2, a segment that stands out of it as a triangle without area, and one that is there twice.
+    // A cube of edge 2, a segment that stands out of it as a triangle without area, and one that is
+    // there twice.
     fs::write(
         &mesh,
         "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nv 4 2 2\n\
@@ -165,13 +179,29 @@ fn a_margin_is_printed_and_left_around_the_mesh() {
     assert!(!text.contains("points within") && reach(&plain) > 4.0, "{text}");
     ok(["hull", arg(&mesh), "--faces", "80", "--effort", "0", "--margin", "0", "-o", arg(&out)]);
     assert!(fs::read(&plain).unwrap() == fs::read(&out).unwrap(), "no margin is a margin of 0");
-    let text =
-        ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0", "--margin", "0.5", "-o", arg(&out)]);
-    assert!(text.contains("all points within 0.5 of the mesh are inside") && reach(&out) > 4.5, "{text}");
+    let text = ok([
+        "hull",
+        arg(&mesh),
+        "--faces",
+        "100",
+        "--effort",
+        "0",
+        "--margin",
+        "0.5",
+        "-o",
+        arg(&out),
+    ]);
+    assert!(
+        text.contains("all points within 0.5 of the mesh are inside") && reach(&out) > 4.5,
+        "{text}"
+    );
     for wrong in ["-1", "nan", "inf", "x"] {
         let output = run(["hull", arg(&mesh), "--margin", wrong, "-o", arg(&plain)]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(String::from_utf8_lossy(&output.stderr).contains("a finite number from 0"), "{wrong}");
+        assert!(
+            String::from_utf8_lossy(&output.stderr).contains("a finite number from 0"),
+            "{wrong}"
+        );
     }
     let output = run(["hull", arg(&mesh), "--margin", "1e39", "-o", arg(&out)]);
     assert!(cli_support::refused(&output, 1, "box.obj").contains("range of single precision"));
@@ -183,10 +213,12 @@ fn a_margin_is_printed_and_left_around_the_mesh() {
 fn open_meshes_have_a_tight_hull_and_each_part_one_of_its_own() {
     let directory = scratch("hull_open");
     let (mesh, out) = (directory.join("two.obj"), directory.join("hull.ply"));
-    fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 1\nv 5 1 0\nf 1 2 3\nf 4 5 6\n").unwrap();
+    fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 1\nv 5 1 0\nf 1 2 3\nf 4 5 6\n")
+        .unwrap();
     let text = ok(["hull", arg(&mesh), "--faces", "70", "--effort", "0", "-o", arg(&out)]);
     assert!(text.contains("is not closed") && !text.contains("void space"), "{text}");
-    let text = ok(["hull", arg(&mesh), "--faces", "70", "--effort", "0", "--parts", "-o", arg(&out)]);
+    let text =
+        ok(["hull", arg(&mesh), "--faces", "70", "--effort", "0", "--parts", "-o", arg(&out)]);
     assert!(text.contains("2 hulls") && text.contains("part 1: "), "{text}");
     assert!(closed(&out).0 <= 140);
 }
@@ -197,9 +229,15 @@ fn what_keeps_a_mesh_from_having_a_void_is_named() {
     let out = directory.join("hull.ply");
     for (name, why) in [
         ("open_box.stl", "the mesh is not closed: 8 boundary edges, as at triangle"),
-        ("glued_cubes.stl", "the mesh is not manifold: 4 edges with up to 3 triangles, as at triangle"),
+        (
+            "glued_cubes.stl",
+            "the mesh is not manifold: 4 edges with up to 3 triangles, as at triangle",
+        ),
         ("klein_bottle.obj", "the mesh has no outside: 1 one-sided part, as at triangle"),
-        ("flat.obj", "that of triangle 0, has a volume that cannot be told from 0, as at [0.0, 0.0, 0.0]"),
+        (
+            "flat.obj",
+            "that of triangle 0, has a volume that cannot be told from 0, as at [0.0, 0.0, 0.0]",
+        ),
     ] {
         let mesh = fixture("evil").join(name);
         let line = cli_support::refused(
@@ -212,7 +250,10 @@ fn what_keeps_a_mesh_from_having_a_void_is_named() {
     }
     let flat = fixture("evil").join("flat.obj");
     let text = ok(["hull", arg(&flat), "--faces", "100", "--effort", "0", "-o", arg(&out)]);
-    assert!(!text.contains("% void") && text.contains("has a volume that cannot be told from 0"), "{text}");
+    assert!(
+        !text.contains("% void") && text.contains("has a volume that cannot be told from 0"),
+        "{text}"
+    );
     assert!(text.contains("; there is no volume to measure void against"), "{text}");
 }
 
@@ -226,7 +267,9 @@ fn cubes(spans: &[[f64; 2]]) -> String {
         }
     }
     for cube in 0..spans.len() {
-        for quad in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+        for quad in
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+        {
             let [a, b, c, d] = quad.map(|corner: usize| corner + 1 + 8 * cube);
             text += &format!("f {a} {b} {c} {d}\n");
         }
@@ -264,7 +307,8 @@ fn a_mesh_that_overlaps_itself_has_no_void_that_could_be_kept() {
 fn parts_with_no_more_faces_than_asked_for_are_their_own_hulls() {
     let directory = scratch("hull_simple_parts");
     let (mesh, out) = (directory.join("boxes.obj"), directory.join("hull.ply"));
-    // Where all starts are tried for each, which takes seconds, none has less void than rounding leaves.
+    // Where all starts are tried for each, which takes seconds, none has less void than rounding
+    // leaves.
     let spans: Vec<[f64; 2]> = (0..200).map(|n| [f64::from(n), f64::from(n) + 0.5]).collect();
     fs::write(&mesh, cubes(&spans)).unwrap();
     let text = ok(["hull", arg(&mesh), "--parts", "--faces", "12", "-o", arg(&out)]);
@@ -301,7 +345,8 @@ fn the_last_level_cuts_nothing_and_a_cut_can_be_cut_again() {
     let path = hull_blob(&directory, "torus.ply", &[]);
     let info = info(&path);
     let last = info["hull"]["levels"].as_array().unwrap().len() - 1;
-    let (one, two, direct) = (directory.join("1.msw"), directory.join("2.msw"), directory.join("d.msw"));
+    let (one, two, direct) =
+        (directory.join("1.msw"), directory.join("2.msw"), directory.join("d.msw"));
     ok(["cut", arg(&path), "--level", &last.to_string(), "-o", arg(&one)]);
     assert!(fs::read(&one).unwrap() == fs::read(&path).unwrap());
     ok(["cut", arg(&path), "--level", "2", "-o", arg(&one)]);
@@ -317,12 +362,23 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
     let path = hull_blob(&directory, "torus.ply", &[]);
     let out = directory.join("hull.ply");
     cli_support::refused(&run(["hull", arg(&path), "-o", arg(&out)]), 2, "torus.msw");
-    cli_support::refused(&run(["hull", arg(&path), "--faces", "9", "-o", arg(&out)]), 2, "torus.msw");
+    cli_support::refused(
+        &run(["hull", arg(&path), "--faces", "9", "-o", arg(&out)]),
+        2,
+        "torus.msw",
+    );
     let stl = directory.join("hull.stl");
-    cli_support::refused(&run(["hull", arg(&path), "--level", "0", "-o", arg(&stl)]), 2, "hull.stl");
+    cli_support::refused(
+        &run(["hull", arg(&path), "--level", "0", "-o", arg(&stl)]),
+        2,
+        "hull.stl",
+    );
     let mesh = fixture("bracket.stl");
-    let line =
-        cli_support::refused(&run(["hull", arg(&mesh), "--level", "1", "-o", arg(&out)]), 2, "bracket.stl");
+    let line = cli_support::refused(
+        &run(["hull", arg(&mesh), "--level", "1", "-o", arg(&out)]),
+        2,
+        "bracket.stl",
+    );
     assert!(line.contains("is a mesh") && line.contains("--for hull"), "{line}");
     let line = cli_support::refused(
         &run(["hull", arg(&mesh), "--priority", "span", "-o", arg(&out)]),
@@ -330,14 +386,16 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
         "--priority",
     );
     assert!(line.contains("--progressive"), "{line}");
-    for pair in [["--progressive", "--parts"], ["--void=3", "--slack=2"], ["--faces=9", "--void=3"]] {
+    for pair in [["--progressive", "--parts"], ["--void=3", "--slack=2"], ["--faces=9", "--void=3"]]
+    {
         let both = run(["hull", arg(&mesh), pair[0], pair[1], "-o", arg(&out)]);
         assert_eq!(both.status.code(), Some(2));
     }
     // No file is looked at before.
     for (slack, margin) in [("0.5", "2.25"), ("1e-9", "1e-9")] {
         let missing = directory.join("missing.stl");
-        let output = run(["hull", arg(&missing), "--slack", slack, "--margin", margin, "-o", arg(&out)]);
+        let output =
+            run(["hull", arg(&missing), "--slack", slack, "--margin", margin, "-o", arg(&out)]);
         let line = cli_support::refused(&output, 2, "--slack");
         assert!(line.contains(&format!("--slack {slack} ")), "{line}");
         assert!(line.contains(&format!("--margin {margin}:")), "{line}");

@@ -3,8 +3,8 @@
 mod cli_support;
 
 use cli_support::{
-    Triangle, arg, blob, first_crossing, fixture, info, ok, parse_csv, refused, run, scratch, triangles,
-    write_csv,
+    Triangle, arg, blob, first_crossing, fixture, info, ok, parse_csv, refused, run, scratch,
+    triangles, write_csv,
 };
 use std::collections::BTreeSet;
 use std::fs;
@@ -35,7 +35,9 @@ fn meeting(first: &[Triangle], second: &[Triangle], rows: &Rows) -> BTreeSet<(us
     for (i, a) in first.iter().enumerate() {
         let (low, high) = bounds(a);
         for (j, (b, (from, to))) in second.iter().enumerate() {
-            if (0..3).all(|k| low[k] <= to[k] && from[k] <= high[k]) && (crosses(a, b) || crosses(b, a)) {
+            if (0..3).all(|k| low[k] <= to[k] && from[k] <= high[k])
+                && (crosses(a, b) || crosses(b, a))
+            {
                 pairs.insert((i, j));
             }
         }
@@ -43,10 +45,16 @@ fn meeting(first: &[Triangle], second: &[Triangle], rows: &Rows) -> BTreeSet<(us
     pairs
 }
 
-/// Poses of which every number is exact, as text and as rows: rotations by quaternions of small integers.
+/// Poses of which every number is exact, as text and as rows: rotations by quaternions of small
+/// integers.
 fn poses() -> Vec<(String, Rows)> {
-    let translations =
-        [[2.25, 0.125, 0.5], [-1.5, 2.0, -0.25], [4.5, 0.0, 0.0], [0.375, -0.75, 6.5], [0.25, 3.5, 0.5]];
+    let translations = [
+        [2.25, 0.125, 0.5],
+        [-1.5, 2.0, -0.25],
+        [4.5, 0.0, 0.0],
+        [0.375, -0.75, 6.5],
+        [0.25, 3.5, 0.5],
+    ];
     // 90 degrees about x; 120 about the diagonal; half a turn about (0, 3, 4)/5.
     let turns: [([f64; 4], [[f64; 3]; 3]); 3] = [
         ([1.0, 1.0, 0.0, 0.0], [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
@@ -69,7 +77,8 @@ fn contacts_and_pairs_are_those_of_the_mesh_files() {
     let directory = scratch("overlap");
     let names = ["torus.ply", "evil/open_box.stl"];
     let meshes = names.map(|name| triangles(&fixture(name)));
-    let blobs = names.map(|name| blob(&directory, name, &["--for", "segment", "--vertex-bits", "32"]));
+    let blobs =
+        names.map(|name| blob(&directory, name, &["--for", "segment", "--vertex-bits", "32"]));
     let poses = poses();
     let mut counts = [0usize; 2];
     for (other, path) in meshes.iter().zip(&blobs) {
@@ -78,7 +87,9 @@ fn contacts_and_pairs_are_those_of_the_mesh_files() {
         let first = ok([&["overlap"], &files[..], &["--pose"], &texts[..]].concat());
         let matrices: Vec<String> = poses
             .iter()
-            .map(|(_, rows)| rows.iter().flatten().map(f64::to_string).collect::<Vec<_>>().join(","))
+            .map(|(_, rows)| {
+                rows.iter().flatten().map(f64::to_string).collect::<Vec<_>>().join(",")
+            })
             .collect();
         let matrices: Vec<&str> = matrices.iter().map(String::as_str).collect();
         assert_eq!(first, ok([&["overlap"], &files[..], &["--matrix"], &matrices[..]].concat()));
@@ -111,17 +122,23 @@ fn contacts_and_pairs_are_those_of_the_mesh_files() {
 fn without_a_pose_meshes_are_where_they_were_built_and_coincide_openly() {
     let directory = scratch("overlap_still");
     let torus = blob(&directory, "torus.ply", &[]);
-    assert!(info(&torus)["serves"].as_array().unwrap().iter().any(|question| question == "overlap"));
+    assert!(
+        info(&torus)["serves"].as_array().unwrap().iter().any(|question| question == "overlap")
+    );
     let rows = parse_csv(&ok(["overlap", arg(&torus), arg(&torus)]), HEADER);
     assert_eq!((rows.len(), rows[0][1].as_str()), (1, "open"));
     let out = directory.join("contacts.csv");
     let poses = directory.join("poses.csv");
-    write_csv(&poses, &[[9f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [2.5, 0.1, 0.2, 1.0, 0.5, 0.25, 0.0]]);
+    write_csv(
+        &poses,
+        &[[9f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [2.5, 0.1, 0.2, 1.0, 0.5, 0.25, 0.0]],
+    );
     let output = run(["overlap", arg(&torus), arg(&torus), "--pose", arg(&poses), "-o", arg(&out)]);
     assert!(output.status.success() && output.stdout.is_empty());
     let rows = parse_csv(&fs::read_to_string(&out).unwrap(), HEADER);
     assert_eq!(rows.iter().map(|row| row[1].as_str()).collect::<Vec<_>>(), ["apart", "meets"]);
-    let few = ok(["overlap", arg(&torus), arg(&torus), "--pose", arg(&poses), "--steps", "1", "--all"]);
+    let few =
+        ok(["overlap", arg(&torus), arg(&torus), "--pose", arg(&poses), "--steps", "1", "--all"]);
     let last = parse_csv(&few, HEADER).pop().unwrap();
     assert_eq!((last[1].as_str(), last[2].as_str()), ("open", ""), "pairs may be missing");
 }
@@ -133,13 +150,22 @@ fn what_cannot_be_asked_is_refused_by_name() {
     let closest = blob(&directory, "bracket.stl", &["--for", "closest"]);
     let wrong = |args: &[&str]| run([&["overlap", arg(&torus)], args].concat());
     assert!(refused(&wrong(&[arg(&closest)]), 1, "bracket.msw").contains("--for segment"));
-    assert!(refused(&wrong(&[arg(&torus), "--pose", "0,0,0,0,0,0,0"]), 2, "").contains("quaternion"));
+    assert!(
+        refused(&wrong(&[arg(&torus), "--pose", "0,0,0,0,0,0,0"]), 2, "").contains("quaternion")
+    );
     let poses = scratch("overlap_no_rotation").join("poses.csv");
-    write_csv(&poses, &[[9f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [0.0; 7], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]);
+    write_csv(
+        &poses,
+        &[[9f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [0.0; 7], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]],
+    );
     let output = wrong(&[arg(&torus), "--pose", arg(&poses)]);
     assert!(refused(&output, 1, "poses.csv, line 3").contains("quaternion"));
     let rows = parse_csv(&String::from_utf8(output.stdout).unwrap(), HEADER);
-    assert_eq!((rows.len(), rows[0][1].as_str()), (1, "apart"), "what stands before it is answered");
+    assert_eq!(
+        (rows.len(), rows[0][1].as_str()),
+        (1, "apart"),
+        "what stands before it is answered"
+    );
     let stretched = wrong(&[arg(&torus), "--matrix", "3,0,0,0,0,1,0,0,0,0,1,0"]);
     assert!(refused(&stretched, 1, "query 3,0,0").contains("beyond 2"));
     assert_eq!(wrong(&[arg(&torus), "--pose", "1,2,3"]).status.code(), Some(2));

@@ -3,8 +3,8 @@
 mod cli_support;
 
 use cli_support::{
-    arg, ascent, blob, distance, first_crossing, fixture, hull_blob, meshsweep, number, ok, parse_csv,
-    random_queries, run, scratch, triangles, wide, write_csv, write_raw,
+    arg, ascent, blob, distance, first_crossing, fixture, hull_blob, meshsweep, number, ok,
+    parse_csv, random_queries, run, scratch, triangles, wide, write_csv, write_raw,
 };
 use std::fs;
 use std::io::Write;
@@ -47,7 +47,8 @@ fn the_interval_contains_the_distance_to_the_file() {
         let path = blob(&directory, name, options);
         let engines = if options[1].contains("hull") { &["tree", "cover"][..] } else { &["tree"] };
         for engine in engines {
-            for (answer, point) in closest(&path, &points, &["--engine", engine]).iter().zip(&rows) {
+            for (answer, point) in closest(&path, &points, &["--engine", engine]).iter().zip(&rows)
+            {
                 let truth = distance(wide(point), &mesh);
                 assert!(contains(answer, truth), "{name} {options:?} {engine} {answer:?} {truth}");
                 // The witness is in the triangle that is named, and at most `upper` away.
@@ -88,9 +89,13 @@ fn queries_that_stop_early_still_contain_the_distance_and_say_so() {
             (["--steps", "0"], "out of steps"),
         ] {
             let output =
-                run([&["closest", arg(&path), arg(&points), "--engine", engine], &options[..]].concat());
+                run([&["closest", arg(&path), arg(&points), "--engine", engine], &options[..]]
+                    .concat());
             let note = String::from_utf8_lossy(&output.stderr).into_owned();
-            assert!(note.starts_with("ended: ") && note.contains(reason), "{engine} {options:?} {note}");
+            assert!(
+                note.starts_with("ended: ") && note.contains(reason),
+                "{engine} {options:?} {note}"
+            );
             let answers = parse_csv(&String::from_utf8(output.stdout).unwrap(), CLOSEST);
             for (answer, point) in answers.iter().zip(&rows) {
                 let truth = distance(wide(point), &mesh);
@@ -163,7 +168,8 @@ fn first_hits_are_those_of_brute_force_for_all_engines() {
     write_csv(&segments, &rows);
     let path = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
     for engine in ["tree", "cover", "hull"] {
-        let answers = parse_csv(&ok(["segment", arg(&path), arg(&segments), "--engine", engine]), SEGMENT);
+        let answers =
+            parse_csv(&ok(["segment", arg(&path), arg(&segments), "--engine", engine]), SEGMENT);
         assert_eq!(answers.len(), rows.len());
         for (answer, row) in answers.iter().zip(&rows) {
             match first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh) {
@@ -193,7 +199,9 @@ fn on_a_grid_yes_and_no_are_still_those_of_brute_force() {
             match (answer[0].as_str(), truth) {
                 ("unknown", None) => {}
                 ("unknown", Some(t)) => assert!(number(&answer[1]) <= t, "{answer:?} {t}"),
-                (verdict, _) => assert_eq!(verdict == "yes", truth.is_some(), "{name} {row:?} {answer:?}"),
+                (verdict, _) => {
+                    assert_eq!(verdict == "yes", truth.is_some(), "{name} {row:?} {answer:?}")
+                }
             }
         }
         assert!(answers.iter().filter(|answer| answer[0] == "unknown").count() < 10, "{name}");
@@ -213,7 +221,8 @@ fn facing_culls_the_other_side() {
         let mut hits = 0;
         for (answer, row) in parse_csv(&text, SEGMENT).iter().zip(&rows) {
             let (a, b) = (wide(&row[..3]), wide(&row[3..]));
-            let along: Vec<_> = mesh.iter().filter(|&&t| sign * ascent(a, b, t) > 0.0).copied().collect();
+            let along: Vec<_> =
+                mesh.iter().filter(|&&t| sign * ascent(a, b, t) > 0.0).copied().collect();
             let truth = first_crossing(a, b, &along);
             assert_eq!(answer[0] == "yes", truth.is_some(), "{facing} {row:?} {answer:?}");
             assert!(
@@ -304,8 +313,12 @@ fn a_segment_query_that_ends_early_is_unknown_and_clear_before_its_parameter() {
     let answers = parse_csv(&text, SEGMENT);
     assert!(answers.iter().any(|answer| answer[0] == "unknown"));
     for (answer, row) in answers.iter().zip(&rows).filter(|(answer, _)| answer[0] == "unknown") {
-        let truth = first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh).unwrap_or(f64::INFINITY);
-        assert!(number(&answer[1]) <= truth * (1.0 + SLACK) && answer[5].is_empty(), "{answer:?} {truth}");
+        let truth =
+            first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh).unwrap_or(f64::INFINITY);
+        assert!(
+            number(&answer[1]) <= truth * (1.0 + SLACK) && answer[5].is_empty(),
+            "{answer:?} {truth}"
+        );
     }
 }
 

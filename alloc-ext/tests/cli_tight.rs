@@ -1,10 +1,11 @@
-//! `build --for tight` and who asks it: what is said of the mesh by a hull alone is true of the mesh.
+//! `build --for tight` and who asks it: what is said of the mesh by a hull alone is true of the
+//! mesh.
 
 mod cli_support;
 
 use cli_support::{
-    arg, blob, distance, fixture, info, number, ok, parse_csv, random_queries, refused, run, scratch,
-    triangles, wide, write_csv,
+    arg, blob, distance, fixture, info, number, ok, parse_csv, random_queries, refused, run,
+    scratch, triangles, wide, write_csv,
 };
 use serde_json::Value;
 use std::fs;
@@ -43,7 +44,8 @@ fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
             width += upper - lower;
         }
         widths.push(width);
-        let text = ok([&["within", arg(&path), arg(&points), "--distance", "0.5"], choice].concat());
+        let text =
+            ok([&["within", arg(&path), arg(&points), "--distance", "0.5"], choice].concat());
         let rows = parse_csv(&text, "x,y,z,within,triangle,work");
         for (row, query) in rows.iter().zip(&queries) {
             let real = distance(wide(query), &surface);
@@ -57,10 +59,14 @@ fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
         assert!(count("yes") > 10 && count("no") > 10, "{} {}", count("yes"), count("no"));
     }
     // 149 faces are too few for the finer hull, and it is what is asked unless told otherwise.
-    assert!(widths[0] == widths[1] && widths[2] == widths[3] && widths[2] < 0.9 * widths[0], "{widths:?}");
+    assert!(
+        widths[0] == widths[1] && widths[2] == widths[3] && widths[2] < 0.9 * widths[0],
+        "{widths:?}"
+    );
 }
 
-/// Whether lower and upper ends of closest points, and verdicts for a distance, are true of a surface; how many are yes and no.
+/// Whether lower and upper ends of closest points, and verdicts for a distance, are true of a
+/// surface; how many are yes and no.
 fn checked(
     path: &Path,
     surface: &[cli_support::Triangle],
@@ -69,7 +75,10 @@ fn checked(
 ) -> [usize; 2] {
     let file = path.with_extension("csv");
     write_csv(&file, points);
-    let rows = parse_csv(&ok(["closest", arg(path), arg(&file)]), "x,y,z,lower,upper,px,py,pz,triangle,work");
+    let rows = parse_csv(
+        &ok(["closest", arg(path), arg(&file)]),
+        "x,y,z,lower,upper,px,py,pz,triangle,work",
+    );
     let verdicts = ok(["within", arg(path), arg(&file), "--distance", &distance_of.to_string()]);
     let verdicts = parse_csv(&verdicts, "x,y,z,within,triangle,work");
     assert_eq!((rows.len(), verdicts.len()), (points.len(), points.len()));
@@ -77,7 +86,10 @@ fn checked(
     for ((row, verdict), point) in rows.iter().zip(&verdicts).zip(points) {
         let real = distance(wide(point), surface);
         let (lower, upper) = (number(&row[3]), number(&row[4]));
-        assert!(lower <= real * (1.0 + 1e-6) + 1e-9 && upper >= real * (1.0 - 1e-6) - 1e-9, "{row:?} {real}");
+        assert!(
+            lower <= real * (1.0 + 1e-6) + 1e-9 && upper >= real * (1.0 - 1e-6) - 1e-9,
+            "{row:?} {real}"
+        );
         match verdict[3].as_str() {
             "yes" => assert!(real <= distance_of + 1e-6, "{verdict:?} {real}"),
             "no" => assert!(real >= distance_of - 1e-6, "{verdict:?} {real}"),
@@ -122,11 +134,15 @@ fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
                 let near = surface.iter().flatten().map(|&p| distance(p, &hull_surface));
                 assert!(near.fold(f64::INFINITY, f64::min) >= 0.25, "{name}");
             }
-            let far = hull_surface.iter().flatten().map(|&p| distance(p, &surface)).fold(0.0, f64::max);
+            let far =
+                hull_surface.iter().flatten().map(|&p| distance(p, &surface)).fold(0.0, f64::max);
             assert!(far <= slack * (1.0 + 1e-6), "{name}: {far} {slack}");
             if let Some(at) = options.iter().position(|&option| option == "--slack") {
                 // Single precision rounds the number up.
-                assert!(slack <= options[at + 1].parse::<f64>().unwrap() * (1.0 + 1e-7), "{name}: {slack}");
+                assert!(
+                    slack <= options[at + 1].parse::<f64>().unwrap() * (1.0 + 1e-7),
+                    "{name}: {slack}"
+                );
             }
             if name == "void" {
                 assert!(volume(&hull_surface) <= 1.3 * solid);
@@ -140,9 +156,15 @@ fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
         assert!(!out.exists());
         line
     };
-    assert!(refuse(&["--slack", "0.2", "--margin", "0.25"], 2, "--slack 0.2").contains("--margin 0.25:"));
+    assert!(
+        refuse(&["--slack", "0.2", "--margin", "0.25"], 2, "--slack 0.2")
+            .contains("--margin 0.25:")
+    );
     let line = refuse(&["--slack", "1e-9"], 1, "torus.ply");
-    assert!(line.contains("a larger --slack") && line.contains("faces with --tight; nothing"), "{line}");
+    assert!(
+        line.contains("a larger --slack") && line.contains("faces with --tight; nothing"),
+        "{line}"
+    );
     for pair in [["--slack=1", "--tight=70"], ["--void=9", "--nested"], ["--slack=1", "--void=9"]] {
         let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight"];
         assert_eq!(run([&build[..], &pair].concat()).status.code(), Some(2), "{pair:?}");
@@ -158,7 +180,8 @@ fn a_blob_tells_its_hulls_and_gives_them_back() {
     let before = info(&path);
     assert_eq!(before["tight_hulls"]["is_nested"], false);
     assert_eq!(before["serves"], serde_json::json!(["closest", "within", "hull --tight", "cut"]));
-    let faces: Vec<u64> = hulls(&before).iter().map(|hull| hull["faces"].as_u64().unwrap()).collect();
+    let faces: Vec<u64> =
+        hulls(&before).iter().map(|hull| hull["faces"].as_u64().unwrap()).collect();
     assert_eq!(faces, [70, 150]);
     let solid: f64 = volume(&triangles(&fixture("torus.ply")));
     for hull in hulls(&before) {
@@ -167,7 +190,8 @@ fn a_blob_tells_its_hulls_and_gives_them_back() {
         let text = ok(["hull", arg(&path), "--tight", &faces, "-o", arg(&out)]);
         assert!(text.contains(&format!("{faces} faces")), "{text}");
         let void = volume(&triangles(&out)) / solid - 1.0;
-        let printed: f64 = text.split(" % void").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
+        let printed: f64 =
+            text.split(" % void").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
         assert!((printed - 100.0 * void).abs() < 1e-2, "{text}");
         assert!((void - hull["void_ratio"].as_f64().unwrap()).abs() < 1e-4, "{void}");
         let slack = hull["slack"].as_f64().unwrap();
@@ -255,7 +279,8 @@ fn tables_of_hulls_say_what_is_not_there_and_count_as_people_do() {
     let directory = scratch("tight_tables");
     let (mesh, out) = (directory.join("open.obj"), directory.join("open.msw"));
     fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n").unwrap();
-    let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", "12", "--effort", "0"];
+    let build =
+        ["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", "12", "--effort", "0"];
     let text = ok(build);
     let ply = directory.join("hull.ply");
     let hull = ok(["hull", arg(&out), "--tight", "12", "-o", arg(&ply)]);
@@ -286,7 +311,8 @@ fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
         assert!(line.contains("add tight to --for"), "{line}");
     }
     let many: Vec<String> = (100..133).map(|faces: u32| faces.to_string()).collect();
-    let output = run(["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", &many.join(",")]);
+    let output =
+        run(["build", arg(&mesh), "-o", arg(&out), "--for", "tight", "--tight", &many.join(",")]);
     assert!(refused(&output, 2, "--tight").contains("at most 32"));
     assert!(!out.exists());
     let path = blob(&directory, "torus.ply", &["--for", "tight", "--tight", "70", "--effort", "0"]);
@@ -309,7 +335,10 @@ fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
     ];
     for (arguments, option) in questions {
         let line = refused(&run(arguments), 1, "torus.msw");
-        assert!(line.contains("serves closest, within without --all, hull --tight, cut; "), "{line}");
+        assert!(
+            line.contains("serves closest, within without --all, hull --tight, cut; "),
+            "{line}"
+        );
         assert!(line.contains(&format!("meshsweep build MESH -o BLOB --for {option}")), "{line}");
     }
     let plain = blob(&directory, "groove.obj", &["--for", "closest"]);

@@ -1,4 +1,5 @@
-//! `meshsweep tribox`: what is printed is true of what is written, and what is written holds the mesh.
+//! `meshsweep tribox`: what is printed is true of what is written, and what is written holds the
+//! mesh.
 
 mod cli_support;
 
@@ -29,7 +30,8 @@ fn winding(p: Point, triangles: &[Triangle]) -> f64 {
     let dot = |a: Point, b: Point| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let angle = |corners: &Triangle| {
         let [a, b, c]: Triangle = corners.map(|v| core::array::from_fn(|k| v[k] - p[k]));
-        let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        let cross =
+            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
         let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
         2.0 * dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
     };
@@ -50,7 +52,9 @@ fn levels_double_and_hold_ever_less_void() {
             assert!((void - (volume / solid - 1.0)).abs() < 1e-9);
         }
         let mesh = report["triangles"].as_f64().unwrap();
-        for (compression, faces) in numbers(&report, "compression").iter().zip(numbers(&report, "faces")) {
+        for (compression, faces) in
+            numbers(&report, "compression").iter().zip(numbers(&report, "faces"))
+        {
             assert!((compression - mesh / faces).abs() < 1e-9);
         }
     }
@@ -68,7 +72,8 @@ fn what_is_written_holds_the_mesh_and_has_the_volume_that_is_printed() {
         assert!((volume(&written) / last - 1.0).abs() < 1e-6, "{name}");
         assert!(fs::read(&out).unwrap().starts_with(b"ply\nformat binary_little_endian 1.0\n"));
         for corners in triangles(&mesh).iter().step_by(7) {
-            let centre: Point = core::array::from_fn(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0);
+            let centre: Point =
+                core::array::from_fn(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0);
             let is_held = winding(centre, &written) > 0.9 || distance(centre, &written) < 1e-5;
             assert!(is_held, "{name}: {centre:?}");
         }
@@ -82,10 +87,14 @@ fn the_largest_distance_is_that_of_the_sampled_boundary() {
     let mesh = fixture("torus.ply");
     let report = json(&mesh, &["--levels", "1", "-o", arg(&out)]);
     let surface = triangles(&mesh);
-    let sampled = triangles(&out).iter().flatten().map(|&p| distance(p, &surface)).fold(0.0, f64::max);
+    let sampled =
+        triangles(&out).iter().flatten().map(|&p| distance(p, &surface)).fold(0.0, f64::max);
     let bounds = &report["levels"][0]["distance"];
     let (lower, upper) = (bounds["lower"].as_f64().unwrap(), bounds["upper"].as_f64().unwrap());
-    assert!(lower <= upper && upper <= 1.06 * lower && sampled <= upper, "{lower} {sampled} {upper}");
+    assert!(
+        lower <= upper && upper <= 1.06 * lower && sampled <= upper,
+        "{lower} {sampled} {upper}"
+    );
 }
 
 #[test]
@@ -117,7 +126,10 @@ fn splitting_ends_where_it_saves_nothing_and_says_so() {
     let text = ok(["tribox", arg(&mesh)]);
     assert!(text.contains("no further split saves enough area"), "{text}");
     let report = json(&mesh, &[]);
-    assert_eq!((numbers(&report, "triboxes"), &report["is_exhausted"]), (vec![1.0], &Value::Bool(true)));
+    assert_eq!(
+        (numbers(&report, "triboxes"), &report["is_exhausted"]),
+        (vec![1.0], &Value::Bool(true))
+    );
     let eager = json(&fixture("torus.ply"), &["--least-gain", "0.2"]);
     assert!(numbers(&eager, "triboxes").last().unwrap() < &64.0);
 }
@@ -149,8 +161,14 @@ fn wrong_usage_is_refused_before_anything_is_written() {
     let mesh = fixture("torus.ply");
     let stl = directory.join("proxy.stl");
     refused(&run(["tribox", arg(&mesh), "-o", arg(&stl)]), 2, "proxy.stl");
-    for wrong in [["--levels", "0"], ["--levels", "13"], ["--simplify", "-1"], ["--measure", "mass"]] {
-        assert_eq!(run([&["tribox", arg(&mesh)], &wrong[..]].concat()).status.code(), Some(2), "{wrong:?}");
+    for wrong in
+        [["--levels", "0"], ["--levels", "13"], ["--simplify", "-1"], ["--measure", "mass"]]
+    {
+        assert_eq!(
+            run([&["tribox", arg(&mesh)], &wrong[..]].concat()).status.code(),
+            Some(2),
+            "{wrong:?}"
+        );
     }
     let copy = directory.join("same.ply");
     fs::copy(&mesh, &copy).unwrap();
@@ -185,9 +203,20 @@ fn info(blob: &Path) -> Value {
 fn a_blob_of_triboxes_holds_what_the_command_prints() {
     let directory = scratch("tribox_blob");
     let blob = directory.join("torus.msw");
-    let text =
-        ok(["build", arg(&fixture("torus.ply")), "--for", "triboxes", "--triboxes", "16", "-o", arg(&blob)]);
-    assert!(text.contains("serves triboxes, cut") && text.contains("31 nodes of 16 leaves"), "{text}");
+    let text = ok([
+        "build",
+        arg(&fixture("torus.ply")),
+        "--for",
+        "triboxes",
+        "--triboxes",
+        "16",
+        "-o",
+        arg(&blob),
+    ]);
+    assert!(
+        text.contains("serves triboxes, cut") && text.contains("31 nodes of 16 leaves"),
+        "{text}"
+    );
     let stored = info(&blob);
     assert_eq!((&stored["hull"], &stored["tree"]), (&Value::Null, &Value::Null));
     let stored = &stored["triboxes"];
@@ -198,7 +227,9 @@ fn a_blob_of_triboxes_holds_what_the_command_prints() {
     for (there, here) in numbers(stored, "void_ratio").iter().zip(numbers(&printed, "void_ratio")) {
         assert!((there - here).abs() < 3e-3, "{there} {here}");
     }
-    for (there, levels) in numbers(stored, "distance").iter().zip(printed["levels"].as_array().unwrap()) {
+    for (there, levels) in
+        numbers(stored, "distance").iter().zip(printed["levels"].as_array().unwrap())
+    {
         let lower = levels["distance"]["lower"].as_f64().unwrap();
         assert!(*there >= lower && *there < lower * 1.07, "{there} {lower}");
     }
@@ -222,14 +253,20 @@ fn triboxes_are_cut_alone_or_with_the_hull_and_stay_else() {
     assert_eq!((leaves(&info(&cut)), &info(&cut)["tree"]), (count, &Value::Null));
     ok(["cut", arg(&blob), "--level", "0", "--triboxes", "1", "-o", arg(&cut)]);
     assert_eq!(leaves(&info(&cut)), 1);
-    assert_eq!(run(["cut", arg(&blob), "-o", arg(&cut)]).status.code(), Some(2), "nothing to cut is named");
+    assert_eq!(
+        run(["cut", arg(&blob), "-o", arg(&cut)]).status.code(),
+        Some(2),
+        "nothing to cut is named"
+    );
     let plain = directory.join("plain.msw");
     ok(["build", arg(&fixture("groove.obj")), "-o", arg(&plain)]);
     refused(&run(["cut", arg(&plain), "--triboxes", "2", "-o", arg(&cut)]), 1, "--for triboxes");
     let mesh = fixture("groove.obj");
     let stray = ["build", arg(&mesh), "--triboxes", "2", "-o", arg(&plain)];
     refused(&run(stray), 2, "add triboxes to --for");
-    for (option, wanted) in [("--levels", "a whole number from 1 to 12"), ("--simplify", "a number from 0")] {
+    for (option, wanted) in
+        [("--levels", "a whole number from 1 to 12"), ("--simplify", "a number from 0")]
+    {
         let output = run(["tribox", arg(&mesh), option, "-1"]);
         let text = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.code() == Some(2) && text.contains(wanted), "{text}");

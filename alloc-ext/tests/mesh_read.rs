@@ -43,14 +43,20 @@ fn binary_ply_of_both_byte_orders_and_all_index_types_reads_the_same() {
         assert_eq!((raw.positions, raw.triangles), (SQUARE.to_vec(), vec![[0, 1, 2], [0, 2, 3]]));
     }
     little.truncate(little.len() - 3);
-    assert!(matches!(parse("a.ply", little), Err(MeshError::Truncated { found: 0, wanted: 1, .. })));
+    assert!(matches!(
+        parse("a.ply", little),
+        Err(MeshError::Truncated { found: 0, wanted: 1, .. })
+    ));
 }
 
 #[test]
 fn truncated_ply_is_refused_with_place() {
     let body = b"0 0 0\n1 0 0\n1 1 0\n";
     let error = parse("cut.ply", ply("ascii", "float", "uchar int", body)).unwrap_err();
-    assert_eq!(error.to_string(), "cut.ply: the file ends at vertex 3 of 4; copy or export it again");
+    assert_eq!(
+        error.to_string(),
+        "cut.ply: the file ends at vertex 3 of 4; copy or export it again"
+    );
 }
 
 #[test]
@@ -58,7 +64,10 @@ fn header_announcing_more_than_the_file_can_hold_is_refused_before_reading() {
     let header = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n\
                   property float y\nproperty float z\nend_header\n0123456789ab0123456789ab";
     let error = parse("lie.ply", header).unwrap_err();
-    assert!(matches!(error, MeshError::Truncated { wanted: 4_000_000_000, found: 2, .. }), "{error}");
+    assert!(
+        matches!(error, MeshError::Truncated { wanted: 4_000_000_000, found: 2, .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -74,8 +83,11 @@ fn unknown_ply_elements_and_properties_are_skipped() {
 
 #[test]
 fn ply_face_with_negative_index_is_refused_with_line() {
-    let error = parse("n.ply", ply("ascii", "float", "uchar int", b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 -2\n"))
-        .unwrap_err();
+    let error = parse(
+        "n.ply",
+        ply("ascii", "float", "uchar int", b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 -2\n"),
+    )
+    .unwrap_err();
     let wanted = MeshError::IndexOutOfRange {
         file: "n.ply".into(),
         line: Some(15),
@@ -88,8 +100,7 @@ fn ply_face_with_negative_index_is_refused_with_line() {
 
 #[test]
 fn ply_without_z_is_refused() {
-    let text =
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n";
+    let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n";
     assert!(matches!(parse("a.ply", text), Err(MeshError::Malformed { .. })));
 }
 
@@ -109,7 +120,10 @@ fn obj_index_beyond_the_vertices_is_refused_with_line_and_number_as_written() {
         error.to_string(),
         "a.obj, line 3: face 1 names vertex 3, but there are 2 vertices; remove or renumber the face"
     );
-    assert!(matches!(parse("a.obj", "v 0 0 0\nf 0 1 1\n"), Err(MeshError::IndexOutOfRange { index: 0, .. })));
+    assert!(matches!(
+        parse("a.obj", "v 0 0 0\nf 0 1 1\n"),
+        Err(MeshError::IndexOutOfRange { index: 0, .. })
+    ));
     assert!(matches!(
         parse("a.obj", "v 0 0 0\nf -2 1 1\n"),
         Err(MeshError::IndexOutOfRange { index: -2, .. })
@@ -172,12 +186,15 @@ fn unknown_extension_and_missing_file_are_refused_by_name() {
 
 #[test]
 fn rounding_is_zero_for_exact_coordinates_and_bounds_the_move_of_others() {
-    let exact = RawMesh::from_f32(&[[0.1, 0.2, 0.3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2]]);
+    let exact =
+        RawMesh::from_f32(&[[0.1, 0.2, 0.3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2]]);
     assert_eq!(repair(exact).unwrap().0.rounding, 0.0);
 
     let positions = [[0.1, 0.2, 0.3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let rounding = repair(RawMesh::from_f64(positions.to_vec(), vec![[0, 1, 2]])).unwrap().0.rounding;
-    let moved: f64 = positions[0].iter().map(|x| (x - f64::from(*x as f32)).powi(2)).sum::<f64>().sqrt();
+    let rounding =
+        repair(RawMesh::from_f64(positions.to_vec(), vec![[0, 1, 2]])).unwrap().0.rounding;
+    let moved: f64 =
+        positions[0].iter().map(|x| (x - f64::from(*x as f32)).powi(2)).sum::<f64>().sqrt();
     assert!(rounding >= moved && rounding <= moved * (1.0 + 1e-12), "{rounding:e} {moved:e}");
 }
 
@@ -214,8 +231,11 @@ fn faces_of_more_than_three_corners_are_counted() {
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     let raw = parse("a.obj", format!("{square}f 1 2 3 4\nf 1 2 3\nf 1 2\n")).unwrap();
     assert_eq!((raw.polygons_split, raw.triangles.len()), (1, 3));
-    let raw = parse("a.ply", ply("ascii", "float", "uchar int", b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"))
-        .unwrap();
+    let raw = parse(
+        "a.ply",
+        ply("ascii", "float", "uchar int", b"0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+    )
+    .unwrap();
     assert_eq!(raw.polygons_split, 1);
     let facet = FACET.replace("endloop", "vertex -1 1 0\nendloop");
     let raw = parse("a.stl", format!("solid\n{FACET}{facet}endsolid\n")).unwrap();

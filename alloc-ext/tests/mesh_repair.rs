@@ -1,6 +1,8 @@
 //! What repair mends, and that it mends nothing else.
 
-use meshsweep_alloc::mesh::{Mesh, MeshError, RawMesh, RepairReport, repair, require_closed_manifold};
+use meshsweep_alloc::mesh::{
+    Mesh, MeshError, RawMesh, RepairReport, repair, require_closed_manifold,
+};
 
 type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
@@ -8,12 +10,16 @@ fn mend(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> (Mesh, RepairReport) 
     repair(RawMesh::from_f32(positions, triangles)).unwrap()
 }
 
-const TETRAHEDRON: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+const TETRAHEDRON: [[f32; 3]; 4] =
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const SIDES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
 fn tetrahedron_at(shift: f32, size: f32, inside_out: bool) -> Triangles {
     let positions = TETRAHEDRON.iter().map(|p| p.map(|x| x * size + shift)).collect();
-    (positions, SIDES.iter().map(|&[a, b, c]| if inside_out { [a, c, b] } else { [a, b, c] }).collect())
+    (
+        positions,
+        SIDES.iter().map(|&[a, b, c]| if inside_out { [a, c, b] } else { [a, b, c] }).collect(),
+    )
 }
 
 fn join(parts: &[Triangles]) -> Triangles {
@@ -42,7 +48,10 @@ fn clean_mesh_is_returned_bit_for_bit() {
     let (mesh, report) = mend(&TETRAHEDRON, &SIDES);
     assert_eq!(mesh, Mesh::new(TETRAHEDRON.to_vec(), SIDES.to_vec()));
     assert!(report.is_clean());
-    assert_eq!(report.to_string(), "4 vertices, 4 triangles read; 4 vertices, 4 triangles kept; parts: 1");
+    assert_eq!(
+        report.to_string(),
+        "4 vertices, 4 triangles read; 4 vertices, 4 triangles kept; parts: 1"
+    );
 }
 
 #[test]
@@ -107,7 +116,8 @@ fn cap_is_removed_by_an_edge_flip_and_the_mesh_stays_closed() {
 
 #[test]
 fn chain_of_caps_on_one_edge_is_removed_in_any_order() {
-    // The edge 0–1 is divided at 1/8 … 7/8; the gap to the undivided side is filled by a fan of caps.
+    // The edge 0–1 is divided at 1/8 … 7/8; the gap to the undivided side is filled by a fan of
+    // caps.
     let mut positions = TETRAHEDRON.to_vec();
     positions.extend((1..8).map(|i| [i as f32 / 8.0, 0.0, 0.0]));
     let line = [0, 4, 5, 6, 7, 8, 9, 10, 1];
@@ -115,7 +125,8 @@ fn chain_of_caps_on_one_edge_is_removed_in_any_order() {
     // Fans about either end, and a fan that zigzags.
     let about_first: Vec<[u32; 3]> = line.windows(2).skip(1).map(|p| [p[1], p[0], 0]).collect();
     let about_last: Vec<[u32; 3]> = line.windows(2).take(7).map(|p| [p[1], p[0], 1]).collect();
-    let zigzag = vec![[1, 10, 0], [10, 4, 0], [10, 9, 4], [9, 5, 4], [9, 8, 5], [8, 6, 5], [8, 7, 6]];
+    let zigzag =
+        vec![[1, 10, 0], [10, 4, 0], [10, 9, 4], [9, 5, 4], [9, 8, 5], [8, 6, 5], [8, 7, 6]];
     triangles.extend([[0, 2, 1], [1, 2, 3], [0, 3, 2]]);
     for mut caps in [about_first, about_last, zigzag] {
         for _ in 0..caps.len() {
@@ -131,10 +142,12 @@ fn chain_of_caps_on_one_edge_is_removed_in_any_order() {
 
 #[test]
 fn two_caps_back_to_back_are_removed() {
-    // Both sides of the edge 0–1 are divided, at different places; two caps across 0–1 fill the gap.
+    // Both sides of the edge 0–1 are divided, at different places; two caps across 0–1 fill the
+    // gap.
     let mut positions = TETRAHEDRON.to_vec();
     positions.extend([[0.25, 0.0, 0.0], [0.75, 0.0, 0.0]]);
-    let triangles = [[0, 1, 4], [1, 0, 5], [0, 4, 3], [4, 1, 3], [0, 2, 5], [5, 2, 1], [1, 2, 3], [0, 3, 2]];
+    let triangles =
+        [[0, 1, 4], [1, 0, 5], [0, 4, 3], [4, 1, 3], [0, 2, 5], [5, 2, 1], [1, 2, 3], [0, 3, 2]];
     let (mesh, report) = mend(&positions, &triangles);
     assert_eq!(require_closed_manifold(&mesh), Ok(()), "{report}");
     assert_eq!((report.flipped_caps.count, report.zero_area.count), (2, 0));
@@ -164,8 +177,14 @@ fn thin_triangle_that_is_not_flat_is_kept() {
 #[test]
 fn mesh_without_area_is_refused() {
     let positions = [[0.1, 0.1, 0.1], [0.2, 0.2, 0.2], [0.4, 0.4, 0.4]];
-    assert!(matches!(repair(RawMesh::from_f32(&positions, &[[0, 1, 2]])), Err(MeshError::NoArea { .. })));
-    assert!(matches!(repair(RawMesh::from_f32(&[[0.0; 3]], &[[0, 0, 0]])), Err(MeshError::NoArea { .. })));
+    assert!(matches!(
+        repair(RawMesh::from_f32(&positions, &[[0, 1, 2]])),
+        Err(MeshError::NoArea { .. })
+    ));
+    assert!(matches!(
+        repair(RawMesh::from_f32(&[[0.0; 3]], &[[0, 0, 0]])),
+        Err(MeshError::NoArea { .. })
+    ));
 }
 
 #[test]
@@ -202,7 +221,10 @@ fn minority_is_rewound_and_the_majority_stays() {
 fn inside_out_solid_is_turned() {
     let (positions, triangles) = tetrahedron_at(0.0, 1.0, true);
     let raw = Mesh::new(positions.clone(), triangles.clone());
-    assert!(matches!(require_closed_manifold(&raw), Err(MeshError::InsideOut { part_count: 1, .. })));
+    assert!(matches!(
+        require_closed_manifold(&raw),
+        Err(MeshError::InsideOut { part_count: 1, .. })
+    ));
     let (mesh, report) = mend(&positions, &triangles);
     assert_eq!(volume(&mesh), 1.0);
     assert_eq!(report.turned_parts.count, 1);
@@ -236,7 +258,8 @@ fn inside_out_shell_is_turned_together_with_what_is_inside() {
 #[test]
 fn part_beside_another_inside_its_box_is_not_taken_for_nested() {
     // Inside the box of the large tetrahedron, but beyond its slanted face.
-    let (positions, triangles) = join(&[tetrahedron_at(0.0, 8.0, false), tetrahedron_at(5.0, 1.0, true)]);
+    let (positions, triangles) =
+        join(&[tetrahedron_at(0.0, 8.0, false), tetrahedron_at(5.0, 1.0, true)]);
     let (mesh, report) = mend(&positions, &triangles);
     assert_eq!((report.turned_parts.count, report.cavities.count), (1, 0));
     assert_eq!(require_closed_manifold(&mesh), Ok(()));
@@ -246,9 +269,24 @@ fn part_beside_another_inside_its_box_is_not_taken_for_nested() {
 fn nesting_is_decided_though_rays_meet_vertices_and_edges() {
     // The inner octahedron's vertices lie below the outer one's, on the same verticals.
     let octahedron = |r: f32, inside_out: bool| {
-        let positions =
-            vec![[r, 0.0, 0.0], [-r, 0.0, 0.0], [0.0, r, 0.0], [0.0, -r, 0.0], [0.0, 0.0, r], [0.0, 0.0, -r]];
-        let faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+        let positions = vec![
+            [r, 0.0, 0.0],
+            [-r, 0.0, 0.0],
+            [0.0, r, 0.0],
+            [0.0, -r, 0.0],
+            [0.0, 0.0, r],
+            [0.0, 0.0, -r],
+        ];
+        let faces = [
+            [0, 2, 4],
+            [2, 1, 4],
+            [1, 3, 4],
+            [3, 0, 4],
+            [2, 0, 5],
+            [1, 2, 5],
+            [3, 1, 5],
+            [0, 3, 5],
+        ];
         (positions, faces.map(|[a, b, c]| if inside_out { [a, c, b] } else { [a, b, c] }).to_vec())
     };
     let (positions, triangles) =
@@ -261,7 +299,8 @@ fn nesting_is_decided_though_rays_meet_vertices_and_edges() {
 #[test]
 fn one_sided_part_is_recorded_and_left_alone() {
     // A Möbius strip of five triangles.
-    let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.5, 1.0, 0.0], [0.5, 1.5, 0.5], [-0.5, 1.0, 1.0]];
+    let positions =
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.5, 1.0, 0.0], [0.5, 1.5, 0.5], [-0.5, 1.0, 1.0]];
     let triangles = [[0, 1, 2], [1, 2, 3], [2, 3, 4], [3, 4, 0], [4, 0, 1]];
     let (mesh, report) = mend(&positions, &triangles);
     assert_eq!(mesh.triangles, triangles);
@@ -295,12 +334,18 @@ fn invalid_arrays_are_refused_not_trusted() {
 
 #[test]
 fn holes_are_counted_and_one_edge_of_each_is_named() {
-    let (positions, triangles) = join(&[tetrahedron_at(0.0, 1.0, false), tetrahedron_at(5.0, 1.0, false)]);
+    let (positions, triangles) =
+        join(&[tetrahedron_at(0.0, 1.0, false), tetrahedron_at(5.0, 1.0, false)]);
     // One triangle less in the first, two in the second.
     let (mesh, _) = mend(&positions, &[&triangles[1..5], &triangles[7..]].concat());
     match require_closed_manifold(&mesh) {
-        Err(MeshError::Open { edge_count, hole_count, largest_hole, slit_count, places, .. }) => {
-            assert_eq!((edge_count, hole_count, largest_hole, slit_count, places.len()), (7, 2, 4, 0, 2));
+        Err(MeshError::Open {
+            edge_count, hole_count, largest_hole, slit_count, places, ..
+        }) => {
+            assert_eq!(
+                (edge_count, hole_count, largest_hole, slit_count, places.len()),
+                (7, 2, 4, 0, 2)
+            );
         }
         other => panic!("{other:?}"),
     }

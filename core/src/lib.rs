@@ -1,7 +1,9 @@
-//! Geometric questions about triangle meshes, answered from a binary blob where it lies: no heap, no recursion, no panic.
+//! Geometric questions about triangle meshes, answered from a binary blob where it lies: no heap,
+//! no recursion, no panic.
 //!
-//! A host tool (`meshsweep-alloc`) turns a mesh into a blob; [`Model::open`] checks every byte of it once; the functions
-//! of [`query`] then answer with intervals that contain the true distance to the input mesh in real arithmetic.
+//! A host tool (`meshsweep-alloc`) turns a mesh into a blob; [`Model::open`] checks every byte of
+//! it once; the functions of [`query`] then answer with intervals that contain the true distance to
+//! the input mesh in real arithmetic.
 //!
 //! ```
 //! use meshsweep_core::{Tree, query::{Stop, tree::{TreeEntry, closest_point}}};
@@ -14,8 +16,9 @@
 //! ```
 //!
 //! # Layers
-//! Each layer may use those to its left and no other: `num` ← `geom` ← `fan` ← {`tree`, `refine`} ← `query`, with `blob` under the last three.
-//! `geom` and `fan` know no bytes; of geometry `blob` knows the box and how lanes of a fan lie side by side.
+//! Each layer may use those to its left and no other: `num` ← `geom` ← `fan` ← {`tree`, `refine`} ←
+//! `query`, with `blob` under the last three. `geom` and `fan` know no bytes; of geometry `blob`
+//! knows the box and how lanes of a fan lie side by side.
 //!
 //! | folder | owns |
 //! | --- | --- |
@@ -29,8 +32,9 @@
 //! | [`query`] | one file per question; stop rules, intervals, work counters |
 //!
 //! # The same bits everywhere
-//! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is `libm`'s, which is correctly
-//! rounded on every target; the box tree's is [`num::root`]. The same blob and query give the same bits on a workstation and on a Cortex-M0.
+//! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is
+//! `libm`'s, which is correctly rounded on every target; the box tree's is [`num::root`]. The same
+//! blob and query give the same bits on a workstation and on a Cortex-M0.
 
 #![no_std]
 #![forbid(unsafe_code)]

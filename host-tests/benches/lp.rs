@@ -20,13 +20,17 @@ fn main() {
     for star in Star::ALL {
         let mut random = Random::new(1);
         let programs: Vec<Program> = (0..PROGRAMS).map(|_| star.program(&mut random)).collect();
-        let planes = programs.iter().map(|p| p.constraints.len()).sum::<usize>() as f64 / PROGRAMS as f64;
+        let planes =
+            programs.iter().map(|p| p.constraints.len()).sum::<usize>() as f64 / PROGRAMS as f64;
         let infeasible = programs
             .iter()
-            .filter(|p| minimise(p.objective, &mut p.constraints.clone(), 1e-6) == Outcome::Infeasible)
+            .filter(|p| {
+                minimise(p.objective, &mut p.constraints.clone(), 1e-6) == Outcome::Infeasible
+            })
             .count() as f64
             / PROGRAMS as f64;
-        let times = [1e-3, 1e-6, 1e-9].map(|eps| nanoseconds(&programs, |c, h| minimise(c, h, eps)));
+        let times =
+            [1e-3, 1e-6, 1e-9].map(|eps| nanoseconds(&programs, |c, h| minimise(c, h, eps)));
         println!(
             "{:<10} {planes:>7.1} {:>10.1}% {:>11.0} ns {:>11.0} ns {:>11.0} ns",
             format!("{star:?}"),
@@ -38,7 +42,8 @@ fn main() {
     }
 }
 
-/// Least over the passes, for other load only adds, of the mean time of one solve; copying the constraints included (about 10 ns).
+/// Least over the passes, for other load only adds, of the mean time of one solve; copying the
+/// constraints included (about 10 ns).
 fn nanoseconds(programs: &[Program], solve: impl Fn(DVec3, &mut [HalfSpace]) -> Outcome) -> f64 {
     let mut buffer = Vec::with_capacity(64);
     (0..PASSES)

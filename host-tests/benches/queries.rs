@@ -1,6 +1,8 @@
-//! Closest points and segments beside parry3d: `cargo bench -p meshsweep-host-tests --bench queries`.
+//! Closest points and segments beside parry3d: `cargo bench -p meshsweep-host-tests --bench
+//! queries`.
 //!
-//! Each sample is one query out of a fixed list. Work counters, which no busy machine disturbs, are in `cargo xtask measure`.
+//! Each sample is one query out of a fixed list. Work counters, which no busy machine disturbs, are
+//! in `cargo xtask measure`.
 
 use std::hint::black_box;
 use std::path::Path;

@@ -23,7 +23,8 @@ const BARE: [&str; 13] = [
 /// Images that run.
 const SUITES: [&str; 4] = ["suite_hull", "suite_tree", "suite_triboxes", "suite_tight"];
 
-/// RAM is kept at what such parts have, not at what the emulated board has, so that an image that needs more fails.
+/// RAM is kept at what such parts have, not at what the emulated board has, so that an image that
+/// needs more fails.
 fn memory(target: &str) -> Option<&'static str> {
     Some(match target {
         // mps2-an386.

@@ -1,4 +1,5 @@
-//! Linker scripts of the images, and the folder with the mesh and the questions that the racing images carry.
+//! Linker scripts of the images, and the folder with the mesh and the questions that the racing
+//! images carry.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -9,7 +10,8 @@ fn main() {
     println!("cargo::rerun-if-env-changed=MESHSWEEP_RIVAL");
 
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    // An image without a runtime is linked as the firmware's are; one that runs takes the firmware's memory layout too.
+    // An image without a runtime is linked as the firmware's are; one that runs takes the
+    // firmware's memory layout too.
     let bare = here.join("../firmware/bare.x");
     println!("cargo::rerun-if-changed={}", bare.display());
     for image in images(&here.join("src/bin")) {

@@ -1,4 +1,5 @@
-//! Blobs and answers that are committed: whoever computes other bits, another machine or a later version, is noticed.
+//! Blobs and answers that are committed: whoever computes other bits, another machine or a later
+//! version, is noticed.
 
 use meshsweep_alloc::emit::{self, Parts};
 use meshsweep_alloc::mesh::Mesh;
@@ -43,11 +44,13 @@ pub fn bracket_hulls() -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
     // Little polish: a test makes them again.
     let options = ChainOptions { faces: vec![64, 160], effort: 0.1, ..ChainOptions::default() };
-    let (tables, _) = chain(&mesh, 0.0, mesh.triangles.len(), &options, |_| {}).expect("room around it");
+    let (tables, _) =
+        chain(&mesh, 0.0, mesh.triangles.len(), &options, |_| {}).expect("room around it");
     emit::assemble(&Parts { tight: Some(&tables), ..Parts::default() })
 }
 
-/// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash of all answers' bits.
+/// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash
+/// of all answers' bits.
 ///
 /// # Errors
 /// The core's refusal of the blob.

@@ -1,4 +1,5 @@
-//! The closest point against brute force: the interval holds, the witness agrees, and nothing but the question matters.
+//! The closest point against brute force: the interval holds, the witness agrees, and nothing but
+//! the question matters.
 
 mod scene;
 
@@ -60,7 +61,11 @@ fn exact_interval_is_a_few_ulps_wide() {
             let allowed = upper * 4.0 * f64::from(f32::EPSILON)
                 + needle * 64.0 * f64::EPSILON * lengths
                 + 2.0 * surface_error(&model);
-            assert!(upper - lower <= allowed, "{}: {p:?}: {answer:?}, {allowed:e} allowed", scene.name);
+            assert!(
+                upper - lower <= allowed,
+                "{}: {p:?}: {answer:?}, {allowed:e} allowed",
+                scene.name
+            );
         }
     }
 }
@@ -79,21 +84,32 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
             let off = distance_to_triangle(answer.point, scene.corners(triangle)).lower;
             assert!(off <= rounding + stored, "{}: {p:?}: {answer:?} is {off:e} off", scene.name);
             let reached = gap(p, answer.point);
-            assert!(reached <= f64::from(answer.upper) + rounding, "{}: {p:?}: {answer:?}", scene.name);
+            assert!(
+                reached <= f64::from(answer.upper) + rounding,
+                "{}: {p:?}: {answer:?}",
+                scene.name
+            );
             // The named triangle is one of the nearest.
             let named = distance_to_triangle(p, scene.corners(triangle));
             let nearest = truth(&scene, p);
             let slack = 2.0 * stored + 1e-13 * (scene.reach() + named.upper);
-            assert!(named.lower <= nearest.upper + slack, "{}: {p:?}: {named:?} {nearest:?}", scene.name);
+            assert!(
+                named.lower <= nearest.upper + slack,
+                "{}: {p:?}: {named:?} {nearest:?}",
+                scene.name
+            );
         }
     }
 }
 
 #[test]
 fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
-    // Points on the medial axis of a cube, and centres of spheres, are equally far from many triangles.
-    let scenes =
-        [Scene::new("cube", cube(4), &options(12)), Scene::new("icosphere", icosphere(2), &options(20))];
+    // Points on the medial axis of a cube, and centres of spheres, are equally far from many
+    // triangles.
+    let scenes = [
+        Scene::new("cube", cube(4), &options(12)),
+        Scene::new("icosphere", icosphere(2), &options(20)),
+    ];
     for scene in &scenes {
         let model = scene.model();
         let order: Vec<u32> = (0..model.header().surface_triangles)
@@ -110,8 +126,8 @@ fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
         ] {
             let nearest = truth(scene, p);
             let capacity = model.capacities().queue;
-            let answers =
-                [capacity, capacity + 1, 64, 10_000].map(|n| ask(&model, p, &Stop::EXACT, n.max(capacity)));
+            let answers = [capacity, capacity + 1, 64, 10_000]
+                .map(|n| ask(&model, p, &Stop::EXACT, n.max(capacity)));
             for answer in &answers {
                 assert_eq!(answer.ended, Ended::Exact, "{p:?}: {answers:?}");
                 assert_eq!(
@@ -119,10 +135,15 @@ fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
                     (answers[0].triangle, answers[0].point),
                     "{p:?}: {answers:?}"
                 );
-                assert_eq!((answer.lower, answer.upper), (answers[0].lower, answers[0].upper), "{p:?}");
+                assert_eq!(
+                    (answer.lower, answer.upper),
+                    (answers[0].lower, answers[0].upper),
+                    "{p:?}"
+                );
             }
             if scene.name == "cube" {
-                // Distances to a cube's faces are exact: the first of all that attain the least one.
+                // Distances to a cube's faces are exact: the first of all that attain the least
+                // one.
                 let first = order
                     .iter()
                     .find(|&&t| distance_to_triangle(p, scene.corners(t)).lower <= nearest.upper)
@@ -141,8 +162,8 @@ fn queue_of_the_named_capacity_never_overflows_and_any_longer_one_answers_alike(
         let mut rng = Rng::new(14);
         for p in scene.points(POINTS / 2, &mut rng) {
             let nearest = truth(&scene, p);
-            let answers =
-                [10_000, 0, 1, 3, 7, 12, 20, 40, 90].map(|n| ask(&model, p, &Stop::EXACT, capacity + n));
+            let answers = [10_000, 0, 1, 3, 7, 12, 20, 40, 90]
+                .map(|n| ask(&model, p, &Stop::EXACT, capacity + n));
             for answer in answers {
                 contains(&scene, p, &answer, nearest);
                 assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
@@ -258,7 +279,10 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
                 "2^{exponent} {p:?}"
             );
             assert_eq!(one.point.map(|x| x * factor), other.point, "2^{exponent} {p:?}");
-            assert_eq!((one.triangle, one.work, one.ended), (other.triangle, other.work, other.ended));
+            assert_eq!(
+                (one.triangle, one.work, one.ended),
+                (other.triangle, other.work, other.ended)
+            );
         }
     }
 }
@@ -272,10 +296,16 @@ fn nan_infinity_and_bad_tolerances_are_typed_errors() {
         for k in 0..3 {
             let mut p = [0.0; 3];
             p[k] = bad;
-            assert_eq!(closest_point(&model, p, &Stop::EXACT, &mut queue), Err(QueryError::NotFinite));
+            assert_eq!(
+                closest_point(&model, p, &Stop::EXACT, &mut queue),
+                Err(QueryError::NotFinite)
+            );
         }
         for stop in [Stop { relative: bad, ..Stop::EXACT }, Stop { absolute: bad, ..Stop::EXACT }] {
-            assert_eq!(closest_point(&model, [0.0; 3], &stop, &mut queue), Err(QueryError::Tolerance));
+            assert_eq!(
+                closest_point(&model, [0.0; 3], &stop, &mut queue),
+                Err(QueryError::Tolerance)
+            );
         }
     }
     let negative = Stop { relative: -0.1, ..Stop::EXACT };

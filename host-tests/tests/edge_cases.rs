@@ -35,8 +35,8 @@ fn a_far_query_is_exact_and_opens_a_small_part_of_the_tree() {
     let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
     for exponent in [3, 5, 7, 9, 11, 13] {
         let far = 10f32.powi(exponent);
-        let answer =
-            closest_point(&model, [far, 0.7 * far, -0.3 * far], &Stop::EXACT, &mut queue).expect("answers");
+        let answer = closest_point(&model, [far, 0.7 * far, -0.3 * far], &Stop::EXACT, &mut queue)
+            .expect("answers");
         let work = answer.work;
         if far < 1e11 {
             assert_eq!(answer.ended, Ended::Exact);
@@ -52,7 +52,8 @@ fn a_hull_of_a_moved_surface_is_never_called_clear_by_its_box() {
     let (positions, triangles) = transformed(&cube(4), side, [0.4, 0.4, 0.4]);
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("sound");
     let low = mesh.positions.iter().map(|p| p[0]).fold(f32::INFINITY, f32::min);
-    let chosen = meshsweep_alloc::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(12) };
+    let chosen =
+        meshsweep_alloc::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(12) };
     let built = build(&mesh, 0.0, triangles.len(), &chosen, |_| ()).expect("builds");
     let model = Model::open(&built.bytes).expect("opens");
     assert!(model.header().surface_error > 0.0);
@@ -61,7 +62,8 @@ fn a_hull_of_a_moved_surface_is_never_called_clear_by_its_box() {
     let mut candidates = [Face::EMPTY; 64];
     let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
     for x in [low, low.next_up(), low.next_down()] {
-        let answer = outer_hits(&model, [x, 0.4, 5.0], [x, 0.4, -5.0], Search::First, &mut front, &mut []);
+        let answer =
+            outer_hits(&model, [x, 0.4, 5.0], [x, 0.4, -5.0], Search::First, &mut front, &mut []);
         let answer = answer.expect("answers");
         assert!(answer.lower <= 1.0 && answer.ended == Ended::Level, "{answer:?}");
     }
@@ -82,7 +84,9 @@ fn a_mesh_that_is_mostly_inside_out_is_refused_by_name() {
     }
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("sound");
     match build(&mesh, 0.0, triangles.len(), &options(8), |_| ()) {
-        Err(error @ BuildError::NotPositive { .. }) => assert!(error.to_string().contains("inside out")),
+        Err(error @ BuildError::NotPositive { .. }) => {
+            assert!(error.to_string().contains("inside out"))
+        }
         Ok(built) => assert!(built.report.volume > 0.0),
         Err(other) => panic!("{other}"),
     }
@@ -91,8 +95,10 @@ fn a_mesh_that_is_mostly_inside_out_is_refused_by_name() {
 #[test]
 fn tolerance_is_claimed_only_for_intervals_that_meet_it() {
     let mesh = rough_sphere(3, 0.2, 5);
-    let grid = meshsweep_alloc::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(60) };
-    let (exact, moved) = (Scene::new("exact", mesh.clone(), &options(60)), Scene::new("moved", mesh, &grid));
+    let grid =
+        meshsweep_alloc::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(60) };
+    let (exact, moved) =
+        (Scene::new("exact", mesh.clone(), &options(60)), Scene::new("moved", mesh, &grid));
     let coarse = cut(&exact.model(), 2).expect("three levels").to_bytes();
     let mut rng = Rng::new(11);
     for bytes in [&exact.bytes, &moved.bytes, &coarse] {

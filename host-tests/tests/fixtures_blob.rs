@@ -12,10 +12,14 @@ fn folder() -> PathBuf {
 
 #[test]
 fn committed_blob_is_what_the_builder_makes() {
-    let subject = Subject::load(&folder().join("bracket.stl")).expect("the fixture is a closed mesh");
+    let subject =
+        Subject::load(&folder().join("bracket.stl")).expect("the fixture is a closed mesh");
     let built = subject.build_with(&BuildOptions::default()).expect("a blob");
     let committed = std::fs::read(folder().join("bracket.msw")).unwrap_or_default();
-    assert!(committed == built.bytes, "fixtures/bracket.msw is out of date: run `cargo xtask fixtures`");
+    assert!(
+        committed == built.bytes,
+        "fixtures/bracket.msw is out of date: run `cargo xtask fixtures`"
+    );
 }
 
 #[test]

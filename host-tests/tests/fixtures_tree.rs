@@ -1,10 +1,12 @@
-//! The committed box tree, triboxes, tight hulls and answers: what the builder makes, and what this machine computes.
+//! The committed box tree, triboxes, tight hulls and answers: what the builder makes, and what this
+//! machine computes.
 
 use std::path::{Path, PathBuf};
 
 use meshsweep_core::{TightHulls, Tree, Triboxes};
 use meshsweep_host_tests::golden::{
-    bracket_hulls, groove_tree, hull_answers, tight_answers, torus_triboxes, tree_answers, tribox_answers,
+    bracket_hulls, groove_tree, hull_answers, tight_answers, torus_triboxes, tree_answers,
+    tribox_answers,
 };
 
 fn folder() -> PathBuf {
@@ -35,7 +37,10 @@ fn committed_tree_opens_with_every_triangle_and_every_section() {
 #[test]
 fn committed_triboxes_are_what_the_builder_makes() {
     let bytes = read("torus.msw");
-    assert!(bytes == torus_triboxes(), "fixtures/torus.msw is out of date: run `cargo xtask fixtures`");
+    assert!(
+        bytes == torus_triboxes(),
+        "fixtures/torus.msw is out of date: run `cargo xtask fixtures`"
+    );
     let triboxes = Triboxes::open(&bytes).expect("opens");
     assert!(triboxes.is_solid() && triboxes.leaf_count() == 64);
 }
@@ -43,7 +48,10 @@ fn committed_triboxes_are_what_the_builder_makes() {
 #[test]
 fn committed_hulls_are_what_the_builder_makes() {
     let bytes = read("hulls.msw");
-    assert!(bytes == bracket_hulls(), "fixtures/hulls.msw is out of date: run `cargo xtask fixtures`");
+    assert!(
+        bytes == bracket_hulls(),
+        "fixtures/hulls.msw is out of date: run `cargo xtask fixtures`"
+    );
     let hulls = TightHulls::open(&bytes).expect("opens");
     assert!(hulls.records().map(|record| record.faces).eq([64, 160]) && !hulls.is_nested());
 }
@@ -56,7 +64,10 @@ fn answers_have_the_committed_bits() {
         + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens");
     let committed = String::from_utf8(read("answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
-        assert_eq!(here, committed, "other bits; if they are meant to be, run `cargo xtask fixtures`");
+        assert_eq!(
+            here, committed,
+            "other bits; if they are meant to be, run `cargo xtask fixtures`"
+        );
     }
     assert_eq!(here.lines().count(), committed.lines().count());
 }

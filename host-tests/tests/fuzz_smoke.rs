@@ -1,8 +1,8 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, open, outer, random_input, segment, tight, tree_closest, tree_open, tree_overlap, tree_segment,
-    tree_session, tribox, triboxes,
+    closest, open, outer, random_input, segment, tight, tree_closest, tree_open, tree_overlap,
+    tree_segment, tree_session, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
 

@@ -1,4 +1,5 @@
-//! The independent checker proves what the builder wrote, and does not prove what was damaged afterwards.
+//! The independent checker proves what the builder wrote, and does not prove what was damaged
+//! afterwards.
 
 mod scene;
 
@@ -27,7 +28,11 @@ const GROUPS: u32 = 11;
 fn every_generated_mesh_is_proved_nested() {
     for scene in scene::all() {
         let report = check_blob(&scene.bytes).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-        assert!(report.planes >= 5 * report.splits && report.splits > 0, "{}: {report:?}", scene.name);
+        assert!(
+            report.planes >= 5 * report.splits && report.splits > 0,
+            "{}: {report:?}",
+            scene.name
+        );
         assert_eq!(report.triangles, scene.triangles.len(), "{}", scene.name);
     }
 }
@@ -43,9 +48,15 @@ fn both_priorities_and_every_vertex_format_are_proved_nested() {
     ];
     for (name, mesh) in meshes {
         for priority in [Priority::Program, Priority::Span] {
-            for vertex_bits in [VertexBits::Auto, VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32] {
-                let options =
-                    BuildOptions { base_faces: 24, priority, vertex_bits, ..BuildOptions::default() };
+            for vertex_bits in
+                [VertexBits::Auto, VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32]
+            {
+                let options = BuildOptions {
+                    base_faces: 24,
+                    priority,
+                    vertex_bits,
+                    ..BuildOptions::default()
+                };
                 let scene = Scene::new(name, mesh.clone(), &options);
                 if let Err(error) = check_blob(&scene.bytes) {
                     panic!("{name}, {priority:?}, {vertex_bits:?}: {error}");
@@ -93,7 +104,8 @@ fn a_hull_vertex_moved_inward_by_one_ulp_is_caught() {
     let blob = Blob::parse(&bytes).expect("a whole blob");
     let at = entry(&bytes, VERTICES).offset as usize;
     let mut caught = 0;
-    // Vertices of the base hull that were rounded onto a plane, or as near to one as the format goes.
+    // Vertices of the base hull that were rounded onto a plane, or as near to one as the format
+    // goes.
     for vertex in 0..blob.base_vertices as usize {
         for axis in 0..3 {
             let mut moved = bytes.clone();
@@ -227,7 +239,10 @@ fn signs_agree_with_robust_predicates() {
             let [a, b, c] = corners.map(coord);
             // `robust` counts a point below the plane as positive.
             let other = -robust::orient3d(a, b, c, coord(p));
-            assert_eq!(f64::from(side(corners, p).0), if other == 0.0 { 0.0 } else { other.signum() });
+            assert_eq!(
+                f64::from(side(corners, p).0),
+                if other == 0.0 { 0.0 } else { other.signum() }
+            );
         }
     }
 }
@@ -246,9 +261,22 @@ fn levels_rise_in_faces_and_fall_in_void() {
     for scene in scene::all() {
         let model = Model::open(&scene.bytes).expect("opens");
         let levels: Vec<_> = model.levels().collect();
-        assert!(levels.is_sorted_by(|x, y| x.faces < y.faces && x.nodes <= y.nodes), "{}", scene.name);
+        assert!(
+            levels.is_sorted_by(|x, y| x.faces < y.faces && x.nodes <= y.nodes),
+            "{}",
+            scene.name
+        );
         assert!(levels.is_sorted_by(|x, y| x.void_ratio >= y.void_ratio), "{}", scene.name);
-        assert!(levels.is_sorted_by(|x, y| x.surface_to_hull >= y.surface_to_hull), "{}", scene.name);
-        assert_eq!(levels.last().map(|l| l.faces as usize), Some(scene.triangles.len()), "{}", scene.name);
+        assert!(
+            levels.is_sorted_by(|x, y| x.surface_to_hull >= y.surface_to_hull),
+            "{}",
+            scene.name
+        );
+        assert_eq!(
+            levels.last().map(|l| l.faces as usize),
+            Some(scene.triangles.len()),
+            "{}",
+            scene.name
+        );
     }
 }

@@ -15,7 +15,8 @@ fn solve(program: &Program) -> Outcome {
 fn assert_same(a: Outcome, b: Outcome, program: &Program) {
     match (a, b) {
         (Outcome::Optimal(a), Outcome::Optimal(b)) => {
-            let value = |point: DVec3| program.objective.dot(point) + EPS / 2.0 * point.length_squared();
+            let value =
+                |point: DVec3| program.objective.dot(point) + EPS / 2.0 * point.length_squared();
             let scale = 1.0 + a.length();
             assert!((value(a) - value(b)).abs() <= 1e-9 * scale, "{a} and {b}: {program:?}");
             assert!(a.distance(b) <= 1e-5 * scale, "{a} and {b}: {program:?}");
@@ -107,7 +108,11 @@ fn any_number_of_constraints_is_solved() {
         match minimise(DVec3::Z, &mut constraints, EPS) {
             Outcome::Optimal(point) => {
                 assert!(count >= 3 && point.z < -1.0 + EPS);
-                assert!(constraints.iter().all(|h| h.normal.dot(point) >= h.offset - 1e-11 * point.length()));
+                assert!(
+                    constraints
+                        .iter()
+                        .all(|h| h.normal.dot(point) >= h.offset - 1e-11 * point.length())
+                );
             }
             outcome => assert!(count <= 4 && outcome == Outcome::Unbounded, "{count}: {outcome:?}"),
         }
@@ -118,7 +123,10 @@ fn any_number_of_constraints_is_solved() {
 fn zero_objective_gives_the_point_nearest_to_the_origin() {
     let mut constraints =
         [HalfSpace { normal: DVec3::X, offset: 0.5 }, HalfSpace { normal: DVec3::Y, offset: -0.5 }];
-    assert_eq!(minimise(DVec3::ZERO, &mut constraints, EPS), Outcome::Optimal(DVec3::new(0.5, 0.0, 0.0)));
+    assert_eq!(
+        minimise(DVec3::ZERO, &mut constraints, EPS),
+        Outcome::Optimal(DVec3::new(0.5, 0.0, 0.0))
+    );
     assert_eq!(minimise(DVec3::ZERO, &mut [], EPS), Outcome::Optimal(DVec3::ZERO));
 }
 
@@ -137,7 +145,8 @@ fn numbers_that_are_not_finite_are_infeasible() {
     }
 }
 
-/// Bundles of nearly coplanar planes that meet in one or two points, with a common direction to get away from all.
+/// Bundles of nearly coplanar planes that meet in one or two points, with a common direction to get
+/// away from all.
 #[test]
 fn bundles_of_planes_through_common_points_are_feasible() {
     let mut random = Random::new(25);

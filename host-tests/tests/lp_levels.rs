@@ -55,13 +55,17 @@ fn program_on_a_line_is_cut_off_at_the_nearest_bound() {
             constraints.push(on_axis(&mut random, rate, bound));
         }
         let outcome = minimise_on_line(DVec3::X * slope, [FLOOR, WALL], &constraints, EPS);
-        let open = (slope < 0.0 && upper == f64::INFINITY) || (slope > 0.0 && lower == f64::NEG_INFINITY);
+        let open =
+            (slope < 0.0 && upper == f64::INFINITY) || (slope > 0.0 && lower == f64::NEG_INFINITY);
         match outcome {
             Outcome::Infeasible => assert!(lower > upper),
             Outcome::Unbounded => assert!(open && lower <= upper),
             Outcome::Optimal(point) => {
                 let wanted = (-slope / EPS).clamp(lower, upper);
-                assert!(!open && point.distance(DVec3::X * wanted) < 1e-14 * (1.0 + wanted.abs()), "{point}");
+                assert!(
+                    !open && point.distance(DVec3::X * wanted) < 1e-14 * (1.0 + wanted.abs()),
+                    "{point}"
+                );
             }
         }
         outcomes[match outcome {
@@ -90,7 +94,8 @@ fn constraint_parallel_to_the_line_holds_everywhere_or_nowhere() {
     assert_eq!(solve(1e-3), Outcome::Infeasible);
 }
 
-/// The least value over all crossings of two lines that satisfy everything; infinite if there is none.
+/// The least value over all crossings of two lines that satisfy everything; infinite if there is
+/// none.
 fn least_crossing(objective: DVec2, lines: &[(DVec2, f64)]) -> f64 {
     let mut least = f64::INFINITY;
     for (idx, (n, d)) in lines.iter().enumerate() {
@@ -109,10 +114,13 @@ fn program_on_a_plane_finds_the_least_crossing() {
     let mut random = Random::new(31);
     let mut outcomes = [0; 3];
     for idx in 0..20_000 {
-        let turned = |random: &mut Random| DVec2::from_angle(random.within(0.0, core::f64::consts::TAU));
-        let lines: Vec<(DVec2, f64)> =
-            (0..3 + random.below(6)).map(|_| (turned(&mut random), random.within(-1.0, 0.3))).collect();
-        // Any height of the plane, and constraints that lean by any angle: on the plane they are the same lines.
+        let turned =
+            |random: &mut Random| DVec2::from_angle(random.within(0.0, core::f64::consts::TAU));
+        let lines: Vec<(DVec2, f64)> = (0..3 + random.below(6))
+            .map(|_| (turned(&mut random), random.within(-1.0, 0.3)))
+            .collect();
+        // Any height of the plane, and constraints that lean by any angle: on the plane they are
+        // the same lines.
         let height = random.within(-1.0, 1.0);
         let floor = HalfSpace { offset: height, ..FLOOR };
         let mut constraints: Vec<HalfSpace> = lines
@@ -129,9 +137,11 @@ fn program_on_a_plane_finds_the_least_crossing() {
             Outcome::Infeasible => assert!(least == f64::INFINITY, "{idx}: {least}"),
             Outcome::Unbounded => {
                 // Some ray descends: turn the objective's opposite as little as the lines allow.
-                let rays = lines.iter().flat_map(|(n, _)| [n.perp(), -n.perp()]).chain([-objective]);
-                let descends =
-                    |ray: DVec2| objective.dot(ray) < 0.0 && lines.iter().all(|(n, _)| n.dot(ray) >= -1e-12);
+                let rays =
+                    lines.iter().flat_map(|(n, _)| [n.perp(), -n.perp()]).chain([-objective]);
+                let descends = |ray: DVec2| {
+                    objective.dot(ray) < 0.0 && lines.iter().all(|(n, _)| n.dot(ray) >= -1e-12)
+                };
                 assert!(rays.into_iter().any(descends), "{idx}: no ray");
             }
             Outcome::Optimal(point) => {

@@ -6,8 +6,8 @@ use meshsweep_host_tests::oracle::lp::programs::Family;
 use meshsweep_host_tests::oracle::lp::random::Random;
 use meshsweep_host_tests::oracle::lp::{Program, Verdict, is_feasible, quadratic, solve};
 
-/// A point of the answer may lie this far outside a half-space, times its distance: twice the solver's own tolerance
-/// for a violation, or for a contradiction.
+/// A point of the answer may lie this far outside a half-space, times its distance: twice the
+/// solver's own tolerance for a violation, or for a contradiction.
 const VIOLATION: f64 = 2e-12;
 const CONTRADICTION: f64 = 2e-10;
 /// Steepest descent to infinity that the solver may overlook.
@@ -24,11 +24,13 @@ struct Tally {
     unbounded: usize,
     /// Feasible, but not within [`FAR`] when every offset grows by 2e-10: called infeasible.
     barely_feasible: usize,
-    /// Infeasible, but not when offsets fall by [`CONTRADICTION`], times the point's distance: called feasible.
+    /// Infeasible, but not when offsets fall by [`CONTRADICTION`], times the point's distance:
+    /// called feasible.
     barely_infeasible: usize,
     /// Descends to infinity, but no steeper than [`DESCENT`]: called optimal.
     slow_descent: usize,
-    /// Has an optimum, but farther out than [`FAR`], by the rounding of parallel edges: called unbounded.
+    /// Has an optimum, but farther out than [`FAR`], by the rounding of parallel edges: called
+    /// unbounded.
     far: usize,
 }
 
@@ -52,7 +54,10 @@ impl Tally {
                 let rounding = VIOLATION * scale(x) * (1.0 + multipliers);
                 let regularisation = eps / 2.0 * distance * distance;
                 assert!(excess >= -rounding, "{name}: {excess:e} below the optimum at {x}");
-                assert!(excess <= regularisation + rounding, "{name}: {excess:e} above the optimum at {x}");
+                assert!(
+                    excess <= regularisation + rounding,
+                    "{name}: {excess:e} above the optimum at {x}"
+                );
                 self.optimal += 1;
             }
             (Outcome::Infeasible, Verdict::Infeasible) => self.infeasible += 1,
@@ -74,7 +79,9 @@ impl Tally {
                 assert!(slope <= DESCENT, "{name}: descends with slope {slope:e}");
                 self.slow_descent += 1;
             }
-            (Outcome::Unbounded, Verdict::Optimal { distance, .. }) if distance > FAR => self.far += 1,
+            (Outcome::Unbounded, Verdict::Optimal { distance, .. }) if distance > FAR => {
+                self.far += 1
+            }
             (outcome, verdict) => panic!("{name}: {outcome:?}, but {verdict:?}"),
         }
     }
@@ -89,7 +96,8 @@ fn nearby(constraints: &[HalfSpace]) -> Vec<HalfSpace> {
     nearby
 }
 
-/// Slope of the steepest ray to infinity: the projection of the objective's opposite onto the cone of such rays.
+/// Slope of the steepest ray to infinity: the projection of the objective's opposite onto the cone
+/// of such rays.
 fn descent(program: &Program) -> f64 {
     let mut cone = program.clone();
     cone.constraints.iter_mut().for_each(|h| h.offset = 0.0);
@@ -123,8 +131,15 @@ fn degenerate_programs_agree_with_exact_arithmetic() {
     for family in Family::DEGENERATE {
         let tally = run(&[family], 300, 1_000_000);
         println!("{family:?}: {tally:?}");
-        let Tally { optimal, infeasible, unbounded, barely_feasible, barely_infeasible, slow_descent, far } =
-            tally;
+        let Tally {
+            optimal,
+            infeasible,
+            unbounded,
+            barely_feasible,
+            barely_infeasible,
+            slow_descent,
+            far,
+        } = tally;
         assert!(slow_descent <= 60);
         // The parallel edges of a prism, once rounded, may meet far out.
         let most = if family == Family::Prism { 40 } else { 0 };

@@ -1,4 +1,5 @@
-//! The regularised optimum against exact quadratic programming, and its limit on faces that are optimal throughout.
+//! The regularised optimum against exact quadratic programming, and its limit on faces that are
+//! optimal throughout.
 
 use glam::DVec3;
 use meshsweep_alloc::lp::{HalfSpace, Outcome, minimise};
@@ -24,7 +25,8 @@ fn value(program: &Program, exponent: u32, point: DVec3) -> f64 {
     program.objective.dot(point) + eps(exponent) / 2.0 * point.length_squared()
 }
 
-/// Distances from the solver's answers to the exact optimum, relative to its distance from the star, ascending.
+/// Distances from the solver's answers to the exact optimum, relative to its distance from the
+/// star, ascending.
 fn distances(programs: impl Iterator<Item = Program>, exponent: u32) -> Vec<f64> {
     let mut distances = Vec::new();
     for (idx, program) in programs.enumerate() {
@@ -72,10 +74,12 @@ fn regularised_optimum_of_stars_is_the_exact_one() {
     for star in Star::ALL {
         for exponent in EXPONENTS {
             let mut random = Random::new(8);
-            let distances = distances((0..60).map(|_| star.program(&mut random).representable()), exponent);
+            let distances =
+                distances((0..60).map(|_| star.program(&mut random).representable()), exponent);
             let (median, most) = (distances[distances.len() / 2], distances[distances.len() - 1]);
             println!("{star:?}, eps 2^-{exponent}: median {median:.1e}, most {most:.1e}");
-            // Nearly coplanar planes fix a vertex only to the rounding of their offsets, divided by their angle.
+            // Nearly coplanar planes fix a vertex only to the rounding of their offsets, divided by
+            // their angle.
             assert!(distances.len() > 50 && median < 1e-6 && most < 1e-5);
         }
     }
@@ -88,15 +92,21 @@ fn optimal_face_is_answered_by_its_point_nearest_to_the_origin() {
         let mut compared = 0;
         for idx in 0..500 {
             let program = family.program(&mut random);
-            // If the exact optimum no longer moves at the solver's eps then it has reached the face's nearest point.
-            let (limit, here) = (quadratic::optimum(&program, VANISHING), quadratic::optimum(&program, 30));
-            let (Some(limit), Some(here), Outcome::Optimal(point)) = (limit, here, solve(&program, 30))
+            // If the exact optimum no longer moves at the solver's eps then it has reached the
+            // face's nearest point.
+            let (limit, here) =
+                (quadratic::optimum(&program, VANISHING), quadratic::optimum(&program, 30));
+            let (Some(limit), Some(here), Outcome::Optimal(point)) =
+                (limit, here, solve(&program, 30))
             else {
                 continue;
             };
             if limit.distance(here) < 1e-12 {
                 compared += 1;
-                assert!(point.distance(limit) < 1e-6, "{family:?} {idx}: {point} instead of {limit}");
+                assert!(
+                    point.distance(limit) < 1e-6,
+                    "{family:?} {idx}: {point} instead of {limit}"
+                );
             }
         }
         println!("{family:?}: {compared}");
@@ -124,7 +134,8 @@ fn vertex_lies_on_its_planes_for_every_eps() {
         if normals[0].cross(normals[1]).dot(normals[2]).abs() < 0.1 {
             continue;
         }
-        let mut planes = normals.map(|normal| HalfSpace { normal, offset: random.within(-1.0, 1.0) });
+        let mut planes =
+            normals.map(|normal| HalfSpace { normal, offset: random.within(-1.0, 1.0) });
         let objective = normals.into_iter().sum();
         for eps in [1e-3, 1e-6, 1e-9, 1e-12] {
             let Outcome::Optimal(vertex) = minimise(objective, &mut planes, eps) else {

@@ -5,8 +5,8 @@ use std::path::Path;
 use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair, require_closed_manifold};
 use meshsweep_host_tests::generate::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj};
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled, torus,
-    transformed, two_parts, uv_sphere,
+    Rng, Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled,
+    torus, transformed, two_parts, uv_sphere,
 };
 
 /// Name, mesh, triangles, parts, sum of the parts' genera.
@@ -70,11 +70,13 @@ fn obj_reader_agrees_with_tobj() {
     let raw = read_bytes(Path::new("a.obj"), text.into()).unwrap();
     let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
     let (models, _) =
-        tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Err(tobj::LoadError::ReadError)).unwrap();
+        tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Err(tobj::LoadError::ReadError))
+            .unwrap();
     let mesh = &models[0].mesh;
     let theirs: Vec<f64> =
         mesh.indices.iter().flat_map(|&i| mesh.positions[3 * i as usize..][..3].to_vec()).collect();
-    let ours: Vec<f64> = raw.triangles.iter().flatten().flat_map(|&v| raw.positions[v as usize]).collect();
+    let ours: Vec<f64> =
+        raw.triangles.iter().flatten().flat_map(|&v| raw.positions[v as usize]).collect();
     assert_eq!(ours, theirs);
 }
 
@@ -114,7 +116,8 @@ fn rotated_and_distorted_soups_are_repaired_to_a_fixed_point() {
         let (once, _) = repair(RawMesh::from_f32(&positions, &triangles)).unwrap();
         let (twice, report) = repair(RawMesh::from_f32(&once.positions, &once.triangles)).unwrap();
         // Welding and splitting again may number the copies of a vertex anew, nothing else.
-        let corners = |m: &Mesh| -> Vec<_> { (0..m.triangles.len()).map(|t| m.corners(t)).collect() };
+        let corners =
+            |m: &Mesh| -> Vec<_> { (0..m.triangles.len()).map(|t| m.corners(t)).collect() };
         assert_eq!(corners(&once), corners(&twice), "{name}: {report}");
         assert_eq!(once.positions.len(), twice.positions.len(), "{name}");
     }

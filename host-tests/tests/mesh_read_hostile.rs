@@ -47,8 +47,11 @@ fn files_with_random_bytes_changed_are_digested() {
             let mut damaged = bytes.clone();
             for _ in 0..=rng.below(4) {
                 let at = rng.below(damaged.len());
-                damaged[at] =
-                    if rng.below(2) == 0 { rng.next_u64() as u8 } else { b"0129-. \nef"[rng.below(10)] };
+                damaged[at] = if rng.below(2) == 0 {
+                    rng.next_u64() as u8
+                } else {
+                    b"0129-. \nef"[rng.below(10)]
+                };
             }
             digest(&name, damaged);
         }

@@ -36,7 +36,8 @@ fn ask_everything(model: &Model<'_>) {
     let mut queue = [QueueEntry::EMPTY; 24];
     let mut hits = [Hit::EMPTY; 4];
     for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0]] {
-        let answer = closest_point(model, p, &Stop::EXACT, &mut queue).expect("an opened model answers");
+        let answer =
+            closest_point(model, p, &Stop::EXACT, &mut queue).expect("an opened model answers");
         assert!(answer.lower <= answer.upper && answer.work.total() <= most, "{answer:?}");
     }
     let (a, b) = ([-3.0, 0.1, 0.2], [3.0, 0.15, 0.1]);
@@ -91,7 +92,11 @@ fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
                 }
             }
         }
-        assert!(opened > 100 && refused.len() >= 8, "{opened} opened, {} kinds of refusal", refused.len());
+        assert!(
+            opened > 100 && refused.len() >= 8,
+            "{opened} opened, {} kinds of refusal",
+            refused.len()
+        );
     }
 }
 
@@ -143,7 +148,10 @@ fn damaged_checksums_are_named_by_section() {
     for section in Model::open(&bytes).expect("opens").sections() {
         let mut damaged = bytes.clone();
         damaged[section.offset as usize] ^= 1;
-        assert_eq!(Model::open(&damaged).map(|_| ()), Err(OpenError::Crc { section: Some(section.kind) }));
+        assert_eq!(
+            Model::open(&damaged).map(|_| ()),
+            Err(OpenError::Crc { section: Some(section.kind) })
+        );
     }
     let mut damaged = bytes.clone();
     damaged[84] ^= 1;
@@ -162,7 +170,8 @@ fn a_missing_section_is_named() {
 
 #[test]
 fn overlapping_duplicate_misaligned_and_disordered_sections_are_named() {
-    let malformed = |result: Result<(), OpenError>| matches!(result, Err(OpenError::Section { .. }));
+    let malformed =
+        |result: Result<(), OpenError>| matches!(result, Err(OpenError::Section { .. }));
     assert!(malformed(edited(|b| swap_entries(b, 1, 2))), "out of order");
     assert!(malformed(edited(|b| {
         let table = entries(b);
@@ -197,8 +206,14 @@ fn contradictory_and_huge_counts_are_refused() {
             assert!(Model::open(&bytes).is_err(), "{value:#x} at {at}");
         }
     }
-    assert!(matches!(edited(|b| put_u32(b, 140, 0)), Err(OpenError::Counts { what: "queue capacity" })));
-    assert!(matches!(edited(|b| put_u32(b, 28, 300)), Err(OpenError::Counts { what: "scale out of range" })));
+    assert!(matches!(
+        edited(|b| put_u32(b, 140, 0)),
+        Err(OpenError::Counts { what: "queue capacity" })
+    ));
+    assert!(matches!(
+        edited(|b| put_u32(b, 28, 300)),
+        Err(OpenError::Counts { what: "scale out of range" })
+    ));
     assert!(matches!(edited(|b| put_u32(b, 88, (-1f32).to_bits())), Err(OpenError::Counts { .. })));
     assert!(matches!(edited(|b| put_u32(b, 92, 9f32.to_bits())), Err(OpenError::Counts { .. })));
 }
@@ -251,7 +266,8 @@ fn a_cycle_in_the_cover_tree_is_refused() {
     let (node_bytes, child_at) = (h.node_bytes(), 3 * h.vertex_index_bytes() + 2);
     let mut refused = 0;
     for node in 0..h.nodes as usize {
-        let at = entry(&bytes, SectionKind::Cover as u32).offset as usize + node * node_bytes + child_at;
+        let at =
+            entry(&bytes, SectionKind::Cover as u32).offset as usize + node * node_bytes + child_at;
         for first in [0, node as u8, node.saturating_sub(1) as u8] {
             let mut looped = bytes.clone();
             if looped[at] == first {
@@ -290,7 +306,10 @@ fn a_level_table_that_falls_or_ends_early_is_refused() {
             put_u32(b, at, value);
         })
     };
-    assert!(matches!(levels(1, 1 << 20), Err(OpenError::Record { section: SectionKind::Levels, index: 0 })));
+    assert!(matches!(
+        levels(1, 1 << 20),
+        Err(OpenError::Record { section: SectionKind::Levels, index: 0 })
+    ));
     assert!(matches!(
         levels(3, f32::NAN.to_bits()),
         Err(OpenError::Record { section: SectionKind::Levels, .. })
@@ -311,7 +330,8 @@ fn a_blob_cut_at_any_level_opens_and_still_contains_the_truth() {
         for p in scene.points(120, &mut rng) {
             let answer = closest_point(&model, p, &Stop::EXACT, &mut queue).expect("finite");
             let truth = distance_to_mesh(p, &scene.positions, &scene.triangles);
-            let holds = f64::from(answer.lower) <= truth.upper && truth.lower <= f64::from(answer.upper);
+            let holds =
+                f64::from(answer.lower) <= truth.upper && truth.lower <= f64::from(answer.upper);
             assert!(holds, "level {level}: {p:?}: {answer:?} {truth:?}");
             assert_eq!((answer.triangle.is_some(), answer.ended == Ended::Exact), (finest, finest));
         }
@@ -319,7 +339,10 @@ fn a_blob_cut_at_any_level_opens_and_still_contains_the_truth() {
             let (a, b) = (scene.around(2.0, &mut rng), scene.around(2.0, &mut rng));
             let answer = first_hit(&model, a, b, &Stop::EXACT, &mut queue).expect("in the domain");
             if let Some(first) = contacts(a, b, &scene.positions, &scene.triangles).first() {
-                assert!(f64::from(answer.lower) <= first.t_upper, "level {level}: {a:?} {b:?}: {answer:?}");
+                assert!(
+                    f64::from(answer.lower) <= first.t_upper,
+                    "level {level}: {a:?} {b:?}: {answer:?}"
+                );
             }
         }
         let last = model.levels().last().expect("it has levels");
@@ -329,6 +352,9 @@ fn a_blob_cut_at_any_level_opens_and_still_contains_the_truth() {
             edges.extend([(a, b), (b, c), (c, a)]);
         }
         assert_eq!(edges.len(), 3 * last.faces as usize);
-        assert!(edges.iter().all(|&(a, b)| edges.contains(&(b, a))), "level {level}: the hull is open");
+        assert!(
+            edges.iter().all(|&(a, b)| edges.contains(&(b, a))),
+            "level {level}: the hull is open"
+        );
     }
 }

@@ -1,8 +1,11 @@
-//! Hits on the refined hull: the first is the surface's first, however short the working memory, and no answer is a wrong "clear".
+//! Hits on the refined hull: the first is the surface's first, however short the working memory,
+//! and no answer is a wrong "clear".
 
 mod scene;
 
-use meshsweep_core::query::{Ended, Hit, OuterHits, QueryError, Search, Stop, first_hit, outer_hits};
+use meshsweep_core::query::{
+    Ended, Hit, OuterHits, QueryError, Search, Stop, first_hit, outer_hits,
+};
 use meshsweep_core::refine::{Face, Front};
 use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, torus};
@@ -16,13 +19,19 @@ type Segment = ([f32; 3], [f32; 3]);
 /// Memory of a front: words in each bit set, candidates.
 type Memory = (usize, usize);
 
-fn ask(model: &Model<'_>, (a, b): Segment, search: Search, (words, faces): Memory) -> (OuterHits, Vec<Hit>) {
+fn ask(
+    model: &Model<'_>,
+    (a, b): Segment,
+    search: Search,
+    (words, faces): Memory,
+) -> (OuterHits, Vec<Hit>) {
     // What the memory held before does not matter.
     let (mut performed, mut swept) = (vec![u32::MAX; words], vec![0x5A5A_5A5A; words]);
     let mut candidates = vec![Face::EMPTY; faces];
     let mut hits = vec![Hit::EMPTY; 256];
     let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
-    let answer = outer_hits(model, a, b, search, &mut front, &mut hits).expect("a segment in the domain");
+    let answer =
+        outer_hits(model, a, b, search, &mut front, &mut hits).expect("a segment in the domain");
     hits.truncate(answer.stored);
     (answer, hits)
 }
@@ -68,15 +77,22 @@ fn first_outer_hit_is_the_first_hit() {
                 continue;
             }
             asked += 1;
-            let first =
-                first_hit(&model, segment.0, segment.1, &Stop::EXACT, &mut queue).expect("in the domain");
+            let first = first_hit(&model, segment.0, segment.1, &Stop::EXACT, &mut queue)
+                .expect("in the domain");
             assert_eq!(outer.ended, Ended::Exact, "{}: {segment:?}", scene.name);
             // Of several triangles that share a point either may be named first.
             let named = first.hit.map(|hit| (hit.t, hit.triangle));
-            let found = hits.iter().take_while(|hit| hit.t == hits[0].t).map(|hit| (hit.t, hit.triangle));
-            let agree = found.clone().any(|pair| Some(pair) == named) || (named.is_none() && hits.is_empty());
+            let found =
+                hits.iter().take_while(|hit| hit.t == hits[0].t).map(|hit| (hit.t, hit.triangle));
+            let agree = found.clone().any(|pair| Some(pair) == named)
+                || (named.is_none() && hits.is_empty());
             assert!(agree, "{}: {segment:?}: {outer:?} {hits:?} {first:?}", scene.name);
-            assert_eq!(outer.lower == f32::INFINITY, first.is_clear(), "{}: {segment:?}", scene.name);
+            assert_eq!(
+                outer.lower == f32::INFINITY,
+                first.is_clear(),
+                "{}: {segment:?}",
+                scene.name
+            );
         }
         assert!(asked > 100, "{}: {asked} started outside", scene.name);
     }
@@ -111,9 +127,15 @@ fn outer_search_names_only_true_hits_and_the_first_of_all() {
             for hit in &hits {
                 let triangle = hit.triangle.expect("a whole blob");
                 let corners = scene.corners(triangle);
-                let gap = meshsweep_host_tests::oracle::gap_to_triangle(segment.0, segment.1, corners);
-                let size = f64::from(scene.size()) * if scene.name == "needle comb" { 65_536.0 } else { 1.0 };
-                assert!(gap <= 1e-12 * (size + scene.reach()) * 8.0, "{}: {segment:?}: {hit:?}", scene.name);
+                let gap =
+                    meshsweep_host_tests::oracle::gap_to_triangle(segment.0, segment.1, corners);
+                let size = f64::from(scene.size())
+                    * if scene.name == "needle comb" { 65_536.0 } else { 1.0 };
+                assert!(
+                    gap <= 1e-12 * (size + scene.reach()) * 8.0,
+                    "{}: {segment:?}: {hit:?}",
+                    scene.name
+                );
             }
         }
     }
@@ -153,11 +175,20 @@ fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Se
                 for memory in memories(words) {
                     for search in [Search::First, Search::Outer] {
                         let (outer, hits) = ask(&model, segment, search, memory);
-                        let say = || format!("{}: {segment:?} {memory:?}: {outer:?} {truth:?}", scene.name);
+                        let say = || {
+                            format!("{}: {segment:?} {memory:?}: {outer:?} {truth:?}", scene.name)
+                        };
                         if let Some(first) = truth.first() {
-                            assert!(f64::from(outer.lower) <= first.t_upper, "a wrong clear: {}", say());
+                            assert!(
+                                f64::from(outer.lower) <= first.t_upper,
+                                "a wrong clear: {}",
+                                say()
+                            );
                         }
-                        if outer.ended == Ended::Exact && search == Search::First && !outer.starts_inside {
+                        if outer.ended == Ended::Exact
+                            && search == Search::First
+                            && !outer.starts_inside
+                        {
                             assert_eq!(outer.lower, whole.lower, "{}", say());
                             assert_eq!(hits.is_empty(), truth.is_empty(), "{}", say());
                         }
@@ -193,7 +224,8 @@ fn short_bit_sets_with_a_short_candidate_list_end() {
 #[test]
 fn a_start_inside_the_hulls_box_is_said_and_nothing_is_promised() {
     let scene = Scene::new("groove block", groove_block(), &options(12));
-    let (outer, hits) = ask(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), Search::First, (16, 64));
+    let (outer, hits) =
+        ask(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), Search::First, (16, 64));
     assert!(outer.starts_inside && outer.lower == 0.0 && hits.is_empty());
 }
 

@@ -12,7 +12,8 @@ fn torus() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fixtures/torus.ply")
 }
 
-static BOUNDS: LazyLock<Vec<Table>> = LazyLock::new(|| measure_bounds(&torus(), None).expect("measured"));
+static BOUNDS: LazyLock<Vec<Table>> =
+    LazyLock::new(|| measure_bounds(&torus(), None).expect("measured"));
 
 /// All texts, each within the figure; and no attribute that is no number where one was to be.
 fn texts(svg: &str) -> Vec<String> {
@@ -24,7 +25,10 @@ fn texts(svg: &str) -> Vec<String> {
     };
     let (width, height) = (number(root, "width"), number(root, "height"));
     for attribute in root.descendants().flat_map(|node| node.attributes()) {
-        assert!(!attribute.value().contains("NaN") && !attribute.value().contains("inf"), "{attribute:?}");
+        assert!(
+            !attribute.value().contains("NaN") && !attribute.value().contains("inf"),
+            "{attribute:?}"
+        );
     }
     let nodes: Vec<_> = root.descendants().filter(|node| node.has_tag_name("text")).collect();
     for &node in &nodes {
@@ -43,10 +47,13 @@ fn every_bound_is_named_in_both_panels() {
     let tables = BOUNDS.clone();
     let texts = texts(&svg(&[Measured { mesh: "torus".to_owned(), tables }]).expect("plotted"));
     // Bounded anew about the hull's vertices and about its own, in two panels.
-    for slabs in ["box", "14-DOP", "tribox", "20-DOP", "24-DOP", "26-DOP", "tribox rounded outward"] {
+    for slabs in ["box", "14-DOP", "tribox", "20-DOP", "24-DOP", "26-DOP", "tribox rounded outward"]
+    {
         assert_eq!(times(&texts, slabs), 4, "{slabs}: {texts:?}");
     }
-    for rigid in ["sphere", "oriented box, principal axes", "oriented box, on a face", "convex hull"] {
+    for rigid in
+        ["sphere", "oriented box, principal axes", "oriented box, on a face", "convex hull"]
+    {
         assert_eq!(times(&texts, rigid), 2, "{rigid}: {texts:?}");
     }
     for once in [

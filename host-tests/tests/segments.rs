@@ -1,4 +1,5 @@
-//! Segments against exact predicates: nothing is missed, false hits are touches, and every degenerate case is defined.
+//! Segments against exact predicates: nothing is missed, false hits are touches, and every
+//! degenerate case is defined.
 
 mod scene;
 
@@ -12,14 +13,16 @@ use scene::{Scene, options};
 type Segment = ([f32; 3], [f32; 3]);
 
 fn ask(model: &Model<'_>, (a, b): Segment, stop: &Stop, queue: usize) -> SegmentHit {
-    first_hit(model, a, b, stop, &mut vec![QueueEntry::EMPTY; queue]).expect("a segment in the domain")
+    first_hit(model, a, b, stop, &mut vec![QueueEntry::EMPTY; queue])
+        .expect("a segment in the domain")
 }
 
 fn truth(scene: &Scene, (a, b): Segment) -> Vec<Contact> {
     contacts(a, b, &scene.positions, &scene.triangles)
 }
 
-/// A miss by no more than this is a touch: 1e-12 of the lengths in play, times the aspect ratio where triangles are needles.
+/// A miss by no more than this is a touch: 1e-12 of the lengths in play, times the aspect ratio
+/// where triangles are needles.
 fn touch(scene: &Scene, (a, b): Segment) -> f64 {
     let lengths = a.iter().chain(&b).fold(scene.reach(), |m, x| m.max(f64::from(x.abs())));
     let aspect = if scene.name == "needle comb" { 65_536.0 } else { 1.0 };
@@ -38,7 +41,8 @@ fn surface_error(model: &Model<'_>) -> f64 {
     f64::from(model.header().surface_error) * model.scale()
 }
 
-/// Segments of every kind: across, short, from and to the surface, through vertices, along edges, in a face's plane.
+/// Segments of every kind: across, short, from and to the surface, through vertices, along edges,
+/// in a face's plane.
 fn segments(scene: &Scene, count: usize, rng: &mut Rng) -> Vec<Segment> {
     let mut all = Vec::with_capacity(count);
     for i in 0..count {
@@ -61,7 +65,10 @@ fn segments(scene: &Scene, count: usize, rng: &mut Rng) -> Vec<Segment> {
             8 => (scene.around(1.0, rng), scene.around(1.0, rng)),
             _ => {
                 let near = scene.around(1.0, rng);
-                (near, std::array::from_fn(|k| near[k] + 0.05 * scene.size() * rng.range(-1.0, 1.0)))
+                (
+                    near,
+                    std::array::from_fn(|k| near[k] + 0.05 * scene.size() * rng.range(-1.0, 1.0)),
+                )
             }
         });
     }
@@ -84,7 +91,11 @@ fn check_first(scene: &Scene, segment: Segment, answer: &SegmentHit, contacts: &
         }
     } else if answer.ended == Ended::Exact {
         let hit = answer.hit.unwrap_or_else(|| panic!("missed: {}", say()));
-        let gap = gap_to_triangle(segment.0, segment.1, scene.corners(hit.triangle.expect("a whole blob")));
+        let gap = gap_to_triangle(
+            segment.0,
+            segment.1,
+            scene.corners(hit.triangle.expect("a whole blob")),
+        );
         assert!(gap <= touch(scene, segment), "names a triangle that is {gap:e} away: {}", say());
         assert!(answer.lower <= hit.t && hit.t <= answer.upper, "{}", say());
         // A touch before the first true contact may bound `upper` from below its parameter.
@@ -172,13 +183,18 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
             let contacts = truth(&scene, segment);
             let mut hits = vec![Hit::EMPTY; scene.triangles.len()];
             let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
-            let found = all_hits(&model, segment.0, segment.1, &mut queue, &mut hits).expect("in the domain");
+            let found = all_hits(&model, segment.0, segment.1, &mut queue, &mut hits)
+                .expect("in the domain");
             let hits = &hits[..found.stored];
             assert_eq!((found.ended, found.dropped), (Ended::Exact, 0));
             assert!(hits.is_sorted_by(|x, y| x.t <= y.t), "{}: {hits:?}", scene.name);
             let named: Vec<u32> = hits.iter().map(|h| h.triangle.expect("a whole blob")).collect();
             for contact in &contacts {
-                assert!(named.contains(&contact.triangle), "{}: {segment:?} misses {contact:?}", scene.name);
+                assert!(
+                    named.contains(&contact.triangle),
+                    "{}: {segment:?} misses {contact:?}",
+                    scene.name
+                );
             }
             for (hit, &triangle) in hits.iter().zip(&named) {
                 let gap = gap_to_triangle(segment.0, segment.1, scene.corners(triangle));
@@ -191,7 +207,8 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
                 if let Some(c) = known.filter(|_| surface_error(&model) == 0.0) {
                     let width = c.t_upper - c.t_lower;
                     let off = (f64::from(hit.t) - 0.5 * (c.t_lower + c.t_upper)).abs();
-                    // Where segment and triangle are nearly parallel the crossing is ill-conditioned in f64.
+                    // Where segment and triangle are nearly parallel the crossing is
+                    // ill-conditioned in f64.
                     let steep = crossing_angle(segment, scene.corners(triangle));
                     let lengths = touch(&scene, segment) / length(segment).max(f64::MIN_POSITIVE);
                     assert!(
@@ -215,9 +232,11 @@ fn length((a, b): Segment) -> f64 {
 
 /// Sine of the angle between segment and triangle.
 fn crossing_angle(segment: Segment, [u, v, w]: [[f32; 3]; 3]) -> f64 {
-    let sub =
-        |p: [f32; 3], q: [f32; 3]| glam::DVec3::from(p.map(f64::from)) - glam::DVec3::from(q.map(f64::from));
-    let normal = sub(v, u).normalize_or_zero().cross(sub(w, u).normalize_or_zero()).normalize_or_zero();
+    let sub = |p: [f32; 3], q: [f32; 3]| {
+        glam::DVec3::from(p.map(f64::from)) - glam::DVec3::from(q.map(f64::from))
+    };
+    let normal =
+        sub(v, u).normalize_or_zero().cross(sub(w, u).normalize_or_zero()).normalize_or_zero();
     normal.dot(sub(segment.1, segment.0).normalize_or_zero()).abs()
 }
 
@@ -229,11 +248,12 @@ fn hits_that_do_not_fit_are_counted_and_the_first_are_kept() {
     let mut queue = vec![QueueEntry::EMPTY; 512];
     for segment in segments(&scene, 300, &mut rng) {
         let mut whole = [Hit::EMPTY; 600];
-        let all = all_hits(&model, segment.0, segment.1, &mut queue, &mut whole).expect("in the domain");
+        let all =
+            all_hits(&model, segment.0, segment.1, &mut queue, &mut whole).expect("in the domain");
         for room in 0..4 {
             let mut few = [Hit::EMPTY; 4];
-            let found =
-                all_hits(&model, segment.0, segment.1, &mut queue, &mut few[..room]).expect("in the domain");
+            let found = all_hits(&model, segment.0, segment.1, &mut queue, &mut few[..room])
+                .expect("in the domain");
             assert_eq!(found.stored, room.min(all.stored));
             assert_eq!(found.stored + found.dropped as usize, all.stored);
             assert_eq!(few[..found.stored], whole[..found.stored]);
@@ -241,7 +261,8 @@ fn hits_that_do_not_fit_are_counted_and_the_first_are_kept() {
     }
 }
 
-/// Platis & Theoharis 2003, Figure 5: a segment inside a slot that the hull bridges crosses no hull face on its way.
+/// Platis & Theoharis 2003, Figure 5: a segment inside a slot that the hull bridges crosses no hull
+/// face on its way.
 #[test]
 fn paper_000_figure_5_segment_below_the_hull_is_found() {
     let scene = Scene::new("groove block", groove_block(), &options(12));
@@ -254,17 +275,22 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
     assert!((hit.point[2] - 12.0).abs() < 1e-5 && !first.is_clear(), "{first:?}");
     let mut hits = [Hit::EMPTY; 16];
     let mut queue = [QueueEntry::EMPTY; 512];
-    let found = all_hits(&model, segment.0, segment.1, &mut queue, &mut hits).expect("in the domain");
+    let found =
+        all_hits(&model, segment.0, segment.1, &mut queue, &mut hits).expect("in the domain");
     assert_eq!(found.stored, truth.len());
     let mut words = vec![0u32; 2 * model.capacities().front_words];
     let (performed, swept) = words.split_at_mut(model.capacities().front_words);
     let mut candidates = [meshsweep_core::refine::Face::EMPTY; 256];
     let mut front = meshsweep_core::refine::Front::new(performed, swept, &mut candidates);
     let search = meshsweep_core::query::Search::First;
-    let outer =
-        meshsweep_core::query::outer_hits(&model, segment.0, segment.1, search, &mut front, &mut hits)
-            .expect("in the domain");
-    assert!(outer.starts_inside && outer.lower == 0.0, "the hull cannot promise anything: {outer:?}");
+    let outer = meshsweep_core::query::outer_hits(
+        &model, segment.0, segment.1, search, &mut front, &mut hits,
+    )
+    .expect("in the domain");
+    assert!(
+        outer.starts_inside && outer.lower == 0.0,
+        "the hull cannot promise anything: {outer:?}"
+    );
 }
 
 #[test]
@@ -283,9 +309,12 @@ fn a_start_on_the_surface_hits_at_zero_and_a_start_inside_hits_the_way_out() {
 fn zero_length_segments_hit_where_their_point_is_on_the_surface() {
     let scene = Scene::new("cube", cube(4), &options(12));
     let model = scene.model();
-    for (p, hits) in
-        [([1.0, 0.3, 0.2], true), ([1.0, 1.0, 1.0], true), ([0.9, 0.3, 0.2], false), ([3.0; 3], false)]
-    {
+    for (p, hits) in [
+        ([1.0, 0.3, 0.2], true),
+        ([1.0, 1.0, 1.0], true),
+        ([0.9, 0.3, 0.2], false),
+        ([3.0; 3], false),
+    ] {
         let answer = ask(&model, (p, p), &Stop::EXACT, 64);
         assert_eq!((answer.hit.is_some(), answer.is_clear()), (hits, !hits), "{p:?}");
     }
@@ -310,7 +339,10 @@ fn ends_up_to_2_to_the_40_sizes_away_are_answered_and_farther_ones_refused() {
     let mut hits = [Hit::EMPTY; 4];
     for p in [[far(42), 0.0, 0.0], [0.0, -far(43), 0.0], [0.0, 0.0, f32::MAX]] {
         for (a, b) in [(p, [0.0; 3]), ([0.0; 3], p)] {
-            assert_eq!(first_hit(&model, a, b, &Stop::EXACT, &mut queue), Err(QueryError::OutOfDomain));
+            assert_eq!(
+                first_hit(&model, a, b, &Stop::EXACT, &mut queue),
+                Err(QueryError::OutOfDomain)
+            );
             assert_eq!(all_hits(&model, a, b, &mut queue, &mut hits), Err(QueryError::OutOfDomain));
         }
     }
@@ -324,7 +356,10 @@ fn nan_infinity_no_queue_and_bad_tolerances_are_typed_errors() {
     let good = [0.0; 3];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for (a, b) in [([bad, 0.0, 0.0], good), (good, [0.0, bad, 0.0])] {
-            assert_eq!(first_hit(&model, a, b, &Stop::EXACT, &mut queue), Err(QueryError::NotFinite));
+            assert_eq!(
+                first_hit(&model, a, b, &Stop::EXACT, &mut queue),
+                Err(QueryError::NotFinite)
+            );
             assert_eq!(all_hits(&model, a, b, &mut queue, &mut []), Err(QueryError::NotFinite));
         }
     }

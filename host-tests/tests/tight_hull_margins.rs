@@ -1,11 +1,14 @@
-//! Tight hulls with a margin keep it: proved from the two surfaces alone, by exact distances that share no code with the builder's.
+//! Tight hulls with a margin keep it: proved from the two surfaces alone, by exact distances that
+//! share no code with the builder's.
 
 use std::f64::consts::PI;
 
 use meshsweep_alloc::mesh::{Mesh, RawMesh, repair};
 use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, WrapError, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
-use meshsweep_host_tests::generate::{Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus};
+use meshsweep_host_tests::generate::{
+    Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus,
+};
 
 fn mesh_of((positions, triangles): &Triangles) -> Mesh {
     repair(RawMesh::from_f32(positions, triangles)).expect("a mesh").0
@@ -40,11 +43,15 @@ fn size(mesh: &Mesh) -> f64 {
 
 #[test]
 fn solids_keep_their_margin_small_or_large() {
-    let meshes =
-        [("torus", torus(1.0, 0.3, 24, 12), 1e-6), ("bracket", bracket(), 0.1), ("comb", needle_comb(), 1.0)];
+    let meshes = [
+        ("torus", torus(1.0, 0.3, 24, 12), 1e-6),
+        ("bracket", bracket(), 0.1),
+        ("comb", needle_comb(), 1.0),
+    ];
     for (name, of, part) in &meshes {
         let mesh = mesh_of(of);
-        let report = proved(&format!("{name} by {part}"), &mesh, &options(100, part * size(&mesh))).report;
+        let report =
+            proved(&format!("{name} by {part}"), &mesh, &options(100, part * size(&mesh))).report;
         assert!(report.faces <= 100 && report.stop == Stop::Reached, "{name} {part}: {report:?}");
     }
 }
@@ -85,7 +92,8 @@ fn scale_does_not_matter_to_a_margin() {
     }
 }
 
-/// Volume of all points within `d` of a convex solid of volume, area and sum of edges' lengths times the angles between normals (Steiner).
+/// Volume of all points within `d` of a convex solid of volume, area and sum of edges' lengths
+/// times the angles between normals (Steiner).
 fn grown([volume, area, edges]: [f64; 3], d: f64) -> f64 {
     volume + area * d + edges * d * d / 2.0 + 4.0 / 3.0 * PI * d * d * d
 }
@@ -114,7 +122,11 @@ fn a_slack_is_kept_with_a_margin() {
     let mesh = mesh_of(&cube(2));
     let of = |goal| Options { goal, effort: 0.0, ..options(0, 0.5) };
     let hull = proved("slack", &mesh, &of(Goal::Slack(0.9)));
-    assert!(hull.report.slack.upper <= 0.9 && hull.report.stop == Stop::Reached, "{:?}", hull.report);
+    assert!(
+        hull.report.slack.upper <= 0.9 && hull.report.stop == Stop::Reached,
+        "{:?}",
+        hull.report
+    );
 }
 
 #[test]
@@ -140,7 +152,10 @@ fn the_checker_refuses_a_margin_that_is_not_kept() {
         assert!(check_margin(&inner, &outer, margin).is_ok(), "{margin}");
     }
     for margin in [1.0, 1.5, 10.0] {
-        assert!(check_margin(&inner, &outer, margin).unwrap_err().contains("not farther"), "{margin}");
+        assert!(
+            check_margin(&inner, &outer, margin).unwrap_err().contains("not farther"),
+            "{margin}"
+        );
     }
     assert!(check_margin(&inner, &outer, f64::NAN).is_err());
 }

@@ -1,4 +1,5 @@
-//! Tight hulls enclose what they were made of: proved from the two surfaces alone, by a checker that shares no code with the builder.
+//! Tight hulls enclose what they were made of: proved from the two surfaces alone, by a checker
+//! that shares no code with the builder.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -6,12 +7,14 @@ use std::time::Duration;
 
 use meshsweep_alloc::hull::{BuildOptions, hull_of};
 use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair};
-use meshsweep_alloc::wrap::{Goal, Hull, NoVolume, Options, Start, Stop, WrapError, share, wrap, wrap_all};
+use meshsweep_alloc::wrap::{
+    Goal, Hull, NoVolume, Options, Start, Stop, WrapError, share, wrap, wrap_all,
+};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb, rough_sphere,
-    scaled, torus, transformed, two_parts,
+    Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb,
+    rough_sphere, scaled, torus, transformed, two_parts,
 };
 use meshsweep_host_tests::oracle::rough_distance_sq;
 
@@ -35,12 +38,15 @@ fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
 
 fn prove(name: &str, mesh: &Mesh, hull: &Hull) {
     let surface = |m: &Mesh| Surface::new(&m.positions, &m.triangles);
-    let proof =
-        check_enclosure(&surface(mesh), &surface(&hull.mesh)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let proof = check_enclosure(&surface(mesh), &surface(&hull.mesh))
+        .unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(proof.inside, mesh.positions.len(), "{name}");
     assert_eq!(proof.faces, hull.report.faces, "{name}");
     let slack = hull.report.slack;
-    assert!(0.0 <= slack.lower && slack.lower <= slack.upper && slack.upper.is_finite(), "{name}: {slack:?}");
+    assert!(
+        0.0 <= slack.lower && slack.lower <= slack.upper && slack.upper.is_finite(),
+        "{name}: {slack:?}"
+    );
 }
 
 /// Turned, so that no face lies in a plane of coordinates.
@@ -71,7 +77,11 @@ fn pocket() -> Triangles {
         };
         for k in 0..n {
             let phi = TAU * k as f64 / n as f64;
-            positions.push([(radius * phi.cos()) as f32, (radius * phi.sin()) as f32, height as f32]);
+            positions.push([
+                (radius * phi.cos()) as f32,
+                (radius * phi.sin()) as f32,
+                height as f32,
+            ]);
         }
     }
     positions.push([0.0, 0.0, -1.3]);
@@ -133,7 +143,8 @@ fn hulls_are_no_looser_than_progressive_hulls_of_as_many_faces() {
             if faces == 12 && *name != "cube" {
                 continue;
             }
-            let (nested, void, _) = hull_of(&mesh, faces, &BuildOptions::default(), |_| {}).expect("a solid");
+            let (nested, void, _) =
+                hull_of(&mesh, faces, &BuildOptions::default(), |_| {}).expect("a solid");
             if nested.triangles.len() > faces {
                 continue;
             }
@@ -156,7 +167,8 @@ fn scale_and_place_do_not_matter() {
     }
     for shift in [1e3, 1e6] {
         let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let mesh = mesh_of(&transformed(&torus(1.0, 0.4, 20, 10), identity, [shift, -shift, shift]));
+        let mesh =
+            mesh_of(&transformed(&torus(1.0, 0.4, 20, 10), identity, [shift, -shift, shift]));
         proved(&format!("moved by {shift:e}"), &mesh, &options(70));
     }
 }
@@ -206,10 +218,14 @@ fn triangles_without_area_are_enclosed_with_the_mesh() {
     for margin in [0.0, 0.1] {
         let options = Options { margin, ..options(100) };
         let hull = wrap_all(&mesh, &further, &options, |_| {}).unwrap();
-        check_margin(&all, &Surface::new(&hull.mesh.positions, &hull.mesh.triangles), margin).unwrap();
+        check_margin(&all, &Surface::new(&hull.mesh.positions, &hull.mesh.triangles), margin)
+            .unwrap();
         assert!(hull.report.void.is_ok(), "the mesh is still a solid");
         let parts = share(vec![mesh.clone()], &further);
-        assert_eq!(parts.iter().map(|(m, f)| [m.triangles.len(), f.len()]).collect::<Vec<_>>()[0], [48, 2]);
+        assert_eq!(
+            parts.iter().map(|(m, f)| [m.triangles.len(), f.len()]).collect::<Vec<_>>()[0],
+            [48, 2]
+        );
         assert_eq!(parts.len(), 4, "three are at no vertex of the mesh");
     }
 }
@@ -219,7 +235,8 @@ fn a_short_time_has_a_hull_and_says_so() {
     let mesh = mesh_of(&rough_sphere(5, 0.3, 2));
     for micros in [0, 20_000] {
         let limit = Some(Duration::from_micros(micros));
-        let hull = proved("hurried", &mesh, &Options { time_limit: limit, effort: 1e6, ..options(200) });
+        let hull =
+            proved("hurried", &mesh, &Options { time_limit: limit, effort: 1e6, ..options(200) });
         assert_eq!(hull.report.stop, Stop::OutOfTime);
     }
 }
@@ -228,7 +245,9 @@ fn a_short_time_has_a_hull_and_says_so() {
 fn evil_meshes_have_a_hull_or_a_reason() {
     let mut known: Vec<Mesh> = Vec::new();
     for case in evil() {
-        let Ok((mesh, _)) = read_bytes(Path::new(case.name), case.bytes).and_then(repair) else { continue };
+        let Ok((mesh, _)) = read_bytes(Path::new(case.name), case.bytes).and_then(repair) else {
+            continue;
+        };
         // Of what is only written in another way the hull is known.
         if known.iter().any(|m| m.positions == mesh.positions && m.triangles == mesh.triangles) {
             continue;
@@ -253,7 +272,8 @@ fn the_same_mesh_gives_the_same_hull() {
 #[test]
 fn effort_makes_hulls_tighter() {
     let mesh = mesh_of(&rough_sphere(3, 0.3, 5));
-    let void = |effort| proved("rough", &mesh, &Options { effort, ..options(80) }).report.void.unwrap();
+    let void =
+        |effort| proved("rough", &mesh, &Options { effort, ..options(80) }).report.void.unwrap();
     let [none, some] = [0.0, 0.2].map(void);
     assert!(some < 0.97 * none, "{some} {none}");
 }
@@ -263,15 +283,25 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
     let mesh = mesh_of(&rough_sphere(2, 0.3, 9));
     let mut last = usize::MAX;
     for most in [0.05, 0.2, 0.8] {
-        let hull = proved("void", &mesh, &Options { goal: Goal::Void(most), effort: 0.0, ..options(0) });
-        assert!(hull.report.void.unwrap() <= most && hull.report.stop == Stop::Reached, "{:?}", hull.report);
+        let hull =
+            proved("void", &mesh, &Options { goal: Goal::Void(most), effort: 0.0, ..options(0) });
+        assert!(
+            hull.report.void.unwrap() <= most && hull.report.stop == Stop::Reached,
+            "{:?}",
+            hull.report
+        );
         assert!(hull.report.faces <= last);
         last = hull.report.faces;
     }
     last = usize::MAX;
     for most in [0.03, 0.1, 0.4] {
-        let hull = proved("slack", &mesh, &Options { goal: Goal::Slack(most), effort: 0.0, ..options(0) });
-        assert!(hull.report.slack.upper <= most && hull.report.stop == Stop::Reached, "{:?}", hull.report);
+        let hull =
+            proved("slack", &mesh, &Options { goal: Goal::Slack(most), effort: 0.0, ..options(0) });
+        assert!(
+            hull.report.slack.upper <= most && hull.report.stop == Stop::Reached,
+            "{:?}",
+            hull.report
+        );
         assert!(hull.report.faces <= last);
         last = hull.report.faces;
     }
@@ -302,14 +332,19 @@ fn the_checker_refuses_what_is_not_proved() {
 
 /// A box with a square pit, and a ball in it that touches nothing.
 fn ball_in_a_pit(radius: f32, height: f32) -> Triangles {
-    let square = |half: f32, z: f32| [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]];
-    let positions = [square(2.0, -2.0), square(2.0, 2.0), square(0.6, 2.0), square(0.6, -1.6)].concat();
+    let square = |half: f32, z: f32| {
+        [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]]
+    };
+    let positions =
+        [square(2.0, -2.0), square(2.0, 2.0), square(0.6, 2.0), square(0.6, -1.6)].concat();
     let mut triangles = Vec::new();
     let mut quad = |[a, b, c, d]: [u32; 4]| triangles.extend([[a, b, c], [a, c, d]]);
     quad([0, 3, 2, 1]);
     for k in 0..4 {
         let next = (k + 1) % 4;
-        (0..12).step_by(4).for_each(|ring| quad([ring + k, ring + next, ring + 4 + next, ring + 4 + k]));
+        (0..12)
+            .step_by(4)
+            .for_each(|ring| quad([ring + k, ring + next, ring + 4 + next, ring + 4 + k]));
     }
     quad([12, 13, 14, 15]);
     let ball = scaled(&icosphere(1), radius);
@@ -319,7 +354,8 @@ fn ball_in_a_pit(radius: f32, height: f32) -> Triangles {
 
 #[test]
 fn a_hull_that_comes_to_enclose_a_part_of_itself_drops_that_part() {
-    let report = proved("a ball in a pit", &mesh_of(&ball_in_a_pit(0.1, -1.0)), &options(24)).report;
+    let report =
+        proved("a ball in a pit", &mesh_of(&ball_in_a_pit(0.1, -1.0)), &options(24)).report;
     assert!(report.filled > 0, "{report:?}");
 }
 
@@ -341,7 +377,8 @@ fn farthest_of(hull: &Mesh, mesh: &Mesh) -> f64 {
         for (i, j) in (0..=STEPS).flat_map(|i| (0..=STEPS - i).map(move |j| (i, j))) {
             let weights = [i, j, STEPS - i - j].map(|w| w as f32 / STEPS as f32);
             let p = [0, 1, 2].map(|axis| (0..3).map(|k| weights[k] * face[k][axis]).sum::<f32>());
-            let nearest_sq = mesh.iter().map(|t| rough_distance_sq(p, *t)).fold(f64::INFINITY, f64::min);
+            let nearest_sq =
+                mesh.iter().map(|t| rough_distance_sq(p, *t)).fold(f64::INFINITY, f64::min);
             farthest_sq = farthest_sq.max(nearest_sq);
         }
     }
@@ -354,7 +391,10 @@ const STEPS: u32 = 6;
 
 #[test]
 fn within_a_slack_no_point_of_a_hull_is_farther_and_faces_are_fewer_than_by_number() {
-    let cases = [("turned bracket", turned(&bracket()), 120), ("rough sphere", rough_sphere(3, 0.2, 4), 150)];
+    let cases = [
+        ("turned bracket", turned(&bracket()), 120),
+        ("rough sphere", rough_sphere(3, 0.2, 4), 150),
+    ];
     for (name, triangles, faces) in cases {
         let mesh = mesh_of(&triangles);
         let by_number = proved(name, &mesh, &options(faces));
@@ -367,7 +407,11 @@ fn within_a_slack_no_point_of_a_hull_is_farther_and_faces_are_fewer_than_by_numb
         // A hull that wastes no slack is near it somewhere.
         assert!(found >= 0.5 * most, "{name}: {found} {most}");
         let few = by_slack.report.faces;
-        assert!(few * 20 <= by_number.report.faces * 19, "{name}: {few} of {}", by_number.report.faces);
+        assert!(
+            few * 20 <= by_number.report.faces * 19,
+            "{name}: {few} of {}",
+            by_number.report.faces
+        );
     }
 }
 
@@ -386,7 +430,11 @@ fn a_slack_beyond_a_margin_leaves_no_spikes() {
 #[test]
 fn a_slack_that_no_hull_can_keep_is_said_to_be_unmet() {
     let mesh = mesh_of(&turned(&cube(1)));
-    let hull = proved("tiny slack", &mesh, &Options { goal: Goal::Slack(1e-12), effort: 0.0, ..options(0) });
+    let hull = proved(
+        "tiny slack",
+        &mesh,
+        &Options { goal: Goal::Slack(1e-12), effort: 0.0, ..options(0) },
+    );
     assert_eq!(hull.report.stop, Stop::TooLoose);
     assert!(hull.report.slack.upper > 1e-12);
 }
@@ -397,7 +445,8 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
         for time in [0, 1, 20_000, 200_000] {
             let mesh = mesh_of(&triangles);
             let time_limit = Some(Duration::from_micros(time));
-            let options = Options { goal: Goal::Slack(1e-3), time_limit, effort: 0.0, ..options(0) };
+            let options =
+                Options { goal: Goal::Slack(1e-3), time_limit, effort: 0.0, ..options(0) };
             let hull = proved("late", &mesh, &options);
             let report = hull.report;
             let is_kept = farthest_of(&hull.mesh, &mesh) <= 1e-3;
@@ -405,6 +454,7 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
             assert!(time > 1 || report.stop == Stop::OutOfTime, "{time} {report:?}");
         }
     }
-    let refused = wrap(&mesh_of(&cube(1)), &Options { goal: Goal::Slack(f64::NAN), ..options(0) }, |_| {});
+    let refused =
+        wrap(&mesh_of(&cube(1)), &Options { goal: Goal::Slack(f64::NAN), ..options(0) }, |_| {});
     assert!(matches!(refused.unwrap_err(), WrapError::SlackWithinMargin { .. }));
 }

@@ -35,7 +35,8 @@ fn one_at_a_time(
 
 #[test]
 fn a_batch_has_the_bits_of_its_queries_whatever_its_order() {
-    for (mesh, size) in [(torus(2.0, 0.75, 60, 40), 4.0), (scaled(&rough_sphere(3, 0.3, 2), 1.0e30), 2.0e30)]
+    for (mesh, size) in
+        [(torus(2.0, 0.75, 60, 40), 4.0), (scaled(&rough_sphere(3, 0.3, 2), 1.0e30), 2.0e30)]
     {
         let bytes = blob(&mesh);
         let tree = Tree::open(&bytes).unwrap();
@@ -44,7 +45,9 @@ fn a_batch_has_the_bits_of_its_queries_whatever_its_order() {
         // Equal ones, one far away, one at the end of f32.
         points.extend([[0.25 * size; 3]; 20]);
         points.extend([[1.0e7 * size, 0.0, 0.0], [f32::MAX, f32::MIN, 0.0]]);
-        for stop in [Stop::EXACT, Stop { relative: 0.1, ..Stop::EXACT }, Stop { steps: 3, ..Stop::EXACT }] {
+        for stop in
+            [Stop::EXACT, Stop { relative: 0.1, ..Stop::EXACT }, Stop { steps: 3, ..Stop::EXACT }]
+        {
             for entries in [needed, 4] {
                 let mut stack = vec![TreeEntry::EMPTY; entries];
                 let wanted = one_at_a_time(&tree, &points, &stop, &mut stack);
@@ -52,10 +55,22 @@ fn a_batch_has_the_bits_of_its_queries_whatever_its_order() {
                     let mut answers = vec![wanted[0]; points.len()];
                     let mut order = vec![u64::MAX; room];
                     let mut hint = Hint::NONE;
-                    closest_points(&tree, &points, &mut answers, &stop, &mut stack, &mut order, &mut hint)
-                        .unwrap();
+                    closest_points(
+                        &tree,
+                        &points,
+                        &mut answers,
+                        &stop,
+                        &mut stack,
+                        &mut order,
+                        &mut hint,
+                    )
+                    .unwrap();
                     for (answer, wanted) in answers.iter().zip(&wanted) {
-                        assert_eq!(bits(answer), bits(wanted), "{stop:?}, {entries} entries, room {room}");
+                        assert_eq!(
+                            bits(answer),
+                            bits(wanted),
+                            "{stop:?}, {entries} entries, room {room}"
+                        );
                     }
                 }
             }
@@ -75,7 +90,9 @@ fn threads_do_not_change_a_bit() {
             let threads = NonZeroUsize::new(threads).unwrap();
             let answers = tree::closest_points(&tree, &points, &Stop::EXACT, threads).unwrap();
             assert_eq!(answers.len(), count);
-            assert!(answers.iter().zip(&wanted).all(|(answer, wanted)| bits(answer) == bits(wanted)));
+            assert!(
+                answers.iter().zip(&wanted).all(|(answer, wanted)| bits(answer) == bits(wanted))
+            );
         }
     }
 }
@@ -88,7 +105,8 @@ fn a_batch_in_order_takes_less_work() {
     let mut stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
     let one = one_at_a_time(&tree, &points, &Stop::EXACT, &mut stack);
     let batch = tree::closest_points(&tree, &points, &Stop::EXACT, NonZeroUsize::MIN).unwrap();
-    let total = |answers: &[ClosestPoint]| answers.iter().map(|a| u64::from(a.work.total())).sum::<u64>();
+    let total =
+        |answers: &[ClosestPoint]| answers.iter().map(|a| u64::from(a.work.total())).sum::<u64>();
     assert!(total(&batch) < total(&one), "{} against {}", total(&batch), total(&one));
 }
 
@@ -101,8 +119,15 @@ fn errors_are_typed_and_name_the_query() {
     let untouched = one_at_a_time(&tree, &points[..1], &Stop::EXACT, &mut stack)[0];
     let ask = |points: &[[f32; 3]], answers: usize, stop: &Stop, stack: &mut [TreeEntry]| {
         let mut answers = vec![untouched; answers];
-        let result =
-            closest_points(&tree, points, &mut answers, stop, stack, &mut [0; 40], &mut Hint::NONE.clone());
+        let result = closest_points(
+            &tree,
+            points,
+            &mut answers,
+            stop,
+            stack,
+            &mut [0; 40],
+            &mut Hint::NONE.clone(),
+        );
         assert!(result.is_ok() || answers.iter().all(|a| *a == untouched));
         result
     };

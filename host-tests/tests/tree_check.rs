@@ -1,4 +1,5 @@
-//! The independent checker proves box trees that the builder wrote, and does not prove what was damaged afterwards.
+//! The independent checker proves box trees that the builder wrote, and does not prove what was
+//! damaged afterwards.
 
 use meshsweep_alloc::emit;
 use meshsweep_alloc::mesh::Mesh;
@@ -6,8 +7,8 @@ use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_host_tests::check::{TreeProof, check_tree};
 use meshsweep_host_tests::corrupt::{Entry, entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::{
-    Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled, torus, transformed,
-    two_parts,
+    Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled, torus,
+    transformed, two_parts,
 };
 
 // Kinds of sections.
@@ -49,10 +50,20 @@ fn every_generated_mesh_is_proved_contained() {
         ("two parts", two_parts()),
         (
             "far from its origin",
-            transformed(&bracket(), [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]], [900.0, -7.0, 0.5]),
+            transformed(
+                &bracket(),
+                [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]],
+                [900.0, -7.0, 0.5],
+            ),
         ),
-        ("flat", transformed(&cube(4), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]], [0.0; 3])),
-        ("a line", transformed(&cube(2), [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]], [0.0; 3])),
+        (
+            "flat",
+            transformed(&cube(4), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]], [0.0; 3]),
+        ),
+        (
+            "a line",
+            transformed(&cube(2), [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]], [0.0; 3]),
+        ),
         ("small", scaled(&torus(2.0, 0.75, 12, 8), 1.0e-30)),
         ("large", scaled(&torus(2.0, 0.75, 12, 8), 1.0e30)),
     ];
@@ -92,7 +103,8 @@ fn one_triangle_and_one_point_are_trees() {
 
 /// Changes a blob and reseals it; the checker's complaint.
 fn damaged(kind: u32, damage: impl Fn(&mut [u8], Entry)) -> String {
-    let (mut bytes, mesh) = scene(bracket(), &TreeOptions { segments: true, ..TreeOptions::default() });
+    let (mut bytes, mesh) =
+        scene(bracket(), &TreeOptions { segments: true, ..TreeOptions::default() });
     check_tree(&bytes, &mesh).expect("sound before");
     let entry = entry(&bytes, kind);
     damage(&mut bytes, entry);
@@ -162,7 +174,8 @@ fn a_wrong_source_number_is_noticed() {
 fn a_node_with_two_parents_is_noticed() {
     let complaint = damaged(LINKS, |bytes, entry| {
         let (from, links) = (entry.offset as usize, entry.bytes as usize / 20);
-        let inner = |bytes: &[u8], node: usize| word(bytes, from + 20 * node).expect("there") >> 24 & 15;
+        let inner =
+            |bytes: &[u8], node: usize| word(bytes, from + 20 * node).expect("there") >> 24 & 15;
         let later = (1..links).find(|&node| inner(bytes, node) > 0).expect("a node with nodes");
         let first = word(bytes, from + 20 * later).expect("there");
         put_u32(bytes, from + 20 * later, first & 0xFF00_0000 | 1);

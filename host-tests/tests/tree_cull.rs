@@ -1,4 +1,5 @@
-//! No triangle that faces the eye is ever culled: against every triangle, in f64, but for triangles within 1e-15 of edge-on.
+//! No triangle that faces the eye is ever culled: against every triangle, in f64, but for triangles
+//! within 1e-15 of edge-on.
 
 use meshsweep_alloc::emit;
 use meshsweep_alloc::mesh::Mesh;
@@ -7,8 +8,8 @@ use meshsweep_core::Tree;
 use meshsweep_core::query::QueryError;
 use meshsweep_core::query::tree::{FrontFacing, Sight, front_facing};
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, icosphere, inverted, joined, needle_comb, rough_sphere, scaled, torus,
-    transformed,
+    Rng, Triangles, bracket, cube, icosphere, inverted, joined, needle_comb, rough_sphere, scaled,
+    torus, transformed,
 };
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
@@ -20,7 +21,8 @@ fn culling(single: bool) -> TreeOptions {
     TreeOptions { cull: true, single, ..TreeOptions::default() }
 }
 
-/// Corners of all triangles as stored, input units, by number in the input file. Products of two are exact in f64.
+/// Corners of all triangles as stored, input units, by number in the input file. Products of two
+/// are exact in f64.
 fn stored(tree: &Tree<'_>) -> Vec<(u32, [[f64; 3]; 3])> {
     let unit = (f64::from(tree.scale_exponent() + tree.header().grid_exponent)).exp2();
     let mut triangles = Vec::new();
@@ -30,7 +32,8 @@ fn stored(tree: &Tree<'_>) -> Vec<(u32, [[f64; 3]; 3])> {
             let patch = tree.leaf(node, lane).unwrap();
             for place in 0..patch.tag().triangles() {
                 let number = tree.source(links.triangle(lane) + place as u32).unwrap();
-                let corners = patch.corners(place).map(|c| c.to_array().map(|x| f64::from(x) * unit));
+                let corners =
+                    patch.corners(place).map(|c| c.to_array().map(|x| f64::from(x) * unit));
                 triangles.push((number, corners));
             }
         }
@@ -46,7 +49,8 @@ fn cross([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 3] {
     [b * f - c * e, c * d - a * f, a * e - b * d]
 }
 
-/// Whether a triangle may face the eye: the triple product in f64, positive by more than it can be off.
+/// Whether a triangle may face the eye: the triple product in f64, positive by more than it can be
+/// off.
 fn faces([a, b, c]: [[f64; 3]; 3], sight: &Sight) -> bool {
     let (e, g) = (minus(b, a), minus(c, a));
     let way = match sight {
@@ -70,10 +74,17 @@ fn meshes() -> Vec<(&'static str, Triangles)> {
         ("needles", needle_comb()),
         ("bracket", bracket()),
         ("cube", cube(8)),
-        ("flat", transformed(&cube(4), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]], [0.0; 3])),
+        (
+            "flat",
+            transformed(&cube(4), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]], [0.0; 3]),
+        ),
         (
             "far from its origin",
-            transformed(&bracket(), [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]], [900.0, -7.0, 0.5]),
+            transformed(
+                &bracket(),
+                [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]],
+                [900.0, -7.0, 0.5],
+            ),
         ),
         ("small", scaled(&torus(2.0, 0.75, 12, 8), 1.0e-12)),
     ]
@@ -93,7 +104,9 @@ fn sights(mesh: &Triangles, rng: &mut Rng) -> Vec<Sight> {
         let [a, b, c] = mesh.1[rng.below(mesh.1.len())].map(|v| mesh.0[v as usize]);
         sights.push(Sight::From(a));
         let (v, w) = (rng.range(-3.0, 3.0), rng.range(-3.0, 3.0));
-        sights.push(Sight::From(core::array::from_fn(|k| a[k] + v * (b[k] - a[k]) + w * (c[k] - a[k]))));
+        sights.push(Sight::From(core::array::from_fn(|k| {
+            a[k] + v * (b[k] - a[k]) + w * (c[k] - a[k])
+        })));
     }
     for axis in 0..3 {
         for sign in [-1.0, 1.0] {
@@ -116,7 +129,10 @@ fn no_triangle_that_faces_the_eye_is_culled() {
             for sight in sights(&mesh, &mut Rng::new(11)) {
                 let found = front_facing(&tree, &sight, &mut out).unwrap();
                 let kept = &out[..found.stored];
-                assert_eq!((found.dropped, found.stored + found.culled as usize), (0, triangles.len()));
+                assert_eq!(
+                    (found.dropped, found.stored + found.culled as usize),
+                    (0, triangles.len())
+                );
                 let mut left = vec![true; mesh.1.len()];
                 kept.iter().for_each(|&number| left[number as usize] = false);
                 for (number, corners) in &triangles {
@@ -148,7 +164,8 @@ fn a_flat_face_is_culled_exactly() {
     let mesh = cube(8);
     let bytes = blob(&mesh, &culling(false));
     let tree = Tree::open(&bytes).unwrap();
-    let found = front_facing(&tree, &Sight::Along([0.2, 0.3, -1.0]), &mut vec![0; mesh.1.len()]).unwrap();
+    let found =
+        front_facing(&tree, &Sight::Along([0.2, 0.3, -1.0]), &mut vec![0; mesh.1.len()]).unwrap();
     // Leaves over an edge see both faces.
     assert!(
         found.culled as usize > mesh.1.len() / 3 && found.culled as usize <= mesh.1.len() / 2,
@@ -179,7 +196,10 @@ fn refusals_are_typed_and_a_direction_of_no_length_leaves_nothing_out() {
     let plain = blob(&mesh, &TreeOptions::default());
     let with = blob(&mesh, &culling(false));
     let eye = Sight::From([5.0, 4.0, 3.0]);
-    assert_eq!(front_facing(&Tree::open(&plain).unwrap(), &eye, &mut []), Err(QueryError::NotServed));
+    assert_eq!(
+        front_facing(&Tree::open(&plain).unwrap(), &eye, &mut []),
+        Err(QueryError::NotServed)
+    );
     let tree = Tree::open(&with).unwrap();
     for nan in [Sight::From([f32::NAN, 0.0, 0.0]), Sight::Along([0.0, f32::INFINITY, 0.0])] {
         assert_eq!(front_facing(&tree, &nan, &mut []), Err(QueryError::NotFinite));

@@ -2,12 +2,13 @@
 
 use glam::Vec3;
 use meshsweep_core::fan::{
-    Edges8, FanRay, LANES_BELOW, Nearness, Ring8, STILL, WIDTH, point_patch, point_patch8, ray_patch,
-    ray_patch8,
+    Edges8, FanRay, LANES_BELOW, Nearness, Ring8, STILL, WIDTH, point_patch, point_patch8,
+    ray_patch, ray_patch8,
 };
 use meshsweep_host_tests::generate::Rng;
 
-/// What a leaf holds: triangle `i` is `(centre, ring[i], ring[i + 1])`, its centre the second from `turn` on.
+/// What a leaf holds: triangle `i` is `(centre, ring[i], ring[i + 1])`, its centre the second from
+/// `turn` on.
 struct Patch {
     centres: [Vec3; 2],
     ring: Vec<Vec3>,
@@ -32,7 +33,8 @@ fn vector(rng: &mut Rng, size: f32) -> Vec3 {
     Vec3::from_array(rng.point_in([-size; 3], [size; 3]))
 }
 
-/// Patches on a grid and of any f32, some of them with vertices that coincide, lie on a line or in a plane.
+/// Patches on a grid and of any f32, some of them with vertices that coincide, lie on a line or in
+/// a plane.
 fn patch(rng: &mut Rng) -> Patch {
     let size = [4.0, 300.0, 60_000.0, 1e-3, 1.0][rng.below(5)];
     let at = vector(rng, 30_000.0);
@@ -104,8 +106,11 @@ fn points_get_the_same_bits_from_eight_lanes() {
             let mut edges = Edges8 { e: anything, g: anything, s: anything };
             for lane in 0..patch.count() {
                 let which = patch.centre(lane);
-                let sides = [spoke(lane, which), spoke(lane + 1, which), s[which]].map(|v| v.to_array());
-                for (rows, side) in [&mut edges.e, &mut edges.g, &mut edges.s].into_iter().zip(sides) {
+                let sides =
+                    [spoke(lane, which), spoke(lane + 1, which), s[which]].map(|v| v.to_array());
+                for (rows, side) in
+                    [&mut edges.e, &mut edges.g, &mut edges.s].into_iter().zip(sides)
+                {
                     rows.iter_mut().zip(side).for_each(|(row, x)| row[lane] = x);
                 }
             }
@@ -114,7 +119,12 @@ fn points_get_the_same_bits_from_eight_lanes() {
                 let bits = |x: [f32; 4]| x.map(f32::to_bits);
                 assert_eq!(
                     bits([near.distance_sq, near.certified_sq, near.v, near.w]),
-                    bits([wide.distance_sq[lane], wide.certified_sq[lane], wide.v[lane], wide.w[lane]]),
+                    bits([
+                        wide.distance_sq[lane],
+                        wide.certified_sq[lane],
+                        wide.v[lane],
+                        wide.w[lane]
+                    ]),
                     "lane {lane}: {near:?}, from {p:?}: {:?} {:?}",
                     patch.centres,
                     patch.ring
@@ -158,9 +168,17 @@ fn segments_get_the_same_triangles_from_eight_lanes() {
             let surface = [0.0, 0.87, 1e-4][rng.below(3)];
             let ray = ray(from, target, surface, &vertices);
             let shadows = patch.ring.iter().map(|&vertex| ray.shadow(vertex));
-            let lanes = ray_patch(&ray, patch.turn, patch.centres.map(|centre| ray.shadow(centre)), shadows);
-            let mut ring =
-                Ring8 { here: [[f32::NAN; WIDTH]; 3], next: [[f32::NAN; WIDTH]; 3], centres: [[0.0; 3]; 2] };
+            let lanes = ray_patch(
+                &ray,
+                patch.turn,
+                patch.centres.map(|centre| ray.shadow(centre)),
+                shadows,
+            );
+            let mut ring = Ring8 {
+                here: [[f32::NAN; WIDTH]; 3],
+                next: [[f32::NAN; WIDTH]; 3],
+                centres: [[0.0; 3]; 2],
+            };
             for (k, axis) in ray.axes().into_iter().enumerate() {
                 for lane in 0..patch.count() {
                     ring.here[k][lane] = patch.ring[lane][axis];
@@ -170,14 +188,19 @@ fn segments_get_the_same_triangles_from_eight_lanes() {
                     ring.centres[which][k] = patch.centres[which][axis];
                 }
             }
-            let wide = ray_patch8(&ray, &ring, &LANES_BELOW[patch.turn], &LANES_BELOW[patch.count()]);
+            let wide =
+                ray_patch8(&ray, &ring, &LANES_BELOW[patch.turn], &LANES_BELOW[patch.count()]);
             assert_eq!(lanes, wide, "{from:?} {target:?}: {:?} {:?}", patch.centres, patch.ring);
             // What is settled as met was flagged.
             for lane in 0..patch.count() {
-                let corners = [patch.centres[patch.centre(lane)], patch.ring[lane], patch.ring[lane + 1]];
+                let corners =
+                    [patch.centres[patch.centre(lane)], patch.ring[lane], patch.ring[lane + 1]];
                 let crossing = ray.crossing(corners.map(|v| ray.shadow(v)), 0.0);
                 if crossing.is_some_and(|crossing| crossing.stored | crossing.certain) {
-                    assert!(lanes >> lane & 1 != 0, "lane {lane}, {from:?} {target:?}: {corners:?}");
+                    assert!(
+                        lanes >> lane & 1 != 0,
+                        "lane {lane}, {from:?} {target:?}: {corners:?}"
+                    );
                 }
             }
             flagged += lanes.count_ones();

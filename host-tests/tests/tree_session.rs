@@ -1,4 +1,5 @@
-//! A session answers with the bits of the plain query, wherever the query goes, and its safe radius is safe.
+//! A session answers with the bits of the plain query, wherever the query goes, and its safe radius
+//! is safe.
 
 use meshsweep_alloc::emit;
 use meshsweep_alloc::mesh::Mesh;
@@ -7,7 +8,8 @@ use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{Followed, Session, TreeEntry, closest_point};
 use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop};
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, icosphere, joined, needle_comb, rough_sphere, scaled, torus, transformed,
+    Rng, Triangles, bracket, cube, icosphere, joined, needle_comb, rough_sphere, scaled, torus,
+    transformed,
 };
 use meshsweep_host_tests::oracle::rough_distance_sq;
 
@@ -21,7 +23,8 @@ fn stack(tree: &Tree<'_>) -> Vec<TreeEntry> {
     vec![TreeEntry::EMPTY; tree.header().stack_entries as usize]
 }
 
-/// A closed part, a rough one, needles, a soup with repeats and triangles without area, one far from its origin, small ones.
+/// A closed part, a rough one, needles, a soup with repeats and triangles without area, one far
+/// from its origin, small ones.
 fn meshes() -> Vec<(&'static str, Triangles)> {
     let (positions, mut triangles) = rough_sphere(3, 0.3, 9);
     triangles.extend_from_within(..40);
@@ -37,7 +40,10 @@ fn meshes() -> Vec<(&'static str, Triangles)> {
         ("tiny", scaled(&icosphere(3), 1.0e-30)),
         (
             "two triangles",
-            (vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]], vec![[0, 1, 2], [1, 3, 2]]),
+            (
+                vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]],
+                vec![[0, 1, 2], [1, 3, 2]],
+            ),
         ),
     ]
 }
@@ -97,7 +103,9 @@ fn journey(mesh: &Triangles, count: usize, seed: u64) -> Vec<[f32; 3]> {
     }
     points.extend(mesh.0.iter().take(60));
     let (_, _, diagonal) = extent(mesh);
-    points.extend([1.0e3, 1.0e7, 1.0e9].map(|far| [far * diagonal, -far * diagonal, 0.5 * far * diagonal]));
+    points.extend(
+        [1.0e3, 1.0e7, 1.0e9].map(|far| [far * diagonal, -far * diagonal, 0.5 * far * diagonal]),
+    );
     points.extend(walk(mesh, 1.0e-4, count, &mut rng));
     points
 }
@@ -124,7 +132,11 @@ fn same_bits<'t, const N: usize>(
         .map(|&p| {
             let plain = closest_point(tree, p, &Stop::EXACT, &mut stack).unwrap();
             let followed = session.closest_point(tree, p, &Stop::EXACT, &mut stack).unwrap();
-            assert_eq!(bits(&followed.closest), bits(&plain), "{name}, {p:?}: {followed:?}, {plain:?}");
+            assert_eq!(
+                bits(&followed.closest),
+                bits(&plain),
+                "{name}, {p:?}: {followed:?}, {plain:?}"
+            );
             followed
         })
         .collect()
@@ -181,8 +193,10 @@ fn a_walk_around_is_followed_with_little_work() {
     let followed = same_bits("torus", &mut session, &tree, &points);
     let opened: u32 = followed.iter().map(|f| f.closest.work.splits).sum();
     let mut stack = stack(&tree);
-    let plain: u32 =
-        points.iter().map(|&p| closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap().work.splits).sum();
+    let plain: u32 = points
+        .iter()
+        .map(|&p| closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap().work.splits)
+        .sum();
     assert!(opened < plain / 10, "{opened} nodes against {plain}");
 }
 
@@ -251,7 +265,8 @@ fn tolerances_and_budgets_are_kept() {
     let mut session = Session::<128>::new();
     let mut rng = Rng::new(2);
     for p in walk(&mesh, 1.0e-4, 200, &mut rng).into_iter().chain(jumps(&mesh, 200, &mut rng)) {
-        for stop in [Stop { relative: 0.1, ..Stop::EXACT }, Stop { absolute: 0.05, ..Stop::EXACT }] {
+        for stop in [Stop { relative: 0.1, ..Stop::EXACT }, Stop { absolute: 0.05, ..Stop::EXACT }]
+        {
             let followed = session.closest_point(&tree, p, &stop, &mut stack).unwrap();
             let plain = closest_point(&tree, p, &stop, &mut stack).unwrap();
             assert_eq!(bits(&followed.closest), bits(&plain));
@@ -279,7 +294,10 @@ fn what_is_refused_leaves_the_session_as_it_was() {
     for p in walk(&mesh, 1.0e-4, 100, &mut Rng::new(2)) {
         let nan = session.closest_point(&tree, [f32::NAN, 0.0, 0.0], &Stop::EXACT, &mut stack);
         assert_eq!(nan, Err(QueryError::NotFinite));
-        assert_eq!(session.closest_point(&tree, p, &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
+        assert_eq!(
+            session.closest_point(&tree, p, &Stop::EXACT, &mut []),
+            Err(QueryError::NoQueue)
+        );
         let wrong = Stop { relative: -1.0, ..Stop::EXACT };
         assert_eq!(session.closest_point(&tree, p, &wrong, &mut stack), Err(QueryError::Tolerance));
         same_bits("after errors", &mut session, &tree, &[p]);
@@ -292,9 +310,14 @@ fn within_the_safe_radius_the_triangle_stays_the_closest() {
     let mut found = 0;
     let parts = joined(
         &torus(2.0, 0.75, 24, 16),
-        &transformed(&cube(2), [[0.7, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, 0.0, 0.7]], [4.0, 1.0, 0.2]),
+        &transformed(
+            &cube(2),
+            [[0.7, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, 0.0, 0.7]],
+            [4.0, 1.0, 0.2],
+        ),
     );
-    for (mesh, single) in [(parts, false), (rough_sphere(2, 0.3, 9), false), (rough_sphere(2, 0.3, 9), true)]
+    for (mesh, single) in
+        [(parts, false), (rough_sphere(2, 0.3, 9), false), (rough_sphere(2, 0.3, 9), true)]
     {
         let bytes = blob(&mesh, single);
         let tree = Tree::open(&bytes).unwrap();
@@ -326,7 +349,10 @@ fn within_the_safe_radius_the_triangle_stays_the_closest() {
                     let least = (0..mesh.1.len())
                         .map(|other| rough_distance_sq(moved, corners(other)))
                         .fold(f64::INFINITY, f64::min);
-                    assert!(own <= least * (1.0 + 1.0e-12), "{p:?} {followed:?}, {moved:?}: {own} {least}");
+                    assert!(
+                        own <= least * (1.0 + 1.0e-12),
+                        "{p:?} {followed:?}, {moved:?}: {own} {least}"
+                    );
                 }
             }
         }

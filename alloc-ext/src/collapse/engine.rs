@@ -1,8 +1,9 @@
 //! The greedy loop: cheapest legal collapse first.
 //!
-//! Costs are evaluated lazily: after a collapse only the edges of the new vertex are evaluated at once; other edges around it
-//! keep their old cost until they reach the top of the queue. With few faces left, where every choice shows,
-//! evaluation is eager, as in the paper. `core/DESIGN.md` has the measurements.
+//! Costs are evaluated lazily: after a collapse only the edges of the new vertex are evaluated at
+//! once; other edges around it keep their old cost until they reach the top of the queue. With few
+//! faces left, where every choice shows, evaluation is eager, as in the paper. `core/DESIGN.md` has
+//! the measurements.
 
 use super::history::{Collapse, History};
 use super::placement::{Placement, Refusal};
@@ -122,7 +123,8 @@ impl Engine {
 
     /// Faces now, corners as labels of [`History`].
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let alive = (0..self.surface.mesh.corners.len() as u32).filter(|&t| self.surface.mesh.is_alive(t));
+        let alive =
+            (0..self.surface.mesh.corners.len() as u32).filter(|&t| self.surface.mesh.is_alive(t));
         alive.map(|t| self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]))
     }
 
@@ -144,7 +146,8 @@ impl Engine {
     pub fn finish(mut self) -> History {
         for t in 0..self.surface.mesh.corners.len() as u32 {
             if self.surface.mesh.is_alive(t) {
-                let corners = self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]);
+                let corners =
+                    self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]);
                 self.history.base.push(corners);
                 self.history.base_instances.push(self.instances[t as usize]);
             }
@@ -162,7 +165,8 @@ impl Engine {
             }
             let changed = self.changed[a as usize].max(self.changed[b as usize]);
             if candidate.time < changed {
-                // The cost is of another star. An edge that is gone has lost its state, see `apply`.
+                // The cost is of another star. An edge that is gone has lost its state, see
+                // `apply`.
                 self.evaluate(candidate.ends);
             } else if self.collapse(&candidate) {
                 return true;
@@ -171,7 +175,8 @@ impl Engine {
         false
     }
 
-    /// Queues an edge by its cost now. A refused edge is remembered and comes back when something near it changes.
+    /// Queues an edge by its cost now. A refused edge is remembered and comes back when something
+    /// near it changes.
     fn evaluate(&mut self, ends: [u32; 2]) {
         let cost = if !self.surface.gather(ends) {
             Err(Refusal::NoVertex)
@@ -201,20 +206,25 @@ impl Engine {
 
     /// Places the vertex exactly and collapses; `false` if it is refused after all, or put back.
     ///
-    /// The second priority learns here what the collapse really adds. One that adds more than its priority promised goes back
-    /// and waits for its turn by that; the paper would apply it. It costs no further program for the edges that do collapse
-    /// at once, and keeps the worst of them from the last few hundred faces.
+    /// The second priority learns here what the collapse really adds. One that adds more than its
+    /// priority promised goes back and waits for its turn by that; the paper would apply it. It
+    /// costs no further program for the edges that do collapse at once, and keeps the worst of
+    /// them from the last few hundred faces.
     fn collapse(&mut self, candidate: &Candidate) -> bool {
         let ends = candidate.ends;
-        let placed =
-            if self.surface.gather(ends) { self.surface.place(ends, true) } else { Err(Refusal::NoVertex) };
+        let placed = if self.surface.gather(ends) {
+            self.surface.place(ends, true)
+        } else {
+            Err(Refusal::NoVertex)
+        };
         match placed {
             Err(refusal) => {
                 self.refuse(ends, refusal);
                 false
             }
             Ok(placement)
-                if self.priority == Priority::Span && placement.volume > 6.000_001 * candidate.cost =>
+                if self.priority == Priority::Span
+                    && placement.volume > 6.000_001 * candidate.cost =>
             {
                 self.enqueue(placement.volume / 6.0, ends, self.now);
                 false
@@ -264,8 +274,9 @@ impl Engine {
         true
     }
 
-    /// Edges whose star the collapse has changed: those of the new vertex are evaluated at once, refused ones get another
-    /// chance, and the rest are found stale when they come out of the queue.
+    /// Edges whose star the collapse has changed: those of the new vertex are evaluated at once,
+    /// refused ones get another chance, and the rest are found stale when they come out of the
+    /// queue.
     fn reconsider(&mut self, vertex: u32, ring: &[u32]) {
         for &v in ring {
             self.evaluate([vertex.min(v), vertex.max(v)]);
@@ -275,7 +286,11 @@ impl Engine {
         around.clear();
         for &v in ring {
             around.extend(
-                self.surface.mesh.neighbours(v).filter(|&w| w != vertex).map(|w| [v.min(w), v.max(w)]),
+                self.surface
+                    .mesh
+                    .neighbours(v)
+                    .filter(|&w| w != vertex)
+                    .map(|w| [v.min(w), v.max(w)]),
             );
         }
         if eager {

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-/// One edge collapse. Labels number vertices for good: the mesh's own first, then one for each collapse.
+/// One edge collapse. Labels number vertices for good: the mesh's own first, then one for each
+/// collapse.
 #[derive(Clone, Copy, Debug)]
 pub struct Collapse {
     /// First end of the collapsed edge.
@@ -21,8 +22,8 @@ pub struct Collapse {
 
 /// All collapses, fine to coarse, and the triangles that they make.
 ///
-/// Triangle instances: the mesh's own triangles first, then for each collapse its `ring_len` coarse triangles, triangle `i` being
-/// `(vertex, ring[i], ring[i + 1])`.
+/// Triangle instances: the mesh's own triangles first, then for each collapse its `ring_len` coarse
+/// triangles, triangle `i` being `(vertex, ring[i], ring[i + 1])`.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     /// Positions by label, as stored.
@@ -77,7 +78,8 @@ impl History {
     }
 }
 
-/// Blob order of the vertices: base hull first, then the two that each split brings, coarse to fine.
+/// Blob order of the vertices: base hull first, then the two that each split brings, coarse to
+/// fine.
 #[derive(Clone, Debug)]
 pub struct VertexOrder {
     /// Blob index of each label.
@@ -89,7 +91,8 @@ pub struct VertexOrder {
 }
 
 impl VertexOrder {
-    /// Split `i` undoes collapse `n − 1 − i`. Base vertices stand in the order in which the base triangles name them.
+    /// Split `i` undoes collapse `n − 1 − i`. Base vertices stand in the order in which the base
+    /// triangles name them.
     pub fn new(history: &History) -> Self {
         let mut index = vec![u32::MAX; history.positions.len()];
         let mut label = Vec::with_capacity(history.positions.len());

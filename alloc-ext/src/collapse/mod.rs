@@ -1,7 +1,8 @@
-//! The edge-collapse engine: priorities, conditions, placement by a linear program, and a history that can be inverted.
+//! The edge-collapse engine: priorities, conditions, placement by a linear program, and a history
+//! that can be inverted.
 //!
-//! Progressive hulls after Platis & Theoharis 2003, 3.1. Topology never looks at positions (`star`), placement never at
-//! topology (`placement`), and the queue at neither (`queue`).
+//! Progressive hulls after Platis & Theoharis 2003, 3.1. Topology never looks at positions
+//! (`star`), placement never at topology (`placement`), and the queue at neither (`queue`).
 
 mod engine;
 mod history;
@@ -22,11 +23,13 @@ pub enum Priority {
     /// Volume that the collapse would add, from the program's own optimum: tighter hulls.
     #[default]
     Program,
-    /// Volume of the tetrahedra between the star and the centre of its link: no program before the collapse itself.
+    /// Volume of the tetrahedra between the star and the centre of its link: no program before the
+    /// collapse itself.
     Span,
 }
 
-/// The paper's conditions (3.1.4), with its values as defaults (4.1), and the program's second term.
+/// The paper's conditions (3.1.4), with its values as defaults (4.1), and the program's second
+/// term.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditions {
     /// Largest valence of the resulting vertex. Paper: 12.
@@ -35,8 +38,9 @@ pub struct Conditions {
     pub compactness_ratio: f64,
     /// Largest deviation of a face's normal, as its cosine. Paper: cos π/4.
     pub min_normal_cosine: f64,
-    /// Weight of the second term of the program, in the star's frame. It decides where a flat star puts the vertex, and
-    /// it rounds off sharp ones. `core/DESIGN.md` has the measurement behind the default.
+    /// Weight of the second term of the program, in the star's frame. It decides where a flat star
+    /// puts the vertex, and it rounds off sharp ones. `core/DESIGN.md` has the measurement
+    /// behind the default.
     pub second_term: f64,
 }
 

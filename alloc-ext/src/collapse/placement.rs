@@ -1,5 +1,6 @@
-//! Where the new vertex of a collapse goes: on or outside every plane of the star, adding the least volume
-//! (Platis & Theoharis 2003, 3.1.2), rounded to the stored precision and proved there by exact predicate.
+//! Where the new vertex of a collapse goes: on or outside every plane of the star, adding the least
+//! volume (Platis & Theoharis 2003, 3.1.2), rounded to the stored precision and proved there by
+//! exact predicate.
 
 use super::Conditions;
 use crate::lp::{HalfSpace, minimise_bounded};
@@ -61,8 +62,8 @@ pub enum Refusal {
     Condition(f64),
 }
 
-/// Places the vertex that replaces an edge with midpoint `middle`. With `exact` it is rounded to the grid and proved to lie on or
-/// outside every plane; without, it is good enough for a priority.
+/// Places the vertex that replaces an edge with midpoint `middle`. With `exact` it is rounded to
+/// the grid and proved to lie on or outside every plane; without, it is good enough for a priority.
 #[inline]
 pub fn place(
     faces: &[StarFace],
@@ -72,19 +73,23 @@ pub fn place(
     exact: bool,
     planes: &mut Vec<HalfSpace>,
 ) -> Result<Placement, Refusal> {
-    let mut program = Program::new(faces, middle, conditions.second_term, planes).ok_or(Refusal::NoVertex)?;
+    let mut program =
+        Program::new(faces, middle, conditions.second_term, planes).ok_or(Refusal::NoVertex)?;
     let position = if exact {
         program.solve_exactly(faces, grid).ok_or(Refusal::NoVertex)?
     } else {
         program.solve(0.0).ok_or(Refusal::NoVertex)?
     };
-    let volume: f64 =
-        faces.iter().map(|f| f.facet.normal.dot(position - f.corners[0]) * f.facet.double_area).sum();
+    let volume: f64 = faces
+        .iter()
+        .map(|f| f.facet.normal.dot(position - f.corners[0]) * f.facet.double_area)
+        .sum();
     check_shape(faces, position, conditions).map_err(|()| Refusal::Condition(volume))?;
     Ok(Placement { position, volume })
 }
 
-/// The linear program of a star in the star's own frame: origin at the edge's midpoint, farthest corner at distance 1.
+/// The linear program of a star in the star's own frame: origin at the edge's midpoint, farthest
+/// corner at distance 1.
 struct Program<'a> {
     planes: &'a mut Vec<HalfSpace>,
     /// How far the planes are shifted outward now.
@@ -139,8 +144,9 @@ impl<'a> Program<'a> {
         Some(self.middle + x * self.radius)
     }
 
-    /// The optimum on the grid, outside or on every plane of the star by exact predicate. Rounding breaks a plane in a third of all
-    /// collapses; planes shifted by one to eight half-steps of the grid and solved again repair nearly all of them.
+    /// The optimum on the grid, outside or on every plane of the star by exact predicate. Rounding
+    /// breaks a plane in a third of all collapses; planes shifted by one to eight half-steps of
+    /// the grid and solved again repair nearly all of them.
     fn solve_exactly(&mut self, faces: &[StarFace], grid: &Grid) -> Option<DVec3> {
         let mut shift = 0.0;
         for attempt in 0..6 {
@@ -172,7 +178,8 @@ fn compactness([a, b, c]: [DVec3; 3], double_area: f64) -> f64 {
     if edges > 0.0 { TWICE_SQRT_3 * double_area / edges } else { 0.0 }
 }
 
-/// The paper's two conditions on the resulting vertex: compactness does not decline too much, no normal turns too far.
+/// The paper's two conditions on the resulting vertex: compactness does not decline too much, no
+/// normal turns too far.
 #[inline]
 fn check_shape(faces: &[StarFace], position: DVec3, conditions: &Conditions) -> Result<(), ()> {
     let mut worst_before = f64::INFINITY;

@@ -1,4 +1,5 @@
-//! Candidate edges by rising cost. Entries are never updated in place: a stale one is recognised when it comes out.
+//! Candidate edges by rising cost. Entries are never updated in place: a stale one is recognised
+//! when it comes out.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

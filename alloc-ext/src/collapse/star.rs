@@ -70,15 +70,23 @@ impl Connectivity {
         self.at(vertex).iter().map(move |&t| self.next_in(t, vertex))
     }
 
-    /// Puts the triangles of edge `a b`'s star into `star` and says whether collapsing the edge keeps the mesh manifold
-    /// (link condition, Dey et al. 1999) and the valence in bounds. If not, `star` holds nothing of use.
+    /// Puts the triangles of edge `a b`'s star into `star` and says whether collapsing the edge
+    /// keeps the mesh manifold (link condition, Dey et al. 1999) and the valence in bounds. If
+    /// not, `star` holds nothing of use.
     #[inline]
-    pub fn collapsible_star(&mut self, a: u32, b: u32, max_valence: usize, star: &mut Vec<u32>) -> bool {
+    pub fn collapsible_star(
+        &mut self,
+        a: u32,
+        b: u32,
+        max_valence: usize,
+        star: &mut Vec<u32>,
+    ) -> bool {
         self.stamp += 1;
         let stamp = self.stamp;
         let (at_a, at_b) = (&self.at_vertex[a as usize], &self.at_vertex[b as usize]);
         let total = at_a.len() + at_b.len();
-        // Both ends keep their two shared triangles; the closed mesh of four triangles is the end of the road.
+        // Both ends keep their two shared triangles; the closed mesh of four triangles is the end
+        // of the road.
         if total < 7 || total - 4 > max_valence || total - 2 > MAX_STAR {
             return false;
         }
@@ -109,8 +117,9 @@ impl Connectivity {
         shared == 2 && common == 2
     }
 
-    /// The ring of edge `a b`: its link, counter-clockwise, from the left wing (apex of the triangle on the left of `a → b`), the
-    /// triangle at each ring edge, and the position of the right wing.
+    /// The ring of edge `a b`: its link, counter-clockwise, from the left wing (apex of the
+    /// triangle on the left of `a → b`), the triangle at each ring edge, and the position of
+    /// the right wing.
     pub fn ring(&self, a: u32, b: u32) -> Option<Ring> {
         let left = self.apex(a, b)?;
         let right = self.apex(b, a)?;
@@ -143,7 +152,8 @@ impl Connectivity {
         self.at(from).iter().copied().find(|&t| self.next_in(t, from) == to)
     }
 
-    /// Collapses edge `a b` into `a`. The caller has checked [`collapsible_star`](Self::collapsible_star).
+    /// Collapses edge `a b` into `a`. The caller has checked
+    /// [`collapsible_star`](Self::collapsible_star).
     pub fn collapse(&mut self, a: u32, b: u32) {
         for t in std::mem::take(&mut self.at_vertex[b as usize]) {
             let corners = self.corners[t as usize];
@@ -166,8 +176,9 @@ impl Connectivity {
         }
     }
 
-    /// Flips the edge `a b` between the triangles `a b c` and `b a d`: they become `a d c` and `d b c`, in their old places, which are
-    /// returned with `c` and `d`. `None`, and nothing changes, if an end would be left with fewer than three triangles or there is an edge `c d`.
+    /// Flips the edge `a b` between the triangles `a b c` and `b a d`: they become `a d c` and `d b
+    /// c`, in their old places, which are returned with `c` and `d`. `None`, and nothing
+    /// changes, if an end would be left with fewer than three triangles or there is an edge `c d`.
     pub fn flip(&mut self, a: u32, b: u32) -> Option<Wings> {
         let wings = self.wings(a, b)?;
         let Wings { triangles: [f, g], apexes: [c, d] } = wings;
@@ -184,8 +195,8 @@ impl Connectivity {
         Some(wings)
     }
 
-    /// Puts a new vertex, which is returned, on the edge `a b`: the reverse of a collapse with four triangles in the star. The new triangles are the
-    /// last two.
+    /// Puts a new vertex, which is returned, on the edge `a b`: the reverse of a collapse with four
+    /// triangles in the star. The new triangles are the last two.
     pub fn split(&mut self, a: u32, b: u32) -> Option<u32> {
         let Wings { triangles: [f, g], apexes: [c, d] } = self.wings(a, b)?;
         let v = self.at_vertex.len() as u32;

@@ -24,7 +24,12 @@ pub struct Surface {
 
 impl Surface {
     /// Positions on `grid`.
-    pub fn new(positions: Vec<DVec3>, triangles: &[[u32; 3]], conditions: Conditions, grid: Grid) -> Self {
+    pub fn new(
+        positions: Vec<DVec3>,
+        triangles: &[[u32; 3]],
+        conditions: Conditions,
+        grid: Grid,
+    ) -> Self {
         Surface {
             mesh: Connectivity::new(positions.len(), triangles),
             facets: triangles.iter().map(|t| Facet::of(t.map(|v| positions[v as usize]))).collect(),
@@ -73,7 +78,8 @@ impl Surface {
         place(&self.faces, middle, &self.conditions, &self.grid, exact, &mut self.planes)
     }
 
-    /// The second priority of an edge, whether it may collapse or not: unsigned volumes of the tetrahedra between its star's faces and the centre of its link.
+    /// The second priority of an edge, whether it may collapse or not: unsigned volumes of the
+    /// tetrahedra between its star's faces and the centre of its link.
     #[inline]
     pub fn span(&self, [a, b]: [u32; 2]) -> f64 {
         let mut centre = DVec3::ZERO;
@@ -101,7 +107,8 @@ impl Surface {
             (facet.normal.dot(centre - corner) * facet.double_area).abs()
         };
         let of_a: f64 = self.mesh.at(a).iter().map(|&t| volume(t)).sum();
-        let only_of_b = self.mesh.at(b).iter().filter(|&&t| !self.mesh.corners[t as usize].contains(&a));
+        let only_of_b =
+            self.mesh.at(b).iter().filter(|&&t| !self.mesh.corners[t as usize].contains(&a));
         only_of_b.fold(of_a, |sum, &t| sum + volume(t)) / 6.0
     }
 

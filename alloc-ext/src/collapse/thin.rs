@@ -1,21 +1,24 @@
-//! Many collapses at once, where their order does not show: rounds of the cheapest edges whose stars have no face in common.
+//! Many collapses at once, where their order does not show: rounds of the cheapest edges whose
+//! stars have no face in common.
 //!
-//! The queue of [`Engine`](super::Engine) gives a better hull of as many faces and takes four times as long: it solves a program for each edge around each collapse,
-//! and reads memory in no order.
+//! The queue of [`Engine`](super::Engine) gives a better hull of as many faces and takes four times
+//! as long: it solves a program for each edge around each collapse, and reads memory in no order.
 
 use super::Conditions;
 use super::surface::Surface;
 use crate::precision::Grid;
 use glam::DVec3;
 
-/// Part of the edges that a round tries, the cheapest: with more the hull grows into itself in narrow places.
+/// Part of the edges that a round tries, the cheapest: with more the hull grows into itself in
+/// narrow places.
 const TRIED: f64 = 0.1;
 
 /// A round that collapses fewer than one edge in this many that it tries is the last.
 const TOO_FEW: usize = 100;
 
-/// Collapses edges of a closed manifold mesh, positions on `grid`, until about `target` faces are left and never fewer, or hardly an edge may collapse,
-/// or `stop` says so after a round: positions, on the grid, and triangles of a hull of it. As with [`Engine`](super::Engine), what
+/// Collapses edges of a closed manifold mesh, positions on `grid`, until about `target` faces are
+/// left and never fewer, or hardly an edge may collapse, or `stop` says so after a round:
+/// positions, on the grid, and triangles of a hull of it. As with [`Engine`](super::Engine), what
 /// the mesh winds around it winds around.
 pub fn thin(
     positions: &[DVec3],
@@ -40,7 +43,8 @@ pub fn thin(
             if costs.is_stale[a as usize] || costs.is_stale[b as usize] {
                 continue;
             }
-            let placed = if surface.gather([a, b]) { surface.place([a, b], true).ok() } else { None };
+            let placed =
+                if surface.gather([a, b]) { surface.place([a, b], true).ok() } else { None };
             let Some(placement) = placed else {
                 // Refused as long as its star is the same.
                 costs.of[edge as usize] = f64::INFINITY;
@@ -63,7 +67,8 @@ pub fn thin(
     }
 }
 
-/// What edges cost: edge `3 · t + k` is that between corners `k` and `k + 1` of triangle `t`, and counts where the first is the lesser.
+/// What edges cost: edge `3 · t + k` is that between corners `k` and `k + 1` of triangle `t`, and
+/// counts where the first is the lesser.
 struct Costs {
     of: Vec<f64>,
     /// By vertex, whether its star is another than when its edges were evaluated.
@@ -128,7 +133,9 @@ mod tests {
             [r * u.cos(), r * u.sin(), v.sin()]
         };
         let positions = (0..n * n)
-            .map(|i| place(i).map(|x| (x * (1.0 + 1e-3 * f64::from(i * 7919 % 101) / 101.0)) as f32))
+            .map(|i| {
+                place(i).map(|x| (x * (1.0 + 1e-3 * f64::from(i * 7919 % 101) / 101.0)) as f32)
+            })
             .collect();
         let at = |i: u32, j: u32| i % n * n + j % n;
         let quad = |i: u32, j: u32| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
@@ -155,27 +162,43 @@ mod tests {
         let stored = store(&mesh, VertexBits::F32);
         for target in [400, 1000, 3199, 3200, 5000] {
             let conditions = Conditions { compactness_ratio: 0.4, ..Conditions::PAPER };
-            let thinned =
-                |stop| thin(&stored.positions, &mesh.triangles, target, conditions, stored.grid, |_| stop);
+            let thinned = |stop| {
+                thin(&stored.positions, &mesh.triangles, target, conditions, stored.grid, |_| stop)
+            };
             let (positions, triangles) = thinned(false);
             assert!(triangles.len() >= target.min(3200) && triangles.len() <= target.min(3200) + 1);
-            assert_eq!(thinned(false), (positions.clone(), triangles.clone()), "not the same twice");
+            assert_eq!(
+                thinned(false),
+                (positions.clone(), triangles.clone()),
+                "not the same twice"
+            );
             let single = positions.iter().map(|p| p.as_vec3().to_array()).collect();
             let hull = Mesh::new(single, triangles.clone());
             assert!(
-                hull.positions.iter().zip(&positions).all(|(p, q)| glam::Vec3::from(*p).as_dvec3() == *q)
+                hull.positions
+                    .iter()
+                    .zip(&positions)
+                    .all(|(p, q)| glam::Vec3::from(*p).as_dvec3() == *q)
             );
             require_closed_manifold(&hull).unwrap();
-            let faces: Vec<_> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
+            let faces: Vec<_> =
+                triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
             // Off the hull's vertices, so that none is on the line.
             let far = DVec3::new(11.37, 23.91, 57.13);
             for &p in stored.positions.iter().filter(|p| !positions.contains(p)) {
                 let on = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).dot(p - *a).abs() < 1e-9;
-                assert!(crossings(p, far, &faces) % 2 == 1 || faces.iter().any(on), "{target}: {p}");
+                assert!(
+                    crossings(p, far, &faces) % 2 == 1 || faces.iter().any(on),
+                    "{target}: {p}"
+                );
             }
         }
         let (_, after_a_round) =
             thin(&stored.positions, &mesh.triangles, 100, Conditions::PAPER, stored.grid, |_| true);
-        assert!(after_a_round.len() > 2000 && after_a_round.len() < 3200, "{}", after_a_round.len());
+        assert!(
+            after_a_round.len() > 2000 && after_a_round.len() < 3200,
+            "{}",
+            after_a_round.len()
+        );
     }
 }

@@ -6,8 +6,8 @@ use crate::tree::TreeTables;
 use crate::tribox::TriboxTables;
 use glam::Vec3;
 use meshsweep_core::blob::layout::{
-    FLAG_CUT, HEADER_BYTES, HEADER_CRC_AT, LEAF_FLAG, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind,
-    VertexFormat, none,
+    FLAG_CUT, HEADER_BYTES, HEADER_CRC_AT, LEAF_FLAG, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES,
+    SectionKind, VertexFormat, none,
 };
 use meshsweep_core::blob::{Header, section_crc};
 use meshsweep_core::geom::Aabb;
@@ -28,7 +28,8 @@ pub struct Parts<'a> {
 
 /// A blob of a hull hierarchy, a box tree, or both of the same mesh.
 ///
-/// The sections follow each other as given here; same tables, same bytes. Without either the blob does not open.
+/// The sections follow each other as given here; same tables, same bytes. Without either the blob
+/// does not open.
 pub fn blob(hull: Option<&Tables>, tree: Option<&TreeTables>) -> Vec<u8> {
     assemble(&Parts { hull, tree, ..Parts::default() })
 }
@@ -95,8 +96,9 @@ fn tree_header(tree: &TreeTables) -> Header {
         let x = units * exp2(h.grid_exponent);
         if down { down_to_f32(x) } else { up_to_f32(x) }
     };
-    let corner =
-        |stored: [u16; 3], down: bool| Vec3::from_array([0, 1, 2].map(|axis| at(stored, axis, down)));
+    let corner = |stored: [u16; 3], down: bool| {
+        Vec3::from_array([0, 1, 2].map(|axis| at(stored, axis, down)))
+    };
     let bounds = Aabb { min: corner(h.low, true), max: corner(h.high, false) };
     Header {
         scale_exponent: tree.scale_exponent,
@@ -168,8 +170,12 @@ impl Tables {
         let (wr, wc) = (header.ring_index_bytes(), header.child_index_bytes());
         let mut out = Vec::new();
         match kind {
-            SectionKind::Vertices => self.vertices.iter().for_each(|&v| self.put_vertex(&mut out, v)),
-            SectionKind::BaseTriangles => self.base.iter().flatten().for_each(|&v| put(&mut out, v, wv)),
+            SectionKind::Vertices => {
+                self.vertices.iter().for_each(|&v| self.put_vertex(&mut out, v))
+            }
+            SectionKind::BaseTriangles => {
+                self.base.iter().flatten().for_each(|&v| put(&mut out, v, wv))
+            }
             SectionKind::Splits => {
                 for split in &self.splits {
                     put(&mut out, split.vertex, wv);
@@ -198,7 +204,9 @@ impl Tables {
                     out.push(node.count | if node.leaf { LEAF_FLAG } else { 0 });
                 }
             }
-            SectionKind::Surface => self.surface.iter().flatten().for_each(|&v| put(&mut out, v, wv)),
+            SectionKind::Surface => {
+                self.surface.iter().flatten().for_each(|&v| put(&mut out, v, wv))
+            }
             SectionKind::Source => {
                 let width = header.source_index_bytes();
                 self.source.iter().for_each(|&s| put(&mut out, s, width));

@@ -1,4 +1,5 @@
-//! A coarser blob out of a finer one: every section runs coarse to fine, so a cut keeps a prefix of each.
+//! A coarser blob out of a finer one: every section runs coarse to fine, so a cut keeps a prefix of
+//! each.
 
 use super::bytes::{Parts, assemble};
 use super::tables::Tables;
@@ -88,22 +89,26 @@ pub fn cut_blob(model: &Model<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
 /// The box tree as it stands in a blob.
 fn tree(model: &Model<'_>) -> Option<TreeTables> {
     let tree = model.tree()?;
-    let sections = model.sections().filter(|section| section.kind.is_tree()).filter_map(|section| {
-        let bytes = model.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
-        Some((section.kind, bytes.to_vec()))
-    });
+    let sections =
+        model.sections().filter(|section| section.kind.is_tree()).filter_map(|section| {
+            let bytes =
+                model.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
+            Some((section.kind, bytes.to_vec()))
+        });
     let sections: Vec<(SectionKind, Vec<u8>)> = sections.collect();
     let (scale_exponent, input_triangles) = (tree.scale_exponent(), tree.input_triangles());
     Some(TreeTables { scale_exponent, input_triangles, header: *tree.header(), sections })
 }
 
-/// Tables of the model's hull hierarchy after level `index`, a valid and still certified coarser model; the last level returns all of it.
+/// Tables of the model's hull hierarchy after level `index`, a valid and still certified coarser
+/// model; the last level returns all of it.
 ///
 /// # Errors
 /// [`CutError::NoLevel`].
 pub fn cut(model: &Model<'_>, index: u32) -> Result<Tables, CutError> {
-    let level =
-        model.level(index).ok_or(CutError::NoLevel { wanted: index, levels: model.header().levels })?;
+    let level = model
+        .level(index)
+        .ok_or(CutError::NoLevel { wanted: index, levels: model.header().levels })?;
     let mut tables = Tables::from_model(model).ok_or(CutError::Model)?;
     if index + 1 == model.header().levels {
         return Ok(tables);

@@ -1,4 +1,5 @@
-//! The contents of a blob as plain vectors: what the builder fills, what a cut shortens, what is written.
+//! The contents of a blob as plain vectors: what the builder fills, what a cut shortens, what is
+//! written.
 
 use glam::Vec3;
 use meshsweep_core::Model;
@@ -112,15 +113,17 @@ impl Tables {
     pub fn hull_box(&self) -> Aabb {
         let zero = Aabb { min: Vec3::ZERO, max: Vec3::ZERO };
         let Some(&first) = self.vertices.first() else { return zero };
-        self.vertices
-            .iter()
-            .fold(Aabb { min: first, max: first }, |b, &v| Aabb { min: b.min.min(v), max: b.max.max(v) })
+        self.vertices.iter().fold(Aabb { min: first, max: first }, |b, &v| Aabb {
+            min: b.min.min(v),
+            max: b.max.max(v),
+        })
     }
 
     /// Ring of a split.
     pub fn ring(&self, split: usize) -> &[u32] {
         let start = self.splits[split].ring_start as usize;
-        let end = self.splits.get(split + 1).map_or(self.rings.len(), |next| next.ring_start as usize);
+        let end =
+            self.splits.get(split + 1).map_or(self.rings.len(), |next| next.ring_start as usize);
         &self.rings[start..end]
     }
 
@@ -148,7 +151,12 @@ impl Tables {
             let split = model.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
             let reach = Radius8::round_up(f64::from(split.reach));
-            splits.push(SplitRecord { vertex: split.vertex.0, ring_start: rings.len() as u32, right, reach });
+            splits.push(SplitRecord {
+                vertex: split.vertex.0,
+                ring_start: rings.len() as u32,
+                right,
+                reach,
+            });
             for i in 0..split.ring_len() {
                 rings.push(split.ring(i)?.0);
             }
@@ -172,7 +180,11 @@ impl Tables {
         let radii = h.base_triangles as usize + h.rings as usize + 2 * h.splits as usize;
         Some(Tables {
             scale_exponent: h.scale_exponent,
-            grid: Grid { format: h.vertex_format, exponent: h.grid_exponent, origin: h.grid_origin },
+            grid: Grid {
+                format: h.vertex_format,
+                exponent: h.grid_exponent,
+                origin: h.grid_origin,
+            },
             surface_error: h.surface_error,
             vertices: (0..h.vertices).map(|v| model.position(VertIdx(v))).collect::<Option<_>>()?,
             base_vertices: h.base_vertices,
@@ -195,7 +207,9 @@ impl Tables {
             surface: (0..h.surface_triangles)
                 .map(|t| model.surface_triangle(TriIdx(t)).map(|c| c.map(|v| v.0)))
                 .collect::<Option<_>>()?,
-            source: (0..h.surface_triangles).map(|t| model.source(TriIdx(t))).collect::<Option<_>>()?,
+            source: (0..h.surface_triangles)
+                .map(|t| model.source(TriIdx(t)))
+                .collect::<Option<_>>()?,
             input_triangles: h.input_triangles,
             surface_box: h.surface_box,
             levels: model.levels().collect(),

@@ -1,6 +1,7 @@
 //! Which triangle lies across which edge, for any triangle soup.
 //!
-//! Half-edge `3t + k` runs from corner `k` of triangle `t` to the next corner; corner `3t + k` is the one that it starts from.
+//! Half-edge `3t + k` runs from corner `k` of triangle `t` to the next corner; corner `3t + k` is
+//! the one that it starts from.
 
 /// No half-edge, no corner.
 pub(super) const NONE: u32 = u32::MAX;
@@ -12,14 +13,16 @@ pub(super) struct Adjacency<'a> {
 }
 
 impl<'a> Adjacency<'a> {
-    /// Pairs the half-edges of each edge: first those that run in opposite directions, in ascending order, then what is left
-    /// of one direction; an odd one stays open. So a soup is cut into pieces in which at most two triangles meet in an edge.
-    /// An edge from a vertex to itself stays open, and no triangle is its own neighbour.
+    /// Pairs the half-edges of each edge: first those that run in opposite directions, in ascending
+    /// order, then what is left of one direction; an odd one stays open. So a soup is cut into
+    /// pieces in which at most two triangles meet in an edge. An edge from a vertex to itself
+    /// stays open, and no triangle is its own neighbour.
     ///
     /// A counting sort over the lower vertex and a short sort for each vertex.
     ///
     /// # Panics
-    /// If a triangle names a vertex that is not below `vertex_count`, or if half-edges do not fit in 32 bits.
+    /// If a triangle names a vertex that is not below `vertex_count`, or if half-edges do not fit
+    /// in 32 bits.
     pub(super) fn new(vertex_count: usize, triangles: &'a [[u32; 3]]) -> Self {
         assert!(triangles.len() < (u32::MAX / 3) as usize, "half-edges are numbered in 32 bits");
         let half_edges = || {
@@ -80,7 +83,8 @@ impl<'a> Adjacency<'a> {
         self.across[half_edge as usize]
     }
 
-    /// The half-edge paired with `half_edge` if it runs the other way, as in a consistently wound mesh, or [`NONE`].
+    /// The half-edge paired with `half_edge` if it runs the other way, as in a consistently wound
+    /// mesh, or [`NONE`].
     pub(super) fn opposite(&self, half_edge: u32) -> u32 {
         let across = self.across(half_edge);
         if across != NONE && self.vertex(across) == self.vertex(half_edge) { NONE } else { across }

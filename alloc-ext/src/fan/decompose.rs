@@ -7,16 +7,18 @@ use super::{Fan, MAX_PATCH, Weights};
 
 /// Splits a soup into fans of 1 to [`MAX_PATCH`] triangles, none of them reversed.
 ///
-/// The paper's rule: the front starts at the open edges, or at triangle 0 of what is left if there is none; of the vertices about
-/// the front, the one with the largest `f(c) = α v + β r − γ t` becomes the next centre. One thing is added: of the runs of
-/// triangles about a centre only the longest are taken, in pieces of [`MAX_PATCH`] if they are longer; the rest stays for other
+/// The paper's rule: the front starts at the open edges, or at triangle 0 of what is left if there
+/// is none; of the vertices about the front, the one with the largest `f(c) = α v + β r − γ t`
+/// becomes the next centre. One thing is added: of the runs of triangles about a centre only the
+/// longest are taken, in pieces of [`MAX_PATCH`] if they are longer; the rest stays for other
 /// centres, and this centre is a candidate again. Ties go to the vertex with the larger number.
 ///
-/// `O(n log n)`: the three counts are kept up to date as triangles go, and a centre's corners are walked at most
-/// [`MAX_PATCH`] times in a row.
+/// `O(n log n)`: the three counts are kept up to date as triangles go, and a centre's corners are
+/// walked at most [`MAX_PATCH`] times in a row.
 ///
 /// # Panics
-/// If a triangle names a vertex that is not below `vertex_count`, or if there are 2³²/3 triangles or more.
+/// If a triangle names a vertex that is not below `vertex_count`, or if there are 2³²/3 triangles
+/// or more.
 #[must_use]
 pub fn decompose(triangles: &[[u32; 3]], vertex_count: usize, weights: &Weights) -> Vec<Fan> {
     let adjacency = Adjacency::new(vertex_count, triangles);
@@ -63,7 +65,10 @@ impl<'a> Front<'a> {
             weights,
             counts: starts
                 .windows(2)
-                .map(|range| Counts { triangles: (range[1] - range[0]).cast_signed(), ..Counts::default() })
+                .map(|range| Counts {
+                    triangles: (range[1] - range[0]).cast_signed(),
+                    ..Counts::default()
+                })
                 .collect(),
             starts,
             corners,
@@ -127,12 +132,13 @@ impl<'a> Front<'a> {
         corner != NONE && !self.taken[corner as usize / 3]
     }
 
-    /// Takes the longest runs about `centre`, all those of one length, so that a vertex is visited at most [`MAX_PATCH`]
-    /// times between changes by others however many runs it has.
+    /// Takes the longest runs about `centre`, all those of one length, so that a vertex is visited
+    /// at most [`MAX_PATCH`] times between changes by others however many runs it has.
     fn take_fans(&mut self, centre: u32, fans: &mut Vec<Fan>) {
         let runs = self.runs(centre);
         let longest = runs.iter().map(Vec::len).max().unwrap_or(0).min(MAX_PATCH);
-        for piece in runs.iter().filter(|run| run.len() >= longest).flat_map(|run| run.chunks_exact(longest))
+        for piece in
+            runs.iter().filter(|run| run.len() >= longest).flat_map(|run| run.chunks_exact(longest))
         {
             piece.iter().for_each(|corner| self.take(corner / 3));
             let end = |&corner: &u32| self.adjacency.vertex(preceding(corner));

@@ -5,9 +5,9 @@
 //!            └─ pack ────── patches  the same rule for leaves of two fans, which is what the box tree stores
 //! ```
 //!
-//! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section 5. Any soup will do: open,
-//! non-manifold, inconsistently wound, with repeated corners. Every triangle is in exactly one fan exactly once, which
-//! [`validate()`] checks.
+//! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
+//! 5. Any soup will do: open, non-manifold, inconsistently wound, with repeated corners. Every
+//! triangle is in exactly one fan exactly once, which [`validate()`] checks.
 
 mod adjacency;
 mod decompose;
@@ -30,9 +30,9 @@ pub const MAX_PATCH: usize = 8;
 
 /// Triangles about one vertex.
 ///
-/// Triangle `i` is `(centre, ring[i], ring[i + 1])`, in the mesh's winding; if `reversed`, it is `(centre, ring[i + 1], ring[i])`.
-/// The first corner may be another than in the mesh. `ring` holds one vertex more than there are triangles; for a fan that
-/// closes, its last vertex is its first.
+/// Triangle `i` is `(centre, ring[i], ring[i + 1])`, in the mesh's winding; if `reversed`, it is
+/// `(centre, ring[i + 1], ring[i])`. The first corner may be another than in the mesh. `ring` holds
+/// one vertex more than there are triangles; for a fan that closes, its last vertex is its first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fan {
     /// The vertex that all triangles share.
@@ -47,8 +47,8 @@ pub struct Fan {
 
 /// What one leaf of the box tree holds: one fan, or two that share a vertex of their rings.
 ///
-/// At most [`MAX_PATCH`] triangles together. `first` is not reversed; `second` may be, and its ring starts with the last vertex
-/// of `first`'s, so that both rings are one path.
+/// At most [`MAX_PATCH`] triangles together. `first` is not reversed; `second` may be, and its ring
+/// starts with the last vertex of `first`'s, so that both rings are one path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Patch {
     /// The fan at the path's start.

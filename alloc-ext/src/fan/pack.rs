@@ -11,19 +11,23 @@ use super::{MAX_PATCH, Patch};
 
 /// Candidates whose score is computed in full. All of them instead give no better result.
 const FINALISTS: usize = 16;
-/// Places for masks seen, a power of two well above the number of candidates (76 on average, a few hundred at most).
+/// Places for masks seen, a power of two well above the number of candidates (76 on average, a few
+/// hundred at most).
 const SEEN: usize = 512;
 
 /// Packs a soup into patches, one for each leaf of the box tree.
 ///
-/// The paper's idea, with the patch in place of the fan: the front starts at the open edges and moves inwards, and what is most
-/// in danger of being left alone goes first. The next seed is the remaining triangle with the fewest remaining neighbours, and
-/// of those the one that has waited longest. In a window of 32 triangles about it, every patch that contains the seed and
-/// cannot be extended is scored: by its size, the open edges it leaves, the triangles and parts it cuts off, and its
-/// box. The best becomes the next patch. Triangles that share no edge never meet in a patch.
+/// The paper's idea, with the patch in place of the fan: the front starts at the open edges and
+/// moves inwards, and what is most in danger of being left alone goes first. The next seed is the
+/// remaining triangle with the fewest remaining neighbours, and of those the one that has waited
+/// longest. In a window of 32 triangles about it, every patch that contains the seed and
+/// cannot be extended is scored: by its size, the open edges it leaves, the triangles and parts it
+/// cuts off, and its box. The best becomes the next patch. Triangles that share no edge never meet
+/// in a patch.
 ///
-/// Time and memory are linear: a patch costs bounded work, whatever the valences, about 20 µs. The same input gives the same
-/// patches. `positions` decide among patches only: whatever they are, every triangle is in exactly one patch.
+/// Time and memory are linear: a patch costs bounded work, whatever the valences, about 20 µs. The
+/// same input gives the same patches. `positions` decide among patches only: whatever they are,
+/// every triangle is in exactly one patch.
 ///
 /// # Panics
 /// If a triangle names a vertex that has no position, or if there are 2³²/3 triangles or more.
@@ -55,7 +59,8 @@ pub fn pack(triangles: &[[u32; 3]], positions: &[DVec3]) -> Vec<Patch> {
     patches
 }
 
-/// Remaining triangles by their number of remaining neighbours, oldest first. An entry is stale if the number has changed.
+/// Remaining triangles by their number of remaining neighbours, oldest first. An entry is stale if
+/// the number has changed.
 #[derive(Default)]
 struct Front([VecDeque<u32>; 4]);
 
@@ -86,7 +91,8 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Decides between equal scores: fewer fans, hence fewer stored vertices, then the triangles nearest to the seed.
+    /// Decides between equal scores: fewer fans, hence fewer stored vertices, then the triangles
+    /// nearest to the seed.
     fn tie(&self) -> (Option<(Run, bool)>, u32, Run) {
         (self.second, self.mask, self.first)
     }
@@ -119,8 +125,10 @@ impl Candidates {
         let room = MAX_PATCH - run.len as usize;
         let longest = |corner: u8, behind: bool| {
             let masks = window.runs(corner, behind);
-            // The masks grow with the length, so the search ends where the run does or where it meets the other.
-            let len = (1..=room).take_while(|&len| masks[len] != 0 && masks[len] & mask == 0).last()?;
+            // The masks grow with the length, so the search ends where the run does or where it
+            // meets the other.
+            let len =
+                (1..=room).take_while(|&len| masks[len] != 0 && masks[len] & mask == 0).last()?;
             Some((masks[len] | mask, Run { corner, len: len as u8, behind }))
         };
         for at in window.corners_at(window.before(end)) {
@@ -172,7 +180,8 @@ impl Packing<'_> {
     fn collect(&mut self) {
         let Self { window, candidates, .. } = self;
         candidates.clear();
-        let mut runs = arrayvec::ArrayVec::<(Run, u8), { 3 * MAX_PATCH * (MAX_PATCH + 1) / 2 }>::new();
+        let mut runs =
+            arrayvec::ArrayVec::<(Run, u8), { 3 * MAX_PATCH * (MAX_PATCH + 1) / 2 }>::new();
         for seed_corner in 0..3 {
             let mut start = seed_corner;
             for before in 0..MAX_PATCH {
@@ -202,7 +211,9 @@ impl Packing<'_> {
     fn best(&mut self) -> Candidate {
         let list = &mut self.candidates.list;
         if list.len() > FINALISTS {
-            list.select_nth_unstable_by_key(FINALISTS - 1, |candidate| (-candidate.score, candidate.tie()));
+            list.select_nth_unstable_by_key(FINALISTS - 1, |candidate| {
+                (-candidate.score, candidate.tie())
+            });
             list.truncate(FINALISTS);
         }
         let total = |candidate: &Candidate| {
@@ -212,7 +223,9 @@ impl Packing<'_> {
         let (_, best) = list
             .iter()
             .map(|candidate| (total(candidate), *candidate))
-            .max_by(|(score, a), (other, b)| score.total_cmp(other).then_with(|| b.tie().cmp(&a.tie())))
+            .max_by(|(score, a), (other, b)| {
+                score.total_cmp(other).then_with(|| b.tie().cmp(&a.tie()))
+            })
             .expect("the seed by itself is a candidate");
         best
     }

@@ -26,8 +26,9 @@ pub struct FanReport {
 }
 
 impl FanReport {
-    /// Counts `fans` and `patches`, which need not belong together: pass the fans of [`decompose`](super::decompose()) to compare
-    /// with the paper, or those of the patches (by [`Patch::fans`]) to see what is stored. Linear.
+    /// Counts `fans` and `patches`, which need not belong together: pass the fans of
+    /// [`decompose`](super::decompose()) to compare with the paper, or those of the patches (by
+    /// [`Patch::fans`]) to see what is stored. Linear.
     ///
     /// # Panics
     /// If a fan or a patch has no triangle or more than [`MAX_PATCH`].
@@ -58,7 +59,8 @@ impl FanReport {
         mean(self.patched_triangles(), self.patches)
     }
 
-    /// Mean number of stored vertices for a triangle of a patch; 0 if there is none. 10/8 is the least possible.
+    /// Mean number of stored vertices for a triangle of a patch; 0 if there is none. 10/8 is the
+    /// least possible.
     #[must_use]
     pub fn vertices_per_triangle(&self) -> f64 {
         mean(self.stored_vertices, self.patched_triangles())

@@ -5,9 +5,10 @@ use glam::DVec3;
 use super::MAX_PATCH;
 use super::window::Window;
 
-// The weights extend the paper's `f` from fans to patches: size, contact with the front, and what is left behind. They were
-// chosen for few patches and small boxes together, on two scanned meshes and a modelled one. They lie on a plateau: any one of
-// them half or one and a half times as large moves the number of patches and the sum of box areas by 3 % at most.
+// The weights extend the paper's `f` from fans to patches: size, contact with the front, and what
+// is left behind. They were chosen for few patches and small boxes together, on two scanned meshes
+// and a modelled one. They lie on a plateau: any one of them half or one and a half times as large
+// moves the number of patches and the sum of box areas by 3 % at most.
 
 /// For each triangle of the patch. Twice as much makes 1 % fewer patches, with boxes 2 % larger.
 const SIZE: i32 = 2;
@@ -19,10 +20,11 @@ const INNER_EDGE: i32 = 1;
 const ALONE: i32 = 64;
 /// Against each triangle left with one neighbour.
 const DANGLING: i32 = 6;
-/// Against each lane that will stay empty because a part was cut off whose size is no multiple of [`MAX_PATCH`].
+/// Against each lane that will stay empty because a part was cut off whose size is no multiple of
+/// [`MAX_PATCH`].
 const EMPTY_LANE: i32 = 4;
-/// Against the box's half area for each triangle, in units of a full patch's mean squared edge. Without it boxes are 8 to 10 %
-/// larger and patches no fewer.
+/// Against the box's half area for each triangle, in units of a full patch's mean squared edge.
+/// Without it boxes are 8 to 10 % larger and patches no fewer.
 const SPREAD: f64 = 16.0;
 
 /// The triangles of a mask, by their index in the window.
@@ -52,10 +54,12 @@ pub(super) fn contact(window: &Window, patch: u32) -> i32 {
             _ => 0,
         };
     }
-    SIZE * patch.count_ones().cast_signed() - OPEN_EDGE * (degrees - inner) + INNER_EDGE * inner / 2 - left
+    SIZE * patch.count_ones().cast_signed() - OPEN_EDGE * (degrees - inner) + INNER_EDGE * inner / 2
+        - left
 }
 
-/// The parts that the patch cuts off, as far as they lie in the window. A part of one triangle is left to [`contact`].
+/// The parts that the patch cuts off, as far as they lie in the window. A part of one triangle is
+/// left to [`contact`].
 pub(super) fn cut_off(window: &Window, patch: u32) -> i32 {
     let mut rest = window.all() & !patch;
     let mut empty = 0;
@@ -74,8 +78,14 @@ pub(super) fn cut_off(window: &Window, patch: u32) -> i32 {
     -EMPTY_LANE * empty.cast_signed()
 }
 
-/// How far the patch spreads, by its axis-parallel box; the same at any scale. 0 if all its edges have length 0.
-pub(super) fn spread(window: &Window, patch: u32, triangles: &[[u32; 3]], positions: &[DVec3]) -> f64 {
+/// How far the patch spreads, by its axis-parallel box; the same at any scale. 0 if all its edges
+/// have length 0.
+pub(super) fn spread(
+    window: &Window,
+    patch: u32,
+    triangles: &[[u32; 3]],
+    positions: &[DVec3],
+) -> f64 {
     let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut squared_edges = 0.0;
     for i in each(patch) {

@@ -59,7 +59,8 @@ impl Soup {
     /// Both ways, checked; the same twice.
     fn check(&self) -> FanReport {
         let fans = decompose(&self.triangles, self.positions.len(), &Weights::default());
-        let single: Vec<Patch> = fans.iter().cloned().map(|first| Patch { first, second: None }).collect();
+        let single: Vec<Patch> =
+            fans.iter().cloned().map(|first| Patch { first, second: None }).collect();
         assert_eq!(validate(&single, &self.triangles), Ok(()));
         assert_eq!(fans, decompose(&self.triangles, self.positions.len(), &Weights::default()));
 
@@ -73,9 +74,12 @@ impl Soup {
         parts
             .map(|part| {
                 let corners = || {
-                    part.iter().flat_map(|&t| self.triangles[t as usize]).map(|v| self.positions[v as usize])
+                    part.iter()
+                        .flat_map(|&t| self.triangles[t as usize])
+                        .map(|v| self.positions[v as usize])
                 };
-                let size = corners().reduce(DVec3::max).unwrap() - corners().reduce(DVec3::min).unwrap();
+                let size =
+                    corners().reduce(DVec3::max).unwrap() - corners().reduce(DVec3::min).unwrap();
                 size.x * size.y + size.y * size.z + size.z * size.x
             })
             .sum()
@@ -112,7 +116,10 @@ fn nothing_makes_no_fans() {
 #[test]
 fn a_single_triangle_is_a_fan() {
     let report = Soup::new(vec![[0, 1, 2]]).check();
-    assert_eq!((report.fans, report.degenerate, report.patches, report.stored_vertices), (1, 1, 1, 3));
+    assert_eq!(
+        (report.fans, report.degenerate, report.patches, report.stored_vertices),
+        (1, 1, 1, 3)
+    );
 }
 
 #[test]
@@ -130,7 +137,8 @@ fn two_fans_of_one_path_are_one_patch() {
 
 #[test]
 fn a_second_fan_may_be_reversed() {
-    // Four triangles about 0 and two about 4, or two about 0 and four about 4: both rings end at the vertex they share.
+    // Four triangles about 0 and two about 4, or two about 0 and four about 4: both rings end at
+    // the vertex they share.
     let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [4, 7, 6], [4, 6, 5]];
     let patches = pack(&triangles, &Soup::new(triangles.clone()).positions);
     assert_eq!(validate(&patches, &triangles), Ok(()));
@@ -171,7 +179,8 @@ fn three_triangles_on_an_edge_are_cut_apart() {
 #[test]
 fn a_bow_tie_vertex_makes_two_fans() {
     let mut triangles = Soup::cone(6).triangles;
-    triangles.extend(Soup::cone(5).triangles.iter().map(|t| t.map(|v| if v == 0 { 0 } else { v + 10 })));
+    triangles
+        .extend(Soup::cone(5).triangles.iter().map(|t| t.map(|v| if v == 0 { 0 } else { v + 10 })));
     let report = Soup::new(triangles).check();
     assert_eq!((report.fans, report.patches), (2, 2));
 }
@@ -274,7 +283,9 @@ fn the_report_counts_what_it_is_given() {
     assert_eq!((report.triangles, report.fans, report.degenerate, report.patches), (5, 3, 2, 2));
     assert_eq!((report.stored_vertices, report.fan_sizes[2], report.patch_sizes[3]), (7 + 3, 1, 1));
     assert!(
-        report.to_string().contains("2 patches, 2.500 triangles a patch, 2.000 stored vertices a triangle")
+        report
+            .to_string()
+            .contains("2 patches, 2.500 triangles a patch, 2.000 stored vertices a triangle")
     );
 }
 
@@ -282,19 +293,31 @@ fn the_report_counts_what_it_is_given() {
 fn validate_names_each_fault() {
     let triangles = vec![[0, 1, 2], [0, 2, 3], [3, 2, 4]];
     let fault = |change: fn(&mut Fan, &mut Fan)| {
-        let mut first = Fan { centre: 0, ring: vec![1, 2, 3], triangles: vec![0, 1], reversed: false };
+        let mut first =
+            Fan { centre: 0, ring: vec![1, 2, 3], triangles: vec![0, 1], reversed: false };
         let mut second = Fan { centre: 4, ring: vec![3, 2], triangles: vec![2], reversed: false };
         change(&mut first, &mut second);
         validate(&[Patch { first, second: Some(second) }], &triangles)
     };
     assert_eq!(fault(|_, _| ()), Ok(()));
-    assert_eq!(fault(|_, second| second.triangles.clear()), Err(FanFault::Size { patch: 0, found: 2 }));
-    assert_eq!(fault(|_, second| second.triangles = vec![2; 7]), Err(FanFault::Size { patch: 0, found: 9 }));
+    assert_eq!(
+        fault(|_, second| second.triangles.clear()),
+        Err(FanFault::Size { patch: 0, found: 2 })
+    );
+    assert_eq!(
+        fault(|_, second| second.triangles = vec![2; 7]),
+        Err(FanFault::Size { patch: 0, found: 9 })
+    );
     assert_eq!(fault(|_, second| second.ring.push(0)), Err(FanFault::Ring { patch: 0 }));
     assert_eq!(fault(|first, _| first.reversed = true), Err(FanFault::Reversed { patch: 0 }));
     assert_eq!(fault(|_, second| second.ring[0] = 0), Err(FanFault::Apart { patch: 0 }));
     assert_eq!(fault(|_, second| second.reversed = true), Err(FanFault::Corners { triangle: 2 }));
-    assert_eq!(fault(|_, second| second.triangles = vec![9]), Err(FanFault::Corners { triangle: 9 }));
+    assert_eq!(
+        fault(|_, second| second.triangles = vec![9]),
+        Err(FanFault::Corners { triangle: 9 })
+    );
     assert_eq!(validate(&[], &triangles), Err(FanFault::Cover { triangle: 0, found: 0 }));
-    assert!(FanFault::Cover { triangle: 7, found: 2 }.to_string().contains("triangle 7 is in 2 fans"));
+    assert!(
+        FanFault::Cover { triangle: 7, found: 2 }.to_string().contains("triangle 7 is in 2 fans")
+    );
 }

@@ -29,7 +29,8 @@ pub enum FanFault {
         /// The patch's index.
         patch: usize,
     },
-    /// A fan names other vertices than the mesh, or the same in the other winding, or a triangle that is not there.
+    /// A fan names other vertices than the mesh, or the same in the other winding, or a triangle
+    /// that is not there.
     Corners {
         /// The triangle's number.
         triangle: u32,
@@ -49,7 +50,9 @@ impl fmt::Display for FanFault {
             Self::Size { patch, found } => {
                 write!(f, "patch {patch} has {found} triangles, not 1 to {MAX_PATCH}")
             }
-            Self::Ring { patch } => write!(f, "patch {patch} has a ring that does not fit its triangles"),
+            Self::Ring { patch } => {
+                write!(f, "patch {patch} has a ring that does not fit its triangles")
+            }
             Self::Reversed { patch } => write!(f, "the first fan of patch {patch} is reversed"),
             Self::Apart { patch } => {
                 write!(f, "the fans of patch {patch} share no vertex at their rings' ends")
@@ -57,14 +60,17 @@ impl fmt::Display for FanFault {
             Self::Corners { triangle } => {
                 write!(f, "triangle {triangle} has other corners in its fan than in the mesh")
             }
-            Self::Cover { triangle, found } => write!(f, "triangle {triangle} is in {found} fans, not 1"),
+            Self::Cover { triangle, found } => {
+                write!(f, "triangle {triangle} is in {found} fans, not 1")
+            }
         }
     }
 }
 
 impl std::error::Error for FanFault {}
 
-/// Checks the promises of [`Fan`] and [`Patch`], and that every triangle is in exactly one fan. Linear.
+/// Checks the promises of [`Fan`] and [`Patch`], and that every triangle is in exactly one fan.
+/// Linear.
 ///
 /// # Errors
 /// The first promise that does not hold.
@@ -81,12 +87,19 @@ pub fn validate(patches: &[Patch], triangles: &[[u32; 3]]) -> Result<(), FanFaul
         if patch.first.reversed {
             return Err(FanFault::Reversed { patch: index });
         }
-        if patch.second.as_ref().is_some_and(|second| second.ring.first() != patch.first.ring.last()) {
+        if patch
+            .second
+            .as_ref()
+            .is_some_and(|second| second.ring.first() != patch.first.ring.last())
+        {
             return Err(FanFault::Apart { patch: index });
         }
         for fan in patch.fans() {
             for (i, &triangle) in fan.triangles.iter().enumerate() {
-                if !triangles.get(triangle as usize).is_some_and(|corners| same_triangle(corners, fan, i)) {
+                if !triangles
+                    .get(triangle as usize)
+                    .is_some_and(|corners| same_triangle(corners, fan, i))
+                {
                     return Err(FanFault::Corners { triangle });
                 }
                 found[triangle as usize] += 1;

@@ -1,11 +1,13 @@
-//! A small piece of what remains of the soup, in bit masks: every run of triangles about every vertex of it.
+//! A small piece of what remains of the soup, in bit masks: every run of triangles about every
+//! vertex of it.
 //!
 //! Corner `3i + k` is corner `k` of the window's triangle `i`.
 
 use super::adjacency::{Adjacency, NONE, following};
 use super::{Fan, MAX_PATCH};
 
-/// Triangles in a window: as many as a mask has bits. 20 make half a percent more patches, 48 no fewer.
+/// Triangles in a window: as many as a mask has bits. 20 make half a percent more patches, 48 no
+/// fewer.
 pub(super) const WINDOW: usize = 32;
 const CORNERS: usize = 3 * WINDOW;
 /// No corner, no triangle, no vertex.
@@ -39,10 +41,12 @@ pub(super) struct Window {
     /// A corner of each vertex, and for each corner another one of its vertex.
     first_at: [u8; CORNERS],
     other_at: [u8; CORNERS],
-    /// `ahead[c][n]`: the `n` triangles about `c`'s vertex from `c` on, as a mask; 0 if there are fewer.
+    /// `ahead[c][n]`: the `n` triangles about `c`'s vertex from `c` on, as a mask; 0 if there are
+    /// fewer.
     ahead: [[u32; MAX_PATCH + 1]; CORNERS],
     behind: [[u32; MAX_PATCH + 1]; CORNERS],
-    /// Numbers within the window, for all triangles and vertices of the soup; [`NO`] between two calls.
+    /// Numbers within the window, for all triangles and vertices of the soup; [`NO`] between two
+    /// calls.
     local_triangle: Vec<u8>,
     local_vertex: Vec<u8>,
 }
@@ -103,7 +107,8 @@ impl Window {
                     vertex_count += 1;
                 }
                 self.vertex[corner] = *slot;
-                self.other_at[corner] = std::mem::replace(&mut self.first_at[*slot as usize], corner as u8);
+                self.other_at[corner] =
+                    std::mem::replace(&mut self.first_at[*slot as usize], corner as u8);
 
                 let (after, across) = (self.after(corner as u8) as usize, neighbour(half_edge));
                 (self.previous[corner], self.next[after]) = (NO, NO);
@@ -125,7 +130,9 @@ impl Window {
         }
         for &t in &self.triangles {
             self.local_triangle[t as usize] = NO;
-            adjacency.triangles()[t as usize].iter().for_each(|&v| self.local_vertex[v as usize] = NO);
+            adjacency.triangles()[t as usize]
+                .iter()
+                .for_each(|&v| self.local_vertex[v as usize] = NO);
         }
         for corner in 0..3 * self.triangles.len() {
             self.ahead[corner] = runs(corner as u8, &self.next);
@@ -158,7 +165,8 @@ impl Window {
         self.border
     }
 
-    /// The runs that start at `corner`, or end there if `behind`, as masks by their length; 0 where there is none.
+    /// The runs that start at `corner`, or end there if `behind`, as masks by their length; 0 where
+    /// there is none.
     pub(super) fn runs(&self, corner: u8, behind: bool) -> &[u32; MAX_PATCH + 1] {
         if behind { &self.behind[corner as usize] } else { &self.ahead[corner as usize] }
     }
@@ -176,7 +184,9 @@ impl Window {
     /// The corners of the vertex of `corner`.
     pub(super) fn corners_at(&self, corner: u8) -> impl Iterator<Item = u8> {
         let first = self.first_at[self.vertex[corner as usize] as usize];
-        std::iter::successors(Some(first), |&c| Some(self.other_at[c as usize]).filter(|&c| c != NO))
+        std::iter::successors(Some(first), |&c| {
+            Some(self.other_at[c as usize]).filter(|&c| c != NO)
+        })
     }
 
     /// The next corner of the same triangle.
@@ -192,9 +202,10 @@ impl Window {
     /// A run as a fan.
     pub(super) fn fan(&self, adjacency: &Adjacency, run: Run, reversed: bool) -> Fan {
         let steps = if run.behind { &self.previous } else { &self.next };
-        let mut corners: Vec<u8> = std::iter::successors(Some(run.corner), |&c| Some(steps[c as usize]))
-            .take(run.len as usize)
-            .collect();
+        let mut corners: Vec<u8> =
+            std::iter::successors(Some(run.corner), |&c| Some(steps[c as usize]))
+                .take(run.len as usize)
+                .collect();
         if run.behind != reversed {
             corners.reverse();
         }
@@ -207,7 +218,9 @@ impl Window {
         };
         Fan {
             centre: vertex(corners[0]),
-            ring: std::iter::once(ends(corners[0])[0]).chain(corners.iter().map(|&c| ends(c)[1])).collect(),
+            ring: std::iter::once(ends(corners[0])[0])
+                .chain(corners.iter().map(|&c| ends(c)[1]))
+                .collect(),
             triangles: corners.iter().map(|&c| self.triangles[c as usize / 3]).collect(),
             reversed,
         }

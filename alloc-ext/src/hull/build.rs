@@ -110,12 +110,15 @@ impl std::error::Error for BuildError {}
 /// Most triangles of a mesh: instances and ring entries must fit the format's counts.
 const MAX_TRIANGLES: usize = 20_000_000;
 
-/// Builds the hull hierarchy of a closed manifold mesh (see [`require_closed_manifold`](crate::mesh::require_closed_manifold)).
+/// Builds the hull hierarchy of a closed manifold mesh (see
+/// [`require_closed_manifold`](crate::mesh::require_closed_manifold)).
 ///
-/// Parts may overlap. But where a mesh passes through itself inside out, so that it winds around points negatively, its hulls do
-/// not enclose it; distances and [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
+/// Parts may overlap. But where a mesh passes through itself inside out, so that it winds around
+/// points negatively, its hulls do not enclose it; distances and
+/// [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were.
+/// `moved` is the distance, in input units, that vertices were moved before (see
+/// [`snap`](crate::precision::snap)), 0 if none were.
 ///
 /// # Errors
 /// [`BuildError`].
@@ -132,7 +135,8 @@ pub fn build(
     let stored = store(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
     let started = Instant::now();
-    let (history, stuck, programs) = collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
+    let (history, stuck, programs) =
+        collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
     let collapse_time = started.elapsed();
     let started = Instant::now();
     let order = VertexOrder::new(&history);
@@ -141,7 +145,8 @@ pub fn build(
     let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
-    let mut tables = assemble(&stored, mesh, moved, input_triangles, &history, &order, &forest, &cover);
+    let mut tables =
+        assemble(&stored, mesh, moved, input_triangles, &history, &order, &forest, &cover);
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
     let bytes = tables.to_bytes();
@@ -159,7 +164,8 @@ pub fn build(
     Ok(Built { tables, bytes, report })
 }
 
-/// A hull alone: its triangles in input units, the void it adds as a part of the mesh's volume, and why it stopped early.
+/// A hull alone: its triangles in input units, the void it adds as a part of the mesh's volume, and
+/// why it stopped early.
 ///
 /// # Errors
 /// [`BuildError::NotPositive`].
@@ -201,8 +207,13 @@ fn collapse(
     faces: usize,
     on_progress: &mut impl FnMut(Progress),
 ) -> (History, Option<Stuck>, u64) {
-    let mut engine =
-        Engine::new(&stored.positions, &mesh.triangles, options.conditions, options.priority, stored.grid);
+    let mut engine = Engine::new(
+        &stored.positions,
+        &mesh.triangles,
+        options.conditions,
+        options.priority,
+        stored.grid,
+    );
     let stuck = engine.run(faces, on_progress);
     let programs = engine.progress().programs;
     let mut history = engine.finish();
@@ -211,7 +222,8 @@ fn collapse(
 }
 
 fn signed_volume(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    // Around a vertex of the mesh, so that a part far from the origin loses nothing to cancellation.
+    // Around a vertex of the mesh, so that a part far from the origin loses nothing to
+    // cancellation.
     let Some(&origin) = positions.first() else { return 0.0 };
     let at = |v: u32| positions[v as usize] - origin;
     triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
@@ -274,8 +286,10 @@ fn assemble(
         let vertex = index(collapse.vertex);
         splits_with[vertex as usize] = Some(splits.len() as u32);
         let at_label = |l: u32| history.positions[l as usize];
-        let corners = history.ring(collapse).iter().chain([&collapse.origin, &collapse.destination]);
-        let reach = corners.map(|&l| at_label(l).distance(at_label(collapse.vertex))).fold(0.0, f64::max);
+        let corners =
+            history.ring(collapse).iter().chain([&collapse.origin, &collapse.destination]);
+        let reach =
+            corners.map(|&l| at_label(l).distance(at_label(collapse.vertex))).fold(0.0, f64::max);
         splits.push(SplitRecord {
             vertex,
             ring_start: rings.len() as u32,
@@ -322,9 +336,14 @@ fn assemble(
         radii,
         splits_with,
         nodes,
-        surface: cover.triangles.iter().map(|&t| history.original_triangles[t as usize].map(index)).collect(),
+        surface: cover
+            .triangles
+            .iter()
+            .map(|&t| history.original_triangles[t as usize].map(index))
+            .collect(),
         source: cover.triangles.iter().map(|&t| mesh.source[t as usize]).collect(),
-        input_triangles: input_triangles.max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0))
+        input_triangles: input_triangles
+            .max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0))
             as u32,
         surface_box: Aabb { min: low, max: high },
         levels: Vec::new(),
@@ -333,7 +352,8 @@ fn assemble(
     }
 }
 
-/// Fills in how far each level's cover can be from the surface, both ways, by asking the finished model.
+/// Fills in how far each level's cover can be from the surface, both ways, by asking the finished
+/// model.
 fn certify(tables: &mut Tables) -> Result<(), OpenError> {
     let bytes = tables.to_bytes();
     let model = Model::open(&bytes)?;
@@ -352,7 +372,8 @@ fn certify(tables: &mut Tables) -> Result<(), OpenError> {
             .collect();
         let surface_to_hull = ends.iter().map(|node| node.radius).fold(0f32, f32::max);
         let triangles = ends.iter().map(|node| node.corners.map(|v| at(v.0)));
-        let farthest = hull_to_surface(&model, triangles, |source| Some(corners_of.get(&source)?.map(at)));
+        let farthest =
+            hull_to_surface(&model, triangles, |source| Some(corners_of.get(&source)?.map(at)));
         measured.push((up_to_f32(farthest), surface_to_hull));
     }
     for (level, (hull_to_surface, surface_to_hull)) in tables.levels.iter_mut().zip(measured) {

@@ -1,9 +1,12 @@
-//! How far the hull can be from the surface: a certified bound of the one-sided Hausdorff distance from triangles to a model.
+//! How far the hull can be from the surface: a certified bound of the one-sided Hausdorff distance
+//! from triangles to a model.
 //!
-//! Branch and bound. The distance to the surface is 1-Lipschitz, so a triangle is bounded from its centre; the distance to
-//! one surface triangle is convex, so it is also bounded from its corners. Until the bound is
-//! within a few percent of a distance that was found, the worst piece is split: in halves, or, if it is many times as large as it is far away, where it reaches
-//! beyond the surface triangle next to it. A hull that all but lies on a flat wall is so cut into what lies over each of the wall's triangles.
+//! Branch and bound. The distance to the surface is 1-Lipschitz, so a triangle is bounded from its
+//! centre; the distance to one surface triangle is convex, so it is also bounded from its corners.
+//! Until the bound is within a few percent of a distance that was found, the worst piece is split:
+//! in halves, or, if it is many times as large as it is far away, where it reaches beyond the
+//! surface triangle next to it. A hull that all but lies on a flat wall is so cut into what lies
+//! over each of the wall's triangles.
 
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -15,13 +18,15 @@ use std::collections::BinaryHeap;
 /// The bound may exceed the true distance by this factor.
 const SLACK: f64 = 1.05;
 
-/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2.2 · 2^-51 of a coordinate: this for [`DEEPEST`] cuts, one in another.
+/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2.2 ·
+/// 2^-51 of a coordinate: this for [`DEEPEST`] cuts, one in another.
 const MIDPOINTS: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// Cuts that a piece comes of at most: it keeps its bound then.
 const DEEPEST: u32 = 14_000;
 
-/// Cuts in all: enough to settle any mesh at hand, where each of its triangles may cut a hull that hugs it a few times. What is left over keeps its bound.
+/// Cuts in all: enough to settle any mesh at hand, where each of its triangles may cut a hull that
+/// hugs it a few times. What is left over keeps its bound.
 const BUDGET: usize = 200_000;
 
 struct Piece {
@@ -33,7 +38,8 @@ struct Piece {
     along: Option<[DVec3; 3]>,
 }
 
-/// Sizes of a piece in its distance from the surface beyond which halving would take too many steps.
+/// Sizes of a piece in its distance from the surface beyond which halving would take too many
+/// steps.
 const WIDE: f64 = 4.0;
 
 /// The centre of a triangle, and the distance of its farthest corner from there.
@@ -111,8 +117,9 @@ pub struct Farthest {
     pub upper: f64,
 }
 
-/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper` exceeds `lower` by a twentieth where 200,000 cuts do for that, and by more where it
-/// is not above `enough`.
+/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper`
+/// exceeds `lower` by a twentieth where 200,000 cuts do for that, and by more where it is not above
+/// `enough`.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
 pub fn farthest(
@@ -142,8 +149,9 @@ pub fn farthest(
     Farthest { lower: found, upper: found }
 }
 
-/// Whether no point of a triangle is farther than `most` from the surface that `nearest` knows, as far as `budget` pieces of it tell: false if they do
-/// not. `about` gives cheaper, wider bounds of a point's distance, which often suffice.
+/// Whether no point of a triangle is farther than `most` from the surface that `nearest` knows, as
+/// far as `budget` pieces of it tell: false if they do not. `about` gives cheaper, wider bounds of
+/// a point's distance, which often suffice.
 pub fn is_within(
     triangle: [DVec3; 3],
     most: f64,
@@ -177,9 +185,11 @@ pub fn is_within(
     true
 }
 
-/// Least found upper bound of the largest distance from a point of `triangles` (local frame) to the model's surface; local frame.
+/// Least found upper bound of the largest distance from a point of `triangles` (local frame) to the
+/// model's surface; local frame.
 ///
-/// `surface[source]` are corners of the surface's triangle with that number, local frame. Cost: as [`farthest`].
+/// `surface[source]` are corners of the surface's triangle with that number, local frame. Cost: as
+/// [`farthest`].
 pub fn hull_to_surface(
     model: &Model<'_>,
     triangles: impl Iterator<Item = [DVec3; 3]>,
@@ -201,7 +211,8 @@ pub fn hull_to_surface(
     farthest(triangles, 0.0, nearest).upper
 }
 
-/// What of a piece lies on this and on that side of an edge of `along`, as seen along its normal: of the edge that it reaches over farthest; `None` if it reaches over none.
+/// What of a piece lies on this and on that side of an edge of `along`, as seen along its normal:
+/// of the edge that it reaches over farthest; `None` if it reaches over none.
 fn cut(corners: [DVec3; 3], along: [DVec3; 3]) -> Option<[[DVec3; 3]; 3]> {
     let [p, q, r] = along;
     let normal = (q - p).cross(r - p);
@@ -219,7 +230,8 @@ fn cut(corners: [DVec3; 3], along: [DVec3; 3]) -> Option<[[DVec3; 3]; 3]> {
         return None;
     }
     // The corner that is alone on its side.
-    let alone = (0..3).find(|&k| (0..3).all(|i| i == k || (heights[i] > 0.0) != (heights[k] > 0.0)))?;
+    let alone =
+        (0..3).find(|&k| (0..3).all(|i| i == k || (heights[i] > 0.0) != (heights[k] > 0.0)))?;
     let [a, b, c] = [0, 1, 2].map(|k| corners[(alone + k) % 3]);
     let [ha, hb, hc] = [0, 1, 2].map(|k| heights[(alone + k) % 3]);
     let x = a + (b - a) * (ha / (ha - hb)).clamp(0.0, 1.0);
@@ -232,7 +244,8 @@ const SHAVING: f64 = 1e-6;
 
 /// Two halves, cut across the longest edge.
 fn bisect([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 2] {
-    let (ab, bc, ca) = ((b - a).length_squared(), (c - b).length_squared(), (a - c).length_squared());
+    let (ab, bc, ca) =
+        ((b - a).length_squared(), (c - b).length_squared(), (a - c).length_squared());
     let [p, q, r] = if ab >= bc && ab >= ca {
         [a, b, c]
     } else if bc >= ca {
@@ -259,19 +272,28 @@ mod tests {
             let [a, b, c] = t.map(DVec3::from);
             (point_triangle(p, a, b, c), [a, b, c])
         };
-        let (near, triangle) = SURFACE.map(of).into_iter().min_by(|a, b| a.0.upper.total_cmp(&b.0.upper))?;
+        let (near, triangle) =
+            SURFACE.map(of).into_iter().min_by(|a, b| a.0.upper.total_cmp(&b.0.upper))?;
         Some(Nearest { lower: near.lower, upper: near.upper, triangle: Some(triangle) })
     }
 
     #[test]
     fn a_triangle_is_within_what_its_farthest_point_is_and_no_less() {
-        let about = |p: DVec3| nearest(p).map_or([0.0, f64::INFINITY], |n| [n.lower - 0.1, n.upper + 0.1]);
+        let about =
+            |p: DVec3| nearest(p).map_or([0.0, f64::INFINITY], |n| [n.lower - 0.1, n.upper + 0.1]);
         for i in 0..500u32 {
             let at = |k: u32| f64::from(i.wrapping_mul(k) % 997) / 997.0 * 6.0 - 1.0;
-            let corners = [[3, 17, 101], [5, 37, 211], [11, 71, 307]].map(|c| DVec3::from(c.map(at)));
+            let corners =
+                [[3, 17, 101], [5, 37, 211], [11, 71, 307]].map(|c| DVec3::from(c.map(at)));
             let far = farthest(std::iter::once(corners), 0.0, nearest);
-            assert!(is_within(corners, far.upper * 1.01, 100_000, about, nearest), "{corners:?} {far:?}");
-            assert!(!is_within(corners, far.lower * 0.99, 100_000, about, nearest), "{corners:?} {far:?}");
+            assert!(
+                is_within(corners, far.upper * 1.01, 100_000, about, nearest),
+                "{corners:?} {far:?}"
+            );
+            assert!(
+                !is_within(corners, far.lower * 0.99, 100_000, about, nearest),
+                "{corners:?} {far:?}"
+            );
             assert!(!is_within(corners, far.upper * 1.01, 0, about, nearest));
         }
     }

@@ -1,6 +1,7 @@
 //! The program in one variable.
 
-/// The values of `t` that satisfy every `rate · t >= bound` so far: a closed interval, perhaps unbounded or empty.
+/// The values of `t` that satisfy every `rate · t >= bound` so far: a closed interval, perhaps
+/// unbounded or empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     lower: f64,
@@ -22,8 +23,8 @@ impl Interval {
         self.upper = if upper < self.upper { upper } else { self.upper };
     }
 
-    /// The point of the interval nearest to `target`: the optimum of any convex objective with its minimum there.
-    /// `None` if the interval is empty.
+    /// The point of the interval nearest to `target`: the optimum of any convex objective with its
+    /// minimum there. `None` if the interval is empty.
     #[inline(always)]
     #[must_use]
     pub fn nearest(&self, target: f64) -> Option<f64> {

@@ -18,10 +18,12 @@ struct Line {
     least_rate: f64,
 }
 
-/// The point nearest to `pull` on the line of `first` and `second`'s plane that satisfies `constraints`.
+/// The point nearest to `pull` on the line of `first` and `second`'s plane that satisfies
+/// `constraints`.
 ///
-/// `without` is the answer without `second`. It stays the answer where the planes are parallel and contradict each
-/// other by no more than rounding. `None` if no point of the line satisfies the constraints.
+/// `without` is the answer without `second`. It stays the answer where the planes are parallel and
+/// contradict each other by no more than rounding. `None` if no point of the line satisfies the
+/// constraints.
 #[inline(always)]
 pub(super) fn nearest<const CONE: bool>(
     first: &Plane,
@@ -30,8 +32,8 @@ pub(super) fn nearest<const CONE: bool>(
     pull: DVec3,
     constraints: &[HalfSpace],
 ) -> Option<DVec3> {
-    // Nearly parallel normals are equal in their leading digits. Their difference is exact, so that the product with
-    // it keeps all its digits where `first × second` would cancel.
+    // Nearly parallel normals are equal in their leading digits. Their difference is exact, so that
+    // the product with it keeps all its digits where `first × second` would cancel.
     let facing = 1.0f64.copysign(first.normal.dot(second.normal));
     let direction = first.normal.cross(second.normal - first.normal * facing);
     let sine_sq = direction.length_squared();
@@ -40,8 +42,8 @@ pub(super) fn nearest<const CONE: bool>(
         return without.filter(|_| missing <= CONTRADICTION * scale(first.foot));
     }
     let inverse = 1.0 / sine_sq;
-    // In `first`, across the line, towards the inside of `second`; as long as the sine, so that a step of `missing`
-    // over the sine's square along it ends in `second`.
+    // In `first`, across the line, towards the inside of `second`; as long as the sine, so that a
+    // step of `missing` over the sine's square along it ends in `second`.
     let inward = direction.cross(first.normal);
     let base = first.foot + inward * (missing * inverse);
     let target = direction.dot(pull) * inverse;
@@ -69,10 +71,15 @@ impl Line {
         Some(interval)
     }
 
-    /// The answer where `constraints` exclude the whole line, but perhaps by no more than rounding would.
+    /// The answer where `constraints` exclude the whole line, but perhaps by no more than rounding
+    /// would.
     #[cold]
     #[inline(never)]
-    fn nearest_in_doubt<const CONE: bool>(&self, target: f64, constraints: &[HalfSpace]) -> Option<DVec3> {
+    fn nearest_in_doubt<const CONE: bool>(
+        &self,
+        target: f64,
+        constraints: &[HalfSpace],
+    ) -> Option<DVec3> {
         let interval = self.clip::<CONE>(constraints)?;
         let point = self.base + self.direction * interval.nearest_or_middle(target);
         let tolerance = CONTRADICTION * scale(point);

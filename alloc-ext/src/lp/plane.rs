@@ -25,9 +25,9 @@ impl Plane {
         Some(Self { normal, foot: normal * offset })
     }
 
-    /// The component of `v` along the plane. Two products keep the result at right angles to the normal to within
-    /// rounding of its own length; subtracting `v`'s normal component once would only do so for `v`'s length, and `v`
-    /// is as long as `1/eps`.
+    /// The component of `v` along the plane. Two products keep the result at right angles to the
+    /// normal to within rounding of its own length; subtracting `v`'s normal component once
+    /// would only do so for `v`'s length, and `v` is as long as `1/eps`.
     #[inline(always)]
     fn along(&self, v: DVec3) -> DVec3 {
         self.normal.cross(v.cross(self.normal))
@@ -44,7 +44,8 @@ pub(super) fn nearest<const CONE: bool>(
     constraints: &mut [HalfSpace],
 ) -> Option<DVec3> {
     let plane = Plane::of::<CONE>(h)?;
-    // `pull` enters by its component along the plane alone: the height above it comes from the offset.
+    // `pull` enters by its component along the plane alone: the height above it comes from the
+    // offset.
     let start = plane.foot + plane.along(pull);
     insert::<CONE>(start, constraints, |second, without, inserted| {
         line::nearest::<CONE>(&plane, second, Some(without), pull, inserted)

@@ -7,7 +7,8 @@ use super::edges::{BOUNDARY, UnionFind, ends};
 pub(super) struct Boundary {
     /// Half-edges without a twin.
     pub edge_count: usize,
-    /// One of each hole: slits first, since they are the least visible, then from the largest hole to the smallest.
+    /// One of each hole: slits first, since they are the least visible, then from the largest hole
+    /// to the smallest.
     pub of_holes: Vec<u32>,
     /// Edges of the largest hole.
     pub largest: usize,
@@ -17,7 +18,8 @@ pub(super) struct Boundary {
 
 /// Boundary edges that share a vertex belong to one hole.
 pub(super) fn boundary(positions: &[[f32; 3]], triangles: &[[u32; 3]], twins: &[u32]) -> Boundary {
-    let half_edges: Vec<u32> = (0..twins.len() as u32).filter(|&h| twins[h as usize] == BOUNDARY).collect();
+    let half_edges: Vec<u32> =
+        (0..twins.len() as u32).filter(|&h| twins[h as usize] == BOUNDARY).collect();
     if half_edges.is_empty() {
         return Boundary { edge_count: 0, of_holes: Vec::new(), largest: 0, slit_count: 0 };
     }
@@ -46,5 +48,6 @@ pub(super) fn boundary(positions: &[[f32; 3]], triangles: &[[u32; 3]], twins: &[
 fn is_slit(positions: &[[f32; 3]], triangles: &[[u32; 3]], hole: &[(u32, u32)]) -> bool {
     let Some(&(_, first)) = hole.first() else { return false };
     let [a, b] = ends(triangles, first).map(|v| positions[v as usize]);
-    hole.iter().all(|&(_, h)| ends(triangles, h).iter().all(|&v| collinear(a, b, positions[v as usize])))
+    hole.iter()
+        .all(|&(_, h)| ends(triangles, h).iter().all(|&v| collinear(a, b, positions[v as usize])))
 }

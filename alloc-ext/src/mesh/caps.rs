@@ -1,8 +1,9 @@
 //! Triangles of zero area: removed by an edge flip where that keeps the mesh closed.
 //!
-//! A *cap* has its middle vertex b on the segment of its longest edge ac. If exactly one other triangle (a, c, d) lies
-//! on ac, then flipping that edge gives (a, b, d) and (b, c, d): the same point set, the same outer edges, no cap.
-//! Just dropping the cap would leave its two short edges facing the long one, a slit.
+//! A *cap* has its middle vertex b on the segment of its longest edge ac. If exactly one other
+//! triangle (a, c, d) lies on ac, then flipping that edge gives (a, b, d) and (b, c, d): the same
+//! point set, the same outer edges, no cap. Just dropping the cap would leave its two short edges
+//! facing the long one, a slit.
 
 use std::collections::VecDeque;
 
@@ -10,8 +11,8 @@ use super::collinear::{collinear, middle};
 use super::duplicate::retain;
 use super::report::{PLACES_KEPT, RepairReport};
 
-/// Removes all triangles with collinear corners, by a flip if there is one, else by dropping them. Expects three
-/// distinct vertices at distinct positions in each triangle and no duplicates.
+/// Removes all triangles with collinear corners, by a flip if there is one, else by dropping them.
+/// Expects three distinct vertices at distinct positions in each triangle and no duplicates.
 pub(super) fn remove_caps(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
@@ -22,14 +23,16 @@ pub(super) fn remove_caps(
         let [a, b, c] = t.map(|v| positions[v as usize]);
         collinear(a, b, c)
     };
-    let caps: Vec<u32> = (0..triangles.len() as u32).filter(|&t| flat(triangles[t as usize])).collect();
+    let caps: Vec<u32> =
+        (0..triangles.len() as u32).filter(|&t| flat(triangles[t as usize])).collect();
     if caps.is_empty() {
         return;
     }
     let mut stars = Stars::new(positions.len(), triangles);
     let cap_count = caps.len();
     let mut waiting = VecDeque::from(caps);
-    // A flip between two caps shortens their common edge, so such flips end by themselves; the limit is for certainty.
+    // A flip between two caps shortens their common edge, so such flips end by themselves; the
+    // limit is for certainty.
     let mut cap_flips_left = 8 * cap_count;
     let mut postponed = 0;
     while postponed < waiting.len() {
@@ -105,12 +108,18 @@ impl Stars {
         Self(stars)
     }
 
-    fn on_edge<'a>(&'a self, triangles: &'a [[u32; 3]], a: u32, b: u32) -> impl Iterator<Item = u32> + 'a {
+    fn on_edge<'a>(
+        &'a self,
+        triangles: &'a [[u32; 3]],
+        a: u32,
+        b: u32,
+    ) -> impl Iterator<Item = u32> + 'a {
         self.0[a as usize].iter().copied().filter(move |&t| triangles[t as usize].contains(&b))
     }
 }
 
-/// The neighbour (from, to, apex), in its own winding, and the cap's middle vertex on the edge from–to.
+/// The neighbour (from, to, apex), in its own winding, and the cap's middle vertex on the edge
+/// from–to.
 struct Flip {
     neighbour: u32,
     from: u32,
@@ -125,8 +134,14 @@ impl Flip {
         [triangle[(m + 1) % 3], triangle[(m + 2) % 3]]
     }
 
-    /// `None` if the long edge is not shared by exactly two triangles, or the new edge exists already.
-    fn find(positions: &[[f32; 3]], triangles: &[[u32; 3]], stars: &Stars, cap: u32) -> Option<Self> {
+    /// `None` if the long edge is not shared by exactly two triangles, or the new edge exists
+    /// already.
+    fn find(
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        stars: &Stars,
+        cap: u32,
+    ) -> Option<Self> {
         let triangle = triangles[cap as usize];
         let [a, c] = Self::longest_edge(positions, triangle);
         let middle = triangle.into_iter().find(|&v| v != a && v != c)?;

@@ -5,9 +5,10 @@ use super::report::RepairReport;
 
 /// Keeps the first triangle on each set of three vertices, whatever the winding of the others.
 ///
-/// Two opposite copies could be said to cancel: they enclose nothing. But they are surface, and dropping both would
-/// turn a two-sided sheet into a hole in every answer. So one stays; where it was an inner wall between two glued
-/// solids, a hull refuses the non-manifold edges that it leaves, by name.
+/// Two opposite copies could be said to cancel: they enclose nothing. But they are surface, and
+/// dropping both would turn a two-sided sheet into a hole in every answer. So one stays; where it
+/// was an inner wall between two glued solids, a hull refuses the non-manifold edges that it
+/// leaves, by name.
 pub(super) fn drop_duplicates(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
@@ -27,8 +28,11 @@ pub(super) fn drop_duplicates(
                 return true;
             }
             let (kept, copy) = (triangles[first as usize], triangles[t as usize]);
-            let finding =
-                if is_rotation(kept, copy) { &mut report.duplicate } else { &mut report.opposite_duplicate };
+            let finding = if is_rotation(kept, copy) {
+                &mut report.duplicate
+            } else {
+                &mut report.opposite_duplicate
+            };
             finding.triangle(source[t as usize], positions[copy[0] as usize]);
             false
         })

@@ -7,8 +7,8 @@ pub(super) const BOUNDARY: u32 = u32::MAX;
 /// More than two triangles on the edge, or one triangle twice.
 pub(super) const NON_MANIFOLD: u32 = u32::MAX - 1;
 
-/// All half-edges, grouped by undirected edge. Built by a counting sort over the lower vertex and a short sort for each
-/// vertex, which is several times faster than sorting all of them.
+/// All half-edges, grouped by undirected edge. Built by a counting sort over the lower vertex and a
+/// short sort for each vertex, which is several times faster than sorting all of them.
 pub(super) struct EdgeTable {
     starts: Vec<u32>,
     uses: Vec<(u32, u32)>,
@@ -36,9 +36,9 @@ impl EdgeTable {
 
     /// For each edge its half-edges in ascending order, as `(higher vertex, half-edge)`.
     pub(super) fn edges(&self) -> impl Iterator<Item = &[(u32, u32)]> {
-        self.starts
-            .windows(2)
-            .flat_map(|pair| self.uses[pair[0] as usize..pair[1] as usize].chunk_by(|a, b| a.0 == b.0))
+        self.starts.windows(2).flat_map(|pair| {
+            self.uses[pair[0] as usize..pair[1] as usize].chunk_by(|a, b| a.0 == b.0)
+        })
     }
 
     /// For each half-edge the other one on its edge, or [`BOUNDARY`], or [`NON_MANIFOLD`].

@@ -15,7 +15,8 @@ pub struct EdgePlace {
     pub to: [f32; 3],
 }
 
-/// Why a mesh was refused. Each message names the place and, in one line, the remedy. Lists hold the first five places.
+/// Why a mesh was refused. Each message names the place and, in one line, the remedy. Lists hold
+/// the first five places.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[allow(
@@ -29,13 +30,20 @@ pub enum MeshError {
     UnknownExtension { file: PathBuf },
     /// The content does not follow its format.
     Malformed { file: PathBuf, line: Option<usize>, place: String, reason: String },
-    /// The file ends before what it announced: `what` says of which kind of thing, `found` is the number, or an upper
-    /// bound of it, of the one that it breaks off at.
+    /// The file ends before what it announced: `what` says of which kind of thing, `found` is the
+    /// number, or an upper bound of it, of the one that it breaks off at.
     Truncated { file: PathBuf, what: String, wanted: u64, found: u64 },
     /// A coordinate is NaN or infinite.
     NotFinite { file: PathBuf, line: Option<usize>, vertex: usize, at: [f64; 3] },
-    /// A face names a vertex that is not there. `face` and `index` count as the file does: from 1 in OBJ, else from 0.
-    IndexOutOfRange { file: PathBuf, line: Option<usize>, face: usize, index: i64, vertex_count: usize },
+    /// A face names a vertex that is not there. `face` and `index` count as the file does: from 1
+    /// in OBJ, else from 0.
+    IndexOutOfRange {
+        file: PathBuf,
+        line: Option<usize>,
+        face: usize,
+        index: i64,
+        vertex_count: usize,
+    },
     /// The file holds no face.
     NoTriangles { file: PathBuf },
     /// More vertices or triangles than 32-bit numbers can name.
@@ -46,7 +54,8 @@ pub enum MeshError {
     TooSmall { file: PathBuf, largest: f64 },
     /// Every triangle had zero area.
     NoArea { file: PathBuf, dropped: usize },
-    /// Edges with one triangle only, so the mesh does not enclose a volume. Places: one edge of each of five holes.
+    /// Edges with one triangle only, so the mesh does not enclose a volume. Places: one edge of
+    /// each of five holes.
     Open {
         edge_count: usize,
         hole_count: usize,
@@ -54,7 +63,8 @@ pub enum MeshError {
         /// Holes whose corners all lie on one line: a T-junction or a zero-area triangle.
         slit_count: usize,
         places: Vec<EdgePlace>,
-        /// Input number of a dropped zero-area triangle on one of the holes; filled by `RepairReport::explain`.
+        /// Input number of a dropped zero-area triangle on one of the holes; filled by
+        /// `RepairReport::explain`.
         dropped_triangle: Option<u32>,
     },
     /// Edges with more than two triangles.
@@ -67,7 +77,8 @@ pub enum MeshError {
     InconsistentWinding { edge_count: usize, places: Vec<EdgePlace> },
     /// Outermost parts whose triangles face inwards; `repair` turns them.
     InsideOut { part_count: usize, places: Vec<[f32; 3]> },
-    /// A closed part whose volume cannot be told from zero; `bound` is the rounding error of the sum.
+    /// A closed part whose volume cannot be told from zero; `bound` is the rounding error of the
+    /// sum.
     ZeroVolume { triangle: u32, at: [f32; 3], volume: f64, bound: f64 },
     /// An index, coordinate or length of a `Mesh` that breaks the type's promise.
     Invalid { reason: String },
@@ -79,13 +90,26 @@ impl fmt::Display for MeshError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unreadable { file, reason } => {
-                write!(f, "{}: {reason}; check that the file exists and may be read", file.display())
+                write!(
+                    f,
+                    "{}: {reason}; check that the file exists and may be read",
+                    file.display()
+                )
             }
             Self::UnknownExtension { file } => {
-                write!(f, "{}: unknown kind of mesh file; convert it to .ply, .obj or .stl", file.display())
+                write!(
+                    f,
+                    "{}: unknown kind of mesh file; convert it to .ply, .obj or .stl",
+                    file.display()
+                )
             }
             Self::Malformed { file, line, place, reason } => {
-                write!(f, "{}{}: {place}: {reason}; export the mesh again", file.display(), Line(*line))
+                write!(
+                    f,
+                    "{}{}: {place}: {reason}; export the mesh again",
+                    file.display(),
+                    Line(*line)
+                )
             }
             Self::Truncated { file, what, wanted, found } => write!(
                 f,
@@ -107,7 +131,11 @@ impl fmt::Display for MeshError {
                 Counted(*vertex_count, "vertex")
             ),
             Self::NoTriangles { file } => {
-                write!(f, "{}: no triangles; export the surface, not points or curves", file.display())
+                write!(
+                    f,
+                    "{}: no triangles; export the surface, not points or curves",
+                    file.display()
+                )
             }
             Self::TooMany { file, what, count } => write!(
                 f,
@@ -130,7 +158,14 @@ impl fmt::Display for MeshError {
                 file.display(),
                 Counted(*dropped, "triangle")
             ),
-            Self::Open { edge_count, hole_count, largest_hole, slit_count, places, dropped_triangle } => {
+            Self::Open {
+                edge_count,
+                hole_count,
+                largest_hole,
+                slit_count,
+                places,
+                dropped_triangle,
+            } => {
                 write!(
                     f,
                     "not closed: {} in {}, the largest of {}",
@@ -157,7 +192,12 @@ impl fmt::Display for MeshError {
                 Edges(places)
             ),
             Self::NonManifoldVertices { count, places } => {
-                write!(f, "several fans meet in {}; run repair{}", Counted(*count, "vertex"), Points(places))
+                write!(
+                    f,
+                    "several fans meet in {}; run repair{}",
+                    Counted(*count, "vertex"),
+                    Points(places)
+                )
             }
             Self::NonOrientable { part_count, places } => write!(
                 f,

@@ -8,15 +8,17 @@ use super::vertex_fans::fans;
 use super::winding::propagate;
 use super::{EdgePlace, Mesh, MeshError};
 
-/// Checks that a mesh is the boundary of a solid: each edge has exactly two triangles, wound against each other, each
-/// vertex one fan, each part a volume, and outermost parts face outwards. Cavities and several parts are welcome.
+/// Checks that a mesh is the boundary of a solid: each edge has exactly two triangles, wound
+/// against each other, each vertex one fan, each part a volume, and outermost parts face outwards.
+/// Cavities and several parts are welcome.
 ///
 /// That triangles do not cross each other is not checked.
 ///
 /// # Errors
-/// In this order: an array that breaks [`Mesh`]'s promise, boundary edges (as holes), non-manifold edges, non-manifold
-/// vertices, one-sided parts, inconsistent winding, a part without volume, inside-out parts. The last four kinds but
-/// one-sided parts and zero volume cannot occur after [`repair`](super::repair()).
+/// In this order: an array that breaks [`Mesh`]'s promise, boundary edges (as holes), non-manifold
+/// edges, non-manifold vertices, one-sided parts, inconsistent winding, a part without volume,
+/// inside-out parts. The last four kinds but one-sided parts and zero volume cannot occur after
+/// [`repair`](super::repair()).
 pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
     check_arrays(mesh)?;
     let triangles = &mesh.triangles;
@@ -52,8 +54,9 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
             places: places(mesh, conflicts.into_iter()),
         });
     }
-    let against =
-        |&h: &u32| h < twins[h as usize] && ends(triangles, h)[0] == ends(triangles, twins[h as usize])[0];
+    let against = |&h: &u32| {
+        h < twins[h as usize] && ends(triangles, h)[0] == ends(triangles, twins[h as usize])[0]
+    };
     let edge_count = (0..twins.len() as u32).filter(against).count();
     if edge_count > 0 {
         let places = places(mesh, (0..twins.len() as u32).filter(against));
@@ -101,7 +104,9 @@ fn check_arrays(mesh: &Mesh) -> Result<(), MeshError> {
     }
     for (t, &[a, b, c]) in mesh.triangles.iter().enumerate() {
         if a.max(b).max(c) as usize >= vertex_count {
-            return invalid(format!("triangle {t} names a vertex beyond the {vertex_count} there are"));
+            return invalid(format!(
+                "triangle {t} names a vertex beyond the {vertex_count} there are"
+            ));
         }
         if a == b || b == c || c == a {
             return invalid(format!("triangle {t} has a vertex twice"));

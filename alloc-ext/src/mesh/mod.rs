@@ -4,12 +4,14 @@
 //! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for a hull
 //! ```
 //!
-//! [`read`] takes PLY, OBJ and STL. [`repair`] mends what can be mended without moving the surface and reports each
-//! mend with its place; it accepts any triangle soup. [`require_closed_manifold`] is the further demand of an outer
-//! hull, kept apart because a distance index is content with a soup.
+//! [`read`] takes PLY, OBJ and STL. [`repair`] mends what can be mended without moving the surface
+//! and reports each mend with its place; it accepts any triangle soup. [`require_closed_manifold`]
+//! is the further demand of an outer hull, kept apart because a distance index is content with a
+//! soup.
 //!
-//! Numbers of vertices, faces and triangles count from 0 in file order; errors of reading OBJ count from 1, as such a file does. A *face* is what the file lists, perhaps a
-//! polygon; a *triangle* is one after fan triangulation, numbered through in file order.
+//! Numbers of vertices, faces and triangles count from 0 in file order; errors of reading OBJ count
+//! from 1, as such a file does. A *face* is what the file lists, perhaps a polygon; a *triangle* is
+//! one after fan triangulation, numbered through in file order.
 
 mod boundary;
 mod caps;
@@ -47,26 +49,28 @@ pub use write_ply::write_ply;
 
 /// A triangle mesh as the rest of the builder takes it.
 ///
-/// [`repair`] guarantees: coordinates finite and without −0.0, indices in range, every vertex used, no triangle with a
-/// repeated vertex or zero area, no two triangles on the same three vertices.
+/// [`repair`] guarantees: coordinates finite and without −0.0, indices in range, every vertex used,
+/// no triangle with a repeated vertex or zero area, no two triangles on the same three vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Vertex positions in the file's unit and frame.
     pub positions: Vec<[f32; 3]>,
     /// Three vertex indices per triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Per triangle its number in the input file: polygons are fan-triangulated in file order, then numbered from 0.
-    /// Two triangles share a number where an edge flip removed a flat cap (see [`RepairReport::flipped_caps`]).
+    /// Per triangle its number in the input file: polygons are fan-triangulated in file order,
+    /// then numbered from 0. Two triangles share a number where an edge flip removed a flat
+    /// cap (see [`RepairReport::flipped_caps`]).
     pub source: Vec<u32>,
-    /// Upper bound, rounded up, of the Euclidean distance that any vertex moved when it was rounded to `f32`, in the
-    /// file's unit; 0 if every coordinate was an `f32` already. For text, the input is the decimal number as written,
-    /// except that a decimal whose nearest `f64` is an `f32` counts as that `f32`.
+    /// Upper bound, rounded up, of the Euclidean distance that any vertex moved when it was
+    /// rounded to `f32`, in the file's unit; 0 if every coordinate was an `f32` already. For
+    /// text, the input is the decimal number as written, except that a decimal whose nearest
+    /// `f64` is an `f32` counts as that `f32`.
     pub rounding: f64,
 }
 
 impl Mesh {
-    /// A mesh taken as it is: `source` counts from 0, `rounding` is 0. Nothing is checked; pass the arrays through
-    /// [`RawMesh::from_f32`] and [`repair`] if they are not known to be clean.
+    /// A mesh taken as it is: `source` counts from 0, `rounding` is 0. Nothing is checked; pass the
+    /// arrays through [`RawMesh::from_f32`] and [`repair`] if they are not known to be clean.
     #[must_use]
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let source = (0..triangles.len() as u32).collect();
@@ -82,18 +86,23 @@ impl Mesh {
     }
 }
 
-/// A mesh as read: finite coordinates, indices in range, at least one triangle; nothing else is promised.
+/// A mesh as read: finite coordinates, indices in range, at least one triangle; nothing else is
+/// promised.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawMesh {
-    /// Vertex positions in the file's unit and frame. STL shares no vertices, so it gives three per triangle.
+    /// Vertex positions in the file's unit and frame. STL shares no vertices, so it gives three
+    /// per triangle.
     pub positions: Vec<[f64; 3]>,
-    /// Three vertex indices per triangle, in the file's winding; polygons are split into fans about their first vertex.
+    /// Three vertex indices per triangle, in the file's winding; polygons are split into fans
+    /// about their first vertex.
     pub triangles: Vec<[u32; 3]>,
     /// Where it came from; only for messages.
     pub file: PathBuf,
-    /// Faces of the file with more than three corners, which [`triangles`](Self::triangles) has in parts.
+    /// Faces of the file with more than three corners, which [`triangles`](Self::triangles) has in
+    /// parts.
     pub polygons_split: usize,
-    /// True if the coordinates were decimal text, so that `positions` holds the nearest `f64` of each.
+    /// True if the coordinates were decimal text, so that `positions` holds the nearest `f64` of
+    /// each.
     pub decimal: bool,
 }
 
@@ -108,15 +117,21 @@ impl RawMesh {
     /// As [`RawMesh::from_f32`], for coordinates that [`repair`] has yet to round.
     #[must_use]
     pub fn from_f64(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
-        Self { positions, triangles, file: PathBuf::from("(memory)"), polygons_split: 0, decimal: false }
+        Self {
+            positions,
+            triangles,
+            file: PathBuf::from("(memory)"),
+            polygons_split: 0,
+            decimal: false,
+        }
     }
 }
 
 /// Reads, repairs and checks a mesh for a hull in one step.
 ///
 /// # Errors
-/// Those of [`read`], [`repair`] and [`require_closed_manifold`]; for an open mesh the error names the dropped
-/// zero-area triangle that is the likely cause, if there is one.
+/// Those of [`read`], [`repair`] and [`require_closed_manifold`]; for an open mesh the error names
+/// the dropped zero-area triangle that is the likely cause, if there is one.
 pub fn load_closed(path: &Path) -> Result<(Mesh, RepairReport), MeshError> {
     let (mesh, report) = repair(read(path)?)?;
     match require_closed_manifold(&mesh) {

@@ -41,27 +41,33 @@ impl Part {
         Self { triangles, low, high, extremes, strips: OnceCell::new() }
     }
 
-    /// True if `inner`'s box lies in this one's and its extreme vertices lie inside this part. For parts that do not
-    /// intersect this is exact (one vertex would do); parts that poke through each other may go either way.
+    /// True if `inner`'s box lies in this one's and its extreme vertices lie inside this part. For
+    /// parts that do not intersect this is exact (one vertex would do); parts that poke through
+    /// each other may go either way.
     pub(super) fn contains(&self, inner: &Self) -> bool {
-        let box_inside = (0..3).all(|k| self.low[k] <= inner.low[k] && inner.high[k] <= self.high[k]);
+        let box_inside =
+            (0..3).all(|k| self.low[k] <= inner.low[k] && inner.high[k] <= self.high[k]);
         box_inside && inner.extremes.iter().all(|&p| self.encloses(p))
     }
 
-    /// Whether a point that is not on the surface lies inside. Exact; parts that overlap count by parity.
+    /// Whether a point that is not on the surface lies inside. Exact; parts that overlap count by
+    /// parity.
     pub(crate) fn holds(&self, p: [f32; 3]) -> bool {
         (0..3).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k]) && self.encloses(p)
     }
 
-    /// Parity of the crossings of the ray from `p` along +z. The ray is thought to be moved by an infinitesimal step
-    /// along +x (and one infinitely smaller along +y), so it meets no edge and no vertex: each edge is judged by one
-    /// exact predicate that both of its triangles share. A point on the surface counts as not below it.
+    /// Parity of the crossings of the ray from `p` along +z. The ray is thought to be moved by an
+    /// infinitesimal step along +x (and one infinitely smaller along +y), so it meets no edge
+    /// and no vertex: each edge is judged by one exact predicate that both of its triangles
+    /// share. A point on the surface counts as not below it.
     fn encloses(&self, p: [f32; 3]) -> bool {
         let strips = self.strips.get_or_init(|| {
             let mut strips = vec![Vec::new(); STRIPS];
             for (number, [a, b, c]) in self.triangles.iter().enumerate() {
                 let (low, high) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
-                strips[self.strip(low)..=self.strip(high)].iter_mut().for_each(|s| s.push(number as u32));
+                strips[self.strip(low)..=self.strip(high)]
+                    .iter_mut()
+                    .for_each(|s| s.push(number as u32));
             }
             strips
         });
@@ -75,8 +81,8 @@ impl Part {
         strips[self.strip(p[1])].iter().filter(crosses).count() % 2 == 1
     }
 
-    /// The strip of a y coordinate. Each step is monotonic also when rounded, so a triangle is in the strip of every y
-    /// that it reaches.
+    /// The strip of a y coordinate. Each step is monotonic also when rounded, so a triangle is in
+    /// the strip of every y that it reaches.
     fn strip(&self, y: f32) -> usize {
         let (low, high) = (f64::from(self.low[1]), f64::from(self.high[1]));
         let along = (f64::from(y) - low) / (high - low).max(f64::MIN_POSITIVE);
@@ -92,13 +98,15 @@ fn is_below(p: [f32; 3], triangle: &[[f32; 3]; 3]) -> bool {
     }
     let flat = |v: [f32; 3]| Coord { x: v[0], y: v[1] };
     let solid = |v: [f32; 3]| Coord3D { x: v[0], y: v[1], z: v[2] };
-    // `orient3d` is positive if p lies below a plane whose corners turn counter-clockwise as seen from above.
+    // `orient3d` is positive if p lies below a plane whose corners turn counter-clockwise as seen
+    // from above.
     let above = orient3d(solid(a), solid(b), solid(c), solid(p));
     let turn = orient2d(flat(a), flat(b), flat(c));
     (above > 0.0 && turn > 0.0) || (above < 0.0 && turn < 0.0)
 }
 
-/// In the xy plane: does edge uv cross the line through p parallel to x, to the right of p moved infinitesimally right?
+/// In the xy plane: does edge uv cross the line through p parallel to x, to the right of p moved
+/// infinitesimally right?
 fn crosses_right_of(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> bool {
     let (below, above) = match (u[1] > p[1], v[1] > p[1]) {
         (false, true) => (u, v),

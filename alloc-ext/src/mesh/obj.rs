@@ -5,8 +5,8 @@ use std::path::Path;
 use super::text::{lines, point};
 use super::{MeshError, RawMesh};
 
-/// Reads `v x y z …` and `f v[/vt[/vn]] …`, indices from 1 or relative (negative), `\` at a line's end continuing it.
-/// Faces of one or two vertices are skipped: they have no surface.
+/// Reads `v x y z …` and `f v[/vt[/vn]] …`, indices from 1 or relative (negative), `\` at a line's
+/// end continuing it. Faces of one or two vertices are skipped: they have no surface.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
@@ -14,7 +14,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut face = 1;
     let mut polygons_split = 0;
     let mut corners: Vec<u32> = Vec::new();
-    // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the final count.
+    // OBJ lets a face name a vertex that comes later in the file, so ranges are checked against the
+    // final count.
     let mut highest: Option<(u32, usize, usize)> = None;
     let mut joined = String::new();
     for (number, text) in lines(bytes) {
@@ -51,19 +52,34 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         }
     }
     match highest {
-        Some((vertex, line, face)) if vertex as usize >= positions.len() => Err(MeshError::IndexOutOfRange {
+        Some((vertex, line, face)) if vertex as usize >= positions.len() => {
+            Err(MeshError::IndexOutOfRange {
+                file: file.to_owned(),
+                line: Some(line),
+                face,
+                index: i64::from(vertex) + 1,
+                vertex_count: positions.len(),
+            })
+        }
+        _ => Ok(RawMesh {
+            positions,
+            triangles,
             file: file.to_owned(),
-            line: Some(line),
-            face,
-            index: i64::from(vertex) + 1,
-            vertex_count: positions.len(),
+            polygons_split,
+            decimal: true,
         }),
-        _ => Ok(RawMesh { positions, triangles, file: file.to_owned(), polygons_split, decimal: true }),
     }
 }
 
-/// The vertex (from 0) that a word of an `f` statement names, `vertex_count` vertices having been read so far.
-fn index(file: &Path, line: usize, face: usize, word: &str, vertex_count: usize) -> Result<u32, MeshError> {
+/// The vertex (from 0) that a word of an `f` statement names, `vertex_count` vertices having been
+/// read so far.
+fn index(
+    file: &Path,
+    line: usize,
+    face: usize,
+    word: &str,
+    vertex_count: usize,
+) -> Result<u32, MeshError> {
     let number = word.split('/').next().unwrap_or("");
     let index: i64 = number.parse().map_err(|_| MeshError::Malformed {
         file: file.to_owned(),
@@ -85,7 +101,8 @@ fn index(file: &Path, line: usize, face: usize, word: &str, vertex_count: usize)
     })
 }
 
-/// Splits a polygon into the fan about its first vertex, in order; whether it has more than three corners.
+/// Splits a polygon into the fan about its first vertex, in order; whether it has more than three
+/// corners.
 pub(super) fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) -> bool {
     if let [first, rest @ ..] = corners {
         triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));

@@ -1,9 +1,10 @@
 //! Closed parts: their volume, which lie inside which, and which are inside out.
 //!
-//! The rule. A part that lies inside no other must face outwards, so it is inside out if its signed volume is negative;
-//! then it is turned, and all parts inside it with it, because they were drawn relative to it. Parts inside another are
-//! never judged on their own: facing inwards they are cavities, facing outwards they are solids within a solid, and
-//! both are legitimate. A volume that rounding cannot tell from zero is left alone. Parts that are open, one-sided or
+//! The rule. A part that lies inside no other must face outwards, so it is inside out if its signed
+//! volume is negative; then it is turned, and all parts inside it with it, because they were drawn
+//! relative to it. Parts inside another are never judged on their own: facing inwards they are
+//! cavities, facing outwards they are solids within a solid, and both are legitimate. A volume that
+//! rounding cannot tell from zero is left alone. Parts that are open, one-sided or
 //! on a non-manifold edge have no inside and are not looked at.
 
 use super::nesting::Part;
@@ -40,7 +41,11 @@ pub(super) struct ClosedPart {
 }
 
 /// Judges all closed two-sided parts of `triangles`, which must be wound consistently.
-pub(super) fn closed_parts(positions: &[[f32; 3]], triangles: &[[u32; 3]], parts: &Parts) -> Vec<ClosedPart> {
+pub(super) fn closed_parts(
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    parts: &Parts,
+) -> Vec<ClosedPart> {
     let mut firsts = vec![u32::MAX; parts.kinds.len()];
     let wanted = |part: u32| {
         let kind = &parts.kinds[part as usize];
@@ -48,7 +53,11 @@ pub(super) fn closed_parts(positions: &[[f32; 3]], triangles: &[[u32; 3]], parts
     };
     let mut gathered: Vec<Vec<[[f32; 3]; 3]>> = (0..parts.kinds.len())
         .map(|part| {
-            Vec::with_capacity(if wanted(part as u32) { parts.kinds[part].triangle_count } else { 0 })
+            Vec::with_capacity(if wanted(part as u32) {
+                parts.kinds[part].triangle_count
+            } else {
+                0
+            })
         })
         .collect();
     for (t, (triangle, &part)) in triangles.iter().zip(&parts.part).enumerate() {
@@ -68,13 +77,16 @@ pub(super) fn closed_parts(positions: &[[f32; 3]], triangles: &[[u32; 3]], parts
     let containers: Vec<Vec<usize>> = solids
         .iter()
         .enumerate()
-        .map(|(i, (_, inner))| (0..solids.len()).filter(|&j| j != i && solids[j].1.contains(inner)).collect())
+        .map(|(i, (_, inner))| {
+            (0..solids.len()).filter(|&j| j != i && solids[j].1.contains(inner)).collect()
+        })
         .collect();
     solids
         .iter()
         .enumerate()
         .map(|(i, &(number, _))| {
-            let outermost = containers[i].iter().copied().find(|&j| containers[j].is_empty()).unwrap_or(i);
+            let outermost =
+                containers[i].iter().copied().find(|&j| containers[j].is_empty()).unwrap_or(i);
             ClosedPart {
                 number,
                 first: firsts[number as usize],
@@ -88,9 +100,10 @@ pub(super) fn closed_parts(positions: &[[f32; 3]], triangles: &[[u32; 3]], parts
 
 /// The signed volume of a closed surface in f64, relative to its first corner.
 ///
-/// Each of the six products of a determinant carries at most 5 roundings (three differences, two products) and 5
-/// additions, and the sum over n triangles n more, each relative to the sum of absolute products: (n + 11) u of it,
-/// which (n + 16) ε covers with its own rounding. Coordinates are f32, so nothing over- or underflows.
+/// Each of the six products of a determinant carries at most 5 roundings (three differences, two
+/// products) and 5 additions, and the sum over n triangles n more, each relative to the sum of
+/// absolute products: (n + 11) u of it, which (n + 16) ε covers with its own rounding. Coordinates
+/// are f32, so nothing over- or underflows.
 pub(crate) fn volume(triangles: &[[[f32; 3]; 3]]) -> Volume {
     let origin = triangles.first().map_or([0.0; 3], |t| t[0].map(f64::from));
     let (mut sum, mut absolute) = (0.0, 0.0);

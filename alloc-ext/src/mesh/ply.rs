@@ -11,8 +11,8 @@ use ply_rs_bw::ply::{
 use super::obj::fan;
 use super::{MeshError, RawMesh};
 
-/// Reads elements `vertex` (`x`, `y`, `z` of any scalar type) and `face` (`vertex_indices` or `vertex_index`, a list of
-/// any integer type); other elements and properties are skipped.
+/// Reads elements `vertex` (`x`, `y`, `z` of any scalar type) and `face` (`vertex_indices` or
+/// `vertex_index`, a list of any integer type); other elements and properties are skipped.
 ///
 /// A header's counts are believed only as far as the file has room for them.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
@@ -46,7 +46,12 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     let Vertex(at) = source.next(element, vertex)?;
                     if !at.iter().all(|x| x.is_finite()) {
                         let line = source.line();
-                        return Err(MeshError::NotFinite { file: file.to_owned(), line, vertex, at });
+                        return Err(MeshError::NotFinite {
+                            file: file.to_owned(),
+                            line,
+                            vertex,
+                            at,
+                        });
                     }
                     positions.push(at);
                 }
@@ -63,8 +68,8 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     corners.clear();
                     for index in indices {
                         let vertex = u32::try_from(index).ok();
-                        let in_range =
-                            vertex.filter(|&v| faces_before_vertices || (v as usize) < positions.len());
+                        let in_range = vertex
+                            .filter(|&v| faces_before_vertices || (v as usize) < positions.len());
                         let Some(vertex) = in_range else {
                             return Err(MeshError::IndexOutOfRange {
                                 file: file.to_owned(),
@@ -127,7 +132,8 @@ impl Source<'_> {
         (self.encoding == Encoding::Ascii).then(|| self.line.saturating_sub(1))
     }
 
-    /// An error unless the rest of the file could hold as many elements as announced, each as small as can be.
+    /// An error unless the rest of the file could hold as many elements as announced, each as small
+    /// as can be.
     fn check_room(&self, element: &ElementDef) -> Result<(), MeshError> {
         let ascii = self.encoding == Encoding::Ascii;
         let smallest: u64 = if ascii {
@@ -158,10 +164,16 @@ impl Source<'_> {
         }
     }
 
-    fn next<E: PropertyAccess>(&mut self, element: &ElementDef, number: usize) -> Result<E, MeshError> {
+    fn next<E: PropertyAccess>(
+        &mut self,
+        element: &ElementDef,
+        number: usize,
+    ) -> Result<E, MeshError> {
         let parser = Parser::<E>::new();
         let result = match self.encoding {
-            Encoding::BinaryLittleEndian => parser.read_little_endian_element(&mut self.rest, element),
+            Encoding::BinaryLittleEndian => {
+                parser.read_little_endian_element(&mut self.rest, element)
+            }
             Encoding::BinaryBigEndian => parser.read_big_endian_element(&mut self.rest, element),
             Encoding::Ascii => {
                 let mut text = String::new();

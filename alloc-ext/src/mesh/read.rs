@@ -4,21 +4,24 @@ use std::path::Path;
 
 use super::{MeshError, RawMesh, obj, ply, stl};
 
-/// Reads a mesh file: `.ply` (ASCII, binary of either byte order), `.obj`, `.stl` (ASCII or binary, told apart by
-/// content). Polygons are split into fans about their first vertex.
+/// Reads a mesh file: `.ply` (ASCII, binary of either byte order), `.obj`, `.stl` (ASCII or binary,
+/// told apart by content). Polygons are split into fans about their first vertex.
 ///
 /// Memory is bounded by a small multiple of the file's size, whatever its header announces.
 ///
 /// # Errors
-/// The file cannot be read, is of another kind, does not follow its format, ends early, holds a coordinate that is not
-/// finite, names a vertex that is not there, or holds no face.
+/// The file cannot be read, is of another kind, does not follow its format, ends early, holds a
+/// coordinate that is not finite, names a vertex that is not there, or holds no face.
 pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
-    let bytes = std::fs::read(path)
-        .map_err(|error| MeshError::Unreadable { file: path.to_owned(), reason: error.to_string() })?;
+    let bytes = std::fs::read(path).map_err(|error| MeshError::Unreadable {
+        file: path.to_owned(),
+        reason: error.to_string(),
+    })?;
     read_bytes(path, bytes)
 }
 
-/// As [`read`], for a file's content in memory; `path` gives the format by its extension, and the name for messages.
+/// As [`read`], for a file's content in memory; `path` gives the format by its extension, and the
+/// name for messages.
 ///
 /// # Errors
 /// As [`read`], except that nothing is opened.
@@ -34,11 +37,13 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     Ok(mesh)
 }
 
-/// The promises of [`RawMesh`]. The readers have checked what they can name more exactly (lines); this catches the rest.
+/// The promises of [`RawMesh`]. The readers have checked what they can name more exactly (lines);
+/// this catches the rest.
 pub(super) fn check(mesh: &RawMesh) -> Result<(), MeshError> {
     let file = || mesh.file.clone();
     for (what, count) in [("vertices", mesh.positions.len()), ("triangles", mesh.triangles.len())] {
-        // Half-edges are numbered 3·triangle + corner in 32 bits, and the largest number means "none".
+        // Half-edges are numbered 3·triangle + corner in 32 bits, and the largest number means
+        // "none".
         if count >= (u32::MAX / 3) as usize {
             return Err(MeshError::TooMany { file: file(), what, count });
         }
@@ -47,13 +52,24 @@ pub(super) fn check(mesh: &RawMesh) -> Result<(), MeshError> {
         return Err(MeshError::NoTriangles { file: file() });
     }
     if let Some(vertex) = mesh.positions.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-        return Err(MeshError::NotFinite { file: file(), line: None, vertex, at: mesh.positions[vertex] });
+        return Err(MeshError::NotFinite {
+            file: file(),
+            line: None,
+            vertex,
+            at: mesh.positions[vertex],
+        });
     }
     let vertex_count = mesh.positions.len();
     for (face, triangle) in mesh.triangles.iter().enumerate() {
         if let Some(&index) = triangle.iter().find(|&&v| v as usize >= vertex_count) {
             let index = i64::from(index);
-            return Err(MeshError::IndexOutOfRange { file: file(), line: None, face, index, vertex_count });
+            return Err(MeshError::IndexOutOfRange {
+                file: file(),
+                line: None,
+                face,
+                index,
+                vertex_count,
+            });
         }
     }
     Ok(())

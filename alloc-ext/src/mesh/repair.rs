@@ -12,21 +12,25 @@ use super::weld::weld;
 use super::winding::{Parts, propagate};
 use super::{Mesh, MeshError, RawMesh};
 
-/// Mends what can be mended without moving the surface (beyond the rounding to `f32`), and says what it did.
+/// Mends what can be mended without moving the surface (beyond the rounding to `f32`), and says
+/// what it did.
 ///
-/// In this order: round to `f32`; weld equal positions; drop triangles with a repeated corner; drop duplicates, keeping
-/// the first of each whatever the winding; remove zero-area triangles, by an edge flip where that keeps the mesh
-/// closed; split vertices in which several fans meet; wind each part consistently, as most of its triangles are; turn
-/// closed outermost parts that are inside out, with all that lies inside them; drop unreferenced vertices.
+/// In this order: round to `f32`; weld equal positions; drop triangles with a repeated corner; drop
+/// duplicates, keeping the first of each whatever the winding; remove zero-area triangles, by an
+/// edge flip where that keeps the mesh closed; split vertices in which several fans meet; wind each
+/// part consistently, as most of its triangles are; turn closed outermost parts that are inside
+/// out, with all that lies inside them; drop unreferenced vertices.
 ///
-/// Any triangle soup is accepted: holes, non-manifold edges and one-sided parts are left as they are, for
-/// [`require_closed_manifold`](super::require_closed_manifold) to refuse. Repairing the result again changes nothing.
+/// Any triangle soup is accepted: holes, non-manifold edges and one-sided parts are left as they
+/// are, for [`require_closed_manifold`](super::require_closed_manifold) to refuse. Repairing the
+/// result again changes nothing.
 ///
-/// Cost: linear in the triangles but for the search for nested parts: at worst parts × triangles, in practice a small fraction.
+/// Cost: linear in the triangles but for the search for nested parts: at worst parts × triangles,
+/// in practice a small fraction.
 ///
 /// # Errors
-/// A coordinate that is not finite or beyond `f32`, a mesh wholly below `f32`'s normal range, an index out of range, no
-/// triangles, or none with an area.
+/// A coordinate that is not finite or beyond `f32`, a mesh wholly below `f32`'s normal range, an
+/// index out of range, no triangles, or none with an area.
 pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     check(&raw)?;
     let (mut positions, rounding) = round(&raw)?;
@@ -104,7 +108,9 @@ fn wind(
     }
     for half_edge in parts.kinds.iter().filter_map(|kind| kind.conflict) {
         let t = half_edge as usize / 3;
-        report.non_orientable.triangle(source[t], positions[triangles[t][half_edge as usize % 3] as usize]);
+        report
+            .non_orientable
+            .triangle(source[t], positions[triangles[t][half_edge as usize % 3] as usize]);
     }
 }
 

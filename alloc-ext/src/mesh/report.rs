@@ -62,18 +62,22 @@ pub struct RepairReport {
     pub rounding: f64,
     /// Parts that are connected by edges, in the result.
     pub part_count: usize,
-    /// Vertices merged into an earlier one at the same position (after rounding to `f32`; −0.0 equals 0.0).
+    /// Vertices merged into an earlier one at the same position (after rounding to `f32`; −0.0
+    /// equals 0.0).
     pub welded: Finding,
     /// Triangles dropped because two of their corners are the same vertex. The mesh stays closed.
     pub repeated_corner: Finding,
-    /// Zero-area triangles (three distinct collinear corners) removed by an edge flip with the neighbour across their
-    /// longest edge. The surface is the same point set and stays closed; the triangle count too.
+    /// Zero-area triangles (three distinct collinear corners) removed by an edge flip with the
+    /// neighbour across their longest edge. The surface is the same point set and stays
+    /// closed; the triangle count too.
     pub flipped_caps: Finding,
-    /// Zero-area triangles simply dropped, because no neighbour could take them up. This can leave a slit.
+    /// Zero-area triangles simply dropped, because no neighbour could take them up. This can leave
+    /// a slit.
     pub zero_area: Finding,
     /// Further copies of a triangle, same three vertices, same winding. The first stays.
     pub duplicate: Finding,
-    /// Further copies of a triangle, opposite winding. The first stays, so that no surface is lost.
+    /// Further copies of a triangle, opposite winding. The first stays, so that no surface is
+    /// lost.
     pub opposite_duplicate: Finding,
     /// Vertices that no triangle uses, before or after the above.
     pub unreferenced: Finding,
@@ -81,27 +85,39 @@ pub struct RepairReport {
     pub split_vertices: Finding,
     /// Triangles wound anew to agree with the majority of their part.
     pub rewound: Finding,
-    /// Closed outermost parts that were inside out and were turned, together with all parts inside them. One place each.
+    /// Closed outermost parts that were inside out and were turned, together with all parts inside
+    /// them. One place each.
     pub turned_parts: Finding,
     /// Closed parts that lie inside another and face inwards: cavities, left as they are.
     pub cavities: Finding,
-    /// One-sided parts; left as they are, refused for a hull. The place is a triangle at which the winding fails.
+    /// One-sided parts; left as they are, refused for a hull. The place is a triangle at which the
+    /// winding fails.
     pub non_orientable: Finding,
-    /// The corners of the first [`zero_area`](Self::zero_area) triangles, for [`explain`](Self::explain).
+    /// The corners of the first [`zero_area`](Self::zero_area) triangles, for
+    /// [`explain`](Self::explain).
     pub(super) dropped: Vec<(u32, [[f32; 3]; 3])>,
 }
 
 impl RepairReport {
-    /// All findings: a key for machines, for people a noun and what is said of it, the finding. For printing and JSON.
+    /// All findings: a key for machines, for people a noun and what is said of it, the finding. For
+    /// printing and JSON.
     #[must_use]
     pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 12] {
         [
             ("welded", ["vertex", "welded to an equal one"], &self.welded),
-            ("repeated_corner", ["triangle", "with a repeated corner dropped"], &self.repeated_corner),
+            (
+                "repeated_corner",
+                ["triangle", "with a repeated corner dropped"],
+                &self.repeated_corner,
+            ),
             ("flipped_caps", ["flat cap", "removed by an edge flip"], &self.flipped_caps),
             ("zero_area", ["zero-area triangle", "dropped"], &self.zero_area),
             ("duplicate", ["duplicate triangle", "dropped"], &self.duplicate),
-            ("opposite_duplicate", ["oppositely wound duplicate", "dropped"], &self.opposite_duplicate),
+            (
+                "opposite_duplicate",
+                ["oppositely wound duplicate", "dropped"],
+                &self.opposite_duplicate,
+            ),
             ("unreferenced", ["unreferenced vertex", "dropped"], &self.unreferenced),
             ("split_vertices", ["copy", "made of non-manifold vertices"], &self.split_vertices),
             ("rewound", ["triangle", "rewound to agree with the part around"], &self.rewound),
@@ -111,8 +127,8 @@ impl RepairReport {
         ]
     }
 
-    /// True if the result is the input, triangle for triangle: nothing dropped, split, flipped or rewound. Welding,
-    /// unreferenced vertices and rounding do not count.
+    /// True if the result is the input, triangle for triangle: nothing dropped, split, flipped or
+    /// rewound. Welding, unreferenced vertices and rounding do not count.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.findings().iter().all(|(key, _, finding)| {
@@ -120,8 +136,9 @@ impl RepairReport {
         })
     }
 
-    /// Adds to a [`MeshError::Open`] the zero-area triangle whose removal is the likely cause: one of the first dropped
-    /// whose corner lies on one of the edges that the error lists. Any other error is returned as it is.
+    /// Adds to a [`MeshError::Open`] the zero-area triangle whose removal is the likely cause: one
+    /// of the first dropped whose corner lies on one of the edges that the error lists. Any
+    /// other error is returned as it is.
     #[must_use]
     pub fn explain(&self, error: MeshError) -> MeshError {
         match error {
@@ -138,7 +155,14 @@ impl RepairReport {
                 };
                 let dropped_triangle =
                     self.dropped.iter().find(|(_, corners)| on_hole(corners)).map(|&(t, _)| t);
-                MeshError::Open { edge_count, hole_count, largest_hole, slit_count, places, dropped_triangle }
+                MeshError::Open {
+                    edge_count,
+                    hole_count,
+                    largest_hole,
+                    slit_count,
+                    places,
+                    dropped_triangle,
+                }
             }
             other => other,
         }

@@ -2,12 +2,13 @@
 
 use super::{MeshError, RawMesh};
 
-/// Rounds every position to the nearest `f32` and turns −0.0 into 0.0, so that equal positions have equal bits.
-/// Returns the positions and [`Mesh::rounding`](super::Mesh::rounding).
+/// Rounds every position to the nearest `f32` and turns −0.0 into 0.0, so that equal positions have
+/// equal bits. Returns the positions and [`Mesh::rounding`](super::Mesh::rounding).
 ///
 /// # Errors
-/// A coordinate beyond the largest `f32`; a mesh none of whose coordinates reaches the smallest normal `f32`, because
-/// its shape would be lost to underflow. (All coordinates zero is a mesh without area, refused later as such.)
+/// A coordinate beyond the largest `f32`; a mesh none of whose coordinates reaches the smallest
+/// normal `f32`, because its shape would be lost to underflow. (All coordinates zero is a mesh
+/// without area, refused later as such.)
 pub(super) fn round(raw: &RawMesh) -> Result<(Vec<[f32; 3]>, f64), MeshError> {
     let mut largest = 0.0f64;
     let mut moved = 0.0f64;
@@ -26,7 +27,8 @@ pub(super) fn round(raw: &RawMesh) -> Result<(Vec<[f32; 3]>, f64), MeshError> {
         return Err(MeshError::TooSmall { file: raw.file.clone(), largest });
     }
     if raw.decimal && moved > 0.0 {
-        // The decimal itself was rounded to f64 first: half a unit in the last place on each of three axes.
+        // The decimal itself was rounded to f64 first: half a unit in the last place on each of
+        // three axes.
         moved = ((moved + 2.0 * f64::EPSILON * largest) * (1.0 + 4.0 * f64::EPSILON)).next_up();
     }
     Ok((positions, moved))
@@ -34,8 +36,9 @@ pub(super) fn round(raw: &RawMesh) -> Result<(Vec<[f32; 3]>, f64), MeshError> {
 
 /// The distance of `a` and `b`, rounded up; exactly 0 if they are equal.
 ///
-/// `a − b` is exact on each axis, since `b` is `a` rounded to fewer bits. Dividing by the largest keeps the squares
-/// from underflow; what follows is six roundings, each of relative size 2⁻⁵³ at most, which 8ε covers.
+/// `a − b` is exact on each axis, since `b` is `a` rounded to fewer bits. Dividing by the largest
+/// keeps the squares from underflow; what follows is six roundings, each of relative size 2⁻⁵³ at
+/// most, which 8ε covers.
 fn distance_up(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]].map(f64::abs);
     let most = d[0].max(d[1]).max(d[2]);

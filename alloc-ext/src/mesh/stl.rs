@@ -9,8 +9,9 @@ use super::{MeshError, RawMesh};
 const HEADER_BYTES: usize = 80;
 const TRIANGLE_BYTES: u64 = 50;
 
-/// Reads either kind. A file is binary if its size fits the count in its header, else ASCII if it starts with `solid`:
-/// many binary files start with `solid` too. Normals and attributes are ignored: the winding counts.
+/// Reads either kind. A file is binary if its size fits the count in its header, else ASCII if it
+/// starts with `solid`: many binary files start with `solid` too. Normals and attributes are
+/// ignored: the winding counts.
 pub(super) fn read(file: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     let count = announced(&bytes);
     let fits = count.is_some_and(|n| bytes.len() as u64 == binary_bytes(n));
@@ -66,7 +67,8 @@ fn read_binary(file: &Path, mut bytes: Vec<u8>, count: u32) -> Result<RawMesh, M
     Ok(raw(file, positions, 0, false))
 }
 
-/// Reads the `vertex` lines of all solids in the file. A facet of more than three vertices becomes a fan.
+/// Reads the `vertex` lines of all solids in the file. A facet of more than three vertices becomes
+/// a fan.
 fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let malformed = |line: usize, facet: usize, reason: &str| MeshError::Malformed {
         file: file.to_owned(),
@@ -118,6 +120,7 @@ fn read_ascii(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
 
 /// Three positions for each triangle.
 fn raw(file: &Path, positions: Vec<[f64; 3]>, polygons_split: usize, decimal: bool) -> RawMesh {
-    let triangles = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let triangles =
+        (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     RawMesh { positions, triangles, file: file.to_owned(), polygons_split, decimal }
 }

@@ -1,13 +1,15 @@
 //! Decimal text, as OBJ and ASCII STL share it.
 //!
-//! Both are read here and not by a crate: `tobj` renumbers vertices and names neither line nor face in its errors,
-//! `stl_io` reads only the first solid of an ASCII file, silently, and rounds to `f32` without saying by how much.
+//! Both are read here and not by a crate: `tobj` renumbers vertices and names neither line nor face
+//! in its errors, `stl_io` reads only the first solid of an ASCII file, silently, and rounds to
+//! `f32` without saying by how much.
 
 use std::path::Path;
 
 use super::MeshError;
 
-/// The lines of a text file, numbered from 1, without bytes that are not UTF-8 (they occur in names and comments only).
+/// The lines of a text file, numbered from 1, without bytes that are not UTF-8 (they occur in names
+/// and comments only).
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, std::borrow::Cow<'_, str>)> {
     bytes.split(|&b| b == b'\n').enumerate().map(|(i, line)| (i + 1, String::from_utf8_lossy(line)))
 }

@@ -2,8 +2,9 @@
 
 use super::edges::{EdgeTable, UnionFind, ends};
 
-/// Two corners at a vertex belong to one fan if a chain of shared edges joins them. Edges with more than two triangles
-/// join all of theirs: splitting there would need a choice of who is whose neighbour.
+/// Two corners at a vertex belong to one fan if a chain of shared edges joins them. Edges with more
+/// than two triangles join all of theirs: splitting there would need a choice of who is whose
+/// neighbour.
 ///
 /// Returns for each corner (3 × triangle + k) its fan, named by the fan's first corner.
 pub(super) fn fans(triangles: &[[u32; 3]], edges: &EdgeTable) -> Vec<u32> {
@@ -27,8 +28,8 @@ fn corners_at(triangles: &[[u32; 3]], half_edge: u32) -> [u32; 2] {
     if from < to { [half_edge, next] } else { [next, half_edge] }
 }
 
-/// Gives each fan beyond the first at a vertex a new vertex. Returns for each new vertex the one that it copies; they
-/// are numbered from `vertex_count`.
+/// Gives each fan beyond the first at a vertex a new vertex. Returns for each new vertex the one
+/// that it copies; they are numbered from `vertex_count`.
 pub(super) fn split(vertex_count: usize, triangles: &mut [[u32; 3]], fans: &[u32]) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let mut first_fan = vec![NONE; vertex_count];

@@ -3,7 +3,8 @@
 use super::hash::FirstSeen;
 use super::report::Finding;
 
-/// For each vertex the first one at its position. `positions` must be free of −0.0 (see [`round`](super::round)).
+/// For each vertex the first one at its position. `positions` must be free of −0.0 (see
+/// [`round`](super::round)).
 pub(super) fn weld(positions: &[[f32; 3]], welded: &mut Finding) -> Vec<u32> {
     let mut table = FirstSeen::new(positions.len());
     let key = |v: u32| positions[v as usize].map(f32::to_bits);

@@ -2,7 +2,8 @@
 
 use super::edges::{BOUNDARY, NON_MANIFOLD, ends};
 
-/// The parts of a mesh that are connected across manifold edges, and how each would be wound consistently.
+/// The parts of a mesh that are connected across manifold edges, and how each would be wound
+/// consistently.
 pub(super) struct Parts {
     /// Per triangle its part; parts are numbered in file order.
     pub part: Vec<u32>,
@@ -23,8 +24,8 @@ pub(super) struct PartKind {
     pub triangle_count: usize,
 }
 
-/// Walks each part from its first triangle. On a tie between the two windings the first triangle's stays; a one-sided
-/// part is left alone.
+/// Walks each part from its first triangle. On a tie between the two windings the first triangle's
+/// stays; a one-sided part is left alone.
 pub(super) fn propagate(triangles: &[[u32; 3]], twins: &[u32]) -> Parts {
     const NONE: u32 = u32::MAX;
     let mut part = vec![NONE; triangles.len()];

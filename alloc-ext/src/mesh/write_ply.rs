@@ -9,8 +9,9 @@ use ply_rs_bw::writer::Writer;
 
 use super::Mesh;
 
-/// Writes positions and triangles as little-endian PLY: `x`, `y`, `z` as `float`, `vertex_indices` as lists of three `int`.
-/// What [`read`](super::read) reads back has the same bits and the same order. Nothing else of the mesh is kept.
+/// Writes positions and triangles as little-endian PLY: `x`, `y`, `z` as `float`, `vertex_indices`
+/// as lists of three `int`. What [`read`](super::read) reads back has the same bits and the same
+/// order. Nothing else of the mesh is kept.
 ///
 /// # Errors
 /// Those of `out`; and `InvalidInput` for a vertex number beyond `i32`, before anything is written.
@@ -23,8 +24,12 @@ pub fn write_ply(mesh: &Mesh, out: &mut (impl Write + ?Sized)) -> io::Result<()>
     }
     // The crate's writer wants a sized one.
     let mut out = out;
-    let vertex =
-        element("vertex", mesh.positions.len(), &["x", "y", "z"], &PropertyType::Scalar(ScalarType::Float));
+    let vertex = element(
+        "vertex",
+        mesh.positions.len(),
+        &["x", "y", "z"],
+        &PropertyType::Scalar(ScalarType::Float),
+    );
     let list = PropertyType::List(ScalarType::UChar, ScalarType::Int);
     let face = element("face", faces.len(), &["vertex_indices"], &list);
     let mut header = Header::new();
@@ -85,13 +90,17 @@ mod tests {
 
     #[test]
     fn what_is_written_reads_back_the_same() {
-        let positions = vec![[0.1, -2.5e-7, 3.0], [1.0, 0.0, 0.0], [0.0, 1.0e20, 0.0], [0.0, 0.0, -1.0]];
+        let positions =
+            vec![[0.1, -2.5e-7, 3.0], [1.0, 0.0, 0.0], [0.0, 1.0e20, 0.0], [0.0, 0.0, -1.0]];
         let mesh = Mesh::new(positions, vec![[0, 1, 2], [3, 1, 0]]);
         let mut bytes = Vec::new();
         write_ply(&mesh, &mut bytes).unwrap();
         let raw = read_bytes(Path::new("a.ply"), bytes).unwrap();
         assert_eq!(raw.triangles, mesh.triangles);
-        assert_eq!(raw.positions, mesh.positions.iter().map(|p| p.map(f64::from)).collect::<Vec<_>>());
+        assert_eq!(
+            raw.positions,
+            mesh.positions.iter().map(|p| p.map(f64::from)).collect::<Vec<_>>()
+        );
     }
 
     #[test]

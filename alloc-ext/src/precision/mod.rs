@@ -1,7 +1,8 @@
 //! The stored precision: local frame, coordinate format, and rounding to it.
 //!
-//! A mesh is stored in a local frame that differs from the file's by a power of two, so the change loses nothing. Coordinates
-//! are kept in the narrowest format that holds the mesh's own coordinates exactly; hull vertices are rounded to the same format.
+//! A mesh is stored in a local frame that differs from the file's by a power of two, so the change
+//! loses nothing. Coordinates are kept in the narrowest format that holds the mesh's own
+//! coordinates exactly; hull vertices are rounded to the same format.
 
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -14,7 +15,8 @@ pub enum VertexBits {
     /// The narrowest that stores the mesh exactly.
     #[default]
     Auto,
-    /// 16 bits a coordinate; moves the mesh's vertices to the grid if they are not on it, which the blob's surface error says.
+    /// 16 bits a coordinate; moves the mesh's vertices to the grid if they are not on it, which the
+    /// blob's surface error says.
     Grid16,
     /// 24 bits a coordinate; the same.
     Grid24,
@@ -49,7 +51,8 @@ pub struct Grid {
 /// Part of a grid's range that the mesh itself may take; the rest is for hull vertices outside it.
 const FILL: f64 = 0.8;
 
-/// Hull vertices farther out than this many local units are not stored (the format's boxes end at 16).
+/// Hull vertices farther out than this many local units are not stored (the format's boxes end at
+/// 16).
 const REACH: f64 = 8.0;
 
 impl Grid {
@@ -67,7 +70,8 @@ impl Grid {
                 let step = exp2(self.exponent);
                 let units = (p * exp2(-self.exponent)).round();
                 let offset = units - DVec3::from(self.origin.map(f64::from));
-                let inside = offset.min_element() >= 0.0 && offset.max_element() <= self.max_units();
+                let inside =
+                    offset.min_element() >= 0.0 && offset.max_element() <= self.max_units();
                 inside.then(|| units * step)
             }
         }
@@ -107,14 +111,17 @@ pub(crate) fn split_exponent(x: f64) -> (f64, i32) {
 
 /// Brings a mesh into the stored frame and precision.
 ///
-/// With [`VertexBits::Auto`] nothing moves. With a grid that the mesh is not on, vertices move to it: then weld and repair
-/// have to come after, which is why [`snap`] exists; a mesh that still is not on the grid here is moved and the error recorded.
+/// With [`VertexBits::Auto`] nothing moves. With a grid that the mesh is not on, vertices move to
+/// it: then weld and repair have to come after, which is why [`snap`] exists; a mesh that still is
+/// not on the grid here is moved and the error recorded.
 pub fn store(mesh: &Mesh, bits: VertexBits) -> Stored {
     let scale_exponent = scale_exponent(mesh);
     let local: Vec<DVec3> = mesh
         .positions
         .iter()
-        .map(|&[x, y, z]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * exp2(-scale_exponent))
+        .map(|&[x, y, z]| {
+            DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * exp2(-scale_exponent)
+        })
         .collect();
     let lossless = |grid: &Grid| local.iter().all(|&p| grid.round(p) == Some(p));
     let grid = match bits {
@@ -140,11 +147,12 @@ pub fn store(mesh: &Mesh, bits: VertexBits) -> Stored {
     Stored { scale_exponent, grid, positions, surface_error: moved + rounding }
 }
 
-/// The finest power-of-two grid of a format on which the box of `local` takes at most [`FILL`] of the range, if its
-/// coordinates can be summed in f32 exactly.
+/// The finest power-of-two grid of a format on which the box of `local` takes at most [`FILL`] of
+/// the range, if its coordinates can be summed in f32 exactly.
 fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
-    let (low, high) =
-        local.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+    let (low, high) = local
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
     let extent = (high - low).max_element();
     let probe = Grid { format, exponent: 0, origin: [0; 3] };
     let (_, exponent) = split_exponent(extent / (probe.max_units() * FILL));
@@ -158,8 +166,9 @@ fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
     exact_sums.then_some(Grid { format, exponent, origin })
 }
 
-/// Moves raw positions to the grid that [`store`] would choose for them, before welding and repair; the greatest distance moved, rounded up,
-/// in the file's unit. Does nothing for [`VertexBits::Auto`] and [`VertexBits::F32`].
+/// Moves raw positions to the grid that [`store`] would choose for them, before welding and repair;
+/// the greatest distance moved, rounded up, in the file's unit. Does nothing for
+/// [`VertexBits::Auto`] and [`VertexBits::F32`].
 pub fn snap(positions: &mut [[f64; 3]], bits: VertexBits) -> f64 {
     let format = match bits {
         VertexBits::Auto | VertexBits::F32 => return 0.0,

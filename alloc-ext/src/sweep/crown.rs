@@ -6,8 +6,9 @@ use glam::DVec3;
 /// Faces that are tried as they are.
 const FACES_TRIED: usize = 8;
 
-/// Of the first faces, and the corner nearest the middle, the longest segment and the largest triangle through it: what covers
-/// `vertices` with the least radius. All are indices into `positions`.
+/// Of the first faces, and the corner nearest the middle, the longest segment and the largest
+/// triangle through it: what covers `vertices` with the least radius. All are indices into
+/// `positions`.
 pub fn best_cover(
     positions: &[DVec3],
     faces: &[[u32; 3]],

@@ -12,9 +12,11 @@ pub const NO_PARENT: u32 = u32::MAX;
 pub struct Forest {
     /// Coarse instance that each instance was assigned to.
     pub parent: Vec<u32>,
-    /// Radius of each instance, local frame, not rounded to storage yet; infinite where it stands for nothing.
+    /// Radius of each instance, local frame, not rounded to storage yet; infinite where it stands
+    /// for nothing.
     pub radius: Vec<f64>,
-    /// Original vertices below each instance of the base hull, in the order of `History::base_instances`.
+    /// Original vertices below each instance of the base hull, in the order of
+    /// `History::base_instances`.
     pub base_vertices: Vec<Vec<u32>>,
 }
 
@@ -26,7 +28,8 @@ pub fn cover_radius(positions: &[DVec3], vertices: &[u32], [a, b, c]: [DVec3; 3]
     })
 }
 
-/// Replays the collapses fine to coarse and assigns every fine triangle to the coarse one that covers it most tightly.
+/// Replays the collapses fine to coarse and assigns every fine triangle to the coarse one that
+/// covers it most tightly.
 ///
 /// Cost: per collapse, vertices below the fragment times a few candidates.
 pub fn grow(history: &History) -> Forest {
@@ -41,10 +44,9 @@ pub fn grow(history: &History) -> Forest {
     for (index, collapse) in history.collapses.iter().enumerate() {
         let first = history.first_coarse(index);
         corners.clear();
-        corners.extend(
-            (0..collapse.ring_len as usize)
-                .map(|i| history.coarse_corners(collapse, i).map(|label| history.positions[label as usize])),
-        );
+        corners.extend((0..collapse.ring_len as usize).map(|i| {
+            history.coarse_corners(collapse, i).map(|label| history.positions[label as usize])
+        }));
         for (slot, &instance) in history.fine(index).iter().enumerate() {
             let vertices = std::mem::take(&mut below[instance as usize]);
             if vertices.is_empty() {
@@ -79,7 +81,8 @@ fn natural_parent(slot: usize, ring: usize, right: usize) -> usize {
     }
 }
 
-/// The coarse triangle with the least largest distance to `vertices`; ties to the natural one, then the first.
+/// The coarse triangle with the least largest distance to `vertices`; ties to the natural one, then
+/// the first.
 fn tightest(history: &History, vertices: &[u32], corners: &[[DVec3; 3]], natural: usize) -> usize {
     let mut best = natural;
     let mut best_sq = f64::INFINITY;

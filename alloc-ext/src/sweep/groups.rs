@@ -5,8 +5,8 @@ use crate::collapse::History;
 use glam::DVec3;
 use meshsweep_core::blob::layout::BASE_GROUP;
 
-/// Puts the base triangles in an order in which sixteen consecutive ones lie together: recursive median splits at multiples
-/// of sixteen.
+/// Puts the base triangles in an order in which sixteen consecutive ones lie together: recursive
+/// median splits at multiples of sixteen.
 pub fn sort_base(history: &mut History) {
     let centre = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|l| history.positions[l as usize]);
@@ -25,11 +25,14 @@ pub fn sort_base(history: &mut History) {
             continue;
         }
         let part = &mut faces[from..to];
-        let (low, high) =
-            part.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), f| (l.min(f.0), h.max(f.0)));
+        let (low, high) = part
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), f| (l.min(f.0), h.max(f.0)));
         let extent = (high - low).to_array();
         let axis = (0..3).max_by(|&i, &j| extent[i].total_cmp(&extent[j])).unwrap_or(0);
-        part.sort_by(|a, b| a.0.to_array()[axis].total_cmp(&b.0.to_array()[axis]).then(a.2.cmp(&b.2)));
+        part.sort_by(|a, b| {
+            a.0.to_array()[axis].total_cmp(&b.0.to_array()[axis]).then(a.2.cmp(&b.2))
+        });
         let middle = from + ((to - from) / 2).next_multiple_of(group);
         open.extend([(from, middle), (middle, to)]);
     }
@@ -37,7 +40,8 @@ pub fn sort_base(history: &mut History) {
     history.base_instances = faces.iter().map(|f| f.2).collect();
 }
 
-/// For each sixteen base triangles a swept triangle that contains them: corners (labels) and radius.
+/// For each sixteen base triangles a swept triangle that contains them: corners (labels) and
+/// radius.
 pub fn base_groups(history: &History) -> Vec<([u32; 3], f64)> {
     let groups = history.base.chunks(BASE_GROUP as usize);
     groups

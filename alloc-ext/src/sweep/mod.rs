@@ -1,9 +1,10 @@
 //! From the collapse history to certified radii and the cover tree.
 //!
-//! Each collapse replaces a fine fragment by a coarse one. Every fine triangle gets one parent in the coarse fragment, so that
-//! all levels form a forest whose leaves are the mesh's own triangles; a coarse triangle stands for the leaves below it.
-//! Distance to a triangle is a convex function, so the largest distance from a *vertex* of those leaves is the exact radius
-//! that makes the swept triangle (Guéziec 2000, 3.1) contain them. Rounded up, it is certified for any assignment.
+//! Each collapse replaces a fine fragment by a coarse one. Every fine triangle gets one parent in
+//! the coarse fragment, so that all levels form a forest whose leaves are the mesh's own triangles;
+//! a coarse triangle stands for the leaves below it. Distance to a triangle is a convex function,
+//! so the largest distance from a *vertex* of those leaves is the exact radius that makes the swept
+//! triangle (Guéziec 2000, 3.1) contain them. Rounded up, it is certified for any assignment.
 
 mod crown;
 mod forest;

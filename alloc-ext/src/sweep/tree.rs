@@ -1,8 +1,10 @@
-//! The cover tree: the forest without its chains, with one root, in the order in which a blob stores it.
+//! The cover tree: the forest without its chains, with one root, in the order in which a blob
+//! stores it.
 //!
-//! Any swept triangle that contains the leaves below a node will do as its bound. So chains of single children shrink to
-//! their finest triangle, small subtrees become lists of triangles, runs of nodes that hardly bound better than their parent
-//! are skipped, and above the base hull nodes are made from its vertices.
+//! Any swept triangle that contains the leaves below a node will do as its bound. So chains of
+//! single children shrink to their finest triangle, small subtrees become lists of triangles, runs
+//! of nodes that hardly bound better than their parent are skipped, and above the base hull nodes
+//! are made from its vertices.
 
 use super::crown::best_cover;
 use super::forest::{Forest, NO_PARENT, cover_radius};
@@ -59,13 +61,16 @@ const LEAF_TRIANGLES: usize = 8;
 /// Most children of a node.
 const FAN_OUT: usize = 4;
 
-/// Builds the tree. `levels` are split counts, coarse to fine, the last one all splits: child groups are stored level by
-/// level, so that a blob can be cut after any of them.
+/// Builds the tree. `levels` are split counts, coarse to fine, the last one all splits: child
+/// groups are stored level by level, so that a blob can be cut after any of them.
 pub fn plant(history: &History, order: &VertexOrder, forest: &Forest, levels: &[u32]) -> Cover {
     let grove = Grove::new(history, forest);
     let mut drafts = Drafts { history, order, forest, drafts: Vec::new() };
-    let roots =
-        grove.roots.iter().map(|&(bottom, position)| (drafts.grow(&grove, bottom), position)).collect();
+    let roots = grove
+        .roots
+        .iter()
+        .map(|&(bottom, position)| (drafts.grow(&grove, bottom), position))
+        .collect();
     let root = drafts.crown(roots);
     emit(&drafts.drafts, root, levels)
 }
@@ -76,7 +81,8 @@ struct Grove {
     children: Vec<Vec<u32>>,
     /// Original triangles below each instance.
     leaves: Vec<u32>,
-    /// Finest instance of the chain of each base triangle that stands for something, and the triangle's position.
+    /// Finest instance of the chain of each base triangle that stands for something, and the
+    /// triangle's position.
     roots: Vec<(u32, usize)>,
 }
 
@@ -143,7 +149,8 @@ struct Drafts<'a> {
 }
 
 impl Drafts<'_> {
-    /// Corners (labels) of an instance: the mesh's own triangles, then `ring_len` for each collapse.
+    /// Corners (labels) of an instance: the mesh's own triangles, then `ring_len` for each
+    /// collapse.
     fn corners(&self, instance: u32) -> [u32; 3] {
         let originals = self.history.original_triangles.len() as u32;
         match instance.checked_sub(originals) {
@@ -164,13 +171,20 @@ impl Drafts<'_> {
         corners.into_iter().map(|l| self.order.ready(l)).max().unwrap_or(0)
     }
 
-    fn add(&mut self, corners: [u32; 3], radius: f64, children: Vec<usize>, triangles: Vec<u32>) -> usize {
+    fn add(
+        &mut self,
+        corners: [u32; 3],
+        radius: f64,
+        children: Vec<usize>,
+        triangles: Vec<u32>,
+    ) -> usize {
         let ready = self.ready(corners);
         self.drafts.push(Draft { corners, radius, ready, children, triangles });
         self.drafts.len() - 1
     }
 
-    /// The subtree below a branching instance; returns its draft. An explicit stack, as forests can be deep.
+    /// The subtree below a branching instance; returns its draft. An explicit stack, as forests can
+    /// be deep.
     fn grow(&mut self, grove: &Grove, root: u32) -> usize {
         let top = self.draft_of(grove, root);
         let mut open = vec![(root, top)];
@@ -191,19 +205,23 @@ impl Drafts<'_> {
     }
 
     fn draft_of(&mut self, grove: &Grove, instance: u32) -> usize {
-        let triangles = if grove.is_small(instance) { grove.triangles(instance) } else { Vec::new() };
+        let triangles =
+            if grove.is_small(instance) { grove.triangles(instance) } else { Vec::new() };
         let corners = self.corners(instance);
         self.add(corners, self.forest.radius[instance as usize], Vec::new(), triangles)
     }
 
-    /// Children of an instance, the largest opened in its place while there is room: (large, small).
+    /// Children of an instance, the largest opened in its place while there is room: (large,
+    /// small).
     fn widen(&self, grove: &Grove, instance: u32) -> (Vec<u32>, Vec<u32>) {
-        let split = |list: &[u32]| list.iter().copied().partition::<Vec<u32>, _>(|&c| !grove.is_small(c));
+        let split =
+            |list: &[u32]| list.iter().copied().partition::<Vec<u32>, _>(|&c| !grove.is_small(c));
         let (mut large, mut small) = split(&grove.children[instance as usize]);
         loop {
             let radius = |c: u32| self.forest.radius[c as usize];
-            let widest = (0..large.len())
-                .max_by(|&i, &j| radius(large[i]).total_cmp(&radius(large[j])).then(large[j].cmp(&large[i])));
+            let widest = (0..large.len()).max_by(|&i, &j| {
+                radius(large[i]).total_cmp(&radius(large[j])).then(large[j].cmp(&large[i]))
+            });
             let Some(at) = widest else { break };
             let below = &grove.children[large[at] as usize];
             if large.len() + below.len() + small.len().div_ceil(2) > FAN_OUT + 1 {
@@ -217,7 +235,8 @@ impl Drafts<'_> {
         (large, small)
     }
 
-    /// Leaf nodes for small subtrees; neighbours share one where a single triangle covers them no worse than the parent does.
+    /// Leaf nodes for small subtrees; neighbours share one where a single triangle covers them no
+    /// worse than the parent does.
     fn gather_leaves(&mut self, grove: &Grove, small: &[u32], parent_radius: f64) -> Vec<usize> {
         let mut groups: Vec<(u32, f64, Vec<u32>)> = Vec::new();
         for &instance in small {
@@ -252,12 +271,14 @@ impl Drafts<'_> {
         }
         groups
             .into_iter()
-            .map(|(cover, radius, triangles)| self.add(self.corners(cover), radius, Vec::new(), triangles))
+            .map(|(cover, radius, triangles)| {
+                self.add(self.corners(cover), radius, Vec::new(), triangles)
+            })
             .collect()
     }
 
-    /// Nodes above the base hull's, down to one root: groups by median split, each covered by the best of a few triangles
-    /// made of base vertices (a point, a segment, a face).
+    /// Nodes above the base hull's, down to one root: groups by median split, each covered by the
+    /// best of a few triangles made of base vertices (a point, a segment, a face).
     fn crown(&mut self, roots: Vec<(usize, usize)>) -> usize {
         // Bottom-up over a binary split kept in an explicit list of tasks.
         enum Task {
@@ -288,7 +309,8 @@ impl Drafts<'_> {
             }
         }
         let root = done.pop().unwrap_or(0);
-        // One base triangle may stand for everything, by a node of a finer level: the root must exist at every level.
+        // One base triangle may stand for everything, by a node of a finer level: the root must
+        // exist at every level.
         if self.drafts[root].ready > 0 { self.crown_node(&all, vec![root]) } else { root }
     }
 
@@ -309,7 +331,9 @@ impl Drafts<'_> {
                     }
                     let centres = part.iter().map(|&(d, _)| self.centre(d));
                     let (low, high) = centres
-                        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
+                        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), c| {
+                            (l.min(c), h.max(c))
+                        });
                     let extent = (high - low).to_array();
                     let axis = (0..3).max_by(|&i, &j| extent[i].total_cmp(&extent[j])).unwrap_or(0);
                     part.sort_by(|&(a, i), &(b, j)| {
@@ -326,8 +350,10 @@ impl Drafts<'_> {
     }
 
     fn crown_node(&mut self, members: &[(usize, usize)], children: Vec<usize>) -> usize {
-        let mut vertices: Vec<u32> =
-            members.iter().flat_map(|&(_, p)| self.forest.base_vertices[p].iter().copied()).collect();
+        let mut vertices: Vec<u32> = members
+            .iter()
+            .flat_map(|&(_, p)| self.forest.base_vertices[p].iter().copied())
+            .collect();
         vertices.sort_unstable();
         vertices.dedup();
         let faces: Vec<[u32; 3]> = members.iter().map(|&(_, p)| self.history.base[p]).collect();
@@ -340,7 +366,8 @@ impl Drafts<'_> {
 /// Leaves share a node if one triangle covers them within this part of the parent's radius.
 const SHARE: f64 = 0.7;
 
-/// Stored order: child groups level by level, within a level in the order of their parents; then triangles in node order.
+/// Stored order: child groups level by level, within a level in the order of their parents; then
+/// triangles in node order.
 fn emit(drafts: &[Draft], root: usize, levels: &[u32]) -> Cover {
     let mut cover = Cover::default();
     let mut order = vec![root];
@@ -356,7 +383,12 @@ fn emit(drafts: &[Draft], root: usize, levels: &[u32]) -> Cover {
             if children.is_empty() || first[draft].is_some() {
                 continue;
             }
-            let ready = children.iter().map(|&c| drafts[c].ready).max().unwrap_or(0).max(group_ready[draft]);
+            let ready = children
+                .iter()
+                .map(|&c| drafts[c].ready)
+                .max()
+                .unwrap_or(0)
+                .max(group_ready[draft]);
             if ready > limit {
                 continue;
             }

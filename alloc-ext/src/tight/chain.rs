@@ -19,14 +19,16 @@ pub struct ChainOptions {
     pub faces: Vec<usize>,
     /// What one hull has to reach, instead of numbers of faces.
     pub goal: Option<Goal>,
-    /// Distance that every hull keeps from the mesh; see [`Options::margin`]. Answers about the mesh hold as they do without: of the margin they know nothing.
+    /// Distance that every hull keeps from the mesh; see [`Options::margin`]. Answers about the
+    /// mesh hold as they do without: of the margin they know nothing.
     pub margin: f64,
     /// Whether each hull shall enclose all finer ones.
     pub nested: bool,
     /// How long to polish; see [`Options::effort`].
     pub effort: f64,
-    /// Bits of a hull vertex. The mesh is not moved: only the hull's vertices lie on a grid. [`VertexBits::Auto`] takes 16 bits, which is what a leaf of a box tree
-    /// stores, where the mesh leaves room for them.
+    /// Bits of a hull vertex. The mesh is not moved: only the hull's vertices lie on a grid.
+    /// [`VertexBits::Auto`] takes 16 bits, which is what a leaf of a box tree stores, where
+    /// the mesh leaves room for them.
     pub vertex_bits: VertexBits,
     /// Boxes for distances, which the hull's tree needs for questions about the mesh.
     pub closest: bool,
@@ -70,13 +72,16 @@ pub enum Stage {
 pub struct HullReport {
     /// What was asked for.
     pub asked: Goal,
-    /// What `wrap` says; of a nested hull its `slack` is measured to the next finer hull, and so is its `void`.
+    /// What `wrap` says; of a nested hull its `slack` is measured to the next finer hull, and so
+    /// is its `void`.
     pub wrapped: wrap::Report,
     /// Both ways between hull and mesh, input units.
     pub distances: Distances,
-    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that against.
+    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that
+    /// against.
     pub void: Result<f64, NoVolume>,
-    /// The same of a hull with as many faces that need not enclose the finer ones; `None` where nothing was nested.
+    /// The same of a hull with as many faces that need not enclose the finer ones; `None` where
+    /// nothing was nested.
     pub free_void: Option<f64>,
     /// Bytes in the blob.
     pub bytes: usize,
@@ -84,11 +89,15 @@ pub struct HullReport {
     pub time: Duration,
 }
 
-/// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out: what was asked for and no report names is one of these.
+/// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out:
+/// what was asked for and no report names is one of these.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were. The hulls enclose the mesh
-/// where it is now, and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull, twice for nested ones; some hundred distance queries for each
-/// triangle of the hulls, one for each triangle of the mesh. On a mesh, or hull, of more than [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES) it panics.
+/// `moved` is the distance, in input units, that vertices were moved before (see
+/// [`snap`](crate::precision::snap)), 0 if none were. The hulls enclose the mesh where it is now,
+/// and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull, twice
+/// for nested ones; some hundred distance queries for each triangle of the hulls, one for each
+/// triangle of the mesh. On a mesh, or hull, of more than
+/// [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES) it panics.
 ///
 /// # Errors
 /// [`WrapError`].
@@ -104,8 +113,9 @@ pub fn chain(
     faces.dedup();
     // A mesh that is to have no hull has the one that is made unless told otherwise.
     let faces: Vec<usize> = if faces.is_empty() { ChainOptions::default().faces } else { faces };
-    let goals: Vec<Goal> =
-        options.goal.map_or_else(|| faces.into_iter().map(Goal::Faces).collect(), |goal| vec![goal]);
+    let goals: Vec<Goal> = options
+        .goal
+        .map_or_else(|| faces.into_iter().map(Goal::Faces).collect(), |goal| vec![goal]);
     let of = goals.len();
     let wrap_options = |goal: Goal| Options {
         goal,
@@ -136,7 +146,10 @@ pub fn chain(
             }
             None => (free, None),
         };
-        if made.last().is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len()) {
+        if made
+            .last()
+            .is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len())
+        {
             continue;
         }
         on_progress(Stage::Certifying);
@@ -171,7 +184,8 @@ pub fn chain(
     let stored: Vec<Stored> = made
         .iter_mut()
         .map(|(hull, report)| {
-            // What `mesh` lost when it was read is a part of how far the hull may be from the input.
+            // What `mesh` lost when it was read is a part of how far the hull may be from the
+            // input.
             hull.mesh.rounding = mesh.rounding;
             let stored = Stored::new(&hull.mesh, moved, report, options);
             report.bytes = stored.bytes();
@@ -182,7 +196,8 @@ pub fn chain(
     Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
 }
 
-/// Whether all distances are numbers of the format. Two bytes end a little before single precision does.
+/// Whether all distances are numbers of the format. Two bytes end a little before single precision
+/// does.
 fn fits(distances: &Distances) -> bool {
     let all = distances.slacks.iter().chain([&distances.slack.upper, &distances.depth.upper]);
     all.into_iter().all(|&distance| Radius16::round_up(distance).get().is_finite())

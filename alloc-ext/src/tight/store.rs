@@ -6,7 +6,9 @@ use crate::mesh::Mesh;
 use crate::precision::{VertexBits, scale_exponent};
 use crate::tree::{self, TreeOptions, TreeTables};
 use meshsweep_core::blob::TightRecord;
-use meshsweep_core::blob::layout::{SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED};
+use meshsweep_core::blob::layout::{
+    SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED,
+};
 use meshsweep_core::num::{Radius16, down_to_f32, exp2, up_to_f32};
 use meshsweep_core::{Model, TightHull, TightHulls};
 use std::collections::BTreeMap;
@@ -34,10 +36,17 @@ pub(super) struct Stored {
 }
 
 impl Stored {
-    pub(super) fn new(hull: &Mesh, moved: f64, report: &HullReport, options: &ChainOptions) -> Stored {
-        let blob = assemble(&Parts { tree: Some(&hull_tree(hull, moved, options)), ..Parts::default() });
+    pub(super) fn new(
+        hull: &Mesh,
+        moved: f64,
+        report: &HullReport,
+        options: &ChainOptions,
+    ) -> Stored {
+        let blob =
+            assemble(&Parts { tree: Some(&hull_tree(hull, moved, options)), ..Parts::default() });
         let distances = &report.distances;
-        let slacks = distances.slacks.iter().flat_map(|&slack| Radius16::round_up(slack).0.to_le_bytes());
+        let slacks =
+            distances.slacks.iter().flat_map(|&slack| Radius16::round_up(slack).0.to_le_bytes());
         let record = TightRecord {
             faces: hull.triangles.len() as u32,
             slack: up_to_f32(distances.slack.upper),
@@ -118,7 +127,8 @@ fn section(nested: bool, hulls: &[Stored]) -> Vec<u8> {
     out
 }
 
-/// The tight hulls of a blob that have at most so many faces, or the coarsest; `None` if it has none.
+/// The tight hulls of a blob that have at most so many faces, or the coarsest; `None` if it has
+/// none.
 #[must_use]
 pub fn cut(model: &Model<'_>, faces: u32) -> Option<TightTables> {
     let hulls = model.tight_hulls()?;
@@ -138,7 +148,8 @@ fn stored(hulls: &TightHulls<'_>, index: u32) -> Option<Stored> {
     let hull = hulls.get(index)?;
     let record = *hull.record();
     let slacks = (0..record.faces).map(|face| hull.slack(face)).collect::<Option<Vec<f32>>>()?;
-    let slacks = slacks.into_iter().flat_map(|slack| Radius16::round_up(f64::from(slack)).0.to_le_bytes());
+    let slacks =
+        slacks.into_iter().flat_map(|slack| Radius16::round_up(f64::from(slack)).0.to_le_bytes());
     Some(Stored { record, blob: hull.bytes().to_vec(), slacks: slacks.collect() })
 }
 

@@ -8,11 +8,13 @@ use std::num::NonZeroUsize;
 /// Queries that are sorted at once: 4 MiB of order, and long enough for neighbours to be near.
 const PIECE: usize = 1 << 18;
 
-/// Closest points of all `points`, in their order: the bits of [`closest_point`](questions::closest_point) but for `work`, which depends on where the
+/// Closest points of all `points`, in their order: the bits of
+/// [`closest_point`](questions::closest_point) but for `work`, which depends on where the
 /// query before ended, and so on the number of threads.
 ///
-/// Each thread takes a run of successive queries. If they are a path, or a grid row by row, it asks them as they come, else in Morton order (see
-/// [`closest_points`](questions::closest_points)). Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
+/// Each thread takes a run of successive queries. If they are a path, or a grid row by row, it asks
+/// them as they come, else in Morton order (see [`closest_points`](questions::closest_points)).
+/// Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
 ///
 /// # Errors
 /// [`BatchError::Query`], with the least index that is refused.
@@ -37,9 +39,13 @@ pub fn closest_points(
         let sorted = if is_coherent(points) { 0 } else { points.len().min(PIECE) };
         let mut order = vec![0; 2 * sorted];
         let mut hint = Hint::NONE;
-        let asked = questions::closest_points(tree, points, answers, stop, &mut stack, &mut order, &mut hint);
+        let asked = questions::closest_points(
+            tree, points, answers, stop, &mut stack, &mut order, &mut hint,
+        );
         asked.map_err(|error| match error {
-            BatchError::Query { index, error } => BatchError::Query { index: number * run + index, error },
+            BatchError::Query { index, error } => {
+                BatchError::Query { index: number * run + index, error }
+            }
             length @ BatchError::Length { .. } => length,
         })
     };
@@ -59,7 +65,8 @@ pub fn closest_points(
     first_error.map_or(Ok(answers), Err)
 }
 
-/// Whether each query is near the one before: a sixteenth of the box of all, on average, in 1-norms.
+/// Whether each query is near the one before: a sixteenth of the box of all, on average, in
+/// 1-norms.
 fn is_coherent(points: &[[f32; 3]]) -> bool {
     let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
     let wide = |p: &[f32; 3]| p.map(f64::from);

@@ -1,15 +1,16 @@
 //! A node's frame and the 8-bit boxes of its children, rounded outward in the *decoded* frame.
 //!
-//! The frame is a quaternion of integers, so the matrix `M = n·R` of [`NodeBoxes::matrix`] is exact in
-//! integers, and boxes are computed in exactly the coordinates in which a reader compares them: nothing is
-//! lost between fitting and decoding.
+//! The frame is a quaternion of integers, so the matrix `M = n·R` of [`NodeBoxes::matrix`] is exact
+//! in integers, and boxes are computed in exactly the coordinates in which a reader compares them:
+//! nothing is lost between fitting and decoding.
 //!
-//! Why containment is rigorous: entries of `M` are integers of at most 17 bits and coordinates relative to
-//! the origin stay below 2^18, so for grid points every product and sum of `M·(P − origin)` is an integer
-//! below 2^37, which f64 holds exactly; scaling by a power of two, `floor` and `ceil` are exact as well. For
-//! fractional points, the difference, the products and the two sums err by at most
-//! `4u / (1 − 4u) · Σ|M_kj (P − origin)_j|` with `u = 2^−53` (Higham, "Accuracy and stability of numerical algorithms", section 3.1);
-//! the intervals are widened by twice that, which also pays for rounding the bound and the widening.
+//! Why containment is rigorous: entries of `M` are integers of at most 17 bits and coordinates
+//! relative to the origin stay below 2^18, so for grid points every product and sum of `M·(P −
+//! origin)` is an integer below 2^37, which f64 holds exactly; scaling by a power of two, `floor`
+//! and `ceil` are exact as well. For fractional points, the difference, the products and the two
+//! sums err by at most `4u / (1 − 4u) · Σ|M_kj (P − origin)_j|` with `u = 2^−53` (Higham, "Accuracy
+//! and stability of numerical algorithms", section 3.1); the intervals are widened by twice that,
+//! which also pays for rounding the bound and the widening.
 
 use glam::DVec3;
 
@@ -26,9 +27,9 @@ const FRACTIONAL_MARGIN: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// What the blob stores of a node's frame and boxes.
 ///
-/// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−exponent_k) + 128` for
-/// `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all its points, in real arithmetic.
-/// Absent children have `low = 255` and `high = 0`.
+/// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−exponent_k) +
+/// 128` for `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all its points,
+/// in real arithmetic. Absent children have `low = 255` and `high = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NodeBoxes {
     /// Grid point near the middle of the children.
@@ -44,8 +45,8 @@ pub struct NodeBoxes {
 }
 
 impl NodeBoxes {
-    /// Squared length of the quaternion: what [`Self::matrix`] scales lengths by. 1 for an axis-aligned node,
-    /// 16129 to 64516 for a fitted one.
+    /// Squared length of the quaternion: what [`Self::matrix`] scales lengths by. 1 for an
+    /// axis-aligned node, 16129 to 64516 for a fitted one.
     pub fn n(&self) -> i32 {
         self.quaternion.iter().map(|&c| i32::from(c) * i32::from(c)).sum()
     }
@@ -62,17 +63,17 @@ impl NodeBoxes {
 
     /// Whether child `lane` covers `point`, decided in exact integer arithmetic.
     ///
-    /// Exact for coordinates that are multiples of 2^−76; smaller bits count as an interval that must be
-    /// covered whole, so `true` is always right. False for absent lanes and for coordinates beyond ±70,000,
-    /// which no model has.
+    /// Exact for coordinates that are multiples of 2^−76; smaller bits count as an interval that
+    /// must be covered whole, so `true` is always right. False for absent lanes and for
+    /// coordinates beyond ±70,000, which no model has.
     pub fn covers(&self, lane: usize, point: DVec3) -> bool {
         const FRACTION_BITS: u32 = 76;
         if point.abs().max_element().is_nan() || point.abs().max_element() > MAX_ABS_COORDINATE {
             return false;
         }
         let scale = (1u128 << FRACTION_BITS) as f64;
-        // Scaling by a power of two is exact, so `floor` and `ceil` enclose the coordinate; they are equal
-        // unless bits fall off.
+        // Scaling by a power of two is exact, so `floor` and `ceil` enclose the coordinate; they
+        // are equal unless bits fall off.
         let below = point.to_array().map(|c| (c * scale).floor() as i128);
         let above = point.to_array().map(|c| (c * scale).ceil() as i128);
         let matrix = self.matrix();
@@ -92,8 +93,8 @@ impl NodeBoxes {
     }
 }
 
-/// Box of one child in the frame, units of `M`, relative to an origin; widened where coordinates are
-/// fractional.
+/// Box of one child in the frame, units of `M`, relative to an origin; widened where coordinates
+/// are fractional.
 #[derive(Clone, Copy)]
 struct Extent {
     low: [f64; 3],
@@ -110,8 +111,8 @@ impl Extent {
         for &point in points {
             debug_assert!(point.abs().max_element() <= MAX_ABS_COORDINATE);
             let d = point - origin;
-            // An integer conversion and back is one cheap instruction each; `trunc` is a call on targets
-            // without SSE 4.1.
+            // An integer conversion and back is one cheap instruction each; `trunc` is a call on
+            // targets without SSE 4.1.
             fractional |= point.to_array().iter().any(|&c| c as i64 as f64 != c);
             reach = reach.max(d.x.abs()).max(d.y.abs()).max(d.z.abs());
             for (k, row) in matrix.iter().enumerate() {
@@ -139,11 +140,12 @@ impl Extent {
     }
 }
 
-/// Boxes of up to eight children in the frame of `quaternion`; children without points become absent lanes.
+/// Boxes of up to eight children in the frame of `quaternion`; children without points become
+/// absent lanes.
 ///
-/// Coordinates are grid units within ±[`MAX_ABS_COORDINATE`]. The exponents are the least that fit, so the
-/// node spans 128 to 255 units per axis unless it is flat there. Cost: two passes over the points. Panics on
-/// more than eight children or a zero quaternion.
+/// Coordinates are grid units within ±[`MAX_ABS_COORDINATE`]. The exponents are the least that fit,
+/// so the node spans 128 to 255 units per axis unless it is flat there. Cost: two passes over the
+/// points. Panics on more than eight children or a zero quaternion.
 pub(super) fn quantise(quaternion: [i8; 4], children: &[&[DVec3]]) -> NodeBoxes {
     assert!(children.len() <= LANES, "a node has at most {LANES} children");
     assert!(quaternion != [0; 4], "a frame needs a non-zero quaternion");
@@ -156,7 +158,8 @@ pub(super) fn quantise(quaternion: [i8; 4], children: &[&[DVec3]]) -> NodeBoxes 
     };
     let matrix = boxes.matrix().map(|row| DVec3::from_array(row.map(f64::from)));
     let mut extents = [Extent::EMPTY; LANES];
-    let mut origin = children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
+    let mut origin =
+        children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
     // The first pass only finds the middle.
     for pass in 0..2 {
         origin = origin.round().clamp(DVec3::ZERO, DVec3::splat(GRID_MAX));
@@ -177,7 +180,8 @@ pub(super) fn quantise(quaternion: [i8; 4], children: &[&[DVec3]]) -> NodeBoxes 
         let exponent = least_exponent(all.low[k], all.high[k]);
         boxes.exponent[k] = exponent as i8;
         let per_unit = power_of_two(-exponent);
-        for (lane, extent) in extents.iter().enumerate().filter(|(_, extent)| extent.low[k] <= extent.high[k])
+        for (lane, extent) in
+            extents.iter().enumerate().filter(|(_, extent)| extent.low[k] <= extent.high[k])
         {
             // In 0..=255 by the choice of the exponent.
             boxes.low[k][lane] = ((extent.low[k] * per_unit).floor() + 128.0) as u8;
@@ -219,7 +223,10 @@ pub(super) mod tests {
 
     impl Noise {
         pub fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             (self.0 >> 11) as f64 / (1u64 << 53) as f64
         }
 
@@ -251,7 +258,9 @@ pub(super) mod tests {
         for size in [2.0, 30.0, 900.0, 65_535.0] {
             let children: Vec<Vec<DVec3>> = (0..7)
                 .map(|_| {
-                    (0..20).map(|_| noise.point(DVec3::splat(32_767.5), DVec3::splat(size)).round()).collect()
+                    (0..20)
+                        .map(|_| noise.point(DVec3::splat(32_767.5), DVec3::splat(size)).round())
+                        .collect()
                 })
                 .collect();
             for quaternion in [[1, 0, 0, 0], SKEW, [127; 4], [0, 0, -127, 1]] {
@@ -283,7 +292,10 @@ pub(super) mod tests {
                     .map(|_| (0..5).map(|_| noise.point(centre, size).round() + fraction).collect())
                     .collect();
                 for quaternion in [[1, 0, 0, 0], SKEW] {
-                    assert_covers_all(&quantise(quaternion, &slices(&children)), &slices(&children));
+                    assert_covers_all(
+                        &quantise(quaternion, &slices(&children)),
+                        &slices(&children),
+                    );
                 }
             }
         }
@@ -300,8 +312,9 @@ pub(super) mod tests {
     #[test]
     fn boxes_span_half_of_the_range_or_more() {
         let mut noise = Noise(4);
-        let points: Vec<DVec3> =
-            (0..200).map(|_| noise.point(DVec3::splat(30_000.0), DVec3::splat(5000.0)).round()).collect();
+        let points: Vec<DVec3> = (0..200)
+            .map(|_| noise.point(DVec3::splat(30_000.0), DVec3::splat(5000.0)).round())
+            .collect();
         let boxes = quantise(SKEW, &[&points]);
         for k in 0..3 {
             assert!(boxes.high[k][0] - boxes.low[k][0] >= 126, "{boxes:?}");

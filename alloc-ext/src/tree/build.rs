@@ -65,13 +65,15 @@ pub struct TreeReport {
     pub time: Duration,
 }
 
-/// Most triangles of a tree: with more, node numbers and the offsets of source numbers could outgrow the format.
+/// Most triangles of a tree: with more, node numbers and the offsets of source numbers could
+/// outgrow the format.
 pub const MAX_TRIANGLES: usize = 1 << 24;
 
 /// Builds the box tree of any triangle soup.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were.
-/// Every triangle is kept, also one that the grid makes degenerate. Cost: O(n log n), about a microsecond a triangle and step.
+/// `moved` is the distance, in input units, that vertices were moved before (see
+/// [`snap`](crate::precision::snap)), 0 if none were. Every triangle is kept, also one that the
+/// grid makes degenerate. Cost: O(n log n), about a microsecond a triangle and step.
 ///
 /// # Panics
 /// On a mesh of more than [`MAX_TRIANGLES`].
@@ -100,7 +102,8 @@ pub fn build(
             encode::boxes(&axis_aligned_boxes(&topology, &views), grid.origin),
         ));
     }
-    sections.push((SectionKind::TreeFans, encode::fans(&topology, &patches, &grid, options.single)));
+    sections
+        .push((SectionKind::TreeFans, encode::fans(&topology, &patches, &grid, options.single)));
     let numbers: Vec<u32> = topology
         .leaf_order
         .iter()
@@ -151,14 +154,16 @@ fn header(
     let mut reach = 0f64;
     for patch in patches {
         for fan in std::iter::once(&patch.first).chain(&patch.second) {
-            let spoke = |v: u32| norm(grid.positions[v as usize] - grid.positions[fan.centre as usize]);
+            let spoke =
+                |v: u32| norm(grid.positions[v as usize] - grid.positions[fan.centre as usize]);
             for pair in fan.ring.windows(2) {
                 reach = reach.max(spoke(pair[0]) + spoke(pair[1]));
             }
         }
     }
-    let (low, high) =
-        bounds.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
+    let (low, high) = bounds
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = patches.iter().map(|patch| encode::tag(patch).vertices()).sum();
     let closed = if is_closed(&mesh.triangles) { TREE_CLOSED } else { 0 };
@@ -179,7 +184,8 @@ fn header(
     }
 }
 
-/// Whether as many triangles run through every edge in one direction as in the other: then the surface bounds a volume.
+/// Whether as many triangles run through every edge in one direction as in the other: then the
+/// surface bounds a volume.
 fn is_closed(triangles: &[[u32; 3]]) -> bool {
     let mut edges: Vec<(u32, u32, i32)> = triangles
         .iter()
@@ -187,5 +193,7 @@ fn is_closed(triangles: &[[u32; 3]]) -> bool {
         .map(|(a, b)| if a < b { (a, b, 1) } else { (b, a, -1) })
         .collect();
     edges.sort_unstable();
-    edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(|edge| edge.iter().map(|e| e.2).sum::<i32>() == 0)
+    edges
+        .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
+        .all(|edge| edge.iter().map(|e| e.2).sum::<i32>() == 0)
 }

@@ -1,10 +1,10 @@
 //! Collapse of a binary tree into nodes of up to eight children, by dynamic programming.
 //!
-//! Let `C(v, s)` be the least summed weight of wide nodes when subtree `v` fills at most `s` slots of a wide
-//! node above it. Then `C(leaf, s) = 0`, `C(v, 1) = weight(v) + share(v, 8)` with
-//! `share(v, s) = min over k of C(left, k) + C(right, s - k)`, and `C(v, s) = min(C(v, 1), share(v, s))`.
-//! Source: Ylitie, Karras and Laine, "Efficient incoherent ray traversal on GPUs through compressed
-//! wide BVHs", 2017, section 3.1.
+//! Let `C(v, s)` be the least summed weight of wide nodes when subtree `v` fills at most `s` slots
+//! of a wide node above it. Then `C(leaf, s) = 0`, `C(v, 1) = weight(v) + share(v, 8)` with
+//! `share(v, s) = min over k of C(left, k) + C(right, s - k)`, and `C(v, s) = min(C(v, 1), share(v,
+//! s))`. Source: Ylitie, Karras and Laine, "Efficient incoherent ray traversal on GPUs through
+//! compressed wide BVHs", 2017, section 3.1.
 
 use super::order::WideNode;
 use super::sah::BinaryNode;
@@ -15,12 +15,12 @@ const WIDTH: usize = 8;
 /// `cost[s]`: least weight with at most `s` slots; entry 0 is never read.
 type SlotCosts = [f32; WIDTH + 1];
 
-/// Wide nodes over a binary tree whose children come after their parents. Node 0 is the root, children come
-/// after their parent.
+/// Wide nodes over a binary tree whose children come after their parents. Node 0 is the root,
+/// children come after their parent.
 ///
-/// `node_weight` times the binary nodes' mean weight is added to each wide node's: the larger it is, the
-/// fewer and fuller the nodes. Trees without extent (all weights 0) get the fewest nodes. One item gives one
-/// node with one leaf; no items give no nodes. Cost: O(n).
+/// `node_weight` times the binary nodes' mean weight is added to each wide node's: the larger it
+/// is, the fewer and fuller the nodes. Trees without extent (all weights 0) get the fewest nodes.
+/// One item gives one node with one leaf; no items give no nodes. Cost: O(n).
 pub(super) fn collapse(tree: &[BinaryNode], node_weight: f32) -> Vec<WideNode> {
     let Some(root) = tree.first() else { return Vec::new() };
     if root.is_leaf() {
@@ -81,7 +81,12 @@ fn best_share(left: &SlotCosts, right: &SlotCosts, slots: usize) -> (usize, f32)
     best
 }
 
-fn share_between(costs: &[SlotCosts], node: &BinaryNode, slots: usize, open: &mut Vec<(u32, usize)>) {
+fn share_between(
+    costs: &[SlotCosts],
+    node: &BinaryNode,
+    slots: usize,
+    open: &mut Vec<(u32, usize)>,
+) {
     let (left, right) = (node.left, node.right_or_item);
     let (taken, _) = best_share(&costs[left as usize], &costs[right as usize], slots);
     open.push((right, slots - taken));
@@ -97,7 +102,8 @@ mod tests {
     fn grid(count: u32) -> Vec<(DVec3, DVec3)> {
         (0..count)
             .map(|i| {
-                let low = DVec3::new(f64::from(i % 32), f64::from(i / 32 % 32), f64::from(i / 1024));
+                let low =
+                    DVec3::new(f64::from(i % 32), f64::from(i / 32 % 32), f64::from(i / 1024));
                 (low, low + DVec3::ONE)
             })
             .collect()
@@ -121,7 +127,11 @@ mod tests {
     fn nodes_are_well_filled() {
         let wide = collapse(&binary_tree(&grid(4000), 0.1), 0.0);
         let children: usize = wide.iter().map(WideNode::child_count).sum();
-        assert!(children as f64 / wide.len() as f64 > 6.0, "{}", children as f64 / wide.len() as f64);
+        assert!(
+            children as f64 / wide.len() as f64 > 6.0,
+            "{}",
+            children as f64 / wide.len() as f64
+        );
     }
 
     #[test]

@@ -5,8 +5,9 @@ use crate::fan::Patch;
 use glam::DVec3;
 use meshsweep_core::fan::NormalCone;
 
-/// Squared sine of the angle between two edges below which the direction of the normal is not trusted: f64 gets it to 1e-15 of the edges'
-/// lengths, a millionth of this sine. On the grid that leaves out needles whose area is next to none.
+/// Squared sine of the angle between two edges below which the direction of the normal is not
+/// trusted: f64 gets it to 1e-15 of the edges' lengths, a millionth of this sine. On the grid that
+/// leaves out needles whose area is next to none.
 const FLAT: f64 = 1e-18;
 
 /// Room in the sine for all rounding here.
@@ -48,7 +49,8 @@ fn cone(patch: &Patch, positions: &[DVec3]) -> [u8; 4] {
     if steps <= 254.0 { NormalCone::write(axis, steps as u8) } else { NormalCone::UNKNOWN }
 }
 
-/// Directions, one of which is the axis of the narrowest cone: that of one, two or three normals; and their mean, should none of these do.
+/// Directions, one of which is the axis of the narrowest cone: that of one, two or three normals;
+/// and their mean, should none of these do.
 fn axes(normals: &[DVec3]) -> Vec<DVec3> {
     let mut axes = vec![normals.iter().sum()];
     for (i, &a) in normals.iter().enumerate() {
@@ -67,14 +69,19 @@ fn axes(normals: &[DVec3]) -> Vec<DVec3> {
 /// The nearest direction whose largest component is 127; 0 if there is none.
 fn on_bytes(axis: DVec3) -> [i8; 3] {
     let largest = axis.abs().max_element();
-    if largest > 0.0 { (axis * (127.0 / largest)).to_array().map(|x| x.round() as i8) } else { [0; 3] }
+    if largest > 0.0 {
+        (axis * (127.0 / largest)).to_array().map(|x| x.round() as i8)
+    } else {
+        [0; 3]
+    }
 }
 
 /// The sine of the largest angle between an axis and the normals; infinite from a right angle on.
 fn half_angle(axis: [i8; 3], normals: &[DVec3]) -> f64 {
     let axis = DVec3::from(axis.map(f64::from)).normalize();
     normals.iter().fold(0.0, |most: f64, normal| {
-        let sine = if axis.dot(*normal) > ROUNDING { axis.cross(*normal).length() } else { f64::INFINITY };
+        let sine =
+            if axis.dot(*normal) > ROUNDING { axis.cross(*normal).length() } else { f64::INFINITY };
         most.max(sine)
     })
 }

@@ -26,7 +26,9 @@ pub struct TreeTables {
 pub(super) fn tag(patch: &Patch) -> Tag {
     match &patch.second {
         None => Tag::new(patch.triangle_count(), 0, false),
-        Some(second) => Tag::new(patch.triangle_count(), patch.first.triangles.len(), second.reversed),
+        Some(second) => {
+            Tag::new(patch.triangle_count(), patch.first.triangles.len(), second.reversed)
+        }
     }
 }
 
@@ -88,7 +90,8 @@ pub(super) fn frames(nodes: &[NodeBoxes], grid_origin: [i32; 3]) -> Vec<u8> {
         put_bounds(&mut out, node);
         // Exact: integers below 2^17 and powers of two.
         for (row, exponent) in node.matrix().into_iter().zip(node.exponent) {
-            row.iter().for_each(|&m| put(&mut out, (f64::from(m) * exp2(-i32::from(exponent))) as f32));
+            row.iter()
+                .for_each(|&m| put(&mut out, (f64::from(m) * exp2(-i32::from(exponent))) as f32));
         }
         put_origin(&mut out, node, grid_origin);
         for exponent in node.exponent {

@@ -1,19 +1,19 @@
-//! Few points that stand for many in the frame search: the extreme ones in directions spread evenly over the
-//! set's own shape.
+//! Few points that stand for many in the frame search: the extreme ones in directions spread evenly
+//! over the set's own shape.
 
 use super::rotation::principal_axes;
 use glam::DVec3;
 
-/// Thinnest spread that directions are stretched for, relative to the greatest: flatter sets would spend all
-/// directions on noise.
+/// Thinnest spread that directions are stretched for, relative to the greatest: flatter sets would
+/// spend all directions on noise.
 const LEAST_ASPECT: f64 = 1e-3;
 
-/// The points themselves if there are at most `limit`, else the extreme ones in `limit / 2` directions and
-/// their opposites, each once.
+/// The points themselves if there are at most `limit`, else the extreme ones in `limit / 2`
+/// directions and their opposites, each once.
 ///
-/// Directions are spread evenly over the sphere after the set has been scaled to equal variance along its
-/// principal axes, so that the thickness of a flat patch is sampled as well as its outline. Order and choice
-/// are deterministic. Cost: O(points · limit).
+/// Directions are spread evenly over the sphere after the set has been scaled to equal variance
+/// along its principal axes, so that the thickness of a flat patch is sampled as well as its
+/// outline. Order and choice are deterministic. Cost: O(points · limit).
 pub(super) fn extreme_points(points: &[DVec3], limit: usize) -> Vec<DVec3> {
     if points.len() <= limit {
         return points.to_vec();
@@ -23,7 +23,8 @@ pub(super) fn extreme_points(points: &[DVec3], limit: usize) -> Vec<DVec3> {
     let mut chosen: Vec<usize> = Vec::with_capacity(limit);
     for rank in 0..limit / 2 {
         let even = even_direction(rank, limit / 2);
-        let direction: DVec3 = (0..3).map(|k| axes[k] * (even[k] / variances[k].sqrt().max(floor))).sum();
+        let direction: DVec3 =
+            (0..3).map(|k| axes[k] * (even[k] / variances[k].sqrt().max(floor))).sum();
         let (mut low, mut high) = ((f64::INFINITY, 0), (f64::NEG_INFINITY, 0));
         for (index, point) in points.iter().enumerate() {
             let q = direction.dot(*point);
@@ -37,15 +38,15 @@ pub(super) fn extreme_points(points: &[DVec3], limit: usize) -> Vec<DVec3> {
     chosen.into_iter().map(|index| points[index]).collect()
 }
 
-/// `rank`-th of `count` directions spread evenly over the half-sphere `z > 0` by the golden ratio, on a
-/// square spiral that needs no sine.
+/// `rank`-th of `count` directions spread evenly over the half-sphere `z > 0` by the golden ratio,
+/// on a square spiral that needs no sine.
 fn even_direction(rank: usize, count: usize) -> DVec3 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let z = 1.0 - (rank as f64 + 0.5) / count as f64;
     let turn = (rank as f64 * GOLDEN).fract() * 4.0;
     let side = turn.floor();
-    // A point on the unit square's outline, normalised: close to even in angle (within a factor of two),
-    // exact in sign symmetry.
+    // A point on the unit square's outline, normalised: close to even in angle (within a factor of
+    // two), exact in sign symmetry.
     let along = (turn - side) * 2.0 - 1.0;
     let (x, y) = match side as u32 {
         0 => (1.0, along),

@@ -32,8 +32,8 @@ impl SubtreePoints {
             open.extend(node.inner.iter().rev());
             runs[index as usize].1 = points.len();
         }
-        // Nodes were visited depth-first, so a subtree ends where its last descendant's own leaves end;
-        // children come after parents.
+        // Nodes were visited depth-first, so a subtree ends where its last descendant's own leaves
+        // end; children come after parents.
         for index in (0..topology.nodes.len()).rev() {
             if let Some(&last) = topology.nodes[index].inner.last() {
                 runs[index].1 = runs[last as usize].1;
@@ -51,12 +51,16 @@ impl SubtreePoints {
     }
 }
 
-/// Boxes of every node, in the order of `topology.nodes`; lanes as in the node: inner children first, then
-/// leaves. `patches` are the items' points in grid units.
+/// Boxes of every node, in the order of `topology.nodes`; lanes as in the node: inner children
+/// first, then leaves. `patches` are the items' points in grid units.
 ///
-/// The frame is searched on extreme points that are passed up the tree, the boxes cover every point of the
-/// subtree. Cost: O(points · depth) for the boxes, O(nodes) for the frames.
-pub fn shared_frames(topology: &Topology, patches: &[&[DVec3]], options: &FrameOptions) -> Vec<NodeBoxes> {
+/// The frame is searched on extreme points that are passed up the tree, the boxes cover every point
+/// of the subtree. Cost: O(points · depth) for the boxes, O(nodes) for the frames.
+pub fn shared_frames(
+    topology: &Topology,
+    patches: &[&[DVec3]],
+    options: &FrameOptions,
+) -> Vec<NodeBoxes> {
     let subtrees = SubtreePoints::new(topology, patches);
     let mut extremes: Vec<Vec<DVec3>> = vec![Vec::new(); topology.nodes.len()];
     let mut boxes = Vec::with_capacity(topology.nodes.len());
@@ -64,8 +68,9 @@ pub fn shared_frames(topology: &Topology, patches: &[&[DVec3]], options: &FrameO
         let children = subtrees.children(topology, index);
         let mut reduced: Vec<Vec<DVec3>> =
             node.inner.iter().map(|&child| std::mem::take(&mut extremes[child as usize])).collect();
-        reduced
-            .extend(children[node.inner.len()..].iter().map(|points| extreme_points(points, SEARCH_POINTS)));
+        reduced.extend(
+            children[node.inner.len()..].iter().map(|points| extreme_points(points, SEARCH_POINTS)),
+        );
         let search: Vec<&[DVec3]> = reduced.iter().map(Vec::as_slice).collect();
         boxes.push(quantise(best_quaternion(&search, options), &children));
         extremes[index] = extreme_points(&reduced.concat(), SEARCH_POINTS);
@@ -77,7 +82,9 @@ pub fn shared_frames(topology: &Topology, patches: &[&[DVec3]], options: &FrameO
 /// [`shared_frames`] without rotation: the nodes that segment questions use.
 pub fn axis_aligned_boxes(topology: &Topology, patches: &[&[DVec3]]) -> Vec<NodeBoxes> {
     let subtrees = SubtreePoints::new(topology, patches);
-    (0..topology.nodes.len()).map(|index| axis_aligned(&subtrees.children(topology, index))).collect()
+    (0..topology.nodes.len())
+        .map(|index| axis_aligned(&subtrees.children(topology, index)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -101,7 +108,10 @@ mod tests {
     }
 
     fn bounds(patch: &[DVec3]) -> (DVec3, DVec3) {
-        (patch.iter().copied().reduce(DVec3::min).unwrap(), patch.iter().copied().reduce(DVec3::max).unwrap())
+        (
+            patch.iter().copied().reduce(DVec3::min).unwrap(),
+            patch.iter().copied().reduce(DVec3::max).unwrap(),
+        )
     }
 
     /// Checks every item against the boxes of all its ancestors.
@@ -115,7 +125,11 @@ mod tests {
             let mut all = Vec::new();
             for (lane, below) in lanes.enumerate() {
                 for &item in &below {
-                    assert!(patches[item as usize].iter().all(|&point| boxes[index].covers(lane, point)));
+                    assert!(
+                        patches[item as usize]
+                            .iter()
+                            .all(|&point| boxes[index].covers(lane, point))
+                    );
                 }
                 all.extend(below);
             }

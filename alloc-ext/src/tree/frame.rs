@@ -1,10 +1,11 @@
 //! Choice of the rotation that a node's children share.
 //!
-//! The cost of a frame is the expected number of children that a distance question opens: by Steiner's
-//! formula a box with extents `a, b, c` grown by `d` on all sides has the volume
-//! `abc + 2(ab + bc + ca) d + π(a + b + c) d² + …`, summed over the children. The candidates are the principal axes of all points and of
-//! each child, turned about the axis of least spread; the best is refined by shrinking quasi-random steps.
-//! Every candidate is judged after rounding to the stored quaternion.
+//! The cost of a frame is the expected number of children that a distance question opens: by
+//! Steiner's formula a box with extents `a, b, c` grown by `d` on all sides has the volume
+//! `abc + 2(ab + bc + ca) d + π(a + b + c) d² + …`, summed over the children. The candidates are
+//! the principal axes of all points and of each child, turned about the axis of least spread; the
+//! best is refined by shrinking quasi-random steps. Every candidate is judged after rounding to the
+//! stored quaternion.
 
 use super::boxes::{LANES, NodeBoxes, quantise};
 use super::extremes::extreme_points;
@@ -14,8 +15,9 @@ use glam::{DQuat, DVec3};
 /// What the frame search minimises and how long it tries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
-    /// Distance by which boxes are grown for the cost, relative to the mean diagonal of the node's children.
-    /// Small values favour small volume (thin boxes along the surface), large ones small extents.
+    /// Distance by which boxes are grown for the cost, relative to the mean diagonal of the node's
+    /// children. Small values favour small volume (thin boxes along the surface), large ones
+    /// small extents.
     pub dilation: f64,
     /// Refinement steps after the candidates; cost is proportional.
     pub refinements: u32,
@@ -33,10 +35,10 @@ pub(super) const SEARCH_POINTS: usize = 48;
 /// Best shared frame found for up to eight children, and their boxes in it, with the default
 /// [`FrameOptions`].
 ///
-/// Children are the point sets of whole subtrees, grid units within ±70,000. The boxes cover all points, also
-/// those that the search left out. Children without points become absent lanes; where no rotation helps
-/// (equal points, axis-aligned input) the frame is the identity, `(127, 0, 0, 0)`. Deterministic. Cost:
-/// O(points) plus the search, about 0.1 ms.
+/// Children are the point sets of whole subtrees, grid units within ±70,000. The boxes cover all
+/// points, also those that the search left out. Children without points become absent lanes; where
+/// no rotation helps (equal points, axis-aligned input) the frame is the identity, `(127, 0, 0,
+/// 0)`. Deterministic. Cost: O(points) plus the search, about 0.1 ms.
 pub fn shared_frame(children: &[&[DVec3]]) -> NodeBoxes {
     shared_frame_with(children, &FrameOptions::default())
 }
@@ -49,8 +51,8 @@ pub fn shared_frame_with(children: &[&[DVec3]], options: &FrameOptions) -> NodeB
     quantise(best_quaternion(&search, options), children)
 }
 
-/// Points of all children, transposed: step `s` holds the `s`-th point of each child, so that one pass fits
-/// all boxes at once.
+/// Points of all children, transposed: step `s` holds the `s`-th point of each child, so that one
+/// pass fits all boxes at once.
 struct ChildPoints {
     steps: Vec<[[f32; LANES]; 3]>,
     child_count: usize,
@@ -59,7 +61,8 @@ struct ChildPoints {
 
 impl ChildPoints {
     fn new(children: &[&[DVec3]], options: &FrameOptions) -> Self {
-        let origin = children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
+        let origin =
+            children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
         let count = children.iter().map(|points| points.len()).max().unwrap_or(0);
         let mut steps = vec![[[0.0; LANES]; 3]; count];
         let mut diagonals = 0.0;
@@ -76,8 +79,8 @@ impl ChildPoints {
         Self { steps, child_count: children.len(), dilation }
     }
 
-    /// Summed Steiner volume of the children's boxes in the frame of a stored quaternion, rounding to 8 bits
-    /// included.
+    /// Summed Steiner volume of the children's boxes in the frame of a stored quaternion, rounding
+    /// to 8 bits included.
     fn cost(&self, quaternion: [i8; 4]) -> f32 {
         let axes = frame_axes(unit_quaternion(quaternion));
         let n = quaternion.iter().map(|&c| f32::from(c) * f32::from(c)).sum::<f32>();
@@ -102,20 +105,22 @@ impl ChildPoints {
         let mut sum = 0.0;
         for i in 0..self.child_count {
             let [a, b, c] = [0, 1, 2].map(|k| high[k][i] - low[k][i] + rounding[k]);
-            sum += a * b * c + 2.0 * d * (a * b + b * c + c * a) + std::f32::consts::PI * d * d * (a + b + c);
+            sum += a * b * c
+                + 2.0 * d * (a * b + b * c + c * a)
+                + std::f32::consts::PI * d * d * (a + b + c);
         }
         sum
     }
 }
 
-/// What rounding outward adds to a box on average, both ends together: one unit of the exponent that a node
-/// of this span gets.
+/// What rounding outward adds to a box on average, both ends together: one unit of the exponent
+/// that a node of this span gets.
 fn expected_rounding(span: f32) -> f32 {
     /// Of the 255 units, half a unit at each end goes to rounding.
     const UNITS: f32 = 254.0;
     let unit = span / UNITS;
-    // Next power of two: the sign and mantissa bits cut off, the exponent raised unless the mantissa was
-    // zero.
+    // Next power of two: the sign and mantissa bits cut off, the exponent raised unless the
+    // mantissa was zero.
     let floor = f32::from_bits(unit.to_bits() & 0xff80_0000);
     if floor < unit { floor * 2.0 } else { floor }
 }
@@ -143,7 +148,8 @@ impl Search<'_> {
 
 /// Quaternion of the best frame found for the points of up to eight children.
 pub(super) fn best_quaternion(children: &[&[DVec3]], options: &FrameOptions) -> [i8; 4] {
-    /// Tangents of half of 22.5°, 45° and 67.5°: turns about the third axis. A box repeats after 90°.
+    /// Tangents of half of 22.5°, 45° and 67.5°: turns about the third axis. A box repeats after
+    /// 90°.
     const HALF_TURN_TANGENTS: [f64; 4] =
         [0.0, 0.198_912_367_379_658, 0.414_213_562_373_095_1, 0.668_178_637_919_298_9];
     let points = ChildPoints::new(children, options);
@@ -163,14 +169,17 @@ pub(super) fn best_quaternion(children: &[&[DVec3]], options: &FrameOptions) -> 
     search.best
 }
 
-/// Local search: steps fill a shrinking ball of rotations around the best frame, in a low-discrepancy order.
+/// Local search: steps fill a shrinking ball of rotations around the best frame, in a
+/// low-discrepancy order.
 fn refine(search: &mut Search, steps: u32) {
     /// First step: tangent of half of about 17°, a little less than the candidates' spacing.
     const FIRST_STEP: f64 = 0.15;
     /// Last step: about one unit of the stored quaternion.
     const LAST_STEP: f64 = 0.006;
-    /// Generator of the R3 sequence, powers of the inverse of the root of x^4 = x + 1 (Roberts, 2018).
-    const R3: DVec3 = DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_5);
+    /// Generator of the R3 sequence, powers of the inverse of the root of x^4 = x + 1 (Roberts,
+    /// 2018).
+    const R3: DVec3 =
+        DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_5);
     let mut position = DVec3::splat(0.5);
     for step in 0..steps {
         position = (position + R3).fract();
@@ -208,7 +217,11 @@ mod tests {
     fn volume(boxes: &NodeBoxes, count: usize) -> f64 {
         let unit = |k: usize| 2f64.powi(i32::from(boxes.exponent[k])) / f64::from(boxes.n());
         (0..count)
-            .map(|i| (0..3).map(|k| f64::from(boxes.high[k][i] - boxes.low[k][i]) * unit(k)).product::<f64>())
+            .map(|i| {
+                (0..3)
+                    .map(|k| f64::from(boxes.high[k][i] - boxes.low[k][i]) * unit(k))
+                    .product::<f64>()
+            })
             .sum()
     }
 

@@ -4,15 +4,16 @@ use super::collapse::collapse;
 use super::sah::binary_tree;
 use glam::DVec3;
 
-/// What the topology minimises. The defaults were chosen by counting the nodes and leaves that closest-point
-/// searches visit on scanned and CAD meshes; visits change by about 2 % from `edge` 0.005 to 0.1 and from
-/// `node_weight` 0 to 0.4.
+/// What the topology minimises. The defaults were chosen by counting the nodes and leaves that
+/// closest-point searches visit on scanned and CAD meshes; visits change by about 2 % from `edge`
+/// 0.005 to 0.1 and from `node_weight` 0 to 0.4.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TopologyOptions {
-    /// Weight of a box's summed extents beside its half surface, relative to the diagonal of all items.
+    /// Weight of a box's summed extents beside its half surface, relative to the diagonal of all
+    /// items.
     pub edge: f32,
-    /// Cost of a wide node beside the chance of its visit, relative to the mean over the binary tree: the
-    /// larger, the fewer and fuller the nodes.
+    /// Cost of a wide node beside the chance of its visit, relative to the mean over the binary
+    /// tree: the larger, the fewer and fuller the nodes.
     pub node_weight: f32,
 }
 
@@ -38,16 +39,16 @@ impl WideNode {
     }
 }
 
-/// Shape of the box tree. Node 0 is the root; the inner children of a node have consecutive indices, greater
-/// than its own.
+/// Shape of the box tree. Node 0 is the root; the inner children of a node have consecutive
+/// indices, greater than its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Topology {
     /// All nodes, families of siblings depth-first.
     pub nodes: Vec<WideNode>,
     /// Items in the order of their leaves: node by node, within a node as in [`WideNode::leaves`].
     pub leaf_order: Vec<u32>,
-    /// The most entries on the stack of a depth-first traversal that pushes all children of a node but one:
-    /// the maximum over all root-to-node paths of the sum of (children − 1).
+    /// The most entries on the stack of a depth-first traversal that pushes all children of a node
+    /// but one: the maximum over all root-to-node paths of the sum of (children − 1).
     pub stack_entries: usize,
     /// Nodes on the longest path from the root; 0 for an empty tree.
     pub depth: usize,
@@ -56,8 +57,8 @@ pub struct Topology {
 /// Builds the topology over items with axis-aligned boxes `(low, high)` in grid units (finite,
 /// `low <= high`).
 ///
-/// Equal, flat and point-like boxes are fine: depth stays O(log n) for any input. No items give no nodes; one
-/// item gives a root with one leaf. Deterministic. Cost: O(n log n).
+/// Equal, flat and point-like boxes are fine: depth stays O(log n) for any input. No items give no
+/// nodes; one item gives a root with one leaf. Deterministic. Cost: O(n log n).
 pub fn topology(bounds: &[(DVec3, DVec3)]) -> Topology {
     topology_with(bounds, &TopologyOptions::default())
 }
@@ -67,9 +68,9 @@ pub fn topology_with(bounds: &[(DVec3, DVec3)], options: &TopologyOptions) -> To
     arrange(&collapse(&binary_tree(bounds, options.edge), options.node_weight))
 }
 
-/// Renumbers nodes so that siblings are neighbours and subtrees stay together: after a family come the
-/// families of its first member, then of its second, and so on. A descent then stays within a shrinking
-/// stretch of memory.
+/// Renumbers nodes so that siblings are neighbours and subtrees stay together: after a family come
+/// the families of its first member, then of its second, and so on. A descent then stays within a
+/// shrinking stretch of memory.
 fn arrange(nodes: &[WideNode]) -> Topology {
     let mut renumbered = Vec::with_capacity(nodes.len());
     let mut families: Vec<&[u32]> = if nodes.is_empty() { Vec::new() } else { vec![&[0]] };
@@ -81,7 +82,11 @@ fn arrange(nodes: &[WideNode]) -> Topology {
             old_idx.push(old);
         }
         families.extend(
-            family.iter().rev().map(|&old| nodes[old as usize].inner.as_slice()).filter(|f| !f.is_empty()),
+            family
+                .iter()
+                .rev()
+                .map(|&old| nodes[old as usize].inner.as_slice())
+                .filter(|f| !f.is_empty()),
         );
     }
     for &old in &old_idx {
@@ -209,8 +214,12 @@ mod tests {
         let tree = topology(&scattered(3000));
         let mut last = vec![0u32; tree.nodes.len()];
         for index in (0..tree.nodes.len()).rev() {
-            last[index] =
-                tree.nodes[index].inner.iter().map(|&c| last[c as usize]).max().unwrap_or(index as u32);
+            last[index] = tree.nodes[index]
+                .inner
+                .iter()
+                .map(|&c| last[c as usize])
+                .max()
+                .unwrap_or(index as u32);
         }
         // Below a family, the subtrees of its members do not interleave.
         for node in tree.nodes.iter().filter(|node| node.inner.len() > 1) {

@@ -7,13 +7,14 @@ use glam::{DMat3, DQuat, DVec3, Vec3};
 /// Greatest component of a stored quaternion, in magnitude.
 const QUATERNION_MAX: f64 = 127.0;
 
-/// Nearest stored quaternion `(w, x, y, z)` by rounding, with the largest component `±127`; the first
-/// component that is not zero is positive.
+/// Nearest stored quaternion `(w, x, y, z)` by rounding, with the largest component `±127`; the
+/// first component that is not zero is positive.
 pub(super) fn round_quaternion(q: DQuat) -> [i8; 4] {
     let components = [q.w, q.x, q.y, q.z];
     let largest = components.iter().fold(0f64, |largest, c| largest.max(c.abs()));
     let rounded = components.map(|c| (c / largest * QUATERNION_MAX).round());
-    let sign = if rounded.iter().find(|&&c| c != 0.0).is_some_and(|&c| c < 0.0) { -1.0 } else { 1.0 };
+    let sign =
+        if rounded.iter().find(|&&c| c != 0.0).is_some_and(|&c| c < 0.0) { -1.0 } else { 1.0 };
     rounded.map(|c| (sign * c) as i8)
 }
 
@@ -28,8 +29,8 @@ pub(super) fn frame_axes(q: DQuat) -> [Vec3; 3] {
     [0, 1, 2].map(|k| rotation.row(k).as_vec3())
 }
 
-/// Frame whose axes are the principal axes of the points, of greatest spread first; `None` for fewer than two
-/// different points.
+/// Frame whose axes are the principal axes of the points, of greatest spread first; `None` for
+/// fewer than two different points.
 pub(super) fn principal_frame(points: impl Iterator<Item = DVec3> + Clone) -> Option<DQuat> {
     let (axes, variances) = principal_axes(points)?;
     (variances[0] > 0.0).then(|| {
@@ -39,8 +40,11 @@ pub(super) fn principal_frame(points: impl Iterator<Item = DVec3> + Clone) -> Op
 }
 
 /// Orthonormal principal axes and the variances along them, greatest first; `None` without points.
-pub(super) fn principal_axes(points: impl Iterator<Item = DVec3> + Clone) -> Option<([DVec3; 3], [f64; 3])> {
-    let (count, sum) = points.clone().fold((0.0, DVec3::ZERO), |(count, sum), p| (count + 1.0, sum + p));
+pub(super) fn principal_axes(
+    points: impl Iterator<Item = DVec3> + Clone,
+) -> Option<([DVec3; 3], [f64; 3])> {
+    let (count, sum) =
+        points.clone().fold((0.0, DVec3::ZERO), |(count, sum), p| (count + 1.0, sum + p));
     if count == 0.0 {
         return None;
     }
@@ -60,8 +64,8 @@ pub(super) fn principal_axes(points: impl Iterator<Item = DVec3> + Clone) -> Opt
     Some((by_spread.map(|k| vectors[k]), by_spread.map(|k| values[k].max(0.0))))
 }
 
-/// Eigenvectors and eigenvalues of a symmetric matrix by cyclic Jacobi rotations (Golub and Van Loan, "Matrix
-/// computations", section 8.5).
+/// Eigenvectors and eigenvalues of a symmetric matrix by cyclic Jacobi rotations (Golub and Van
+/// Loan, "Matrix computations", section 8.5).
 fn symmetric_eigenvectors(mut a: [[f64; 3]; 3]) -> ([DVec3; 3], [f64; 3]) {
     /// Convergence is quadratic: six sweeps reach f64's precision for any 3×3 matrix.
     const SWEEPS: usize = 8;
@@ -84,7 +88,10 @@ fn symmetric_eigenvectors(mut a: [[f64; 3]; 3]) -> ([DVec3; 3], [f64; 3]) {
             }
         }
     }
-    ([0, 1, 2].map(|k| DVec3::new(v[0][k], v[1][k], v[2][k]).normalize()), [a[0][0], a[1][1], a[2][2]])
+    (
+        [0, 1, 2].map(|k| DVec3::new(v[0][k], v[1][k], v[2][k]).normalize()),
+        [a[0][0], a[1][1], a[2][2]],
+    )
 }
 
 #[cfg(test)]
@@ -93,9 +100,11 @@ mod tests {
 
     #[test]
     fn stored_quaternions_have_a_component_of_127() {
-        for q in
-            [DQuat::IDENTITY, DQuat::from_xyzw(0.1, -0.7, 0.2, -0.05), DQuat::from_xyzw(-0.5, 0.5, 0.5, -0.5)]
-        {
+        for q in [
+            DQuat::IDENTITY,
+            DQuat::from_xyzw(0.1, -0.7, 0.2, -0.05),
+            DQuat::from_xyzw(-0.5, 0.5, 0.5, -0.5),
+        ] {
             let stored = round_quaternion(q.normalize());
             assert_eq!(stored.iter().map(|c| c.unsigned_abs()).max(), Some(127));
             assert!(stored.iter().find(|&&c| c != 0).is_some_and(|&c| c > 0));
@@ -107,7 +116,13 @@ mod tests {
     fn principal_axes_follow_the_spread() {
         let q = DQuat::from_xyzw(0.3, -0.2, 0.5, 0.7).normalize();
         let points: Vec<DVec3> = (0..64)
-            .map(|i| q * DVec3::new(f64::from(i % 4) * 100.0, f64::from(i / 4 % 4) * 10.0, f64::from(i / 16)))
+            .map(|i| {
+                q * DVec3::new(
+                    f64::from(i % 4) * 100.0,
+                    f64::from(i / 4 % 4) * 10.0,
+                    f64::from(i / 16),
+                )
+            })
             .collect();
         let (axes, variances) = principal_axes(points.iter().copied()).unwrap();
         for (axis, expected) in axes.iter().zip([DVec3::X, DVec3::Y, DVec3::Z]) {

@@ -1,23 +1,24 @@
-//! The binary tree behind the wide one: top-down, by the surface area heuristic, over items that are sorted
-//! once per axis.
+//! The binary tree behind the wide one: top-down, by the surface area heuristic, over items that
+//! are sorted once per axis.
 //!
-//! Every node is split where `cost(left) · items(left) + cost(right) · items(right)` is least among all
-//! positions on the three axes (a full sweep, no bins). The orders of the three axes are kept sorted by
-//! stable partition, so a level costs O(items). Source: Wald and Havran, "On building fast kd-trees for ray
-//! tracing, and on doing that in O(N log N)", 2006; the measure is adapted to distance questions, see
-//! [`BoxMeasure`].
+//! Every node is split where `cost(left) · items(left) + cost(right) · items(right)` is least among
+//! all positions on the three axes (a full sweep, no bins). The orders of the three axes are kept
+//! sorted by stable partition, so a level costs O(items). Source: Wald and Havran, "On building
+//! fast kd-trees for ray tracing, and on doing that in O(N log N)", 2006; the measure is adapted to
+//! distance questions, see [`BoxMeasure`].
 
 use glam::DVec3;
 
 /// No child: marks leaves of the binary tree.
 const NO_CHILD: u32 = u32::MAX;
 
-/// How likely a question visits an axis-aligned box: half its surface plus `edge` times its summed extents.
+/// How likely a question visits an axis-aligned box: half its surface plus `edge` times its summed
+/// extents.
 ///
-/// By Steiner's formula the volume of a box that grows by `d` on all sides is `V + S d + π L d² + …` with the
-/// surface `S` and the summed extents `L`; points within `d` of a surface-like set of boxes are what
-/// closest-point searches open. The volume term is left out: axis-aligned volume says nothing of a slanted
-/// patch, whose node will get an oriented frame.
+/// By Steiner's formula the volume of a box that grows by `d` on all sides is `V + S d + π L d² +
+/// …` with the surface `S` and the summed extents `L`; points within `d` of a surface-like set of
+/// boxes are what closest-point searches open. The volume term is left out: axis-aligned volume
+/// says nothing of a slanted patch, whose node will get an oriented frame.
 #[derive(Clone, Copy)]
 struct BoxMeasure {
     /// Weight of the summed extents, grid units.
@@ -32,7 +33,8 @@ impl BoxMeasure {
     }
 }
 
-/// Axis-aligned box of an item or a run of items, grid units. f32 is enough: it only steers the topology.
+/// Axis-aligned box of an item or a run of items, grid units. f32 is enough: it only steers the
+/// topology.
 #[derive(Clone, Copy)]
 struct Bounds {
     low: [f32; 3],
@@ -45,8 +47,8 @@ impl Bounds {
     #[inline(always)]
     fn include(&mut self, other: &Self) {
         for k in 0..3 {
-            // Plain comparisons compile to one instruction each; `f32::min` also orders NaN, which cannot
-            // occur here.
+            // Plain comparisons compile to one instruction each; `f32::min` also orders NaN, which
+            // cannot occur here.
             self.low[k] = if other.low[k] < self.low[k] { other.low[k] } else { self.low[k] };
             self.high[k] = if other.high[k] > self.high[k] { other.high[k] } else { self.high[k] };
         }
@@ -97,11 +99,12 @@ struct Builder {
     suffix_cost: Vec<f32>,
 }
 
-/// Binary tree over `bounds` with one item per leaf; node 0 is the root and children come after their parent.
-/// No node is deeper than `2 log2(n) + 16`: where the heuristic would go deeper, runs are halved.
+/// Binary tree over `bounds` with one item per leaf; node 0 is the root and children come after
+/// their parent. No node is deeper than `2 log2(n) + 16`: where the heuristic would go deeper, runs
+/// are halved.
 ///
-/// `edge` is the weight of the summed extents relative to the diagonal of all items. Empty input gives no
-/// nodes. Cost: O(n log n).
+/// `edge` is the weight of the summed extents relative to the diagonal of all items. Empty input
+/// gives no nodes. Cost: O(n log n).
 pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], edge: f32) -> Vec<BinaryNode> {
     let mut nodes = Vec::with_capacity(bounds.len().max(1) * 2 - 1);
     if bounds.is_empty() {
@@ -111,7 +114,11 @@ pub(super) fn binary_tree(bounds: &[(DVec3, DVec3)], edge: f32) -> Vec<BinaryNod
     let depth_limit = 2 * bounds.len().ilog2() + 16;
     let root = builder.weigh(0, bounds.len());
     let scale = if root > 0.0 { 1.0 / root } else { 1.0 };
-    nodes.push(BinaryNode { left: NO_CHILD, right_or_item: builder.orders[0][0], weight: root * scale });
+    nodes.push(BinaryNode {
+        left: NO_CHILD,
+        right_or_item: builder.orders[0][0],
+        weight: root * scale,
+    });
     let mut pending = vec![Pending { node: 0, start: 0, end: bounds.len(), depth: 0 }];
     while let Some(run) = pending.pop() {
         let count = run.end - run.start;
@@ -138,14 +145,20 @@ impl Builder {
     fn new(input: &[(DVec3, DVec3)], edge: f32) -> Self {
         let bounds: Vec<Bounds> = input
             .iter()
-            .map(|(low, high)| Bounds { low: low.as_vec3().to_array(), high: high.as_vec3().to_array() })
+            .map(|(low, high)| Bounds {
+                low: low.as_vec3().to_array(),
+                high: high.as_vec3().to_array(),
+            })
             .collect();
         let mut all = Bounds::EMPTY;
         bounds.iter().for_each(|b| all.include(b));
-        let diagonal =
-            (0..3).map(|k| (all.high[k] - all.low[k]) * (all.high[k] - all.low[k])).sum::<f32>().sqrt();
+        let diagonal = (0..3)
+            .map(|k| (all.high[k] - all.low[k]) * (all.high[k] - all.low[k]))
+            .sum::<f32>()
+            .sqrt();
         let orders = [0, 1, 2].map(|axis| {
-            let centre = |item: u32| bounds[item as usize].low[axis] + bounds[item as usize].high[axis];
+            let centre =
+                |item: u32| bounds[item as usize].low[axis] + bounds[item as usize].high[axis];
             let mut keyed: Vec<(f32, u32)> =
                 (0..bounds.len() as u32).map(|item| (centre(item), item)).collect();
             keyed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -163,11 +176,14 @@ impl Builder {
 
     fn weigh(&self, start: usize, end: usize) -> f32 {
         let mut all = Bounds::EMPTY;
-        self.orders[0][start..end].iter().for_each(|&item| all.include(&self.bounds[item as usize]));
+        self.orders[0][start..end]
+            .iter()
+            .for_each(|&item| all.include(&self.bounds[item as usize]));
         self.measure.of(&all)
     }
 
-    /// Splits a run in two and returns the size of the first part; the orders of both parts stay sorted.
+    /// Splits a run in two and returns the size of the first part; the orders of both parts stay
+    /// sorted.
     fn divide(&mut self, start: usize, end: usize, must_halve: bool) -> usize {
         let count = end - start;
         let mut best = Split { axis: 0, position: count / 2, cost: f32::INFINITY };
@@ -195,7 +211,14 @@ impl Builder {
     }
 
     /// Improves `best` by the cuts on one axis: all, or only the one in the middle.
-    fn sweep(&mut self, axis: usize, start: usize, end: usize, only_middle: bool, best: &mut Split) {
+    fn sweep(
+        &mut self,
+        axis: usize,
+        start: usize,
+        end: usize,
+        only_middle: bool,
+        best: &mut Split,
+    ) {
         let order = &self.orders[axis][start..end];
         let count = order.len();
         let mut run = Bounds::EMPTY;
@@ -210,8 +233,8 @@ impl Builder {
                 continue;
             }
             let cost = self.measure.of(&run) * position as f32 + self.suffix_cost[position];
-            // Equal costs (equal or degenerate items) go to the cut nearest the middle, so that such trees
-            // are balanced.
+            // Equal costs (equal or degenerate items) go to the cut nearest the middle, so that
+            // such trees are balanced.
             let closer = || position.abs_diff(count / 2) < best.position.abs_diff(count / 2);
             if cost < best.cost || (cost == best.cost && closer()) {
                 *best = Split { axis, position, cost };
@@ -235,7 +258,8 @@ mod tests {
     }
 
     fn assert_holds_each_item_once(nodes: &[BinaryNode], count: usize) {
-        let mut items: Vec<u32> = nodes.iter().filter(|n| n.is_leaf()).map(|n| n.right_or_item).collect();
+        let mut items: Vec<u32> =
+            nodes.iter().filter(|n| n.is_leaf()).map(|n| n.right_or_item).collect();
         items.sort_unstable();
         assert_eq!(items, (0..count as u32).collect::<Vec<_>>());
     }
@@ -261,7 +285,11 @@ mod tests {
     fn separate_clusters_are_separated_first() {
         let bounds: Vec<_> = (0..10)
             .map(|i| {
-                let low = DVec3::new(f64::from(i) + if i < 3 { 0.0 } else { 1000.0 }, f64::from(i % 3), 0.0);
+                let low = DVec3::new(
+                    f64::from(i) + if i < 3 { 0.0 } else { 1000.0 },
+                    f64::from(i % 3),
+                    0.0,
+                );
                 (low, low + DVec3::ONE)
             })
             .collect();

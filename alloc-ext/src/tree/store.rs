@@ -20,13 +20,16 @@ pub(super) struct OnGrid {
     pub(super) surface_error: f64,
 }
 
-/// Finest exponent for which every coordinate on the grid is an integer below 2^24: exact sums in f32.
+/// Finest exponent for which every coordinate on the grid is an integer below 2^24: exact sums in
+/// f32.
 const FINEST: i32 = -24;
 
-/// Steps that the mesh may take on its longest axis: vertices are rounded to the nearest step, up or down.
+/// Steps that the mesh may take on its longest axis: vertices are rounded to the nearest step, up
+/// or down.
 const STEPS: f64 = 65_534.0;
 
-/// Moves a mesh to the finest power-of-two grid of 16 bits that holds it, or, if `single`, only changes its units.
+/// Moves a mesh to the finest power-of-two grid of 16 bits that holds it, or, if `single`, only
+/// changes its units.
 pub(super) fn store(mesh: &Mesh, moved: f64, single: bool) -> OnGrid {
     let scale = scale_exponent(mesh);
     let local: Vec<DVec3> = mesh
@@ -34,8 +37,9 @@ pub(super) fn store(mesh: &Mesh, moved: f64, single: bool) -> OnGrid {
         .iter()
         .map(|&[x, y, z]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * exp2(-scale))
         .collect();
-    let (low, high) =
-        local.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+    let (low, high) = local
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
     let extent = (high - low).max_element();
     let (mantissa, fitting) = split_exponent(extent / STEPS);
     // `split_exponent` gives the power above; a power itself fits as it is.

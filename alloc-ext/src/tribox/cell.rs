@@ -1,9 +1,14 @@
-//! Cells: the part of a mesh, or of the solid that it bounds, between the planes of the splits above, and its tribox.
+//! Cells: the part of a mesh, or of the solid that it bounds, between the planes of the splits
+//! above, and its tribox.
 //!
-//! *Why the tribox holds the solid, too.* Where the solid in a cell reaches farthest along a direction there is a point of the surface, which [`polygons`](super::polygons) see to, or a
-//! vertex of the region that the solid fills there. The parent's tribox, cut by the plane, is such a region, for it holds all of the solid there. Its vertices are computed within 2^-47 of the
-//! largest coordinate, 1/64 of the margin by which they are padded. If a computed vertex is outside of the solid and the true one inside, then the surface passes between them, and
-//! the surface's own bounds, of a solid padded by the same margin everywhere, hold the true one. A vertex whose winding number cannot be told counts as inside.
+//! *Why the tribox holds the solid, too.* Where the solid in a cell reaches farthest along a
+//! direction there is a point of the surface, which [`polygons`](super::polygons) see to, or a
+//! vertex of the region that the solid fills there. The parent's tribox, cut by the plane, is such
+//! a region, for it holds all of the solid there. Its vertices are computed within 2^-47 of the
+//! largest coordinate, 1/64 of the margin by which they are padded. If a computed vertex is outside
+//! of the solid and the true one inside, then the surface passes between them, and the surface's
+//! own bounds, of a solid padded by the same margin everywhere, hold the true one. A vertex whose
+//! winding number cannot be told counts as inside.
 
 use super::polygons::{HalfSpace, Polygons, margin};
 use super::span::{Frame, projections};
@@ -51,7 +56,8 @@ pub(super) struct Cell {
 impl<'a> Whole<'a> {
     pub fn new(mesh: &Mesh, tree: &'a Tree<'a>) -> Self {
         let at = |v: u32| mesh.positions[v as usize].map(f64::from);
-        let size = mesh.positions.iter().flatten().fold(0f64, |most, &x| most.max(f64::from(x).abs()));
+        let size =
+            mesh.positions.iter().flatten().fold(0f64, |most, &x| most.max(f64::from(x).abs()));
         Whole {
             triangles: mesh.triangles.iter().map(|t| t.map(at)).collect(),
             is_solid: tree.header().is_closed(),
@@ -66,8 +72,11 @@ impl<'a> Whole<'a> {
         let used = mesh.triangles.iter().flatten().map(|&v| mesh.positions[v as usize]);
         let tribox = Tribox::of_points(used)?;
         let [x, y, z, ..] = tribox.high.map(f64::from);
-        let size =
-            tribox.slabs().take(3).map(|(low, high)| f64::from(high) - f64::from(low)).fold(0.0, f64::max);
+        let size = tribox
+            .slabs()
+            .take(3)
+            .map(|(low, high)| f64::from(high) - f64::from(low))
+            .fold(0.0, f64::max);
         let beyond = [x + 0.3819 * size, y + 0.6731 * size, z + 0.2913 * size];
         let references = vec![Reference { at: beyond, winding: 0 }];
         let (polygons, frame) = (Polygons::of(mesh), Frame::of(&tribox));
@@ -76,11 +85,13 @@ impl<'a> Whole<'a> {
 
     /// Winding number of a point of a cell, if it can be told.
     fn winding(&self, cell: &Cell, point: [f64; 3]) -> Option<i32> {
-        let triangles = cell.polygons.loops.iter().map(|&(triangle, _)| self.triangles[triangle as usize]);
+        let triangles =
+            cell.polygons.loops.iter().map(|&(triangle, _)| self.triangles[triangle as usize]);
         winding(point, &cell.references, triangles)
     }
 
-    /// Whether a point of a cell may be in the solid. With [`Trust::Proof`] `false` is a proof that its winding number is 0.
+    /// Whether a point of a cell may be in the solid. With [`Trust::Proof`] `false` is a proof that
+    /// its winding number is 0.
     pub fn is_inside(&self, cell: &Cell, point: [f64; 3], trust: Trust) -> bool {
         if !self.is_solid {
             return false;
@@ -89,13 +100,15 @@ impl<'a> Whole<'a> {
             Trust::Proof => self.winding(cell, point) != Some(0),
             Trust::Sketch => {
                 let asked = point.map(|x| x as f32);
-                let answer = signed_distance(self.tree, asked, &Stop::EXACT, &mut self.stack.borrow_mut());
+                let answer =
+                    signed_distance(self.tree, asked, &Stop::EXACT, &mut self.stack.borrow_mut());
                 answer.is_ok_and(|answer| answer.side != Side::Outside)
             }
         }
     }
 
-    /// The part of a cell in a half-space; `None` if there is nothing. The half-space's plane has to be an f32.
+    /// The part of a cell in a half-space; `None` if there is nothing. The half-space's plane has
+    /// to be an f32.
     ///
     /// The new cell's tribox is inside of the old one's and of the half-space.
     pub fn part(&self, cell: &Cell, half: &HalfSpace, trust: Trust) -> Option<Cell> {
@@ -122,14 +135,16 @@ impl<'a> Whole<'a> {
         Some(Cell { tribox, polygons, frame: Frame::of(&tribox), inner, references })
     }
 
-    /// Vertices of the second kind of a cell's part in a half-space: of the cell's tribox, and of its section with the plane.
+    /// Vertices of the second kind of a cell's part in a half-space: of the cell's tribox, and of
+    /// its section with the plane.
     ///
     /// The tribox may stand for the region between the planes, for it holds all of the solid there.
     fn inner(&self, cell: &Cell, half: &HalfSpace, trust: Trust) -> Vec<[f64; 3]> {
         let reach = if half.is_low { half.at + self.margin } else { half.at - self.margin };
         let along = |vertex: &[f64; 3]| projections(*vertex)[half.slab];
-        let is_kept =
-            |vertex: &[f64; 3]| if half.is_low { along(vertex) <= reach } else { along(vertex) >= reach };
+        let is_kept = |vertex: &[f64; 3]| {
+            if half.is_low { along(vertex) <= reach } else { along(vertex) >= reach }
+        };
         let vertices = cell.frame.vertices.iter().copied().filter(is_kept);
         let vertices = vertices.chain(section(&cell.frame, half.slab, half.at));
         vertices.filter(|&vertex| self.is_inside(cell, vertex, trust)).collect()

@@ -1,4 +1,5 @@
-//! Which plane splits a cell best (Crosnier & Rossignac 1999, section 4, who ask for one and take the plane that bisects the thickest slab).
+//! Which plane splits a cell best (Crosnier & Rossignac 1999, section 4, who ask for one and take
+//! the plane that bisects the thickest slab).
 
 use super::cell::{Cell, Trust, Whole, section};
 use super::extent::Extent;
@@ -58,10 +59,13 @@ impl Measure {
 }
 
 impl Choosing {
-    /// The plane of the greatest gain, the first one of several; `None` if no plane leaves something on both sides.
+    /// The plane of the greatest gain, the first one of several; `None` if no plane leaves
+    /// something on both sides.
     ///
-    /// Where that is little, a hole in the middle of the cell for instance, each direction's bisecting plane is tried together with the best splits of both parts.
-    /// Cost: for each direction one pass over the cell's corners, and a winding number for each vertex of each plane's section; ten times that where a second split is looked at.
+    /// Where that is little, a hole in the middle of the cell for instance, each direction's
+    /// bisecting plane is tried together with the best splits of both parts. Cost: for each
+    /// direction one pass over the cell's corners, and a winding number for each vertex of each
+    /// plane's section; ten times that where a second split is looked at.
     pub fn best(&self, whole: &Whole<'_>, cell: &Cell) -> Option<Choice> {
         let best = self.single(whole, cell)?;
         let enough = self.foresight * self.measure.of(Extent::of(&cell.tribox));
@@ -72,7 +76,8 @@ impl Choosing {
         Some(twice.fold(best, |best, other| if other.gain > best.gain { other } else { best }))
     }
 
-    /// The plane that bisects a slab, if both parts are split again: the gain of each of the three splits.
+    /// The plane that bisects a slab, if both parts are split again: the gain of each of the three
+    /// splits.
     fn twice(&self, whole: &Whole<'_>, cell: &Cell, slab: usize) -> Option<Choice> {
         let at = *self.evenly(cell, slab, 1).first()?;
         let part = |is_low: bool| whole.part(cell, &HalfSpace { slab, at, is_low }, self.trust);
@@ -105,7 +110,8 @@ impl Choosing {
                 if parts.iter().any(Span::is_empty) {
                     continue;
                 }
-                let after: f64 = parts.iter().map(|part| self.measure.of(Extent::of_span(part))).sum();
+                let after: f64 =
+                    parts.iter().map(|part| self.measure.of(Extent::of_span(part))).sum();
                 let gain = before - after;
                 if best.is_none_or(|best| gain > best.gain) {
                     best = Some(Choice { slab, at: *at, now: gain, gain });
@@ -115,12 +121,14 @@ impl Choosing {
         best
     }
 
-    /// Planes of a slab, evenly but on multiples of the unit, strictly inside of the cell's tribox; ascending.
+    /// Planes of a slab, evenly but on multiples of the unit, strictly inside of the cell's tribox;
+    /// ascending.
     fn evenly(&self, cell: &Cell, slab: usize, count: u32) -> Vec<f64> {
         let (low, high) = (f64::from(cell.tribox.low[slab]), f64::from(cell.tribox.high[slab]));
         let part = |i: u32| f64::from(i) / f64::from(count + 1);
         let plane = |i: u32| ((low + part(i) * (high - low)) / self.unit).round() * self.unit;
-        let mut planes: Vec<f64> = (1..=count).map(plane).filter(|&at| low < at && at < high).collect();
+        let mut planes: Vec<f64> =
+            (1..=count).map(plane).filter(|&at| low < at && at < high).collect();
         planes.dedup();
         planes
     }
@@ -135,8 +143,10 @@ impl Choosing {
         planes: &[f64],
     ) -> Vec<[Span; 2]> {
         let mut layers = layers(cell, corners, slab, planes);
-        let layer = |along: &[f64; SLABS]| planes.iter().take_while(|&&at| along[slab] > at).count();
-        for &vertex in cell.frame.vertices.iter().filter(|&&vertex| whole.is_inside(cell, vertex, self.trust))
+        let layer =
+            |along: &[f64; SLABS]| planes.iter().take_while(|&&at| along[slab] > at).count();
+        for &vertex in
+            cell.frame.vertices.iter().filter(|&&vertex| whole.is_inside(cell, vertex, self.trust))
         {
             let along = projections(vertex);
             layers[layer(&along)].add(&along);
@@ -184,7 +194,8 @@ fn layers(cell: &Cell, corners: &[[f64; SLABS]], slab: usize, planes: &[f64]) ->
         let corners = &corners[begin..end as usize];
         begin = end as usize;
         let Some(mut from) = corners.last() else { continue };
-        let layer = |along: &[f64; SLABS]| planes.iter().take_while(|&&at| along[slab] > at).count();
+        let layer =
+            |along: &[f64; SLABS]| planes.iter().take_while(|&&at| along[slab] > at).count();
         let mut from_layer = layer(from);
         for to in corners {
             let to_layer = layer(to);

@@ -22,7 +22,8 @@ pub struct Lattice {
     pub grid_exponent: i32,
     /// What parameters are counted from, units.
     pub origin: [i32; 3],
-    /// How far planes move outward before they are rounded: what the input may be off by, input units.
+    /// How far planes move outward before they are rounded: what the input may be off by, input
+    /// units.
     pub padding: f64,
 }
 
@@ -30,7 +31,8 @@ impl Lattice {
     /// The finest grid that holds a mesh whose vertices may be up to `padding` off, input units.
     ///
     /// # Errors
-    /// If a coordinate is not finite or beyond [`Tribox::DOMAIN`]; a mesh without triangles is on any grid.
+    /// If a coordinate is not finite or beyond [`Tribox::DOMAIN`]; a mesh without triangles is on
+    /// any grid.
     pub fn of(mesh: &Mesh, padding: f64) -> Result<Lattice, TriboxError> {
         let used = mesh.triangles.iter().flatten().map(|&v| mesh.positions[v as usize]);
         let whole = Tribox::of_points(used)?;
@@ -39,9 +41,11 @@ impl Lattice {
         let padding = padding * (1.0 + 1e-6);
         let on = |grid_exponent: i32| {
             let unit = exp2(scale + grid_exponent);
-            let centre =
-                |axis: usize| (f64::from(whole.low[axis]) + f64::from(whole.high[axis])) / 2.0 / unit;
-            let origin = [0, 1, 2].map(|axis| if whole.is_empty() { 0.0 } else { centre(axis).round() });
+            let centre = |axis: usize| {
+                (f64::from(whole.low[axis]) + f64::from(whole.high[axis])) / 2.0 / unit
+            };
+            let origin =
+                [0, 1, 2].map(|axis| if whole.is_empty() { 0.0 } else { centre(axis).round() });
             let lattice = Lattice {
                 scale_exponent: scale,
                 grid_exponent,
@@ -72,7 +76,8 @@ impl Lattice {
         DIRECTIONS.map(|d| d.iter().zip(self.origin).map(|(&d, x)| i32::from(d) * x).sum())
     }
 
-    /// The tightest tribox of integers that holds this one, if all parameters are moved outward to even ones first; in units.
+    /// The tightest tribox of integers that holds this one, if all parameters are moved outward to
+    /// even ones first; in units.
     fn in_units(&self, tribox: &Tribox) -> Tribox {
         // Where nothing is padded the quotient is exact, up to f64's least number.
         let round = |x: f32, slab: usize, sign: f64| {
@@ -89,7 +94,8 @@ impl Lattice {
         units.tightened()
     }
 
-    /// A tribox on the grid that holds this one, padded, input units. Monotone: of what is inside of another's parameters the result is inside of the other's result.
+    /// A tribox on the grid that holds this one, padded, input units. Monotone: of what is inside
+    /// of another's parameters the result is inside of the other's result.
     #[must_use]
     pub fn around(&self, tribox: &Tribox) -> Tribox {
         if tribox.is_empty() {
@@ -100,7 +106,8 @@ impl Lattice {
         Tribox { low: units.low.map(scaled), high: units.high.map(scaled) }
     }
 
-    /// Parameters as stored: least and greatest value of each slab; `None` if 16 bits do not hold them.
+    /// Parameters as stored: least and greatest value of each slab; `None` if 16 bits do not hold
+    /// them.
     pub(super) fn stored(&self, tribox: &Tribox) -> Option<[[i16; 2]; SLABS]> {
         let units = self.in_units(tribox);
         let offsets = self.offsets();

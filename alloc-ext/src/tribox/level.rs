@@ -1,4 +1,5 @@
-//! Levels of detail, and what they cost and miss (Crosnier & Rossignac 1999, section 4 and Table 1).
+//! Levels of detail, and what they cost and miss (Crosnier & Rossignac 1999, section 4 and Table
+//! 1).
 
 use super::extent::Extent;
 use super::polygons::margin;
@@ -25,10 +26,13 @@ pub struct Level {
     pub volume: f64,
     /// Formula (10), input units: the largest error of a node.
     ///
-    /// As printed, ρ = max over vertices sᵢ and directions dⱼ of the cone of normals of sᵢ of (sᵢ·dⱼ) depends on where the origin is, and names no tribox.
-    /// We read it as the Hausdorff distance of two convex bodies, the tribox T and the hull of the part S: sᵢ·dⱼ, with dⱼ of unit length in the normal cone of
-    /// sᵢ, is the support function of S, and what T's exceeds it by is the error along dⱼ; the cones of all vertices are all directions. ρ = max (h_T(d) − h_S(d)).
-    /// An upper bound but for what planes are moved by (2^-40 of the coordinates), 1 % too great at most where it converged; corners that cannot be told to be
+    /// As printed, ρ = max over vertices sᵢ and directions dⱼ of the cone of normals of sᵢ of
+    /// (sᵢ·dⱼ) depends on where the origin is, and names no tribox. We read it as the
+    /// Hausdorff distance of two convex bodies, the tribox T and the hull of the part S: sᵢ·dⱼ,
+    /// with dⱼ of unit length in the normal cone of sᵢ, is the support function of S, and what
+    /// T's exceeds it by is the error along dⱼ; the cones of all vertices are all directions. ρ =
+    /// max (h_T(d) − h_S(d)). An upper bound but for what planes are moved by (2^-40 of the
+    /// coordinates), 1 % too great at most where it converged; corners that cannot be told to be
     /// outside count as part. Cavities do not count; they do in [`distance`](Self::distance).
     pub error: f64,
     /// Largest distance from a point of the union's boundary to the mesh, input units.
@@ -36,7 +40,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// Void beside a solid of this volume, as a part of it. For solids whose parts overlap it counts what overlaps twice.
+    /// Void beside a solid of this volume, as a part of it. For solids whose parts overlap it
+    /// counts what overlaps twice.
     #[must_use]
     pub fn void(&self, solid: f64) -> f64 {
         self.volume / solid - 1.0
@@ -46,10 +51,12 @@ impl Level {
 /// The blob of a mesh's box tree as it is needed here: exact, with the triangles' own numbers.
 ///
 /// # Panics
-/// On a mesh of more than [`tree::MAX_TRIANGLES`], and, if debug assertions are on, on infinite coordinates.
+/// On a mesh of more than [`tree::MAX_TRIANGLES`], and, if debug assertions are on, on infinite
+/// coordinates.
 #[must_use]
 pub fn box_tree(mesh: &Mesh) -> Vec<u8> {
-    // Not the numbers of the file, of which two triangles may share one where a flat one was mended.
+    // Not the numbers of the file, of which two triangles may share one where a flat one was
+    // mended.
     let mesh = Mesh::new(mesh.positions.clone(), mesh.triangles.clone());
     let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
     let (tables, _) = tree::build(&mesh, 0.0, mesh.triangles.len(), &options);
@@ -64,11 +71,13 @@ pub fn proxies(hierarchy: &Hierarchy, count: usize) -> Vec<Tribox> {
 
 /// Measures the level with at most `count` triboxes. `tree` is the mesh's [`box_tree`].
 ///
-/// Cost: a closest-point query for each triangle of the union's boundary, and some dozens more for the farthest.
+/// Cost: a closest-point query for each triangle of the union's boundary, and some dozens more for
+/// the farthest.
 #[must_use]
 pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Tree<'_>) -> Level {
     let triboxes = proxies(hierarchy, count);
-    let errors = hierarchy.leaves(count).into_iter().map(|node| hierarchy.nodes[node as usize].error);
+    let errors =
+        hierarchy.leaves(count).into_iter().map(|node| hierarchy.nodes[node as usize].error);
     let faces_of = |tribox: &Tribox| {
         let boundary = tribox.boundary().cleaned();
         (0..FACES).filter(|&face| !boundary.face(face).is_empty()).count()
@@ -85,11 +94,14 @@ pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Tree<'_>) 
 fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Tree<'_>) -> Farthest {
     let mut stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
     let largest = |most: f64, x: f32| most.max(f64::from(x).abs());
-    let size =
-        triboxes.iter().flat_map(|tribox| tribox.high.into_iter().chain(tribox.low)).fold(0.0, largest);
+    let size = triboxes
+        .iter()
+        .flat_map(|tribox| tribox.high.into_iter().chain(tribox.low))
+        .fold(0.0, largest);
     let pieces = boundary_of_union(triboxes, margin(size) / 16.0);
-    let triangles =
-        pieces.iter().flat_map(|piece| piece.windows(2).skip(1).map(|edge| [piece[0], edge[0], edge[1]]));
+    let triangles = pieces
+        .iter()
+        .flat_map(|piece| piece.windows(2).skip(1).map(|edge| [piece[0], edge[0], edge[1]]));
     let nearest = |point: DVec3| {
         // The query is rounded to f32: the distance to what was asked is part of the bound.
         let asked = point.as_vec3();

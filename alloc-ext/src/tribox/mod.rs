@@ -1,4 +1,5 @@
-//! Hierarchical triboxes: a mesh as unions of 1, 2, 4, … triboxes that hold it (Crosnier & Rossignac 1999, section 4).
+//! Hierarchical triboxes: a mesh as unions of 1, 2, 4, … triboxes that hold it (Crosnier &
+//! Rossignac 1999, section 4).
 //!
 //! ```text
 //! polygons, winding   the surface in a cell, clipped; which points are inside: nothing of the solid is lost
@@ -10,9 +11,11 @@
 //! lattice, store      the same on a blob's grid, and the section's bytes
 //! ```
 //!
-//! Cells are cut, not sorted into: triboxes of a level meet at planes and do not overlap. If the mesh is closed they hold its inside too.
+//! Cells are cut, not sorted into: triboxes of a level meet at planes and do not overlap. If the
+//! mesh is closed they hold its inside too.
 //!
-//! *Planes.* Void beside the solid in %, at 8 / 64 triboxes (`meshsweep tribox MESH --measure … --planes … --least-gain=-1e9`):
+//! *Planes.* Void beside the solid in %, at 8 / 64 triboxes (`meshsweep tribox MESH --measure …
+//! --planes … --least-gain=-1e9`):
 //!
 //! | measure, planes | rocker arm | cow | fandisk | `fixtures/torus.ply` |
 //! | --- | --- | --- | --- | --- |
@@ -21,12 +24,16 @@
 //! | volume, thickest slab | 117.5 / 52.2 | 79.1 / 28.6 | 59.8 / 32.6 | 32.6 / 18.9 |
 //! | volume, nine directions: the default | 76.4 / 22.5 | 54.9 / 15.7 | 33.0 / 8.4 | 29.5 / 10.7 |
 //!
-//! Volume never grows when a cell is split. Area mostly does, for the plane is new area on both sides; the least loss is then a slice off an end, and the greatest gain
-//! first cuts slices off slices. Under the paper's own stop rule (`--measure area` alone) rocker arm is not split at all. Area is the measure of flat meshes only.
+//! Volume never grows when a cell is split. Area mostly does, for the plane is new area on both
+//! sides; the least loss is then a slice off an end, and the greatest gain first cuts slices off
+//! slices. Under the paper's own stop rule (`--measure area` alone) rocker arm is not split at all.
+//! Area is the measure of flat meshes only.
 //!
-//! *Looking ahead.* No single plane shows a hole: halves of a ring have most of the ring's hull. Where the best plane saves less than 5 % the splits of both parts
-//! are looked at too. Without that 64 triboxes have 39.5 % void (torus), 39.0 (rocker arm), 5.6 (`fixtures/bracket.stl`) in place of 10.7, 22.5 and 0.3.
-//! Three planes a direction in place of seven, looking ahead at 3 %: 25.8 (rocker arm; seven: 24.8), 18.0 (cow; 15.4).
+//! *Looking ahead.* No single plane shows a hole: halves of a ring have most of the ring's hull.
+//! Where the best plane saves less than 5 % the splits of both parts are looked at too. Without
+//! that 64 triboxes have 39.5 % void (torus), 39.0 (rocker arm), 5.6 (`fixtures/bracket.stl`) in
+//! place of 10.7, 22.5 and 0.3. Three planes a direction in place of seven, looking ahead at 3 %:
+//! 25.8 (rocker arm; seven: 24.8), 18.0 (cow; 15.4).
 
 mod cell;
 mod choose;

@@ -1,15 +1,20 @@
-//! The surface within a cell: every triangle clipped by the planes of the splits above (Crosnier & Rossignac 1999, section 4: vertices of the first,
-//! third and fourth kind).
+//! The surface within a cell: every triangle clipped by the planes of the splits above (Crosnier &
+//! Rossignac 1999, section 4: vertices of the first, third and fourth kind).
 //!
-//! *Why nothing is lost to rounding.* Let `M` be the largest coordinate, `u` = 2^-53, and let the plane be moved outward by `m` = 2^-40·M. For each loop of computed
-//! corners ṽ there is a convex polygon Q on the true triangle, with corners w in the same order and |w − ṽ| ≤ η, that contains the triangle's true part in
-//! the cell. At first w = ṽ. A cut keeps the corners that are computed to be inside of the moved plane, and where an edge leaves adds a point
-//! ṽ(t) of it; its counterpart is the point of Q's edge at the same t. Those points lie on the boundary of Q in order, so they are convex again.
-//! What of Q is inside of the plane itself, or up to m/2 beyond it, is kept: its corners there are computed to be inside, and the edges' new ends are beyond, as long
-//! as √2·η and some units 4·u·M of rounding stay below m/2. Each cut rounds a coordinate by 5·u·M, so that η ≤ 2^-49·M times the number of cuts, which is
-//! [limited](super::split::DEPTH) to 64. Bounds that are padded by m therefore hold the true part.
+//! *Why nothing is lost to rounding.* Let `M` be the largest coordinate, `u` = 2^-53, and let the
+//! plane be moved outward by `m` = 2^-40·M. For each loop of computed corners ṽ there is a convex
+//! polygon Q on the true triangle, with corners w in the same order and |w − ṽ| ≤ η, that contains
+//! the triangle's true part in the cell. At first w = ṽ. A cut keeps the corners that are computed
+//! to be inside of the moved plane, and where an edge leaves adds a point ṽ(t) of it; its
+//! counterpart is the point of Q's edge at the same t. Those points lie on the boundary of Q in
+//! order, so they are convex again. What of Q is inside of the plane itself, or up to m/2 beyond
+//! it, is kept: its corners there are computed to be inside, and the edges' new ends are beyond, as
+//! long as √2·η and some units 4·u·M of rounding stay below m/2. Each cut rounds a coordinate by
+//! 5·u·M, so that η ≤ 2^-49·M times the number of cuts, which is [limited](super::split::DEPTH) to
+//! 64. Bounds that are padded by m therefore hold the true part.
 //!
-//! Coordinates that no cut has changed are *exact*, and not padded: most parts have faces along the axes, and stay without slivers of faces beside them.
+//! Coordinates that no cut has changed are *exact*, and not padded: most parts have faces along the
+//! axes, and stay without slivers of faces beside them.
 
 use super::span::projections;
 use crate::mesh::Mesh;
@@ -65,7 +70,8 @@ impl Polygons {
         })
     }
 
-    /// What is inside of a half-space whose plane is moved outward by `margin` (Sutherland & Hodgman).
+    /// What is inside of a half-space whose plane is moved outward by `margin` (Sutherland &
+    /// Hodgman).
     pub fn clipped(&self, half: &HalfSpace, margin: f64) -> Polygons {
         let sign = if half.is_low { 1.0 } else { -1.0 };
         let limit = sign * half.at + margin;
@@ -92,7 +98,8 @@ impl Polygons {
         clipped
     }
 
-    /// A tribox that holds the true parts of all triangles, inexact coordinates padded by `margin`, and the others too if `exact_too`.
+    /// A tribox that holds the true parts of all triangles, inexact coordinates padded by `margin`,
+    /// and the others too if `exact_too`.
     pub fn bound(&self, margin: f64, exact_too: bool) -> Tribox {
         let (mut low, mut high) = ([f64::INFINITY; SLABS], [f64::NEG_INFINITY; SLABS]);
         let mut put = |slab: usize, value: f64, by: f64| {
@@ -105,9 +112,12 @@ impl Polygons {
             put(0, *x, px);
             put(1, *y, py);
             put(2, *z, pz);
-            for (slab, a, b, by) in
-                [(3, *x, *y, px + py), (4, *x, -y, px + py), (5, *y, *z, py + pz), (6, *y, -z, py + pz)]
-            {
+            for (slab, a, b, by) in [
+                (3, *x, *y, px + py),
+                (4, *x, -y, px + py),
+                (5, *y, *z, py + pz),
+                (6, *y, -z, py + pz),
+            ] {
                 put(slab, a + b, by + rounding(a, b));
             }
             put(7, z + x, pz + px + rounding(*z, *x));
@@ -125,7 +135,8 @@ fn rounding(a: f64, b: f64) -> f64 {
 
 /// Where an edge passes a plane. An exact coordinate that both ends share is exact there, too.
 ///
-/// Both sides of an edge compute the same point from its end inside, so that neighbours keep common corners.
+/// Both sides of an edge compute the same point from its end inside, so that neighbours keep common
+/// corners.
 #[inline]
 fn crossing(from: &Corner, from_height: f64, to: &Corner, to_height: f64, limit: f64) -> Corner {
     let (inside, low, outside, high) = if from_height <= limit {

@@ -79,12 +79,15 @@ impl Span {
         slabs.into_iter().all(|((low, high), x)| low <= x && x <= high)
     }
 
-    /// The same slabs with every plane moved inward until it touches, up to 2^-49 of the greatest parameter.
+    /// The same slabs with every plane moved inward until it touches, up to 2^-49 of the greatest
+    /// parameter.
     ///
-    /// A tribox in f32 is tight up to f32's rounding; here its vertices are wanted to f64's. The steps are those of [`Tribox::tightened`].
+    /// A tribox in f32 is tight up to f32's rounding; here its vertices are wanted to f64's. The
+    /// steps are those of [`Tribox::tightened`].
     pub fn tight(tribox: &Tribox) -> Span {
         let mut span = Span { low: tribox.low.map(f64::from), high: tribox.high.map(f64::from) };
-        // Number 2k is coordinate k, 2k + 1 its negative; entry [i][j] bounds number j less number i.
+        // Number 2k is coordinate k, 2k + 1 its negative; entry [i][j] bounds number j less number
+        // i.
         let mut most = [[f64::INFINITY; 6]; 6];
         for axis in 0..3 {
             most[2 * axis + 1][2 * axis] = 2.0 * span.high[axis];
@@ -142,7 +145,11 @@ impl Frame {
             let next = vertices.iter().cycle().skip(1);
             // Every edge is run through once in each direction.
             edges.extend(
-                vertices.iter().zip(next).filter(|(i, j)| i < j).map(|(&i, &j)| (i as usize, j as usize)),
+                vertices
+                    .iter()
+                    .zip(next)
+                    .filter(|(i, j)| i < j)
+                    .map(|(&i, &j)| (i as usize, j as usize)),
             );
         }
         Frame { vertices: boundary.vertices.iter().map(|v| v.map(|x| x.0)).collect(), edges }

@@ -16,7 +16,8 @@ use std::collections::BinaryHeap;
 /// Most splits above a cell; the rounding bound of [`polygons`](super::polygons) counts on it.
 pub(super) const DEPTH: u32 = 64;
 
-/// Part of a tribox's measure by which a gain may fall short of what was promised: what rounding to f32 does to thin triboxes.
+/// Part of a tribox's measure by which a gain may fall short of what was promised: what rounding to
+/// f32 does to thin triboxes.
 const DOUBT: f64 = 1e-3;
 
 /// How to split.
@@ -24,16 +25,20 @@ const DOUBT: f64 = 1e-3;
 pub struct SplitOptions {
     /// Most leaves.
     pub leaves: usize,
-    /// What splits should make little of; `None`: volume, or area if the mesh's tribox has next to no volume.
+    /// What splits should make little of; `None`: volume, or area if the mesh's tribox has next to
+    /// no volume.
     pub measure: Option<Measure>,
     /// Which planes are tried.
     pub planes: Planes,
-    /// A cell is split only if that saves more than this part of its tribox's measure. The paper's rule where positive; at −∞ cells are split
-    /// although the total grows, which may pay later.
+    /// A cell is split only if that saves more than this part of its tribox's measure. The paper's
+    /// rule where positive; at −∞ cells are split although the total grows, which may pay
+    /// later.
     pub least_gain: f64,
-    /// Where the best plane saves less than this part of the tribox's measure, planes are tried together with those that split both parts again.
+    /// Where the best plane saves less than this part of the tribox's measure, planes are tried
+    /// together with those that split both parts again.
     pub foresight: f64,
-    /// How far planes of [proxies](Node::proxy) may move outward so that small faces vanish, input units.
+    /// How far planes of [proxies](Node::proxy) may move outward so that small faces vanish, input
+    /// units.
     pub simplify: f32,
     /// Where proxies are stored; `None`: on a [grid](Tribox::on_grid) each of their own.
     pub lattice: Option<Lattice>,
@@ -56,13 +61,16 @@ impl Default for SplitOptions {
 /// A cell of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Holds the part of the mesh, or of the solid, that is between the planes of the splits above, in real arithmetic. Inside of the parent's, and on
-    /// its side of the split's plane.
+    /// Holds the part of the mesh, or of the solid, that is between the planes of the splits
+    /// above, in real arithmetic. Inside of the parent's, and on its side of the split's
+    /// plane.
     pub tribox: Tribox,
-    /// What is drawn for it: the same [simplified](Tribox::snapped) as asked for, and on a [grid](Tribox::on_grid) or the [lattice](SplitOptions::lattice), so that every
+    /// What is drawn for it: the same [simplified](Tribox::snapped) as asked for, and on a
+    /// [grid](Tribox::on_grid) or the [lattice](SplitOptions::lattice), so that every
     /// vertex is an f32.
     pub proxy: Tribox,
-    /// Formula (10) of the paper for the proxy: how far it reaches beyond the convex hull of the part, input units, see [`Level::error`](super::Level::error).
+    /// Formula (10) of the paper for the proxy: how far it reaches beyond the convex hull of the
+    /// part, input units, see [`Level::error`](super::Level::error).
     pub error: f64,
     /// Where it was split.
     pub split: Option<Split>,
@@ -86,17 +94,20 @@ pub struct Hierarchy {
     pub nodes: Vec<Node>,
     /// Nodes in the order in which they were split.
     pub order: Vec<u32>,
-    /// Whether the mesh bounds a solid, whose inside counts; else the triboxes hold its surface only.
+    /// Whether the mesh bounds a solid, whose inside counts; else the triboxes hold its surface
+    /// only.
     pub is_solid: bool,
     /// What was made little of.
     pub measure: Measure,
 }
 
 impl Hierarchy {
-    /// Splits a mesh: a triangle soup, of which only the surface counts if it is not closed. The result is the same on every machine.
+    /// Splits a mesh: a triangle soup, of which only the surface counts if it is not closed. The
+    /// result is the same on every machine.
     ///
-    /// `tree` is the mesh's [box tree](super::box_tree), which knows whether it is closed. Closed is a mesh of which every edge is run through as often in one direction as in the other; inside is where the winding number is not 0. Without triangles there is
-    /// one empty node.
+    /// `tree` is the mesh's [box tree](super::box_tree), which knows whether it is closed. Closed
+    /// is a mesh of which every edge is run through as often in one direction as in the other;
+    /// inside is where the winding number is not 0. Without triangles there is one empty node.
     ///
     /// Cost: for each leaf, and each plane tried there, one pass over its part of the mesh.
     ///
@@ -104,14 +115,23 @@ impl Hierarchy {
     /// If a coordinate is not finite or beyond [`Tribox::DOMAIN`].
     ///
     /// # Panics
-    /// If a triangle names a vertex that is not there; [`repair`](crate::mesh::repair()) promises that none does.
-    pub fn new(mesh: &Mesh, tree: &Tree<'_>, options: &SplitOptions) -> Result<Hierarchy, TriboxError> {
+    /// If a triangle names a vertex that is not there; [`repair`](crate::mesh::repair()) promises
+    /// that none does.
+    pub fn new(
+        mesh: &Mesh,
+        tree: &Tree<'_>,
+        options: &SplitOptions,
+    ) -> Result<Hierarchy, TriboxError> {
         let whole = Whole::new(mesh, tree);
         let root = whole.root(mesh)?;
-        let measure =
-            options.measure.unwrap_or(if is_flat(&root.tribox) { Measure::Area } else { Measure::Volume });
+        let measure = options.measure.unwrap_or(if is_flat(&root.tribox) {
+            Measure::Area
+        } else {
+            Measure::Volume
+        });
         let is_solid = whole.is_solid;
-        let unit = options.lattice.map_or_else(|| grid_unit(&root.tribox), |lattice| lattice.spacing());
+        let unit =
+            options.lattice.map_or_else(|| grid_unit(&root.tribox), |lattice| lattice.spacing());
         let choosing = Choosing {
             planes: options.planes,
             measure,
@@ -119,7 +139,8 @@ impl Hierarchy {
             foresight: options.foresight,
             trust: Trust::Sketch,
         };
-        let mut growing = Growing { whole, options, choosing, nodes: Vec::new(), heap: BinaryHeap::new() };
+        let mut growing =
+            Growing { whole, options, choosing, nodes: Vec::new(), heap: BinaryHeap::new() };
         if root.tribox.is_empty() {
             let (tribox, proxy) = (Tribox::EMPTY, Tribox::EMPTY);
             let nodes = vec![Node { tribox, proxy, error: 0.0, split: None }];
@@ -138,7 +159,8 @@ impl Hierarchy {
         Ok(Hierarchy { nodes: growing.nodes, order, is_solid, measure })
     }
 
-    /// Nodes whose triboxes cover the mesh together: `count` of them, or as many as there are. Those of a greater count are parts of those of a lesser.
+    /// Nodes whose triboxes cover the mesh together: `count` of them, or as many as there are.
+    /// Those of a greater count are parts of those of a lesser.
     #[must_use]
     pub fn leaves(&self, count: usize) -> Vec<u32> {
         let splits = &self.order[..self.order.len().min(count.saturating_sub(1))];
@@ -154,7 +176,8 @@ impl Hierarchy {
     }
 }
 
-/// Multiples of 2^-20 of the power of two above all parameters: splits lie on them, so that [`Tribox::on_grid`] does not move them and proxies do not overlap.
+/// Multiples of 2^-20 of the power of two above all parameters: splits lie on them, so that
+/// [`Tribox::on_grid`] does not move them and proxies do not overlap.
 fn grid_unit(tribox: &Tribox) -> f64 {
     let most = tribox.slabs().fold(0f32, |most, (low, high)| most.max(low.abs()).max(high.abs()));
     // `on_grid` has a quarter of its unit in f32.
@@ -205,11 +228,15 @@ impl Growing<'_> {
     fn put(&mut self, cell: Cell, depth: u32) -> u32 {
         let node = self.nodes.len() as u32;
         let simple = cell.tribox.snapped(self.options.simplify);
-        let proxy = self.options.lattice.map_or_else(|| simple.on_grid(), |lattice| lattice.around(&simple));
+        let proxy = self
+            .options
+            .lattice
+            .map_or_else(|| simple.on_grid(), |lattice| lattice.around(&simple));
         let error = excess(&proxy, &cell);
         self.nodes.push(Node { tribox: cell.tribox, proxy, error, split: None });
         if depth < DEPTH && self.options.leaves > 1 {
-            let least = self.options.least_gain * self.choosing.measure.of(Extent::of(&cell.tribox));
+            let least =
+                self.options.least_gain * self.choosing.measure.of(Extent::of(&cell.tribox));
             let is_any = self.options.least_gain == f64::NEG_INFINITY;
             if let Some((choice, parts)) =
                 self.choose(&cell).filter(|(choice, _)| is_any || choice.gain > least)
@@ -222,8 +249,9 @@ impl Growing<'_> {
 
     /// The best split of a cell, and its parts.
     ///
-    /// Where parts of a solid overlap the box tree takes some of the inside for outside, and promises gains that are not to be had. As soon as one turns out
-    /// so, planes are chosen by winding numbers.
+    /// Where parts of a solid overlap the box tree takes some of the inside for outside, and
+    /// promises gains that are not to be had. As soon as one turns out so, planes are chosen by
+    /// winding numbers.
     fn choose(&mut self, cell: &Cell) -> Option<(Choice, [Cell; 2])> {
         loop {
             let choice = self.choosing.best(&self.whole, cell)?;

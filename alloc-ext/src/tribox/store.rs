@@ -5,8 +5,8 @@ use super::level::{Level, box_tree, level};
 use super::split::{Hierarchy, Node, SplitOptions};
 use crate::mesh::Mesh;
 use meshsweep_core::blob::layout::{
-    MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
-    TRIBOXES_SOLID,
+    MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
+    TRIBOXES_BYTES, TRIBOXES_SOLID,
 };
 use meshsweep_core::blob::{TriboxLevel, TriboxesHeader};
 use meshsweep_core::num::{Radius16, exp2, up_to_f32};
@@ -40,12 +40,14 @@ pub struct TriboxReport {
 
 /// Splits a mesh into at most `count` triboxes, and measures unions of 1, 2, 4, … of them.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see [`snap`](crate::precision::snap)), 0 if none were: the triboxes hold the input. Any
-/// triangle soup will do; see [`Hierarchy::new`] for what they hold, and for the cost. Of a mesh without triangles the section is
-/// empty, and the blob does not open.
+/// `moved` is the distance, in input units, that vertices were moved before (see
+/// [`snap`](crate::precision::snap)), 0 if none were: the triboxes hold the input. Any
+/// triangle soup will do; see [`Hierarchy::new`] for what they hold, and for the cost. Of a mesh
+/// without triangles the section is empty, and the blob does not open.
 ///
 /// # Errors
-/// If a coordinate is not finite or beyond [`Tribox::DOMAIN`](meshsweep_core::tribox::Tribox::DOMAIN).
+/// If a coordinate is not finite or beyond
+/// [`Tribox::DOMAIN`](meshsweep_core::tribox::Tribox::DOMAIN).
 ///
 /// # Panics
 /// On a mesh of more than [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES).
@@ -61,7 +63,13 @@ pub fn store(
     if mesh.triangles.is_empty() {
         let scale_exponent = lattice.scale_exponent;
         let (bounds, section) = ([[0.0; 3]; 2], Vec::new());
-        let tables = TriboxTables { scale_exponent, input_triangles: 0, surface_error: 0.0, bounds, section };
+        let tables = TriboxTables {
+            scale_exponent,
+            input_triangles: 0,
+            surface_error: 0.0,
+            bounds,
+            section,
+        };
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
     }
     let bytes = box_tree(mesh);
@@ -138,7 +146,9 @@ fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> 
     for level in levels {
         out.extend(level.triboxes.to_le_bytes());
         // Local here.
-        [level.distance, level.error, level.void_ratio].iter().for_each(|x| out.extend(x.to_le_bytes()));
+        [level.distance, level.error, level.void_ratio]
+            .iter()
+            .for_each(|x| out.extend(x.to_le_bytes()));
     }
     splits.iter().for_each(|node| out.extend(node.to_le_bytes()));
     for Placed { number, split, .. } in placed {
@@ -152,15 +162,17 @@ fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> 
     out
 }
 
-/// The triboxes of a blob after the finest level of at most `count`; `None` if it has none. Every table is a prefix of what it was.
+/// The triboxes of a blob after the finest level of at most `count`; `None` if it has none. Every
+/// table is a prefix of what it was.
 #[must_use]
 pub fn cut(model: &Model<'_>, count: u32) -> Option<TriboxTables> {
     let triboxes = model.triboxes()?;
     let level_count = triboxes.levels().take_while(|level| level.triboxes <= count.max(1)).count();
     let leaves = triboxes.level(level_count.checked_sub(1)? as u32)?.triboxes;
     let coarser = triboxes.coarser(leaves);
-    let above =
-        |node: u32| std::iter::successors(Some(node), |&node| coarser.parent(node)).count() as u32 - 1;
+    let above = |node: u32| {
+        std::iter::successors(Some(node), |&node| coarser.parent(node)).count() as u32 - 1
+    };
     let depth = (0..coarser.node_count()).map(above).max()?;
     let header = TriboxesHeader {
         nodes: coarser.node_count(),
@@ -174,7 +186,8 @@ pub fn cut(model: &Model<'_>, count: u32) -> Option<TriboxTables> {
         .split_at_checked(TRIBOXES_BYTES)?
         .1
         .split_at_checked(triboxes.level_count() as usize * TRIBOX_LEVEL_BYTES)?;
-    let (splits, nodes) = rest.split_at_checked((triboxes.leaf_count() as usize - 1) * TRIBOX_SPLIT_BYTES)?;
+    let (splits, nodes) =
+        rest.split_at_checked((triboxes.leaf_count() as usize - 1) * TRIBOX_SPLIT_BYTES)?;
     let kept = leaves as usize - 1;
     let mut section = header.write().to_vec();
     section.extend(&levels[..level_count * TRIBOX_LEVEL_BYTES]);
@@ -189,5 +202,11 @@ pub fn cut(model: &Model<'_>, count: u32) -> Option<TriboxTables> {
     let h = model.header();
     let bounds = [h.surface_box.min.to_array(), h.surface_box.max.to_array()];
     let (input_triangles, surface_error) = (h.input_triangles, h.surface_error);
-    Some(TriboxTables { scale_exponent: h.scale_exponent, input_triangles, surface_error, bounds, section })
+    Some(TriboxTables {
+        scale_exponent: h.scale_exponent,
+        input_triangles,
+        surface_error,
+        bounds,
+        section,
+    })
 }

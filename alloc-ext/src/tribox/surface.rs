@@ -3,10 +3,12 @@
 use crate::mesh::Mesh;
 use meshsweep_core::tribox::{FACES, Tribox};
 
-/// The boundaries of triboxes, triangulated, one after another; they share no vertices. For triboxes on a [grid](Tribox::on_grid) every vertex is where three
-/// planes meet, exactly, so that the mesh encloses what they hold.
+/// The boundaries of triboxes, triangulated, one after another; they share no vertices. For
+/// triboxes on a [grid](Tribox::on_grid) every vertex is where three planes meet, exactly, so that
+/// the mesh encloses what they hold.
 ///
-/// Counter-clockwise from outside. A flat tribox gives two sides, one with less than two dimensions nothing. Where a vertex lies within an edge of a face a triangle may have no area.
+/// Counter-clockwise from outside. A flat tribox gives two sides, one with less than two dimensions
+/// nothing. Where a vertex lies within an edge of a face a triangle may have no area.
 #[must_use]
 pub fn surface(triboxes: &[Tribox]) -> Mesh {
     let mut positions: Vec<[f32; 3]> = Vec::new();

@@ -70,8 +70,10 @@ fn on_surface(mesh: &Mesh, count: usize) -> Vec<Point> {
 fn winding(mesh: &Mesh, p: Point) -> f64 {
     let dot = |a: Point, b: Point| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let angle = |t: usize| {
-        let [a, b, c] = mesh.corners(t).unwrap().map(|v| std::array::from_fn(|k| f64::from(v[k]) - p[k]));
-        let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        let [a, b, c] =
+            mesh.corners(t).unwrap().map(|v| std::array::from_fn(|k| f64::from(v[k]) - p[k]));
+        let cross =
+            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
         let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
         2.0 * dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
     };
@@ -136,7 +138,9 @@ fn demand_order(hierarchy: &Hierarchy) {
 fn solids_are_covered_with_their_insides() {
     let overlapping = blocks(&[[[0.0; 3], [2.0; 3]], [[1.5, 0.5, 0.25], [4.0, 1.0, 1.75]]], 2);
     let hollow = blocks(&[[[0.0; 3], [4.0; 3]], [[0.5; 3], [3.0, 3.5, 3.25]]], 1);
-    for mesh in [fixture("torus.ply"), fixture("bracket.stl"), fixture("groove.obj"), overlapping, hollow] {
+    for mesh in
+        [fixture("torus.ply"), fixture("bracket.stl"), fixture("groove.obj"), overlapping, hollow]
+    {
         let hierarchy = split(&mesh, &options(40));
         assert!(hierarchy.is_solid && hierarchy.measure == Measure::Volume);
         demand_order(&hierarchy);
@@ -196,14 +200,17 @@ fn flat_meshes_are_split_by_area_and_stay_flat() {
     let area: f64 = proxies(&hierarchy, 8).iter().map(|tribox| Extent::of(tribox).area).sum();
     assert!((area - 14.0).abs() < 1e-3, "{area}");
     assert!(
-        proxies(&hierarchy, 8).iter().all(|tribox| tribox.low[2] >= 0.29999 && tribox.high[2] <= 0.30001)
+        proxies(&hierarchy, 8)
+            .iter()
+            .all(|tribox| tribox.low[2] >= 0.29999 && tribox.high[2] <= 0.30001)
     );
 }
 
 #[test]
 fn a_single_triangle_is_covered_at_every_scale() {
     for scale in [1e-37f32, 1e-30, 1.0, 1e30, 1e36] {
-        let positions = [[0.1, 0.2, 0.3], [1.0, 0.4, 0.2], [0.3, 0.9, 0.8f32]].map(|p| p.map(|x| x * scale));
+        let positions =
+            [[0.1, 0.2, 0.3], [1.0, 0.4, 0.2], [0.3, 0.9, 0.8f32]].map(|p| p.map(|x| x * scale));
         let mesh = Mesh::new(positions.to_vec(), vec![[0, 1, 2]]);
         let hierarchy = split(&mesh, &options(8));
         demand_cover(&hierarchy, &on_surface(&mesh, 500));
@@ -276,7 +283,10 @@ fn a_level_s_figures_are_those_of_the_mesh_that_is_drawn() {
         })
         .sum();
     assert!((volume / level.volume - 1.0).abs() < 1e-9, "{volume} {level:?}");
-    assert!(level.distance.lower > 0.0 && level.distance.upper <= level.distance.lower * 1.06, "{level:?}");
+    assert!(
+        level.distance.lower > 0.0 && level.distance.upper <= level.distance.lower * 1.06,
+        "{level:?}"
+    );
 }
 
 #[test]

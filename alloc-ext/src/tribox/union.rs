@@ -4,11 +4,13 @@ use super::span::projections;
 use glam::DVec3;
 use meshsweep_core::tribox::{FACES, SLABS, Tribox};
 
-/// Faces of the union, in convex pieces: what of the triboxes' faces is in no other tribox. Where faces of two lie on each other back to back, neither counts;
-/// where they face the same way, one does.
+/// Faces of the union, in convex pieces: what of the triboxes' faces is in no other tribox. Where
+/// faces of two lie on each other back to back, neither counts; where they face the same way, one
+/// does.
 ///
-/// For triboxes [on a grid](Tribox::on_grid). Pieces thinner than `sliver` may be missing; faces that enclose nothing, as of flat triboxes, are there twice.
-/// Cost: for each face, those triboxes that overlap.
+/// For triboxes [on a grid](Tribox::on_grid). Pieces thinner than `sliver` may be missing; faces
+/// that enclose nothing, as of flat triboxes, are there twice. Cost: for each face, those triboxes
+/// that overlap.
 pub(super) fn boundary_of_union(triboxes: &[Tribox], sliver: f64) -> Vec<Vec<DVec3>> {
     let mut pieces = Vec::new();
     for (number, tribox) in triboxes.iter().enumerate() {
@@ -30,7 +32,10 @@ pub(super) fn boundary_of_union(triboxes: &[Tribox], sliver: f64) -> Vec<Vec<DVe
                 if is_elsewhere || same && other > number {
                     continue;
                 }
-                left = left.into_iter().flat_map(|piece| outside(piece, slab, bounds, sliver)).collect();
+                left = left
+                    .into_iter()
+                    .flat_map(|piece| outside(piece, slab, bounds, sliver))
+                    .collect();
             }
             pieces.extend(left.into_iter().filter(|piece| piece.len() > 2));
         }
@@ -77,7 +82,8 @@ mod tests {
     use super::*;
 
     fn block(low: [f32; 3], high: [f32; 3]) -> Tribox {
-        let corner = |i: usize| std::array::from_fn(|k| if i >> k & 1 == 1 { high[k] } else { low[k] });
+        let corner =
+            |i: usize| std::array::from_fn(|k| if i >> k & 1 == 1 { high[k] } else { low[k] });
         Tribox::of_points((0..8).map(corner)).unwrap().on_grid()
     }
 
@@ -94,9 +100,13 @@ mod tests {
         let whole = block([0.0; 3], [2.0, 1.0, 1.0]);
         let (left, right) = (block([0.0; 3], [1.0; 3]), block([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]));
         let wide = block([0.5, 0.0, 0.0], [2.0, 1.0, 1.0]);
-        for triboxes in
-            [vec![whole], vec![left, right], vec![left, wide], vec![wide, left], vec![whole, left, whole]]
-        {
+        for triboxes in [
+            vec![whole],
+            vec![left, right],
+            vec![left, wide],
+            vec![wide, left],
+            vec![whole, left, whole],
+        ] {
             let area = area(&boundary_of_union(&triboxes, 1e-12));
             assert!((area - 10.0).abs() < 1e-9, "{area} of {}", triboxes.len());
         }
@@ -104,7 +114,8 @@ mod tests {
 
     #[test]
     fn a_lower_neighbour_leaves_the_rest_of_a_face() {
-        let (tall, low) = (block([0.0; 3], [1.0, 1.0, 2.0]), block([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]));
+        let (tall, low) =
+            (block([0.0; 3], [1.0, 1.0, 2.0]), block([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]));
         assert!((area(&boundary_of_union(&[tall, low], 1e-12)) - 14.0).abs() < 1e-9);
     }
 }

@@ -1,10 +1,13 @@
 //! Planes of a program where the hull keeps a margin from the mesh.
 //!
-//! What a new face may not pass is the mesh grown by the margin: a ball around each of its points. In the way are points that are cut off, in the
-//! tetrahedron between an old face and the new vertex, and points that the new face is too near to. A ball below the face adds the plane about the ring edge
-//! that touches it; of those planes the steepest is kept, as without a margin. A ball beside the face, near an edge that moves or near the vertex, has no
-//! such plane, or one that asks too much: there the face's nearest point is pushed away along the line to the mesh, and it moves as the vertex
-//! does, times its weight. Such planes are only right near where they were made: they are looked for last, and all are kept.
+//! What a new face may not pass is the mesh grown by the margin: a ball around each of its points.
+//! In the way are points that are cut off, in the tetrahedron between an old face and the new
+//! vertex, and points that the new face is too near to. A ball below the face adds the plane about
+//! the ring edge that touches it; of those planes the steepest is kept, as without a margin. A ball
+//! beside the face, near an edge that moves or near the vertex, has no such plane, or one that asks
+//! too much: there the face's nearest point is pushed away along the line to the mesh, and it moves
+//! as the vertex does, times its weight. Such planes are only right near where they were made: they
+//! are looked for last, and all are kept.
 //!
 //! All is floating point, as in `placement`.
 
@@ -37,7 +40,8 @@ pub(super) struct Sweep<'a> {
     tetrahedron: Tetrahedron,
     clearance: f64,
     tolerance: f64,
-    /// The highest plane that touches a ball, how far the vertex is below it, and the plane above which the centres of higher ones are.
+    /// The highest plane that touches a ball, how far the vertex is below it, and the plane above
+    /// which the centres of higher ones are.
     touching: Cell<Option<(Plane, Plane)>>,
     height: Cell<f64>,
     /// The plane that pushes the nearest point away, and its distance.
@@ -46,7 +50,8 @@ pub(super) struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit, heights up to `tolerance` are rounding.
+    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit,
+    /// heights up to `tolerance` are rounding.
     pub fn new(
         obstacle: &'a Obstacle,
         frame: &'a Frame,
@@ -158,20 +163,24 @@ impl<'a> Sweep<'a> {
     /// Pushes the face's nearest point away from a triangle's.
     fn push(&self, found: &Nearest) {
         let Nearest { p, weights, q, distance, .. } = *found;
-        if weights[0] <= LIGHT || distance >= self.distance.get() || !self.is_near(distance, weights[0]) {
+        if weights[0] <= LIGHT
+            || distance >= self.distance.get()
+            || !self.is_near(distance, weights[0])
+        {
             return;
         }
         let away = if distance > self.tolerance { (p - q) / distance } else { self.normal };
         let [_, a, b] = self.face.map(|corner| self.frame.local(corner));
         let rest = a * weights[1] + b * weights[2] - self.frame.local(q);
         let radius = self.frame.radius;
-        let offset =
-            (self.obstacle.margin() / radius - away.dot(rest)) / weights[0] + self.clearance / radius;
+        let offset = (self.obstacle.margin() / radius - away.dot(rest)) / weights[0]
+            + self.clearance / radius;
         self.distance.set(distance);
         self.pushing.set(Some(HalfSpace { normal: away, offset }));
     }
 
-    /// Turns the plane about the ring edge until it touches the ball around `q`, if it can, and if it touches it in the tetrahedron or anyway.
+    /// Turns the plane about the ring edge until it touches the ball around `q`, if it can, and if
+    /// it touches it in the tetrahedron or anyway.
     fn touch(&self, q: DVec3, anyway: bool) {
         let [a, b] = self.ring;
         let edge = b - a;
@@ -199,8 +208,8 @@ impl<'a> Sweep<'a> {
 
     fn touching(&self) -> Option<HalfSpace> {
         self.touching.get().map(|(plane, _)| {
-            let offset =
-                plane.normal.dot(self.frame.local(self.ring[0])) + self.clearance / self.frame.radius;
+            let offset = plane.normal.dot(self.frame.local(self.ring[0]))
+                + self.clearance / self.frame.radius;
             HalfSpace { normal: plane.normal, offset }
         })
     }

@@ -113,8 +113,8 @@ impl BoxTree {
         (Self { nodes }, order)
     }
 
-    /// Calls `visit` with every item (by its place in the tree's order) of every leaf whose box and whose ancestors' boxes pass
-    /// `keep`, until it returns false.
+    /// Calls `visit` with every item (by its place in the tree's order) of every leaf whose box and
+    /// whose ancestors' boxes pass `keep`, until it returns false.
     #[inline]
     pub fn visit(&self, keep: impl Fn(&Bounds) -> bool, mut visit: impl FnMut(usize) -> bool) {
         let mut stack = [0u32; DEPTH];
@@ -139,8 +139,13 @@ impl BoxTree {
         }
     }
 
-    /// The item with the least distance, which `distance_sq` gives, and that square; `None` without items.
-    pub fn nearest(&self, p: DVec3, mut distance_sq: impl FnMut(usize) -> f64) -> Option<(usize, f64)> {
+    /// The item with the least distance, which `distance_sq` gives, and that square; `None` without
+    /// items.
+    pub fn nearest(
+        &self,
+        p: DVec3,
+        mut distance_sq: impl FnMut(usize) -> f64,
+    ) -> Option<(usize, f64)> {
         let mut best = None;
         let mut least = f64::INFINITY;
         let mut stack = [(0u32, 0f64); DEPTH];
@@ -162,8 +167,11 @@ impl BoxTree {
             } else if node.first > 0 {
                 let children = [node.first, node.first + 1]
                     .map(|child| (child, self.nodes[child as usize].bounds.distance_sq(p)));
-                let [near, far] =
-                    if children[0].1 <= children[1].1 { children } else { [children[1], children[0]] };
+                let [near, far] = if children[0].1 <= children[1].1 {
+                    children
+                } else {
+                    [children[1], children[0]]
+                };
                 stack[height] = far;
                 stack[height + 1] = near;
                 height += 2;

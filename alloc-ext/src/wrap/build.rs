@@ -17,29 +17,33 @@ pub(super) const SHAPE: Shape =
     Shape { min_compactness: 0.01, min_turn: 0.25, upright: Some(0.05), max_valence: 24 };
 
 /// Conditions where the first get stuck: whatever is proved will do.
-const LOOSE: Shape = Shape { min_compactness: 0.001, min_turn: -0.9, upright: None, max_valence: 48 };
+const LOOSE: Shape =
+    Shape { min_compactness: 0.001, min_turn: -0.9, upright: None, max_valence: 48 };
 
 /// Faces that a stage of the way down leaves; the hull is settled before the next.
 pub(super) const STAGE: f64 = 0.7;
 
-/// Cubes along the longest side of closures, in the order in which they are tried after the [`finest`]; `None` is the box.
+/// Cubes along the longest side of closures, in the order in which they are tried after the
+/// [`finest`]; `None` is the box.
 const COARSER: [Option<usize>; 4] = [Some(40), Some(16), LAST_RESORT, None];
 
 /// One that is tried only where all before it got stuck.
 const LAST_RESORT: Option<usize> = Some(6);
 
-/// Faces that the box grows to first where faces are few, and how many times as many each time: with all at once the first splits decide, and no polish
-/// undoes them.
+/// Faces that the box grows to first where faces are few, and how many times as many each time:
+/// with all at once the first splits decide, and no polish undoes them.
 const GROWTH: (f64, f64) = (16.0, 1.2);
 
-/// Cubes along the longest side of the finest closure for so many faces: gaps of a cube are filled for good, and faces that could follow them would be
-/// there for nothing. Beyond 160 the grid takes more time than the hull.
+/// Cubes along the longest side of the finest closure for so many faces: gaps of a cube are filled
+/// for good, and faces that could follow them would be there for nothing. Beyond 160 the grid takes
+/// more time than the hull.
 pub(super) fn finest(wanted: usize) -> usize {
     let cells = (40.0 * (wanted as f64 / 200.0).sqrt()) as usize;
     cells.clamp(40, 160)
 }
 
-/// Part of the mesh's longest side from which on a margin is round: a few cubes of the first closure.
+/// Part of the mesh's longest side from which on a margin is round: a few cubes of the first
+/// closure.
 const ROUND: f64 = 0.02;
 
 /// Least and most cubes along its longest side.
@@ -90,7 +94,8 @@ pub(super) struct Done<'a> {
 }
 
 impl Done<'_> {
-    /// One that reached the goal, then one with fewer faces if either is stuck or a slack is asked for, then the one nearer to the mesh, or with less volume.
+    /// One that reached the goal, then one with fewer faces if either is stuck or a slack is asked
+    /// for, then the one nearer to the mesh, or with less volume.
     fn is_better_than(&self, other: &Self) -> bool {
         if let (Stop::TooLoose, Stop::TooLoose) = (self.stop, other.stop) {
             return self.work.slack() < other.work.slack();
@@ -142,7 +147,12 @@ impl<'a> Builder<'a, '_, '_> {
     }
 
     /// `around` is how the hull is stored.
-    pub fn build(&mut self, mesh: &Mesh, stored: &Stored, around: &Stored) -> Result<Done<'a>, WrapError> {
+    pub fn build(
+        &mut self,
+        mesh: &Mesh,
+        stored: &Stored,
+        around: &Stored,
+    ) -> Result<Done<'a>, WrapError> {
         let from = From { mesh, stored, around };
         match self.options.goal {
             Goal::Faces(faces) => self.begin(&from, faces, true),
@@ -151,8 +161,8 @@ impl<'a> Builder<'a, '_, '_> {
         }
     }
 
-    /// Cubes of the first closure where the margin is so large that the mesh's own shape says less than what is left of it at that distance: then cubes
-    /// of half the margin show it all.
+    /// Cubes of the first closure where the margin is so large that the mesh's own shape says less
+    /// than what is left of it at that distance: then cubes of half the margin show it all.
     pub fn round_cells(&self) -> Option<usize> {
         let margin = self.obstacle.margin();
         let bounds = self.obstacle.bounds();
@@ -161,8 +171,10 @@ impl<'a> Builder<'a, '_, '_> {
         (margin > ROUND * longest).then(|| (cells as usize).clamp(ROUND_CELLS[0], ROUND_CELLS[1]))
     }
 
-    /// The hull of the best start, without polish. A mesh that bounds a volume starts from its progressive hull, any other from its closure. With few faces left, coarse
-    /// closures, which have fewer handles and narrow places, may come to less volume: then all are tried.
+    /// The hull of the best start, without polish. A mesh that bounds a volume starts from its
+    /// progressive hull, any other from its closure. With few faces left, coarse
+    /// closures, which have fewer handles and narrow places, may come to less volume: then all are
+    /// tried.
     pub fn begin(
         &mut self,
         &From { mesh, stored, around }: &From<'_>,
@@ -170,7 +182,8 @@ impl<'a> Builder<'a, '_, '_> {
         descends: bool,
     ) -> Result<Done<'a>, WrapError> {
         let rounding = Rounding::new(around.grid, around.scale_exponent);
-        let place = Place { stored: around, obstacle: self.obstacle, rounding, deadline: self.deadline };
+        let place =
+            Place { stored: around, obstacle: self.obstacle, rounding, deadline: self.deadline };
         let how = How { rounding, wanted, descends };
         let is_few = how.is_few();
         let is_small = mesh.triangles.len() <= wanted;
@@ -182,8 +195,12 @@ impl<'a> Builder<'a, '_, '_> {
                 let now = Instant::now();
                 now + deadline.saturating_duration_since(now) / 2
             });
-            let first =
-                first_levels(&Place { stored, deadline: half, ..place }, mesh, wanted, self.on_progress);
+            let first = first_levels(
+                &Place { stored, deadline: half, ..place },
+                mesh,
+                wanted,
+                self.on_progress,
+            );
             for first in [first.plenty, first.wanted].into_iter().flatten() {
                 if !is_small || !best.as_ref().is_some_and(|best| self.is_solid_itself(best)) {
                     let done = self.prepare(first, &how);
@@ -195,9 +212,11 @@ impl<'a> Builder<'a, '_, '_> {
         let is_itself = is_small && best.as_ref().is_some_and(|best| self.is_solid_itself(best));
         let is_enough = best.is_some() || round.is_some();
         let finest = Some(finest(wanted));
-        // Where the finest has narrow places that its levels grow together in, the grid next to it may do.
+        // Where the finest has narrow places that its levels grow together in, the grid next to it
+        // may do.
         let finer = finest.map(|cells| cells * 2 / 3).filter(|&cells| Some(cells) > COARSER[0]);
-        let coarser = finer.map(Some).into_iter().chain(COARSER.into_iter().filter(|&cells| cells != finest));
+        let coarser =
+            finer.map(Some).into_iter().chain(COARSER.into_iter().filter(|&cells| cells != finest));
         let first = if self.is_hurried { None } else { Some(finest) };
         for cells in round.map(Some).into_iter().chain(first).chain(coarser) {
             let late = self.is_late();
@@ -214,7 +233,9 @@ impl<'a> Builder<'a, '_, '_> {
                 continue;
             }
             let first = match cells {
-                Some(cells) => first_closure(&place, cells, wanted, Conditions::PAPER, self.on_progress),
+                Some(cells) => {
+                    first_closure(&place, cells, wanted, Conditions::PAPER, self.on_progress)
+                }
                 None => first_box(self.obstacle, &rounding),
             };
             let Some(first) = first else { continue };
@@ -228,7 +249,8 @@ impl<'a> Builder<'a, '_, '_> {
         Ok(done)
     }
 
-    /// Whether a hull that reached its goal has next to no void. One that holds less than the mesh's volume says nothing: parts overlap.
+    /// Whether a hull that reached its goal has next to no void. One that holds less than the
+    /// mesh's volume says nothing: parts overlap.
     fn is_solid_itself(&self, done: &Done<'a>) -> bool {
         let Work { shell, rounding, .. } = &done.work;
         let bounds = self.obstacle.bounds();

@@ -1,8 +1,9 @@
-//! A tree of boxes eight wide, in single precision, for the searches of a placement: those lose nothing but time by what they look at for nothing,
-//! and there are a hundred of them for each move that is made.
+//! A tree of boxes eight wide, in single precision, for the searches of a placement: those lose
+//! nothing but time by what they look at for nothing, and there are a hundred of them for each move
+//! that is made.
 //!
-//! Its frame has its origin in the middle of all boxes and half their longest side as unit, so that every number in it is at most 1 and the
-//! bounds of rounding are numbers: see [`SLACK`].
+//! Its frame has its origin in the middle of all boxes and half their longest side as unit, so that
+//! every number in it is at most 1 and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::boxes::Bounds;
 use super::region::Plane;
@@ -14,8 +15,9 @@ const WIDTH: usize = 8;
 
 /// What a box may stand below a plane, or off another box, and still counts as reaching it.
 ///
-/// Coordinates of at most 1 are rounded to 2^-25, extents and the plane's normal as well, and the three products and their sums add less
-/// than eight such steps of numbers below 3: all is less than 40 · 2^-25 = 1.2e-6.
+/// Coordinates of at most 1 are rounded to 2^-25, extents and the plane's normal as well, and the
+/// three products and their sums add less than eight such steps of numbers below 3: all is less
+/// than 40 · 2^-25 = 1.2e-6.
 const SLACK: f64 = 2e-6;
 
 /// An item among the entries of a node; without it, the number of a node.
@@ -29,7 +31,8 @@ struct Node {
     entry: [u32; WIDTH],
 }
 
-const EMPTY: Node = Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH] };
+const EMPTY: Node =
+    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH] };
 
 /// See the module.
 #[derive(Clone, Debug)]
@@ -86,8 +89,9 @@ impl CellTree {
         let mut open = vec![(0usize, 0usize, boxes.len())];
         while let Some((node, from, to)) = open.pop() {
             for (lane, (from, to)) in parts(&mut order, boxes, from, to).into_iter().enumerate() {
-                let bounds =
-                    order[from..to].iter().fold(Bounds::EMPTY, |all, &i| all.join(boxes[i as usize]));
+                let bounds = order[from..to]
+                    .iter()
+                    .fold(Bounds::EMPTY, |all, &i| all.join(boxes[i as usize]));
                 let entry = if to - from == 1 {
                     order[from] | ITEM
                 } else {
@@ -110,7 +114,9 @@ impl CellTree {
     /// Middle and half extent in the tree's frame.
     fn local(&self, bounds: &Bounds) -> ([f32; 3], [f32; 3]) {
         // Beyond 4 it is beyond everything.
-        let local = |p: DVec3| ((p - self.origin) * self.scale).clamp(DVec3::splat(-4.0), DVec3::splat(4.0));
+        let local = |p: DVec3| {
+            ((p - self.origin) * self.scale).clamp(DVec3::splat(-4.0), DVec3::splat(4.0))
+        };
         let (low, high) = (local(bounds.low), local(bounds.high));
         (((low + high) * 0.5).as_vec3().to_array(), ((high - low) * 0.5).as_vec3().to_array())
     }
@@ -131,13 +137,15 @@ impl CellTree {
         Cut { normal, along: normal.map(f32::abs), offset: offset as f32 }
     }
 
-    /// Adds to a probe the plane that is wanted to be reached from now on, in place of the last one that was added.
+    /// Adds to a probe the plane that is wanted to be reached from now on, in place of the last one
+    /// that was added.
     pub fn raise(&self, probe: &mut Probe, plane: &Plane) {
         probe.cuts.truncate(probe.fixed);
         probe.cuts.push(self.cut(plane));
     }
 
-    /// Some nodes that hold every item whose box meets `bounds`: where many searches in these bounds begin.
+    /// Some nodes that hold every item whose box meets `bounds`: where many searches in these
+    /// bounds begin.
     pub fn frontier(&self, bounds: &Bounds, frontier: &mut Frontier) {
         let probe = self.probe(bounds, &[]);
         let open = &mut frontier.0;
@@ -162,8 +170,14 @@ impl CellTree {
         }
     }
 
-    /// Calls `visit` with every item below a frontier whose box passes `keep`, in the mesh's frame, and perhaps others.
-    pub fn visit_kept(&self, near: &Frontier, keep: impl Fn(&Bounds) -> bool, mut visit: impl FnMut(usize)) {
+    /// Calls `visit` with every item below a frontier whose box passes `keep`, in the mesh's frame,
+    /// and perhaps others.
+    pub fn visit_kept(
+        &self,
+        near: &Frontier,
+        keep: impl Fn(&Bounds) -> bool,
+        mut visit: impl FnMut(usize),
+    ) {
         let mut stack = near.0.clone();
         while let Some(node) = stack.pop() {
             let node = &self.nodes[node as usize];
@@ -186,9 +200,15 @@ impl CellTree {
         }
     }
 
-    /// Calls `visit` with every item below a frontier whose box a probe reaches; what it returns is raised in the probe.
+    /// Calls `visit` with every item below a frontier whose box a probe reaches; what it returns is
+    /// raised in the probe.
     #[inline]
-    pub fn visit(&self, near: &Frontier, mut probe: Probe, mut visit: impl FnMut(usize) -> Option<Plane>) {
+    pub fn visit(
+        &self,
+        near: &Frontier,
+        mut probe: Probe,
+        mut visit: impl FnMut(usize) -> Option<Plane>,
+    ) {
         let mut stack = [0u32; DEPTH];
         for &root in &near.0 {
             stack[0] = root;
@@ -219,7 +239,9 @@ impl Probe {
         let mut out = [f32::NEG_INFINITY; WIDTH];
         for (k, out) in out.iter_mut().enumerate() {
             let off = |axis: usize| {
-                (node.middle[axis][k] - self.middle[axis]).abs() - node.half[axis][k] - self.half[axis]
+                (node.middle[axis][k] - self.middle[axis]).abs()
+                    - node.half[axis][k]
+                    - self.half[axis]
             };
             let (x, y, z) = (off(0), off(1), off(2));
             let xy = if x > y { x } else { y };
@@ -245,8 +267,14 @@ impl Probe {
     }
 }
 
-/// Ranges of up to eight parts of a range, ordered by halving at the median of the longest axis, again and again.
-fn parts(order: &mut [u32], boxes: &[Bounds], from: usize, to: usize) -> ArrayVec<(usize, usize), WIDTH> {
+/// Ranges of up to eight parts of a range, ordered by halving at the median of the longest axis,
+/// again and again.
+fn parts(
+    order: &mut [u32],
+    boxes: &[Bounds],
+    from: usize,
+    to: usize,
+) -> ArrayVec<(usize, usize), WIDTH> {
     let mut ranges: ArrayVec<(usize, usize), WIDTH> = ArrayVec::new();
     if from < to {
         ranges.push((from, to));
@@ -264,7 +292,8 @@ fn parts(order: &mut [u32], boxes: &[Bounds], from: usize, to: usize) -> ArrayVe
         let centre = |i: u32| boxes[i as usize].low + boxes[i as usize].high;
         let spread = items.iter().fold(Bounds::EMPTY, |all, &i| all.with(centre(i)));
         let extent = (spread.high - spread.low).to_array();
-        let axis = (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
+        let axis =
+            (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
         let parts = items.len().div_ceil(full);
         let middle = parts / 2 * full;
         items.select_nth_unstable_by(middle, |&i, &j| {
@@ -299,16 +328,23 @@ mod tests {
     #[test]
     fn every_box_that_is_reached_is_visited_once_from_the_root_and_from_a_frontier() {
         let mut dice = Dice::new(3);
-        for (count, scale, shift) in
-            [(0, 1.0, 0.0), (1, 1.0, 0.0), (8, 1e-30, 0.0), (9, 1e30, 0.0), (65, 1.0, 1e6), (700, 40.0, -3.0)]
-        {
+        for (count, scale, shift) in [
+            (0, 1.0, 0.0),
+            (1, 1.0, 0.0),
+            (8, 1e-30, 0.0),
+            (9, 1e30, 0.0),
+            (65, 1.0, 1e6),
+            (700, 40.0, -3.0),
+        ] {
             let shift = DVec3::splat(shift);
             let boxes = boxes(&mut dice, count, scale, shift);
             let tree = CellTree::new(&boxes);
             for _ in 0..200 {
                 let low = point(&mut dice);
-                let of =
-                    Bounds { low: low * scale + shift, high: (low + point(&mut dice) * 0.5) * scale + shift };
+                let of = Bounds {
+                    low: low * scale + shift,
+                    high: (low + point(&mut dice) * 0.5) * scale + shift,
+                };
                 let through = point(&mut dice) * scale + shift;
                 let normal = (point(&mut dice) - 0.5).normalize();
                 let plane = Plane { normal, offset: normal.dot(through) };
@@ -322,7 +358,10 @@ mod tests {
                     });
                     for (b, visits) in boxes.iter().zip(visits) {
                         let wanted = b.meets(&of) && b.support(normal) >= plane.offset;
-                        assert!(visits == 1 || (visits == 0 && !wanted), "{visits} visits, {wanted}");
+                        assert!(
+                            visits == 1 || (visits == 0 && !wanted),
+                            "{visits} visits, {wanted}"
+                        );
                     }
                 }
             }

@@ -1,20 +1,26 @@
-//! A closed surface around any triangles, open, crossing or loose: what a grid of cubes can tell from the outside.
+//! A closed surface around any triangles, open, crossing or loose: what a grid of cubes can tell
+//! from the outside.
 //!
 //! 1. A cube that a triangle reaches, or might by rounding, is *met*; its eight corners are inside.
-//! 2. The corners that the border reaches along edges of the grid without passing one that is inside are outside. All others are inside: what
-//!    the triangles cut off from the border is filled.
-//! 3. The surface between inside and outside, by marching tetrahedra: each cube is cut into six that share a diagonal (Kuhn), and every edge
-//!    with two different ends is cut in its middle.
+//! 2. The corners that the border reaches along edges of the grid without passing one that is
+//!    inside are outside. All others are inside: what the triangles cut off from the border is
+//!    filled.
+//! 3. The surface between inside and outside, by marching tetrahedra: each cube is cut into six
+//!    that share a diagonal (Kuhn), and every edge with two different ends is cut in its middle.
 //!
-//! The surface is a closed manifold for any choice of corners, for it is a level set in a simplicial complex, and has no point in common
-//! with itself but its own edges, as each piece lies in its own tetrahedron. It lies in cubes that are not met, so it does not meet
-//! the triangles. It is nowhere farther from them than three diagonals of a cube, but where it closes a hole that no corner can be
-//! reached through.
+//! The surface is a closed manifold for any choice of corners, for it is a level set in a
+//! simplicial complex, and has no point in common with itself but its own edges, as each piece lies
+//! in its own tetrahedron. It lies in cubes that are not met, so it does not meet the triangles. It
+//! is nowhere farther from them than three diagonals of a cube, but where it closes a hole that no
+//! corner can be reached through.
 //!
-//! With a margin, corners are inside where the mesh is no farther than that, and some more for what triangles cut off a ball; edges are cut where the distance is that,
-//! not in their middle. The surface is then near all that has to be enclosed, if cubes are small beside the margin; it is a hull only if it proves to be.
+//! With a margin, corners are inside where the mesh is no farther than that, and some more for what
+//! triangles cut off a ball; edges are cut where the distance is that, not in their middle. The
+//! surface is then near all that has to be enclosed, if cubes are small beside the margin; it is a
+//! hull only if it proves to be.
 //!
-//! Cubes have a power of two as edge and the grid passes through the origin, so that the middle of every edge is exact in single precision.
+//! Cubes have a power of two as edge and the grid passes through the origin, so that the middle of
+//! every edge is exact in single precision.
 
 use super::boxes::Bounds;
 use super::met::{Block, visit_met};
@@ -40,15 +46,21 @@ pub(super) struct Closure {
 /// Layers of cubes around the triangles: one that rounding might meet, one that nothing meets.
 const PAD: i64 = 2;
 
-/// Cubes are met if a triangle reaches them when they are larger by this: far above the rounding of the test, far below a cube.
+/// Cubes are met if a triangle reaches them when they are larger by this: far above the rounding of
+/// the test, far below a cube.
 const GROWN: f64 = 1.0 + 1e-6;
 
 /// Half-cubes from the origin that a coordinate may be away: what single precision holds exactly.
 const MOST: f64 = 16_777_216.0;
 
-/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the longest side of the mesh and its margin; with fewer where
-/// single precision has no room for more. `None` if it has none at all, or mesh and margin are one point, or the deadline passes.
-pub(super) fn closure(obstacle: &Obstacle, cells: usize, deadline: Option<Instant>) -> Option<Closure> {
+/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the
+/// longest side of the mesh and its margin; with fewer where single precision has no room for more.
+/// `None` if it has none at all, or mesh and margin are one point, or the deadline passes.
+pub(super) fn closure(
+    obstacle: &Obstacle,
+    cells: usize,
+    deadline: Option<Instant>,
+) -> Option<Closure> {
     let bounds = obstacle.bounds().grown(obstacle.margin());
     let extent = (bounds.high - bounds.low).max_element();
     let farthest = bounds.low.abs().max(bounds.high.abs()).max_element();
@@ -86,13 +98,15 @@ pub(super) fn closure(obstacle: &Obstacle, cells: usize, deadline: Option<Instan
     })
 }
 
-/// Parts of an edge from its inner end between which it is cut: pieces of surface are neither needles nor points.
+/// Parts of an edge from its inner end between which it is cut: pieces of surface are neither
+/// needles nor points.
 const ENDS: [f64; 2] = [0.05, 0.995];
 
 /// Halvings of an edge to find where it is cut.
 const HALVINGS: usize = 5;
 
-/// The point between two corners at which the mesh is as far as `level`, on the outer side; in single precision.
+/// The point between two corners at which the mesh is as far as `level`, on the outer side; in
+/// single precision.
 fn crossing(obstacle: &Obstacle, level: f64, inner: DVec3, outer: DVec3) -> DVec3 {
     let [mut low, mut high] = ENDS;
     for _ in 0..HALVINGS {
@@ -156,19 +170,27 @@ impl Grid {
     /// The box of a block, a little larger.
     fn grown(&self, block: Block) -> Bounds {
         let middle = self.at(block.map(|[from, to]| from + to + 1));
-        let half = DVec3::from(block.map(|[from, to]| (to - from + 1) as f64)) * (self.cell * 0.5 * GROWN);
+        let half =
+            DVec3::from(block.map(|[from, to]| (to - from + 1) as f64)) * (self.cell * 0.5 * GROWN);
         Bounds { low: middle - half, high: middle + half }
     }
 
-    /// Distance from the mesh at which the surface is put to keep a margin: a ball of that radius loses to triangles with circles as large as a cube
-    /// what is added first, and to [`ENDS`] the rest.
+    /// Distance from the mesh at which the surface is put to keep a margin: a ball of that radius
+    /// loses to triangles with circles as large as a cube what is added first, and to [`ENDS`]
+    /// the rest.
     fn level(&self, margin: f64) -> Option<f64> {
         let flattened = (self.cell * self.cell / (2.0 * margin)).min(2.0 * self.cell);
         (margin > 0.0).then(|| margin + flattened + 2.0 * (1.0 - ENDS[1]) * self.cell)
     }
 
-    /// Corners that are no farther from the mesh than `level`, about; `None` if the deadline passes.
-    fn near(&self, obstacle: &Obstacle, level: f64, deadline: Option<Instant>) -> Option<Vec<bool>> {
+    /// Corners that are no farther from the mesh than `level`, about; `None` if the deadline
+    /// passes.
+    fn near(
+        &self,
+        obstacle: &Obstacle,
+        level: f64,
+        deadline: Option<Instant>,
+    ) -> Option<Vec<bool>> {
         let mut near = vec![false; self.all().len()];
         let [nx, ny, nz] = self.corners;
         for k in 0..nz {
@@ -181,7 +203,8 @@ impl Grid {
                     let Some(distance) = distance(obstacle, self.at([2 * i, 2 * j, 2 * k])) else {
                         return Some(near);
                     };
-                    // The distance changes by no more than one walks: the next corners are known as well.
+                    // The distance changes by no more than one walks: the next corners are known as
+                    // well.
                     let same = 1 + ((distance - level).abs() / (self.cell * GROWN)).min(1e9) as i64;
                     for i in (i..(i + same).min(nx)).take_while(|_| distance <= level) {
                         near[self.index([i, j, k])] = true;
@@ -227,7 +250,11 @@ impl Grid {
     }
 
     /// Marching tetrahedra.
-    fn surface(&self, inside: &[bool], cut: impl Fn(DVec3, DVec3) -> DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    fn surface(
+        &self,
+        inside: &[bool],
+        cut: impl Fn(DVec3, DVec3) -> DVec3,
+    ) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         let mut number: FxHashMap<[usize; 2], u32> = FxHashMap::default();
@@ -235,7 +262,8 @@ impl Grid {
         let mut vertex = |p: usize, q: usize| {
             *number.entry([p.min(q), p.max(q)]).or_insert_with(|| {
                 let [inner, outer] = if inside[p] { [p, q] } else { [q, p] };
-                let [inner, outer] = [inner, outer].map(|c| self.at(corners[c].map(|n: i64| 2 * n)));
+                let [inner, outer] =
+                    [inner, outer].map(|c| self.at(corners[c].map(|n: i64| 2 * n)));
                 positions.push(cut(inner, outer));
                 positions.len() as u32 - 1
             })
@@ -264,7 +292,8 @@ fn corners_of([i, j, k]: [i64; 3]) -> [[i64; 3]; 8] {
     [0, 1, 2, 3, 4, 5, 6, 7].map(|c| [i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)])
 }
 
-/// Kuhn's six tetrahedra of a cube, by corners whose bits are x, y, z: from 0 to 7 along one axis after the other. All are positively oriented.
+/// Kuhn's six tetrahedra of a cube, by corners whose bits are x, y, z: from 0 to 7 along one axis
+/// after the other. All are positively oriented.
 const TETRAHEDRA: [[usize; 4]; 6] =
     [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 
@@ -275,7 +304,8 @@ fn march(
     vertex: &mut impl FnMut(usize, usize) -> u32,
     triangles: &mut Vec<[u32; 3]>,
 ) {
-    // Even permutations, which bring the corner that is alone, or the two that are inside, to the front.
+    // Even permutations, which bring the corner that is alone, or the two that are inside, to the
+    // front.
     const TO_FRONT: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
     const PAIR_TO_FRONT: [[usize; 4]; 6] =
         [[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [1, 2, 0, 3], [1, 3, 2, 0], [2, 3, 0, 1]];
@@ -324,7 +354,8 @@ mod tests {
 
     #[test]
     fn one_triangle_is_enclosed_by_a_closed_surface_that_faces_outwards() {
-        let triangle = [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
+        let triangle =
+            [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
         for cells in [1, 2, 5, 16] {
             let surface = closure(&around(&[triangle]), cells, None).unwrap();
             assert!(volume(&surface) > 0.0);
@@ -340,9 +371,12 @@ mod tests {
     #[test]
     fn a_closed_box_is_filled() {
         let corner = |c: usize| DVec3::new((c & 1) as f64, (c >> 1 & 1) as f64, (c >> 2) as f64);
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let triangles: Vec<Triangle> =
-            quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner))).collect();
+        let quads =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<Triangle> = quads
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner)))
+            .collect();
         let surface = closure(&around(&triangles), 16, None).unwrap();
         assert!(volume(&surface) > 1.0 && volume(&surface) < 2.0, "{}", volume(&surface));
     }
@@ -350,8 +384,11 @@ mod tests {
     #[test]
     fn a_point_has_no_closure_and_far_triangles_have_larger_cubes() {
         assert!(closure(&around(&[[DVec3::ONE; 3]]), 8, None).is_none());
-        let far = [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
+        let far =
+            [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
         let surface = closure(&around(&[far]), 64, None).unwrap();
-        assert!(surface.cells < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p));
+        assert!(
+            surface.cells < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p)
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! What triangles connect by the vertices that they share.
 
-/// For each vertex the least number of those that it is connected to: one number for each part, and for each vertex that no triangle has. Almost linear.
+/// For each vertex the least number of those that it is connected to: one number for each part, and
+/// for each vertex that no triangle has. Almost linear.
 pub(super) fn connected(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
     for &[a, b, c] in triangles {

@@ -39,14 +39,17 @@ impl PartialEq for Candidate {
 }
 impl Eq for Candidate {}
 
-/// Weight of the second term of a collapse's program; a collapse may turn faces more than a vertex move.
+/// Weight of the second term of a collapse's program; a collapse may turn faces more than a vertex
+/// move.
 const PULL: f64 = 0.05;
 
-/// Those that are tried where the vertex would be out of reach: less volume counts less, and staying in the middle of the star more.
+/// Those that are tried where the vertex would be out of reach: less volume counts less, and
+/// staying in the middle of the star more.
 const STRONGER_PULLS: [f64; 2] = [1.0, 100.0];
 
 impl Work<'_> {
-    /// Collapses until at most `target` faces are left, or no collapse is legal or the time is up: then false.
+    /// Collapses until at most `target` faces are left, or no collapse is legal or the time is up:
+    /// then false.
     pub fn decimate(&mut self, target: usize, mut on_progress: impl FnMut(usize)) -> bool {
         let mut queue = BinaryHeap::new();
         let mut changed = vec![0u32; self.shell.vertex_slots() as usize];
@@ -100,7 +103,8 @@ impl Work<'_> {
             Some(answer) => answer,
             None => {
                 let placed = self.place_collapse(&star, [a, b], CLEARANCES[0], PULL);
-                let answer = placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
+                let answer =
+                    placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
                 self.memo.put(key, answer);
                 answer
             }
@@ -142,7 +146,13 @@ impl Work<'_> {
     }
 
     /// A place for a collapse of which the new faces are in reach: `x`, or nearer to the middle.
-    fn in_reach(&mut self, star: &[StarFace], ends: [u32; 2], steps: f64, x: DVec3) -> Option<DVec3> {
+    fn in_reach(
+        &mut self,
+        star: &[StarFace],
+        ends: [u32; 2],
+        steps: f64,
+        x: DVec3,
+    ) -> Option<DVec3> {
         if self.is_star_in_reach(star, x) {
             return Some(x);
         }
@@ -152,14 +162,16 @@ impl Work<'_> {
                 return Some(nearer);
             }
         }
-        // Far away now is far away whenever it is asked again, which begins with the least clearance.
+        // Far away now is far away whenever it is asked again, which begins with the least
+        // clearance.
         if steps == CLEARANCES[0] {
             self.memo.put(Key::new(Question::Collapse, self.salt(), star), None);
         }
         None
     }
 
-    /// Collapses the edge at `position`, or where a greater clearance puts it; false if neither can be proved.
+    /// Collapses the edge at `position`, or where a greater clearance puts it; false if neither can
+    /// be proved.
     pub(super) fn collapse(&mut self, a: u32, b: u32, position: DVec3) -> bool {
         let Some(star) = self.edge_star(a, b) else { return false };
         let dead = self.dead.clone();
@@ -174,7 +186,8 @@ impl Work<'_> {
             let Some(x) = placed.and_then(|x| self.in_reach(&star, [a, b], steps, x)) else {
                 break;
             };
-            let new: Vec<_> = dead.iter().filter_map(|&f| self.shell.face_after(f, [a, b], x)).collect();
+            let new: Vec<_> =
+                dead.iter().filter_map(|&f| self.shell.face_after(f, [a, b], x)).collect();
             if self.admits(&new, &dead, &bases, x) {
                 proved = Some(x);
                 break;

@@ -1,11 +1,14 @@
 //! Whether triangles keep a distance, proved in floating point.
 //!
-//! Two convex sets are farther apart than `d` if and only if some direction has them so: `min n·p − max n·q > d·|n|` over the corners `p` of the one
-//! and `q` of the other. Any `n` proves it, so rounding may choose it; what is left to bound is the test itself. With ε = 2^-53, a
-//! coordinate's difference is off by a part ε of it, its product with `n` by as much again, and a sum of three adds two: `n·(p − o)` is off by less
-//! than 4.1 ε·S, where S sums the products' magnitudes. The difference of two such numbers is off by less than 11 ε·S, of which
-//! [`ROUNDING`] is three times. `n` is near length 1, so that what underflows is far below the least normal number, which is added. The length has
-//! less than 5 ε, products with the distance one more: less than the part that [`Reach`] adds to it.
+//! Two convex sets are farther apart than `d` if and only if some direction has them so: `min n·p −
+//! max n·q > d·|n|` over the corners `p` of the one and `q` of the other. Any `n` proves it, so
+//! rounding may choose it; what is left to bound is the test itself. With ε = 2^-53, a coordinate's
+//! difference is off by a part ε of it, its product with `n` by as much again, and a sum of three
+//! adds two: `n·(p − o)` is off by less than 4.1 ε·S, where S sums the products' magnitudes. The
+//! difference of two such numbers is off by less than 11 ε·S, of which [`ROUNDING`] is three times.
+//! `n` is near length 1, so that what underflows is far below the least normal number, which is
+//! added. The length has less than 5 ε, products with the distance one more: less than the part
+//! that [`Reach`] adds to it.
 
 use super::boxes::Bounds;
 use super::predicates::Triangle;
@@ -30,7 +33,8 @@ impl Reach {
         (a.low - b.high).max(b.low - a.high).max_element() > self.0
     }
 
-    /// Whether all points of `above` are farther beyond all of `below` along a direction, which need not have length 1.
+    /// Whether all points of `above` are farther beyond all of `below` along a direction, which
+    /// need not have length 1.
     #[inline]
     pub fn clears(&self, direction: DVec3, above: &Triangle, below: &Triangle) -> bool {
         let Some(n) = unit(direction) else { return false };
@@ -72,7 +76,8 @@ impl Reach {
         self.clears(near.direction, face, triangle) || self.clears(near.p - near.q, face, triangle)
     }
 
-    /// As [`parts`](Self::parts), along two directions that are found at once: those that are far apart are told so.
+    /// As [`parts`](Self::parts), along two directions that are found at once: those that are far
+    /// apart are told so.
     pub fn parts_plainly(&self, face: &Triangle, normal: DVec3, triangle: &Triangle) -> bool {
         if self.clears(normal, face, triangle) {
             return true;
@@ -83,7 +88,13 @@ impl Reach {
 
     /// Whether a triangle is certainly farther from all that a box holds.
     #[inline]
-    pub fn parts_box(&self, face: &Triangle, bounds: &Bounds, normal: DVec3, below: &Bounds) -> bool {
+    pub fn parts_box(
+        &self,
+        face: &Triangle,
+        bounds: &Bounds,
+        normal: DVec3,
+        below: &Bounds,
+    ) -> bool {
         if self.parts_boxes(bounds, below) || self.clears_box(normal, face, below) {
             return true;
         }
@@ -104,7 +115,8 @@ fn unit(direction: DVec3) -> Option<DVec3> {
     (largest > 0.0 && scaled.is_finite()).then(|| scaled / scaled.length())
 }
 
-/// The points of two triangles that are nearest to each other, if the triangles do not cross. Not exact.
+/// The points of two triangles that are nearest to each other, if the triangles do not cross. Not
+/// exact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
     /// On the first triangle, and its weights there.
@@ -113,7 +125,8 @@ pub(super) struct Nearest {
     /// On the second.
     pub q: DVec3,
     pub distance: f64,
-    /// From the second towards the first, of any length: better than `p − q` where these are close together.
+    /// From the second towards the first, of any length: better than `p − q` where these are close
+    /// together.
     pub direction: DVec3,
 }
 
@@ -172,7 +185,8 @@ fn weights(p: DVec3, &[a, b, c]: &Triangle) -> ([f64; 3], bool) {
     (weights, weights.iter().all(|&w| w > 0.0))
 }
 
-/// Where the lines `w + x·u` and `y·v` are nearest to each other, if that is between the ends of both.
+/// Where the lines `w + x·u` and `y·v` are nearest to each other, if that is between the ends of
+/// both.
 fn crossing(w: DVec3, u: DVec3, v: DVec3) -> Option<[f64; 2]> {
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
     let det = uu * vv - uv * uv;
@@ -213,7 +227,8 @@ mod tests {
             for scale in [2f64.powi(-100), 1.0, 2f64.powi(100)] {
                 let [s, t] = [flat, other].map(|t| t.map(|p| p * scale));
                 let at = distance * scale;
-                // `parts` allows `ROUNDING` of the triangles' size, which is a few times the distance.
+                // `parts` allows `ROUNDING` of the triangles' size, which is a few times the
+                // distance.
                 assert!(parts(at * (1.0 - 1e-12), &s, &t), "{t:?}");
                 assert!(!parts(at, &s, &t) && !parts(at * (1.0 + 1e-14), &s, &t), "{t:?}");
                 assert!(Nearest::of(&s, &t).is_some_and(|n| (n.distance / at - 1.0).abs() < 1e-14));

@@ -9,9 +9,11 @@ use super::work::Work;
 use glam::DVec3;
 
 /// As a collapse: new faces may stand steeply on the old ones.
-const SPLIT: Wish = Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.05), clearance: 0.0 };
+const SPLIT: Wish =
+    Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.05), clearance: 0.0 };
 
-/// A split is tried for a collapse if it gains this part of what that costs: the vertices around both settle afterwards and gain more.
+/// A split is tried for a collapse if it gains this part of what that costs: the vertices around
+/// both settle afterwards and gain more.
 const HOPE: f64 = 0.5;
 
 impl Work<'_> {
@@ -38,7 +40,8 @@ impl Work<'_> {
                 let placed = self.placer.place(self.obstacle, &star, middle, &wish);
                 let placed = placed.and_then(|x| self.rounding.round(x));
                 let placed = placed.filter(|&x| self.is_shapely(&star, x));
-                let answer = placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
+                let answer =
+                    placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
                 self.memo.put(key, answer);
                 answer
             }
@@ -70,7 +73,8 @@ impl Work<'_> {
     pub fn refine(&mut self, target: usize) {
         while self.shell.face_count() + 2 <= target && !self.is_late() {
             let edges = self.shell.edges();
-            let mut splits: Vec<_> = edges.iter().filter_map(|&[a, b]| self.evaluate_split(a, b)).collect();
+            let mut splits: Vec<_> =
+                edges.iter().filter_map(|&[a, b]| self.evaluate_split(a, b)).collect();
             splits.sort_unstable_by(|a, b| b.cmp(a));
             let before = self.shell.face_count();
             let mut touched: Vec<u32> = Vec::new();
@@ -97,11 +101,14 @@ impl Work<'_> {
         }
     }
 
-    /// Tries to exchange the best splits for the cheapest collapses; how many made the hull smaller.
+    /// Tries to exchange the best splits for the cheapest collapses; how many made the hull
+    /// smaller.
     pub fn exchange(&mut self, attempts: usize) -> usize {
         let edges = self.shell.edges();
-        let mut splits: Vec<_> = edges.iter().filter_map(|&[a, b]| self.evaluate_split(a, b)).collect();
-        let mut collapses: Vec<_> = edges.iter().filter_map(|&[a, b]| self.evaluate(a, b, 0)).collect();
+        let mut splits: Vec<_> =
+            edges.iter().filter_map(|&[a, b]| self.evaluate_split(a, b)).collect();
+        let mut collapses: Vec<_> =
+            edges.iter().filter_map(|&[a, b]| self.evaluate(a, b, 0)).collect();
         splits.sort_unstable_by(|a, b| b.cmp(a));
         collapses.sort_unstable_by(|a, b| b.cmp(a));
         let mut touched: Vec<u32> = Vec::new();
@@ -120,7 +127,8 @@ impl Work<'_> {
             let found = collapses[next_collapse..].iter().position(|c| {
                 let mesh = &self.shell.mesh;
                 let near = |v: &u32| {
-                    c.ends.contains(v) || c.ends.iter().any(|&e| mesh.neighbours(e).any(|u| u == *v))
+                    c.ends.contains(v)
+                        || c.ends.iter().any(|&e| mesh.neighbours(e).any(|u| u == *v))
                 };
                 !c.ends.iter().any(|v| touched.contains(v)) && !around_split.iter().any(near)
             });
@@ -132,8 +140,10 @@ impl Work<'_> {
             next_collapse += found + 1;
             tries += 1;
             let (before, saved) = (self.shell.volume(), self.shell.clone());
-            let ring: Vec<u32> = collapse.ends.iter().flat_map(|&e| self.shell.mesh.neighbours(e)).collect();
-            if self.swap(split, &collapse, &around_split) && self.shell.volume() < before * (1.0 - LEAST_GAIN)
+            let ring: Vec<u32> =
+                collapse.ends.iter().flat_map(|&e| self.shell.mesh.neighbours(e)).collect();
+            if self.swap(split, &collapse, &around_split)
+                && self.shell.volume() < before * (1.0 - LEAST_GAIN)
             {
                 kept += 1;
                 touched.extend(ring);

@@ -1,7 +1,8 @@
 //! The fewest faces found for a void, and for a slack.
 //!
-//! For a void: down in stages as long as the hull has not more, then by halves. For a slack there is no number of faces to try: every move keeps
-//! within it, so that a hull comes down until no edge may collapse any more.
+//! For a void: down in stages as long as the hull has not more, then by halves. For a slack there
+//! is no number of faces to try: every move keeps within it, so that a hull comes down until no
+//! edge may collapse any more.
 
 use super::build::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
 use super::options::{Stop, WrapError};
@@ -14,13 +15,15 @@ use crate::collapse::Conditions;
 /// Faces that a search for a void begins with.
 const FINEST: usize = 2000;
 
-/// Faces that a search for a slack begins with: what they leave too far from the mesh is split, and more would have to go again.
+/// Faces that a search for a slack begins with: what they leave too far from the mesh is split, and
+/// more would have to go again.
 const COARSEST: usize = 250;
 
 /// Times as many when those do not do.
 const FINER: usize = 4;
 
-/// Cubes of the first closure along what a slack leaves beyond the margin, and of the finest along the longest side.
+/// Cubes of the first closure along what a slack leaves beyond the margin, and of the finest along
+/// the longest side.
 const CELLS: (f64, usize) = (2.0, 160);
 
 /// Fewest cubes along the longest side.
@@ -34,9 +37,18 @@ const TOO_FEW: usize = 3;
 
 impl<'a> Builder<'a, '_, '_> {
     /// See [`Goal::Slack`](super::options::Goal::Slack).
-    pub fn least_faces_by_slack(&mut self, from: &From<'_>, most: f64) -> Result<Done<'a>, WrapError> {
+    pub fn least_faces_by_slack(
+        &mut self,
+        from: &From<'_>,
+        most: f64,
+    ) -> Result<Done<'a>, WrapError> {
         let rounding = Rounding::new(from.around.grid, from.around.scale_exponent);
-        let place = Place { stored: from.around, obstacle: self.obstacle, rounding, deadline: self.deadline };
+        let place = Place {
+            stored: from.around,
+            obstacle: self.obstacle,
+            rounding,
+            deadline: self.deadline,
+        };
         let mut best: Option<Done<'a>> = None;
         if let Some(first) = first_box(self.obstacle, &rounding) {
             let done = self.within(first, rounding, most);
@@ -44,7 +56,8 @@ impl<'a> Builder<'a, '_, '_> {
         }
         let mut faces = COARSEST;
         let mut cells = self.closure_cells(most);
-        // A closure of more cubes takes eight times as long, and where two do not do it seldom does.
+        // A closure of more cubes takes eight times as long, and where two do not do it seldom
+        // does.
         let finest = (2 * cells).min(CELLS.1);
         let is_solid = self.volume.is_some() && self.round_cells().is_none();
         let mut any_level = false;
@@ -111,7 +124,8 @@ impl<'a> Builder<'a, '_, '_> {
         work.deadline = self.deadline;
         let mut came = work.come_within(most);
         if !came && !work.is_late() {
-            // What is large is also far: the least volume within what it has may let it come nearer.
+            // What is large is also far: the least volume within what it has may let it come
+            // nearer.
             work.stay_within(work.slack());
             work.relax(self.floor(), 1e-2, 4);
             came = work.come_within(most);
@@ -136,10 +150,17 @@ impl<'a> Builder<'a, '_, '_> {
     }
 
     /// See [`Goal::Void`](super::options::Goal::Void).
-    pub fn least_faces_by_void(&mut self, from: &From<'_>, most: f64) -> Result<Done<'a>, WrapError> {
+    pub fn least_faces_by_void(
+        &mut self,
+        from: &From<'_>,
+        most: f64,
+    ) -> Result<Done<'a>, WrapError> {
         let mut faces = FINEST;
         let mut done = self.begin(from, faces, false)?;
-        while !self.has_void(&done.work, most) && faces < from.mesh.triangles.len() && !done.work.is_late() {
+        while !self.has_void(&done.work, most)
+            && faces < from.mesh.triangles.len()
+            && !done.work.is_late()
+        {
             faces = faces.saturating_mul(FINER);
             done = self.begin(from, faces, false)?;
         }
@@ -189,8 +210,11 @@ impl<'a> Builder<'a, '_, '_> {
 
     /// That the mesh's volume is not known to count places more than once.
     fn require_measure(&self, work: &Work<'a>) -> Result<(), WrapError> {
-        let hull: Vec<[[f32; 3]; 3]> =
-            work.shell.alive().map(|f| work.shell.triangle(f).map(|p| p.as_vec3().to_array())).collect();
+        let hull: Vec<[[f32; 3]; 3]> = work
+            .shell
+            .alive()
+            .map(|f| work.shell.triangle(f).map(|p| p.as_vec3().to_array()))
+            .collect();
         match self.solid.filter(|solid| solid.is_more_than(&hull)) {
             Some(_) => Err(WrapError::NoVolume(NoVolume::Overlapping)),
             None => Ok(()),

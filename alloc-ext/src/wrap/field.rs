@@ -1,10 +1,12 @@
-//! Distances to the mesh at the points of a lattice, as they are asked for: what the distance of any point is about.
+//! Distances to the mesh at the points of a lattice, as they are asked for: what the distance of
+//! any point is about.
 
 use super::obstacle::Obstacle;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// Bounds of the distance at each point of the lattice that was asked for. Only ever looked up, so that its order does not show.
+/// Bounds of the distance at each point of the lattice that was asked for. Only ever looked up, so
+/// that its order does not show.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     step: f64,
@@ -37,8 +39,9 @@ impl Field {
             self.known.clear();
         }
         let known = self.known.entry(cell);
-        let [lower, upper] = *known
-            .or_insert_with(|| obstacle.nearest(point).map_or([0.0, f64::INFINITY], |(_, bounds)| bounds));
+        let [lower, upper] = *known.or_insert_with(|| {
+            obstacle.nearest(point).map_or([0.0, f64::INFINITY], |(_, bounds)| bounds)
+        });
         let away = (p - point).length();
         [lower * (1.0 - ROUNDING) - away * (1.0 + ROUNDING), (upper + away) * (1.0 + ROUNDING)]
     }
@@ -60,8 +63,14 @@ mod tests {
                 let p = DVec3::new(at(7), at(131), at(577)) * if i % 3 == 0 { 1e6 } else { 1.0 };
                 let [lower, upper] = obstacle.nearest(p).map(|(_, bounds)| bounds).unwrap();
                 let about = field.about(&obstacle, p);
-                assert!(about[0] <= lower && upper <= about[1], "{p} {about:?} {lower} {upper} {step}");
-                assert!(step != 0.25 || i % 3 == 0 || about[1] - about[0] <= 2.0 * step, "{about:?}");
+                assert!(
+                    about[0] <= lower && upper <= about[1],
+                    "{p} {about:?} {lower} {upper} {step}"
+                );
+                assert!(
+                    step != 0.25 || i % 3 == 0 || about[1] - about[0] <= 2.0 * step,
+                    "{about:?}"
+                );
             }
         }
     }

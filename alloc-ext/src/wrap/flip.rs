@@ -5,7 +5,8 @@ use super::placement::StarFace;
 use super::predicates::{Face, side};
 use super::work::{Work, compactness};
 
-/// New faces keep this part of the worse compactness of the two old ones, or the least that the shape conditions ask for.
+/// New faces keep this part of the worse compactness of the two old ones, or the least that the
+/// shape conditions ask for.
 const KEPT: f64 = 0.7;
 
 /// Part of the hull's volume that a change has to gain: more than the rounding of its sum.
@@ -17,7 +18,8 @@ impl Work<'_> {
         self.shell.edges().into_iter().filter(|&[a, b]| self.flip_inward(a, b)).count()
     }
 
-    /// Flips every edge, convex or not, whose four corners then settle with less volume than before; how many.
+    /// Flips every edge, convex or not, whose four corners then settle with less volume than
+    /// before; how many.
     pub fn flip_search(&mut self) -> usize {
         self.shell.edges().into_iter().filter(|&[a, b]| self.flip_and_settle(a, b)).count()
     }
@@ -51,7 +53,8 @@ impl Work<'_> {
 
     /// Flips the edge if it is convex and may be.
     fn flip_inward(&mut self, a: u32, b: u32) -> bool {
-        let Some((faces, apex)) = self.shell.mesh.wings(a, b).map(|w| (w.triangles, w.apexes[1])) else {
+        let Some((faces, apex)) = self.shell.mesh.wings(a, b).map(|w| (w.triangles, w.apexes[1]))
+        else {
             return false;
         };
         let left = self.shell.triangle(faces[0]);
@@ -76,7 +79,8 @@ impl Work<'_> {
         }
         let old = wings.triangles.map(|f| self.shell.triangle(f));
         let [pa, pb, pc, pd] = [a, b, c, d].map(|v| self.shell.position(v));
-        let new = [Face { ids: [a, d, c], at: [pa, pd, pc] }, Face { ids: [d, b, c], at: [pd, pb, pc] }];
+        let new =
+            [Face { ids: [a, d, c], at: [pa, pd, pc] }, Face { ids: [d, b, c], at: [pd, pb, pc] }];
         let area = |[p, q, r]: [glam::DVec3; 3]| (q - p).cross(r - p);
         let quality = |t| compactness(t, area(t).length());
         let least = (KEPT * quality(old[0]).min(quality(old[1]))).min(self.shape.min_compactness);
@@ -88,7 +92,8 @@ impl Work<'_> {
             let normal = area(f.at);
             normal.dot(middle) >= self.shape.min_turn * normal.length() * middle.length()
         };
-        // The tetrahedron that the flip cuts off or adds is that of either old face and the other's third corner.
+        // The tetrahedron that the flip cuts off or adds is that of either old face and the other's
+        // third corner.
         if !new.iter().all(upright) {
             return false;
         }

@@ -24,16 +24,22 @@ pub struct Hull {
 
 /// A hull of any triangles: see the module for what is proved of it.
 ///
-/// Vertices that were moved to a grid before (see [`snap`](crate::precision::snap)) are enclosed where they are in `mesh`.
+/// Vertices that were moved to a grid before (see [`snap`](crate::precision::snap)) are enclosed
+/// where they are in `mesh`.
 ///
 /// # Errors
 /// [`WrapError`].
-pub fn wrap(mesh: &Mesh, options: &Options, on_progress: impl FnMut(Progress)) -> Result<Hull, WrapError> {
+pub fn wrap(
+    mesh: &Mesh,
+    options: &Options,
+    on_progress: impl FnMut(Progress),
+) -> Result<Hull, WrapError> {
     wrap_all(mesh, &[], options, on_progress)
 }
 
-/// As [`wrap`], of a mesh and further triangles, by their corners: those without area that [`repair`](crate::mesh::repair) leaves out, and that are segments or points.
-/// They are enclosed as the mesh is, and have no part in what bounds a volume.
+/// As [`wrap`], of a mesh and further triangles, by their corners: those without area that
+/// [`repair`](crate::mesh::repair) leaves out, and that are segments or points. They are enclosed
+/// as the mesh is, and have no part in what bounds a volume.
 ///
 /// # Errors
 /// [`WrapError`].
@@ -59,8 +65,10 @@ pub fn wrap_all(
     if let (Goal::Void(_), Err(why)) = (options.goal, solid) {
         return Err(WrapError::NoVolume(why));
     }
-    let crosses = matches!(options.goal, Goal::Void(_)) && crosses_itself(&positions, &mesh.triangles);
-    // A hull keeps some steps of its grid off the mesh: a coarse one that holds the mesh is no reason to store the hull on it.
+    let crosses =
+        matches!(options.goal, Goal::Void(_)) && crosses_itself(&positions, &mesh.triangles);
+    // A hull keeps some steps of its grid off the mesh: a coarse one that holds the mesh is no
+    // reason to store the hull on it.
     let bits = match options.vertex_bits {
         VertexBits::Auto => VertexBits::F32,
         bits => bits,
@@ -73,7 +81,8 @@ pub fn wrap_all(
     } else {
         around(&positions, options.margin, bits)?
     };
-    // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where it is.
+    // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where
+    // it is.
     let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
     let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
     let mut builder = Builder {
@@ -149,7 +158,8 @@ fn joined(
     (positions, triangles)
 }
 
-/// The frame and the format of coordinates that hold all positions, or their box with the margin around it.
+/// The frame and the format of coordinates that hold all positions, or their box with the margin
+/// around it.
 fn around(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, WrapError> {
     let single = |p: &[DVec3]| p.iter().map(|p| p.as_vec3().to_array()).collect();
     if margin <= 0.0 {

@@ -1,4 +1,5 @@
-//! What is known of stars: the search asks again and again for the same ones, as most moves are taken back and the rest change little.
+//! What is known of stars: the search asks again and again for the same ones, as most moves are
+//! taken back and the rest change little.
 
 use super::placement::StarFace;
 use glam::DVec3;
@@ -17,7 +18,8 @@ pub(super) enum Question {
     Flip = 4,
 }
 
-/// A star and a question by their hash. Two with the same hash would be taken for one: a move would be passed over, or tried and refused.
+/// A star and a question by their hash. Two with the same hash would be taken for one: a move would
+/// be passed over, or tried and refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Key(u64);
 
@@ -25,7 +27,8 @@ pub(super) struct Key(u64);
 pub(super) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Key {
-    /// `salt` is what else the answer depends on. Neither the order of the faces counts nor which of their corners is first.
+    /// `salt` is what else the answer depends on. Neither the order of the faces counts nor which
+    /// of their corners is first.
     pub fn new(question: Question, salt: u64, star: &[StarFace]) -> Self {
         let corner = |p: DVec3| {
             let mix = |h: u64, x: f64| (h.rotate_left(23) ^ x.to_bits()).wrapping_mul(GOLDEN);
@@ -77,7 +80,8 @@ mod tests {
     #[test]
     fn a_star_is_known_again_whatever_its_faces_order_and_another_is_not() {
         let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
-        let [v, a, b, c] = [at(0.0, 0.0, 1.0), at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(-1.0, -1.0, 0.0)];
+        let [v, a, b, c] =
+            [at(0.0, 0.0, 1.0), at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(-1.0, -1.0, 0.0)];
         let star = |v: DVec3| [[v, a, b], [v, b, c], [v, c, a]].map(|t| StarFace::new(t, None));
         let key = |question, salt, star: &[StarFace]| Key::new(question, salt, star);
         let plain = key(Question::Settle, 24, &star(v));
@@ -88,7 +92,11 @@ mod tests {
             key(Question::Settle, 48, &star(v)),
             key(Question::Settle, 24, &star(v + at(0.0, 0.0, f64::EPSILON))),
             key(Question::Settle, 24, &star(v)[..2]),
-            key(Question::Settle, 24, &[[v, b, a], [v, c, b], [v, a, c]].map(|t| StarFace::new(t, None))),
+            key(
+                Question::Settle,
+                24,
+                &[[v, b, a], [v, c, b], [v, a, c]].map(|t| StarFace::new(t, None)),
+            ),
         ];
         assert!(others.iter().all(|other| *other != plain));
         let mut memo = Memo::default();

@@ -1,7 +1,10 @@
-//! Which cubes of a grid a triangle meets, found by halving blocks of them: a long triangle meets few of those that its box does.
+//! Which cubes of a grid a triangle meets, found by halving blocks of them: a long triangle meets
+//! few of those that its box does.
 //!
-//! A triangle and a box have no point in common if and only if one of thirteen directions has them apart (Akenine-Möller 2001): those of the box's edges, the triangle's
-//! normal, and the products of the edges of both. Any direction proves it, so that only the projections' rounding is allowed for.
+//! A triangle and a box have no point in common if and only if one of thirteen directions has them
+//! apart (Akenine-Möller 2001): those of the box's edges, the triangle's normal, and the products
+//! of the edges of both. Any direction proves it, so that only the projections' rounding is allowed
+//! for.
 
 use super::boxes::Bounds;
 use super::predicates::Triangle;
@@ -10,8 +13,8 @@ use glam::DVec3;
 /// Cubes along each axis: the first and the last.
 pub(super) type Block = [[i64; 2]; 3];
 
-/// Calls `visit` with every cube of a block that a triangle meets, and no others but for rounding. `grown` is the box of a block, larger than it is by more than
-/// rounding.
+/// Calls `visit` with every cube of a block that a triangle meets, and no others but for rounding.
+/// `grown` is the box of a block, larger than it is by more than rounding.
 pub(super) fn visit_met(
     triangle: &Triangle,
     of: Block,
@@ -25,7 +28,8 @@ pub(super) fn visit_met(
             continue;
         }
         let further = block.map(|[from, to]| to - from);
-        let axis = (0..3).fold(0, |most, axis| if further[axis] > further[most] { axis } else { most });
+        let axis =
+            (0..3).fold(0, |most, axis| if further[axis] > further[most] { axis } else { most });
         if further[axis] <= 0 {
             visit(block.map(|[only, _]| only));
             continue;
@@ -55,7 +59,8 @@ struct Slab {
     normal: DVec3,
     from: f64,
     to: f64,
-    /// Not below the normal's length, nor, where that is itself a difference, the lengths it came of.
+    /// Not below the normal's length, nor, where that is itself a difference, the lengths it came
+    /// of.
     size: f64,
 }
 
@@ -65,7 +70,8 @@ impl Sheet {
         let edges = [b - a, c - b, a - c];
         let mut slabs = [Slab::default(); 10];
         let normal = edges[0].cross(c - a);
-        // Its own plane: what rounding makes of the normal moves the corners off it, by less than the size allows for.
+        // Its own plane: what rounding makes of the normal moves the corners off it, by less than
+        // the size allows for.
         slabs[0] = Slab { normal, from: 0.0, to: 0.0, size: edges[0].length() * edges[2].length() };
         let products = edges.into_iter().flat_map(|edge| DVec3::AXES.map(|axis| edge.cross(axis)));
         for (slab, normal) in slabs[1..].iter_mut().zip(products) {
@@ -172,7 +178,9 @@ mod tests {
                 };
                 let sheet = Sheet::new(&triangle);
                 let mut wanted = Vec::new();
-                for (i, j, k) in (0..22i64.pow(3)).map(|n| (n % 22 - 11, n / 22 % 22 - 11, n / 484 - 11)) {
+                for (i, j, k) in
+                    (0..22i64.pow(3)).map(|n| (n % 22 - 11, n / 22 % 22 - 11, n / 484 - 11))
+                {
                     if sheet.reaches(&grown([[i, i], [j, j], [k, k]])) {
                         wanted.push([i, j, k]);
                     }

@@ -1,4 +1,5 @@
-//! The original mesh as that which a hull may not meet: its triangles, its vertices, and one witness of each connected part.
+//! The original mesh as that which a hull may not meet: its triangles, its vertices, and one
+//! witness of each connected part.
 
 use super::boxes::{Bounds, BoxTree};
 use super::cells::{CellTree, Frontier};
@@ -23,14 +24,15 @@ pub(super) struct Obstacle {
     margin: f64,
 }
 
-/// Factor by which the bound of a plane's rounding exceeds `f64`'s unit: the products have eight roundings, and what is kept for nothing
-/// costs one exact test.
+/// Factor by which the bound of a plane's rounding exceeds `f64`'s unit: the products have eight
+/// roundings, and what is kept for nothing costs one exact test.
 const ROUNDINGS: f64 = 4096.0 * f64::EPSILON;
 
 impl Obstacle {
     /// Of positions that are `f32` numbers.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let all: Vec<Triangle> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
+        let all: Vec<Triangle> =
+            triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
         let boxes: Vec<Bounds> = all.iter().map(|t| Bounds::of(t)).collect();
         let (triangle_tree, order) = BoxTree::new(&boxes);
         let triangles_in_order: Vec<Triangle> = order.iter().map(|&i| all[i as usize]).collect();
@@ -77,7 +79,8 @@ impl Obstacle {
         &self.witnesses
     }
 
-    /// Whether a face touches or crosses any triangle: exact; or is not certainly farther from it than the margin.
+    /// Whether a face touches or crosses any triangle: exact; or is not certainly farther from it
+    /// than the margin.
     pub fn meets(&self, face: &Triangle) -> bool {
         if self.margin > 0.0 { self.is_near(face) } else { self.touches(face) }
     }
@@ -122,7 +125,8 @@ impl Obstacle {
         met
     }
 
-    /// Whether a witness lies in a tetrahedron that leaves the hull when the corner opposite to each base moves to `apex`. Exact.
+    /// Whether a witness lies in a tetrahedron that leaves the hull when the corner opposite to
+    /// each base moves to `apex`. Exact.
     pub fn has_witness_in(&self, bases: &[Triangle], apex: DVec3) -> bool {
         let mut found = false;
         for base in bases {
@@ -147,7 +151,8 @@ impl Obstacle {
         self.triangle_cells.frontier(bounds, triangles);
     }
 
-    /// The highest plane that `raise` makes of the vertices in a tetrahedron; see `Search`. Not exact.
+    /// The highest plane that `raise` makes of the vertices in a tetrahedron; see `Search`. Not
+    /// exact.
     #[inline]
     pub fn highest_point(
         &self,
@@ -167,7 +172,8 @@ impl Obstacle {
         highest
     }
 
-    /// As [`highest_point`](Self::highest_point), of the corners of what triangles have in common with the tetrahedron.
+    /// As [`highest_point`](Self::highest_point), of the corners of what triangles have in common
+    /// with the tetrahedron.
     #[inline]
     pub fn highest_piece(
         &self,
@@ -192,7 +198,12 @@ impl Obstacle {
 
     /// Calls `visit` with the vertices in all boxes that pass `keep`, and perhaps others.
     #[inline]
-    pub fn visit_points(&self, near: &Frontier, keep: impl Fn(&Bounds) -> bool, visit: impl Fn(DVec3)) {
+    pub fn visit_points(
+        &self,
+        near: &Frontier,
+        keep: impl Fn(&Bounds) -> bool,
+        visit: impl Fn(DVec3),
+    ) {
         self.point_cells.visit_kept(near, keep, |i| visit(self.points[i]));
     }
 
@@ -219,7 +230,8 @@ impl Obstacle {
         let (found, _) = self.triangle_tree.nearest(p, distance_sq)?;
         let [a, b, c] = self.triangles[found];
         let upper = point_triangle(p, a, b, c).upper;
-        // What the tree passed over is no nearer than that, but for the rounding of a box's distance.
+        // What the tree passed over is no nearer than that, but for the rounding of a box's
+        // distance.
         Some((self.triangles[found], [lower.min(upper * (1.0 - 1e-12)), upper]))
     }
 }
@@ -235,5 +247,8 @@ fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let least = connected(positions.len(), triangles);
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
-    (0..positions.len()).filter(|&v| used[v] && least[v] == v as u32).map(|v| positions[v]).collect()
+    (0..positions.len())
+        .filter(|&v| used[v] && least[v] == v as u32)
+        .map(|v| positions[v])
+        .collect()
 }

@@ -10,10 +10,12 @@ use std::time::Duration;
 pub enum Goal {
     /// At most so many faces, and as little volume as can be had with them.
     Faces(usize),
-    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it; a margin counts as volume beyond. For closed meshes
-    /// that do not overlap themselves; where one is found to, that is an error.
+    /// The fewest faces found whose volume exceeds the mesh's by at most this part of it; a margin
+    /// counts as volume beyond. For closed meshes that do not overlap themselves; where one is
+    /// found to, that is an error.
     Void(f64),
-    /// The fewest faces found of which no point is farther than this from the mesh, in its unit; more than the margin.
+    /// The fewest faces found of which no point is farther than this from the mesh, in its unit;
+    /// more than the margin.
     Slack(f64),
 }
 
@@ -22,15 +24,18 @@ pub enum Goal {
 pub struct Options {
     /// What to reach.
     pub goal: Goal,
-    /// Distance from the mesh that no point of the hull comes within, in its unit; finite and at least 0. With more than 0 every point that is
-    /// no farther from the mesh is inside the hull.
+    /// Distance from the mesh that no point of the hull comes within, in its unit; finite and at
+    /// least 0. With more than 0 every point that is no farther from the mesh is inside the
+    /// hull.
     pub margin: f64,
-    /// How long to polish, as a factor of what suffices for the numbers in `core/DESIGN.md`. The result depends on it and on nothing
-    /// else that is not an input.
+    /// How long to polish, as a factor of what suffices for the numbers in `core/DESIGN.md`. The
+    /// result depends on it and on nothing else that is not an input.
     pub effort: f64,
-    /// When to stop, about; what is had by then depends on the machine: at worst the mesh's box. `None`: never.
+    /// When to stop, about; what is had by then depends on the machine: at worst the mesh's box.
+    /// `None`: never.
     pub time_limit: Option<Duration>,
-    /// Coordinate format of the vertices. [`VertexBits::Auto`]: single precision, whatever the mesh would do with.
+    /// Coordinate format of the vertices. [`VertexBits::Auto`]: single precision, whatever the
+    /// mesh would do with.
     pub vertex_bits: VertexBits,
 }
 
@@ -70,7 +75,8 @@ pub enum Start {
 pub enum Stop {
     /// It reached its goal.
     Reached,
-    /// More faces than asked for: no collapse of an edge kept it closed, embedded, clear of the mesh and of a sound shape.
+    /// More faces than asked for: no collapse of an edge kept it closed, embedded, clear of the
+    /// mesh and of a sound shape.
     Stuck,
     /// Even the finest hull that was tried is looser than asked for.
     TooLoose,
@@ -87,16 +93,18 @@ pub struct Report {
     pub margin: f64,
     /// Volume, in the mesh's unit.
     pub volume: f64,
-    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that against.
+    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that
+    /// against.
     pub void: Result<f64, NoVolume>,
-    /// Whether the mesh crosses or touches itself, which is looked for where a void is asked for: then its volume may count places more than once, and the void be
-    /// more than is said.
+    /// Whether the mesh crosses or touches itself, which is looked for where a void is asked for:
+    /// then its volume may count places more than once, and the void be more than is said.
     pub crosses: bool,
     /// Bounds of the largest distance from a point of the hull to the mesh, in its unit.
     pub slack: Farthest,
     /// What it was made from.
     pub start: Start,
-    /// Closed parts that bounded cavities of the start, or lay or came to lie inside others, and are not in the hull.
+    /// Closed parts that bounded cavities of the start, or lay or came to lie inside others, and
+    /// are not in the hull.
     pub filled: usize,
     /// Why it stopped.
     pub stop: Stop,
@@ -141,8 +149,8 @@ pub enum WrapError {
     Empty,
     /// A void was asked for, and the mesh has no volume to measure it against.
     NoVolume(NoVolume),
-    /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the mesh is as small as the steps of its
-    /// coordinates.
+    /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the
+    /// mesh is as small as the steps of its coordinates.
     NoRoom,
     /// The margin is negative or not a finite number.
     BadMargin,
@@ -158,7 +166,10 @@ pub enum WrapError {
 impl std::fmt::Display for WrapError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         if let WrapError::NoVolume(why) = self {
-            return write!(f, "{why}; there is no volume to measure void against: ask for faces or slack");
+            return write!(
+                f,
+                "{why}; there is no volume to measure void against: ask for faces or slack"
+            );
         }
         if let WrapError::SlackWithinMargin { margin } = self {
             return write!(

@@ -6,10 +6,12 @@ use crate::mesh::{Enclosure, Mesh, require_closed_manifold};
 use glam::Vec3;
 use rustc_hash::FxHashMap;
 
-/// Splits a mesh into its connected parts, by shared vertices; what lies inside a closed part stays with it, as cavities do. In the order of their
-/// first triangles; `source` refers to what the mesh's refers to.
+/// Splits a mesh into its connected parts, by shared vertices; what lies inside a closed part stays
+/// with it, as cavities do. In the order of their first triangles; `source` refers to what the
+/// mesh's refers to.
 ///
-/// Cost: n log n, and one test of a point for each part and each closed part whose box holds that point.
+/// Cost: n log n, and one test of a point for each part and each closed part whose box holds that
+/// point.
 #[must_use]
 pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
     let least = connected(mesh.positions.len(), &mesh.triangles);
@@ -31,7 +33,9 @@ pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
         .iter()
         .enumerate()
         .filter(|(_, part)| bounds_a_volume(&select.take(part)))
-        .map(|(i, part)| (i, Enclosure::new(part.iter().filter_map(|&t| mesh.corners(t)).collect())))
+        .map(|(i, part)| {
+            (i, Enclosure::new(part.iter().filter_map(|&t| mesh.corners(t)).collect()))
+        })
         .collect();
     let around = around(mesh, &loose, &closed);
     let mut grouped: Vec<Vec<usize>> = vec![Vec::new(); loose.len()];
@@ -52,7 +56,8 @@ pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
 
 /// For each part the closed ones that hold its first vertex, in order.
 fn around(mesh: &Mesh, loose: &[Vec<usize>], closed: &[(usize, Enclosure)]) -> Vec<Vec<usize>> {
-    let boxes: Vec<Bounds> = closed.iter().map(|(_, enclosure)| Bounds::around(enclosure)).collect();
+    let boxes: Vec<Bounds> =
+        closed.iter().map(|(_, enclosure)| Bounds::around(enclosure)).collect();
     let (tree, order) = BoxTree::new(&boxes);
     let around = |(i, part): (usize, &Vec<usize>)| {
         let mut found = Vec::new();
@@ -78,7 +83,8 @@ fn around(mesh: &Mesh, loose: &[Vec<usize>], closed: &[(usize, Enclosure)]) -> V
 /// A mesh and the further triangles, by their corners, that its hull has to enclose.
 pub type Shared = (Mesh, Vec<[[f32; 3]; 3]>);
 
-/// Gives each of further triangles, by their corners, to the first part that has a vertex in the same place. Those that no part has are parts of their own, at the end.
+/// Gives each of further triangles, by their corners, to the first part that has a vertex in the
+/// same place. Those that no part has are parts of their own, at the end.
 #[must_use]
 pub fn share(parts: Vec<Mesh>, further: &[[[f32; 3]; 3]]) -> Vec<Shared> {
     // Both zeros are one place.
@@ -114,15 +120,18 @@ pub fn share(parts: Vec<Mesh>, further: &[[[f32; 3]; 3]]) -> Vec<Shared> {
 
 /// Whether a part is closed, cavity or solid: turned inside out, a cavity is a solid.
 fn bounds_a_volume(part: &Mesh) -> bool {
-    let turned =
-        Mesh { triangles: part.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(), ..part.clone() };
+    let turned = Mesh {
+        triangles: part.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
+        ..part.clone()
+    };
     require_closed_manifold(part).is_ok() || require_closed_manifold(&turned).is_ok()
 }
 
 /// Takes parts out of a mesh in time that does not depend on how many there are.
 struct Selection<'a> {
     mesh: &'a Mesh,
-    /// Per vertex of the mesh its number in the part that is being taken, and `u32::MAX` otherwise.
+    /// Per vertex of the mesh its number in the part that is being taken, and `u32::MAX`
+    /// otherwise.
     number: Vec<u32>,
 }
 
@@ -146,7 +155,10 @@ impl<'a> Selection<'a> {
                 *number
             }));
         }
-        triangles.iter().flat_map(|&t| mesh.triangles[t]).for_each(|v| number[v as usize] = u32::MAX);
+        triangles
+            .iter()
+            .flat_map(|&t| mesh.triangles[t])
+            .for_each(|v| number[v as usize] = u32::MAX);
         part
     }
 }
@@ -159,7 +171,8 @@ mod tests {
         let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0f32]];
         let positions = positions.map(|p| p.map(|x| x * size + at)).to_vec();
         let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3u32]];
-        let triangles = triangles.map(|[a, b, c]| if inward { [a, c, b] } else { [a, b, c] }).to_vec();
+        let triangles =
+            triangles.map(|[a, b, c]| if inward { [a, c, b] } else { [a, b, c] }).to_vec();
         (positions, triangles)
     }
 

@@ -1,9 +1,11 @@
 //! Where the vertex of a changed star goes: as deep as the original mesh lets it.
 //!
-//! The volume below a star is linear in its vertex `x`. A new face turns about its ring edge as `x` moves, and what it may not pass is the
-//! mesh. So this is a linear program whose planes are found on the way: solve it, look for mesh in the tetrahedra between the old faces and the
-//! new vertex, add for each ring edge the plane through the edge and the point that stands out most, and solve again. A plane is only ever
-//! replaced by a steeper one about the same edge, and mesh behind the hull that the move does not reach adds none.
+//! The volume below a star is linear in its vertex `x`. A new face turns about its ring edge as `x`
+//! moves, and what it may not pass is the mesh. So this is a linear program whose planes are found
+//! on the way: solve it, look for mesh in the tetrahedra between the old faces and the new vertex,
+//! add for each ring edge the plane through the edge and the point that stands out most, and solve
+//! again. A plane is only ever replaced by a steeper one about the same edge, and mesh behind the
+//! hull that the move does not reach adds none.
 //!
 //! All is floating point: what is found here is proved, or refused, in `admits`.
 
@@ -49,7 +51,8 @@ pub(super) struct Wish {
     pub second_term: f64,
     /// Added to the direction of least volume, as a part of its length.
     pub tilt: DVec3,
-    /// Least part of a face's area that its new face keeps when it is seen along the old normal; `None`: any.
+    /// Least part of a face's area that its new face keeps when it is seen along the old normal;
+    /// `None`: any.
     pub upright: Option<f64>,
     /// Distance that is kept from each plane.
     pub clearance: f64,
@@ -105,7 +108,8 @@ impl Placer {
             self.planes.extend(&self.fixed);
             let x = minimise_bounded(objective, &mut self.planes, wish.second_term)?;
             let x = centre + x * radius;
-            // Vertices of the mesh are cheap to look for and find nearly every plane; edges are looked at once no vertex is in the way.
+            // Vertices of the mesh are cheap to look for and find nearly every plane; edges are
+            // looked at once no vertex is in the way.
             let near = if reach.with(x) == reach { &near } else { &everywhere };
             let search = |edges: bool| Search { obstacle, near, edges };
             let mut clear = [false, true]
@@ -147,7 +151,8 @@ impl Placer {
         (area > 0.0).then(|| objective / area)
     }
 
-    /// Adds a plane for every new face that has mesh in front of it, and says whether there was none.
+    /// Adds a plane for every new face that has mesh in front of it, and says whether there was
+    /// none.
     fn cut(
         &mut self,
         star: &[StarFace],
@@ -162,10 +167,16 @@ impl Placer {
         for (face, cut) in star.iter().zip(&mut self.cuts) {
             let rises = face.normal.dot(x - face.corners[0]) >= -tolerance;
             let found = match face.ring {
-                // A face that rises cuts nothing off, but may turn towards what it has to keep away from.
+                // A face that rises cuts nothing off, but may turn towards what it has to keep away
+                // from.
                 Some(ring) if margin > 0.0 => {
-                    let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
-                    if search.edges { sweep.pieces(&search.near[1]) } else { sweep.points(&search.near[0]) }
+                    let sweep =
+                        Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+                    if search.edges {
+                        sweep.pieces(&search.near[1])
+                    } else {
+                        sweep.points(&search.near[0])
+                    }
                 }
                 _ if rises => None,
                 Some(ring) => turned(face, ring, frame, x, clearance / frame.radius, search),
@@ -179,7 +190,8 @@ impl Placer {
         clear
     }
 
-    /// Adds a plane for every new face that the mesh comes near from the side, and says whether there was none.
+    /// Adds a plane for every new face that the mesh comes near from the side, and says whether
+    /// there was none.
     fn push_apart(
         &mut self,
         star: &[StarFace],
@@ -199,7 +211,8 @@ impl Placer {
     }
 }
 
-/// The plane about a ring edge that keeps the new face above the mesh below the old one; `clearance` in the frame's unit.
+/// The plane about a ring edge that keeps the new face above the mesh below the old one;
+/// `clearance` in the frame's unit.
 fn turned(
     face: &StarFace,
     [a, b]: [DVec3; 2],
@@ -232,7 +245,8 @@ fn turned(
     })
 }
 
-/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` in the frame's unit.
+/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` in the
+/// frame's unit.
 fn raised(
     face: &StarFace,
     frame: &Frame,
@@ -265,9 +279,13 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each must be above the one before, so that points
-    /// below it need not be looked at.
-    fn highest(&self, tetrahedron: &Tetrahedron, raise: impl Fn(DVec3) -> Option<Plane>) -> Option<Plane> {
+    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each must be
+    /// above the one before, so that points below it need not be looked at.
+    fn highest(
+        &self,
+        tetrahedron: &Tetrahedron,
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
         if self.edges {
             self.obstacle.highest_piece(&self.near[1], tetrahedron, raise)
         } else {

@@ -62,7 +62,8 @@ impl Polish {
         Self { dice: Dice::new(1), from, until: from.saturating_add(stars as u64) }
     }
 
-    /// Exchanges, flips and kicks in rounds until the stars are used up, the time is, or nothing is gained. `volume` is what no hull gets below.
+    /// Exchanges, flips and kicks in rounds until the stars are used up, the time is, or nothing is
+    /// gained. `volume` is what no hull gets below.
     pub fn run(&mut self, work: &mut Work<'_>, volume: f64, mut on_progress: impl FnMut(u64, u64)) {
         work.limit = Some(self.until);
         work.relax(volume, 2e-3, 30);
@@ -104,7 +105,8 @@ impl Work<'_> {
         }
     }
 
-    /// Pulls every vertex once in a random direction and lets it and its neighbours settle; keeps what loses volume. How many did.
+    /// Pulls every vertex once in a random direction and lets it and its neighbours settle; keeps
+    /// what loses volume. How many did.
     pub fn kick_all(&mut self, dice: &mut Dice, strength: f64) -> usize {
         let mut kept = 0;
         for v in 0..self.shell.vertex_slots() {
@@ -122,8 +124,12 @@ impl Work<'_> {
         let mut around: Vec<u32> = self.shell.mesh.neighbours(v).collect();
         around.push(v);
         let before: Vec<DVec3> = around.iter().map(|&u| self.shell.position(u)).collect();
-        let wish =
-            Wish { second_term: 0.3, tilt: dice.direction() * strength, upright: Some(0.1), clearance: 0.0 };
+        let wish = Wish {
+            second_term: 0.3,
+            tilt: dice.direction() * strength,
+            upright: Some(0.1),
+            clearance: 0.0,
+        };
         let Some(mut gained) = self.disturb(v, &wish) else { return false };
         let radius = self.star_radius(before[before.len() - 1]);
         for &u in &around {

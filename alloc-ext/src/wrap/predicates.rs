@@ -1,7 +1,8 @@
 //! Whether triangles meet, decided exactly for any finite `f32` coordinates.
 //!
-//! Every answer is a sign of `robust`'s adaptive determinants, so none depends on a tolerance. Triangles are closed: to touch is to
-//! meet. Coordinates are `f32` numbers held in `f64`: their products of three have no bit below 2^-447, so that nothing underflows.
+//! Every answer is a sign of `robust`'s adaptive determinants, so none depends on a tolerance.
+//! Triangles are closed: to touch is to meet. Coordinates are `f32` numbers held in `f64`: their
+//! products of three have no bit below 2^-447, so that nothing underflows.
 
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -13,10 +14,11 @@ fn coord(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
 
-/// Part of a determinant's size, as the product of the sums of its rows' entries, that its rounding stays below.
+/// Part of a determinant's size, as the product of the sums of its rows' entries, that its rounding
+/// stays below.
 ///
-/// Each entry is a difference of coordinates, rounded once; the determinant is three sums of three products, each of which is off by less
-/// than eight roundings of its size, and nothing underflows.
+/// Each entry is a difference of coordinates, rounded once; the determinant is three sums of three
+/// products, each of which is off by less than eight roundings of its size, and nothing underflows.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Positive where `p` is in front of the triangle's plane, 0 on it. Only the sign means anything.
@@ -25,7 +27,11 @@ pub(super) fn side([a, b, c]: &Triangle, p: DVec3) -> f64 {
     let sum = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
     let (ab, ac, ap) = (*b - *a, *c - *a, p - *a);
     let height = ab.cross(ac).dot(ap);
-    if height.abs() > ROUNDING * sum(ab) * sum(ac) * sum(ap) { height } else { exact_side(a, b, c, p) }
+    if height.abs() > ROUNDING * sum(ab) * sum(ac) * sum(ap) {
+        height
+    } else {
+        exact_side(a, b, c, p)
+    }
 }
 
 #[cold]
@@ -34,7 +40,8 @@ fn exact_side(a: &DVec3, b: &DVec3, c: &DVec3, p: DVec3) -> f64 {
     -orient3d(coord(*a), coord(*b), coord(*c), coord(p))
 }
 
-/// The plane in which a triangle does not collapse, as the pair of coordinates that is kept; `None` if it has no area.
+/// The plane in which a triangle does not collapse, as the pair of coordinates that is kept; `None`
+/// if it has no area.
 fn projection(t: &Triangle) -> Option<[usize; 2]> {
     [[0, 1], [1, 2], [2, 0]].into_iter().find(|&axes| turn(axes, t[0], t[1], t[2]) != 0.0)
 }
@@ -67,7 +74,8 @@ pub(super) fn meet(s: &Triangle, t: &Triangle) -> bool {
     edges_meet(t, of_t, s) || edges_meet(s, of_s, t)
 }
 
-/// Whether an edge of `s`, whose corners lie on the given sides of `t`'s plane, meets `t`. If `t` has no area: false.
+/// Whether an edge of `s`, whose corners lie on the given sides of `t`'s plane, meets `t`. If `t`
+/// has no area: false.
 fn edges_meet(s: &Triangle, sides: [f64; 3], t: &Triangle) -> bool {
     (0..3).any(|i| {
         let j = (i + 1) % 3;
@@ -75,7 +83,8 @@ fn edges_meet(s: &Triangle, sides: [f64; 3], t: &Triangle) -> bool {
     })
 }
 
-/// Whether a closed segment, whose ends lie on the given sides of `t`'s plane, meets `t`. If `t` has no area: false.
+/// Whether a closed segment, whose ends lie on the given sides of `t`'s plane, meets `t`. If `t`
+/// has no area: false.
 fn segment_meets([p, q]: [DVec3; 2], [of_p, of_q]: [f64; 2], t: &Triangle) -> bool {
     if (of_p > 0.0 && of_q > 0.0) || (of_p < 0.0 && of_q < 0.0) {
         return false;
@@ -87,13 +96,16 @@ fn segment_meets([p, q]: [DVec3; 2], [of_p, of_q]: [f64; 2], t: &Triangle) -> bo
     !(turns.iter().any(|&s| s > 0.0) && turns.iter().any(|&s| s < 0.0))
 }
 
-/// Two convex sets of a plane are disjoint if and only if a line along an edge of one of them has them strictly on its two sides.
+/// Two convex sets of a plane are disjoint if and only if a line along an edge of one of them has
+/// them strictly on its two sides.
 fn coplanar_segment_meets([p, q]: [DVec3; 2], t: &Triangle) -> bool {
     let Some(axes) = projection(t) else { return false };
     let winding = turn(axes, t[0], t[1], t[2]);
     for i in 0..3 {
         let (a, b) = (t[i], t[(i + 1) % 3]);
-        if turn(axes, a, b, p) * winding.signum() < 0.0 && turn(axes, a, b, q) * winding.signum() < 0.0 {
+        if turn(axes, a, b, p) * winding.signum() < 0.0
+            && turn(axes, a, b, q) * winding.signum() < 0.0
+        {
             return false;
         }
     }
@@ -107,14 +119,16 @@ pub(super) struct Face {
     pub at: Triangle,
 }
 
-/// Whether two faces with area have no more points in common than the corners or the edge that they share.
+/// Whether two faces with area have no more points in common than the corners or the edge that they
+/// share.
 pub(super) fn are_apart(s: &Face, t: &Face) -> bool {
     let shared = |ids: &[u32; 3], other: &[u32; 3]| ids.map(|id| other.contains(&id));
     let (in_t, in_s) = (shared(&s.ids, &t.ids), shared(&t.ids, &s.ids));
     match in_t.iter().filter(|&&is| is).count() {
         0 => !meet(&s.at, &t.at),
         1 => {
-            // What is common to both is convex and has the shared corner: if it has more, it reaches an edge opposite to it.
+            // What is common to both is convex and has the shared corner: if it has more, it
+            // reaches an edge opposite to it.
             let opposite = |face: &Face, shared: [bool; 3]| {
                 let at = shared.iter().position(|&is| is).unwrap_or_default();
                 [face.at[(at + 1) % 3], face.at[(at + 2) % 3]]
@@ -139,7 +153,8 @@ pub(super) fn are_apart(s: &Face, t: &Face) -> bool {
     }
 }
 
-/// Whether `p` is in the closed tetrahedron `apex`, `base` and `apex` is not in front of the base; a flat one counts as well.
+/// Whether `p` is in the closed tetrahedron `apex`, `base` and `apex` is not in front of the base;
+/// a flat one counts as well.
 pub(super) fn in_sunken(base: &Triangle, apex: DVec3, p: DVec3) -> bool {
     if side(base, apex) > 0.0 || side(base, p) > 0.0 {
         return false;

@@ -1,4 +1,5 @@
-//! What a move would cut off the hull, in floating point: where the planes of a program come from. Nothing is proved here.
+//! What a move would cut off the hull, in floating point: where the planes of a program come from.
+//! Nothing is proved here.
 
 use super::boxes::Bounds;
 use super::predicates::Triangle;
@@ -39,7 +40,8 @@ pub(super) struct Tetrahedron {
     bounds: Bounds,
 }
 
-/// Triangles whose corners are nearly on a line have no plane: those with less than this part of their edges' squares as area.
+/// Triangles whose corners are nearly on a line have no plane: those with less than this part of
+/// their edges' squares as area.
 const FLAT: f64 = 1e-10;
 
 /// Corners of a triangle that was cut by four planes: each adds at most one.
@@ -96,7 +98,8 @@ impl Tetrahedron {
         self.planes.iter().all(|plane| plane.holds(p))
     }
 
-    /// Whether all of a triangle is on the wrong side of a plane, or all of the tetrahedron on one side of the triangle.
+    /// Whether all of a triangle is on the wrong side of a plane, or all of the tetrahedron on one
+    /// side of the triangle.
     #[inline]
     fn misses(&self, triangle: &Triangle) -> bool {
         let [a, b, c] = *triangle;

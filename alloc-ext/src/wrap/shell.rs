@@ -1,4 +1,5 @@
-//! The hull while it is worked on: triangles, positions, and the faces' boxes to find neighbours by.
+//! The hull while it is worked on: triangles, positions, and the faces' boxes to find neighbours
+//! by.
 
 use super::boxes::Bounds;
 use super::placement::StarFace;
@@ -14,7 +15,8 @@ pub(super) struct Shell {
     boxes: FaceBoxes,
 }
 
-/// Boxes of the faces, one array an axis: a scan of thousands costs less than a tree that every move changes. `f32` holds them exactly.
+/// Boxes of the faces, one array an axis: a scan of thousands costs less than a tree that every
+/// move changes. `f32` holds them exactly.
 #[derive(Clone, Debug, Default)]
 struct FaceBoxes {
     low: [Vec<f32>; 3],
@@ -117,7 +119,8 @@ impl Shell {
         Face { ids: self.mesh.corners[f as usize], at: self.triangle(f) }
     }
 
-    /// Calls `visit` with every face whose box meets `bounds`, until it returns false; whether it never did.
+    /// Calls `visit` with every face whose box meets `bounds`, until it returns false; whether it
+    /// never did.
     pub fn near(&self, bounds: &Bounds, visit: impl FnMut(u32) -> bool) -> bool {
         self.boxes.visit(bounds, visit)
     }

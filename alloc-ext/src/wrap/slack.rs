@@ -1,8 +1,10 @@
 //! How far a hull is from the mesh, and moves that bring it nearer.
 //!
-//! Least volume alone lets a thin spike stand: it costs next to nothing. Where a slack is asked for, every move keeps the faces that it makes
-//! within [`Work::reach`] of the mesh, and a hull that is farther is first brought there: the worst face's corners are pulled towards the mesh, its
-//! edges are collapsed, flipped and split, each time to where the worst of the new faces is nearer than the worst of the old.
+//! Least volume alone lets a thin spike stand: it costs next to nothing. Where a slack is asked
+//! for, every move keeps the faces that it makes within [`Work::reach`] of the mesh, and a hull
+//! that is farther is first brought there: the worst face's corners are pulled towards the mesh,
+//! its edges are collapsed, flipped and split, each time to where the worst of the new faces is
+//! nearer than the worst of the old.
 
 use super::decimate::Candidate;
 use super::field::Field;
@@ -25,7 +27,8 @@ pub(super) fn slack(shell: &Shell, obstacle: &Obstacle) -> Farthest {
     farthest(shell.alive().map(|f| shell.triangle(f)), 0.0, |p| nearest(obstacle, p))
 }
 
-/// Pieces that a face is cut into at most to see whether it is in reach: where they do not tell, it counts as out of it.
+/// Pieces that a face is cut into at most to see whether it is in reach: where they do not tell, it
+/// counts as out of it.
 const PIECES: usize = 4000;
 
 /// Steps of the field in a slack.
@@ -44,7 +47,8 @@ const SPLIT: usize = 2;
 const SPLIT_BESIDES: usize = 500;
 
 /// Pulls a vertex to a place, whatever volume that costs.
-const PULL: Wish = Wish { second_term: 1e3, tilt: DVec3::ZERO, upright: Some(0.01), clearance: 0.0 };
+const PULL: Wish =
+    Wish { second_term: 1e3, tilt: DVec3::ZERO, upright: Some(0.01), clearance: 0.0 };
 
 impl Work<'_> {
     /// Whether no point of a face is farther from the mesh than [`reach`](Self::reach).
@@ -64,7 +68,10 @@ impl Work<'_> {
     pub fn is_star_in_reach(&mut self, star: &[StarFace], x: DVec3) -> bool {
         self.reach == f64::INFINITY
             || self.field.about(self.obstacle, x)[0] <= self.reach
-                && star.iter().filter_map(|face| face.ring).all(|[a, b]| self.is_in_reach(&[x, a, b]))
+                && star
+                    .iter()
+                    .filter_map(|face| face.ring)
+                    .all(|[a, b]| self.is_in_reach(&[x, a, b]))
     }
 
     /// Whether a slack is kept.
@@ -85,14 +92,15 @@ impl Work<'_> {
         }
     }
 
-    /// Not below the largest distance of some faces from the mesh, as far as it is more than `enough`.
+    /// Not below the largest distance of some faces from the mesh, as far as it is more than
+    /// `enough`.
     fn distance(&self, faces: &[u32], enough: f64) -> f64 {
         let corners = faces.iter().map(|&f| self.shell.triangle(f));
         farthest(corners, enough, |p| nearest(self.obstacle, p)).upper
     }
 
-    /// Brings every face within a distance of the mesh and keeps it there from then on; false, and the reach is as before, if some stay outside or
-    /// the time is up.
+    /// Brings every face within a distance of the mesh and keeps it there from then on; false, and
+    /// the reach is as before, if some stay outside or the time is up.
     pub fn come_within(&mut self, most: f64) -> bool {
         let before = self.reach;
         self.stay_within(most);
@@ -150,7 +158,8 @@ impl Work<'_> {
         }
     }
 
-    /// Tries the moves around a face until one brings what it changes nearer: the faces that it made.
+    /// Tries the moves around a face until one brings what it changes nearer: the faces that it
+    /// made.
     fn bring_nearer(&mut self, f: u32, most: f64) -> Option<Vec<u32>> {
         let [a, b, c] = self.shell.mesh.corners[f as usize];
         // The farthest corner first.

@@ -1,8 +1,9 @@
 //! The first hull: one that satisfies the invariant of `work`, proved face by face.
 //!
-//! A level of the progressive hull is the best of starts, and may touch the mesh, and itself: its vertices are lifted by a few steps of the
-//! grid. If that does not prove it, a finer level may do. Where there is none, because the mesh is open, or its parts cross, the start is its
-//! closure, or a progressive hull of that.
+//! A level of the progressive hull is the best of starts, and may touch the mesh, and itself: its
+//! vertices are lifted by a few steps of the grid. If that does not prove it, a finer level may do.
+//! Where there is none, because the mesh is open, or its parts cross, the start is its closure, or
+//! a progressive hull of that.
 
 use super::boxes::{Bounds, BoxTree};
 use super::closure::closure;
@@ -38,13 +39,14 @@ pub(super) struct Place<'a> {
     pub deadline: Option<Instant>,
 }
 
-/// Faces of the level to start from: enough to choose from for `wanted`, and no more, for each costs a collapse.
+/// Faces of the level to start from: enough to choose from for `wanted`, and no more, for each
+/// costs a collapse.
 fn plenty(wanted: usize) -> usize {
     wanted.saturating_add(wanted / 2).saturating_add(800)
 }
 
-/// Levels that are tried: [`plenty`] times 2 to this, in this order. Finer ones are closer to the mesh; coarser ones pass over places where the mesh
-/// crosses itself.
+/// Levels that are tried: [`plenty`] times 2 to this, in this order. Finer ones are closer to the
+/// mesh; coarser ones pass over places where the mesh crosses itself.
 const LEVELS: [i32; 7] = [0, 1, -1, 2, -2, 3, -3];
 
 /// Faces that no level is coarser than.
@@ -55,11 +57,13 @@ const LEAST_FACES: usize = 40;
 pub(super) struct Levels {
     /// The first of [`LEVELS`] that proves to be one: the choice where the mesh is round.
     pub plenty: Option<First>,
-    /// The level with the wanted faces, if it proves to be one: the choice where that is the solid itself, as it may be on blocks with few flat faces.
+    /// The level with the wanted faces, if it proves to be one: the choice where that is the solid
+    /// itself, as it may be on blocks with few flat faces.
     pub wanted: Option<First>,
 }
 
-/// The levels of the progressive hull that are hulls to start from, if they are found before the deadline.
+/// The levels of the progressive hull that are hulls to start from, if they are found before the
+/// deadline.
 pub(super) fn first_levels(
     &Place { stored, obstacle, rounding, deadline }: &Place<'_>,
     mesh: &Mesh,
@@ -67,11 +71,13 @@ pub(super) fn first_levels(
     on_progress: &mut dyn FnMut(Progress),
 ) -> Levels {
     let conditions = Conditions::PAPER;
-    let from = Surface { positions: &stored.positions, triangles: &mesh.triangles, stored, conditions };
+    let from =
+        Surface { positions: &stored.positions, triangles: &mesh.triangles, stored, conditions };
     let mut hulls = |thins| {
         let mut levels = from.levels(wanted, thins, deadline, on_progress).unwrap_or_default();
         let mut first = |level: Option<i32>| {
-            let (_, (positions, triangles)) = levels.remove(levels.iter().position(|(l, _)| *l == level)?);
+            let (_, (positions, triangles)) =
+                levels.remove(levels.iter().position(|(l, _)| *l == level)?);
             let mut shell = Shell::new(positions, &triangles);
             let faces = shell.face_count();
             lift(&mut shell, &rounding, obstacle.margin());
@@ -87,7 +93,8 @@ pub(super) fn first_levels(
     if thinned.plenty.is_some() { thinned } else { hulls(false) }
 }
 
-/// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's levels that does not meet itself, if it is found before the deadline.
+/// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's
+/// levels that does not meet itself, if it is found before the deadline.
 pub(super) fn first_closure(
     &Place { stored, obstacle, rounding, deadline }: &Place<'_>,
     cells: usize,
@@ -115,16 +122,19 @@ pub(super) fn first_closure(
     for thins in if from.is_thinned(wanted) { &[true, false][..] } else { &[false] } {
         let mut levels = from.levels(wanted, *thins, deadline, on_progress)?;
         let tried = if *thins { &LEVELS[..1] } else { &LEVELS };
-        let first = tried
-            .iter()
-            .filter(|&&level| level >= 0)
-            .find_map(|&level| hull(levels.remove(levels.iter().position(|(l, _)| *l == Some(level))?).1));
+        let first = tried.iter().filter(|&&level| level >= 0).find_map(|&level| {
+            hull(levels.remove(levels.iter().position(|(l, _)| *l == Some(level))?).1)
+        });
         if first.is_some() {
             return first;
         }
     }
     // The closure itself never does, but each of its faces costs a collapse against the mesh.
-    if closure.triangles.len() <= MOST_FACES { hull((closure.positions, closure.triangles)) } else { None }
+    if closure.triangles.len() <= MOST_FACES {
+        hull((closure.positions, closure.triangles))
+    } else {
+        None
+    }
 }
 
 /// The mesh's box, a few steps of the grid larger.
@@ -138,11 +148,16 @@ pub(super) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<Firs
             let pick = |bit: u32, low: f64, high: f64| if c & bit == 0 { low } else { high };
             DVec3::new(pick(1, low.x, high.x), pick(2, low.y, high.y), pick(4, low.z, high.z))
         };
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let quads =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles: Vec<[u32; 3]> =
             quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
         let shell = Shell::new((0..8).map(corner).collect(), &triangles);
-        defects(&shell, obstacle).is_empty().then_some(First { shell, start: Start::Box, filled: 0 })
+        defects(&shell, obstacle).is_empty().then_some(First {
+            shell,
+            start: Start::Box,
+            filled: 0,
+        })
     })
 }
 
@@ -152,13 +167,15 @@ const SLICE: usize = 1000;
 /// Faces of a closure that is a first hull itself.
 const MOST_FACES: usize = 10_000;
 
-/// What the hull of a closure may do to its shape where it has to stay near. Closures of what is oblique are stairs, of which the paper's conditions
-/// refuse most collapses, and what is left stands out.
+/// What the hull of a closure may do to its shape where it has to stay near. Closures of what is
+/// oblique are stairs, of which the paper's conditions refuse most collapses, and what is left
+/// stands out.
 pub(super) const OF_STAIRS: Conditions =
     Conditions { compactness_ratio: 0.2, min_normal_cosine: 0.2, ..Conditions::PAPER };
 
-/// Compactness that may be lost before a level: the hull that comes of it is shrunk onto the mesh, so that needles do little harm, while the paper's
-/// condition refuses most collapses of a fine mesh.
+/// Compactness that may be lost before a level: the hull that comes of it is shrunk onto the mesh,
+/// so that needles do little harm, while the paper's condition refuses most collapses of a fine
+/// mesh.
 const THINNING: f64 = 0.4;
 
 /// Positions and triangles.
@@ -178,14 +195,17 @@ struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// Whether it has more faces than the finest level, so that it makes a difference whether it thins.
+    /// Whether it has more faces than the finest level, so that it makes a difference whether it
+    /// thins.
     fn is_thinned(&self, wanted: usize) -> bool {
         self.triangles.len() > finest_level(wanted)
     }
 
-    /// Levels of the progressive hull in the mesh's frame, each with its number: level `n` has [`plenty`] times 2^n faces, the one without number has
-    /// `wanted`, or as few as the hull can be brought down to; level 0 and that without number may be the surface itself. If it `thins`, what is more
-    /// than the finest level has is [thinned](thin) first. `None` if the deadline passes first.
+    /// Levels of the progressive hull in the mesh's frame, each with its number: level `n` has
+    /// [`plenty`] times 2^n faces, the one without number has `wanted`, or as few as the hull
+    /// can be brought down to; level 0 and that without number may be the surface itself. If it
+    /// `thins`, what is more than the finest level has is [thinned](thin) first. `None` if the
+    /// deadline passes first.
     fn levels(
         &self,
         wanted: usize,
@@ -222,9 +242,11 @@ impl Surface<'_> {
         if is_late() {
             return None;
         }
-        let (positions, triangles) =
-            thinned.as_ref().map_or((positions, triangles), |(positions, triangles)| (positions, triangles));
-        let mut engine = Engine::new(positions, triangles, conditions, Priority::Program, stored.grid);
+        let (positions, triangles) = thinned
+            .as_ref()
+            .map_or((positions, triangles), |(positions, triangles)| (positions, triangles));
+        let mut engine =
+            Engine::new(positions, triangles, conditions, Priority::Program, stored.grid);
         let scale = exp2(stored.scale_exponent);
         let mut levels = Vec::new();
         for (level, faces) in counts {
@@ -269,8 +291,9 @@ fn compact(positions: &[DVec3], triangles: &[[u32; 3]]) -> Faces {
 /// Lifts of a vertex in half-steps of the grid, until one is strictly outside of every face.
 const LIFTS: [f64; 5] = [3.0, 6.0, 12.0, 48.0, 192.0];
 
-/// Moves every vertex strictly outside of all planes of its star, by the margin and a few steps of the grid: then the hull lies strictly outside of
-/// where it was. A vertex without such a place goes into a neighbour, where the two have one together; one that has not stays.
+/// Moves every vertex strictly outside of all planes of its star, by the margin and a few steps of
+/// the grid: then the hull lies strictly outside of where it was. A vertex without such a place
+/// goes into a neighbour, where the two have one together; one that has not stays.
 pub(super) fn lift(shell: &mut Shell, rounding: &Rounding, margin: f64) {
     let mut star = Vec::new();
     let mut left = Vec::new();
@@ -304,11 +327,13 @@ pub(super) fn lift(shell: &mut Shell, rounding: &Rounding, margin: f64) {
     }
 }
 
-/// The point nearest to `from`, about, that is strictly outside of all planes of a star, and farther by the margin, about; the first is exact.
+/// The point nearest to `from`, about, that is strictly outside of all planes of a star, and
+/// farther by the margin, about; the first is exact.
 fn lifted(star: &[StarFace], from: DVec3, rounding: &Rounding, margin: f64) -> Option<DVec3> {
     let step = rounding.half_step(from.abs().max_element());
     LIFTS.into_iter().find_map(|lift| {
-        // In half-steps, so that the program's tolerances are far below one; where there is a margin, in what is near it.
+        // In half-steps, so that the program's tolerances are far below one; where there is a
+        // margin, in what is near it.
         let (unit, height) = if margin > 0.0 {
             (step + margin, (step * lift + margin) / (step + margin))
         } else {
@@ -358,8 +383,8 @@ fn enclosure(shell: &Shell, faces: &[u32]) -> Enclosure {
     Enclosure::new(faces.iter().map(|&f| shell.triangle(f).map(single)).collect())
 }
 
-/// Drops parts of the surface that bound cavities, and parts inside others: what is left has the same outside. How many were dropped. For a
-/// surface that does not meet itself.
+/// Drops parts of the surface that bound cavities, and parts inside others: what is left has the
+/// same outside. How many were dropped. For a surface that does not meet itself.
 pub(super) fn keep_outermost(shell: Shell) -> (Shell, usize) {
     let all = parts(&shell);
     if all.len() < 2 {
@@ -446,14 +471,17 @@ mod tests {
     use super::*;
     use crate::wrap::polish::Dice;
 
-    /// Tetrahedra at the points of a lattice, every third with another in it, and every sixth with one in that.
+    /// Tetrahedra at the points of a lattice, every third with another in it, and every sixth with
+    /// one in that.
     fn tetrahedra(side: usize) -> (Shell, usize) {
         let (mut positions, mut triangles) = (Vec::new(), Vec::new());
         let mut add = |at: DVec3, size: f64| {
             let first = positions.len() as u32;
             let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
             positions.extend(corners.map(|p| (at + p * size).as_vec3().as_dvec3()));
-            triangles.extend([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3u32]].map(|t| t.map(|v| v + first)));
+            triangles.extend(
+                [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3u32]].map(|t| t.map(|v| v + first)),
+            );
         };
         let mut dice = Dice::new(3);
         let mut within = 0;

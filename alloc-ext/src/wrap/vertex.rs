@@ -5,14 +5,17 @@ use super::placement::Wish;
 use super::work::Work;
 use glam::DVec3;
 
-/// Half-steps of the grid kept from planes, by attempt: rounding moves a vertex by less than two, and what the first do not prove the last may.
+/// Half-steps of the grid kept from planes, by attempt: rounding moves a vertex by less than two,
+/// and what the first do not prove the last may.
 pub(super) const CLEARANCES: [f64; 2] = [4.0, 16.0];
 
-/// Volumes that differ by less than this part of the star's radius cubed are equal: moves must come to an end, and each makes the stars around ask
-/// anew. With a thousandth of it half the answers are asked for again.
+/// Volumes that differ by less than this part of the star's radius cubed are equal: moves must come
+/// to an end, and each makes the stars around ask anew. With a thousandth of it half the answers
+/// are asked for again.
 pub(super) const GAIN: f64 = 1e-6;
 
-/// A plain vertex move: a pull strong enough to slide along planes, weak enough to stay near the star.
+/// A plain vertex move: a pull strong enough to slide along planes, weak enough to stay near the
+/// star.
 pub(super) const SETTLE: Wish =
     Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.1), clearance: 0.0 };
 
@@ -34,7 +37,8 @@ impl Work<'_> {
         gained
     }
 
-    /// Moves a vertex where `wish` wants it, whether the volume falls or not; the volume gained, which may be negative.
+    /// Moves a vertex where `wish` wants it, whether the volume falls or not; the volume gained,
+    /// which may be negative.
     pub fn disturb(&mut self, v: u32, wish: &Wish) -> Option<f64> {
         self.take_star(v);
         self.propose(v, self.shell.position(v), wish, |_| true)
@@ -58,7 +62,13 @@ impl Work<'_> {
     }
 
     /// Places vertex `v` of the star at hand and proves it, if `wanted` likes what it gains.
-    fn propose(&mut self, v: u32, centre: DVec3, wish: &Wish, wanted: impl Fn(f64) -> bool) -> Option<f64> {
+    fn propose(
+        &mut self,
+        v: u32,
+        centre: DVec3,
+        wish: &Wish,
+        wanted: impl Fn(f64) -> bool,
+    ) -> Option<f64> {
         let star = std::mem::take(&mut self.star);
         let mut outcome = None;
         for steps in CLEARANCES {
@@ -83,7 +93,8 @@ impl Work<'_> {
     /// Whether `v` may move to `x`. Exact.
     pub fn admits_vertex(&mut self, v: u32, x: DVec3) -> bool {
         let dead: Vec<u32> = self.shell.mesh.at(v).to_vec();
-        let new: Vec<_> = dead.iter().filter_map(|&f| self.shell.face_after(f, [v, v], x)).collect();
+        let new: Vec<_> =
+            dead.iter().filter_map(|&f| self.shell.face_after(f, [v, v], x)).collect();
         let bases: Vec<_> = dead.iter().map(|&f| self.shell.triangle(f)).collect();
         self.admits(&new, &dead, &bases, x)
     }

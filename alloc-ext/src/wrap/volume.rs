@@ -1,4 +1,5 @@
-//! The volume that a mesh bounds, which the void of its hull is measured against; or why there is none.
+//! The volume that a mesh bounds, which the void of its hull is measured against; or why there is
+//! none.
 
 use super::boxes::{Bounds, BoxTree};
 use super::connected::connected;
@@ -8,8 +9,8 @@ use crate::mesh::{self, EdgePlace, Enclosure, Mesh, MeshError, Volume, require_c
 use glam::DVec3;
 use std::fmt;
 
-/// Why a mesh has no volume that the void of a hull can be measured against: the first of its defects in the order of
-/// [`require_closed_manifold`], with one place where it is.
+/// Why a mesh has no volume that the void of a hull can be measured against: the first of its
+/// defects in the order of [`require_closed_manifold`], with one place where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVolume {
     /// Edges have one triangle only.
@@ -63,7 +64,8 @@ pub enum NoVolume {
         /// A corner of that.
         at: [f32; 3],
     },
-    /// Parts overlap or lie in each other as solid in solid, or one crosses itself: then a volume counts what is there more than once.
+    /// Parts overlap or lie in each other as solid in solid, or one crosses itself: then a volume
+    /// counts what is there more than once.
     Overlapping,
     /// Rounding may be all that there is: cavities leave next to nothing.
     Indistinct,
@@ -106,7 +108,12 @@ impl fmt::Display for NoVolume {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             NoVolume::Open { edges, at } => {
-                write!(f, "the mesh is not closed: {}, {}", Counted(edges, "boundary edge"), Edge(at))
+                write!(
+                    f,
+                    "the mesh is not closed: {}, {}",
+                    Counted(edges, "boundary edge"),
+                    Edge(at)
+                )
             }
             NoVolume::NonManifold { edges, most, at } => write!(
                 f,
@@ -123,7 +130,12 @@ impl fmt::Display for NoVolume {
                 )
             }
             NoVolume::OneSided { parts, at } => {
-                write!(f, "the mesh has no outside: {}, {}", Counted(parts, "one-sided part"), Edge(at))
+                write!(
+                    f,
+                    "the mesh has no outside: {}, {}",
+                    Counted(parts, "one-sided part"),
+                    Edge(at)
+                )
             }
             NoVolume::MixedWinding { edges, at } => write!(
                 f,
@@ -132,7 +144,12 @@ impl fmt::Display for NoVolume {
                 Edge(at)
             ),
             NoVolume::InsideOut { parts, at } => {
-                write!(f, "the mesh is inside out: {}, {}", Counted(parts, "outermost part"), Point(at))
+                write!(
+                    f,
+                    "the mesh is inside out: {}, {}",
+                    Counted(parts, "outermost part"),
+                    Point(at)
+                )
             }
             NoVolume::Flat { triangle, at } => {
                 write!(
@@ -141,9 +158,9 @@ impl fmt::Display for NoVolume {
                     Point(at)
                 )
             }
-            NoVolume::Overlapping => {
-                f.write_str("the mesh overlaps itself, so that its volume counts places more than once")
-            }
+            NoVolume::Overlapping => f.write_str(
+                "the mesh overlaps itself, so that its volume counts places more than once",
+            ),
             NoVolume::Indistinct => f.write_str("the mesh's volume cannot be told from 0"),
             NoVolume::Invalid => f.write_str("the mesh is not a valid one"),
         }
@@ -188,7 +205,8 @@ impl Solid {
             volume += signed(part);
             let of_part = mesh::volume(part);
             // As many roundings more as there are parts to add.
-            bound += of_part.bound + (parts.len() as f64 + 2.0) * f64::EPSILON * of_part.value.abs();
+            bound +=
+                of_part.bound + (parts.len() as f64 + 2.0) * f64::EPSILON * of_part.value.abs();
             faces_out.push(of_part.value > 0.0);
         }
         if volume <= -bound || winds_more_than_once(mesh, parts, &faces_out) {
@@ -200,7 +218,8 @@ impl Solid {
         Ok(Self { volume, least: volume - 2.0 * bound })
     }
 
-    /// Whether there is certainly more than a closed surface holds that encloses the mesh: then it overlaps. The surface by its triangles.
+    /// Whether there is certainly more than a closed surface holds that encloses the mesh: then it
+    /// overlaps. The surface by its triangles.
     pub fn is_more_than(&self, hull: &[[[f32; 3]; 3]]) -> bool {
         let Volume { value, bound } = mesh::volume(hull);
         value + bound < self.least
@@ -247,8 +266,8 @@ fn signed(part: &[[[f32; 3]; 3]]) -> f64 {
     six.sum::<f64>() / 6.0
 }
 
-/// Whether parts that do not meet lie in each other so that the mesh winds around a place other than never or once: solids in solids, cavities in cavities.
-/// Where parts meet: false.
+/// Whether parts that do not meet lie in each other so that the mesh winds around a place other
+/// than never or once: solids in solids, cavities in cavities. Where parts meet: false.
 fn winds_more_than_once(mesh: &Mesh, parts: Vec<Vec<[[f32; 3]; 3]>>, faces_out: &[bool]) -> bool {
     if parts.len() < 2 {
         return false;
@@ -276,15 +295,18 @@ fn winds_more_than_once(mesh: &Mesh, parts: Vec<Vec<[[f32; 3]; 3]>>, faces_out: 
         return false;
     }
     // What touches may be counted as in each other and is not.
-    let positions: Vec<DVec3> = mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+    let positions: Vec<DVec3> =
+        mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
     !crosses_itself(&positions, &mesh.triangles)
 }
 
-/// Whether triangles with area have more points in common than the corners and edges that they share: the surface crosses itself, or touches itself. Exact. Cost: that of
-/// a query of a tree of boxes for each triangle.
+/// Whether triangles with area have more points in common than the corners and edges that they
+/// share: the surface crosses itself, or touches itself. Exact. Cost: that of a query of a tree of
+/// boxes for each triangle.
 pub(super) fn crosses_itself(positions: &[DVec3], triangles: &[[u32; 3]]) -> bool {
     let face = |ids: &[u32; 3]| Face { ids: *ids, at: ids.map(|v| positions[v as usize]) };
-    let faces: Vec<Face> = triangles.iter().map(face).filter(|face| !is_degenerate(&face.at)).collect();
+    let faces: Vec<Face> =
+        triangles.iter().map(face).filter(|face| !is_degenerate(&face.at)).collect();
     let boxes: Vec<Bounds> = faces.iter().map(|face| Bounds::of(&face.at)).collect();
     let (tree, order) = BoxTree::new(&boxes);
     let crosses = |i: usize| {
@@ -358,14 +380,25 @@ mod tests {
         let mixed = said(of(unit(), &mixed), "against each other at 3 edges");
         assert!(matches!(mixed, NoVolume::MixedWinding { edges: 3, .. }));
         let inverted = joined(&[(unit(), true)]);
-        let inverted =
-            said(volume(&inverted).unwrap_err(), "inside out: 1 outermost part, as at [0.0, 0.0, 0.0]");
+        let inverted = said(
+            volume(&inverted).unwrap_err(),
+            "inside out: 1 outermost part, as at [0.0, 0.0, 0.0]",
+        );
         assert_eq!(inverted, NoVolume::InsideOut { parts: 1, at: [0.0; 3] });
         let flat = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0f32]];
         let flat = said(of(flat, &CORNER), "has a volume that cannot be told from 0");
         assert_eq!(flat, NoVolume::Flat { triangle: 0, at: [0.0; 3] });
         let two = [unit(), unit()[1..].iter().map(|p| p.map(|x| -x)).collect()].concat();
-        let tips = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 4, 5], [0, 6, 4], [4, 6, 5], [5, 6, 0]];
+        let tips = [
+            [0, 2, 1],
+            [0, 1, 3],
+            [1, 2, 3],
+            [2, 0, 3],
+            [0, 4, 5],
+            [0, 6, 4],
+            [4, 6, 5],
+            [5, 6, 0],
+        ];
         let pinched = said(of(two, &tips), "several fans meet in 1 vertex, as at [0.0, 0.0, 0.0]");
         assert_eq!(pinched, NoVolume::Pinched { vertices: 1, at: [0.0; 3] });
         assert_eq!(said(of(unit(), &[[0, 1, 9]]), "not a valid one"), NoVolume::Invalid);
@@ -403,7 +436,10 @@ mod tests {
     fn solids_in_solids_and_cavities_in_cavities_overlap_and_solids_in_cavities_do_not() {
         let of = |parts: &[(f32, f32, bool)]| {
             volume(&joined(
-                &parts.iter().map(|&(size, at, inward)| (tetrahedron(size, at), inward)).collect::<Vec<_>>(),
+                &parts
+                    .iter()
+                    .map(|&(size, at, inward)| (tetrahedron(size, at), inward))
+                    .collect::<Vec<_>>(),
             ))
         };
         let solid = (20.0, 0.0, false);

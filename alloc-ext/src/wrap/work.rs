@@ -1,12 +1,15 @@
 //! A hull, the mesh that it must not meet, and what a local move has to satisfy.
 //!
-//! The invariant, from the first hull to the last: the hull is a closed surface whose faces have no point in common but the edges and corners
-//! that they share; it has no point in common with the mesh; and every connected part of the mesh is inside.
+//! The invariant, from the first hull to the last: the hull is a closed surface whose faces have no
+//! point in common but the edges and corners that they share; it has no point in common with the
+//! mesh; and every connected part of the mesh is inside.
 //!
-//! A move replaces some faces by others with the same boundary. The first two are tested as they stand. The third follows: a part that does
-//! not meet the new hull is inside it or outside as a whole, so that its witness decides. The number of times that the surface winds around the
-//! witness changes only if it lies in one of the tetrahedra between old faces and the new vertex, and falls only for one that is cut off. Where it rises, the new hull
-//! encloses a part of itself, which is [dropped](Work::drop_swallowed) at the end of each stage.
+//! A move replaces some faces by others with the same boundary. The first two are tested as they
+//! stand. The third follows: a part that does not meet the new hull is inside it or outside as a
+//! whole, so that its witness decides. The number of times that the surface winds around the
+//! witness changes only if it lies in one of the tetrahedra between old faces and the new vertex,
+//! and falls only for one that is cut off. Where it rises, the new hull encloses a part of itself,
+//! which is [dropped](Work::drop_swallowed) at the end of each stage.
 
 use super::boxes::Bounds;
 use super::field::Field;
@@ -23,17 +26,20 @@ use std::time::Instant;
 /// Shape conditions of moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shape {
-    /// Compactness that a new face has at least, unless the worst of those before was little better.
+    /// Compactness that a new face has at least, unless the worst of those before was little
+    /// better.
     pub min_compactness: f64,
     /// Cosine of the largest turn of a face.
     pub min_turn: f64,
-    /// Least part of a face's area that a collapse keeps when it is seen along the old normal; `None`: any.
+    /// Least part of a face's area that a collapse keeps when it is seen along the old normal;
+    /// `None`: any.
     pub upright: Option<f64>,
     /// Largest valence.
     pub max_valence: usize,
 }
 
-/// Part of the worst compactness before a move that is kept where it was below [`Shape::min_compactness`].
+/// Part of the worst compactness before a move that is kept where it was below
+/// [`Shape::min_compactness`].
 const KEPT_COMPACTNESS: f64 = 0.8;
 
 /// See the module.
@@ -47,7 +53,8 @@ pub(super) struct Work<'a> {
     /// Moves that had to be proved, and those that could not.
     pub proofs: u64,
     pub refused: u64,
-    /// Whether a move was refused because of the hull, which changes, since this was last set to false.
+    /// Whether a move was refused because of the hull, which changes, since this was last set to
+    /// false.
     pub is_in_its_own_way: bool,
     /// Stars after which no new move of a polish begins.
     pub limit: Option<u64>,
@@ -95,8 +102,9 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Drops parts of the hull that have come to lie inside of another. No move lets the mesh out, but an outward one may sweep over all of a smaller part of the hull; its
-    /// faces would then be taken for an outside that they are not.
+    /// Drops parts of the hull that have come to lie inside of another. No move lets the mesh out,
+    /// but an outward one may sweep over all of a smaller part of the hull; its faces would
+    /// then be taken for an outside that they are not.
     pub fn drop_swallowed(&mut self) {
         let (shell, swallowed) = keep_outermost(self.shell.clone());
         if swallowed > 0 {
@@ -130,7 +138,8 @@ impl<'a> Work<'a> {
         self.refused += other.refused;
     }
 
-    /// Whether `new` may take the place of the faces `dead`, the moving corner of `bases` going to `apex`. Exact.
+    /// Whether `new` may take the place of the faces `dead`, the moving corner of `bases` going to
+    /// `apex`. Exact.
     pub fn admits(&mut self, new: &[Face], dead: &[u32], bases: &[Triangle], apex: DVec3) -> bool {
         self.proofs += 1;
         let embedded = self.keeps_embedded(new, dead);
@@ -162,7 +171,8 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Whether a star may have its vertex at `x` by shape, and by its distance from the mesh: thin spikes cost next to no volume.
+    /// Whether a star may have its vertex at `x` by shape, and by its distance from the mesh: thin
+    /// spikes cost next to no volume.
     pub fn is_shapely(&self, star: &[StarFace], x: DVec3) -> bool {
         if self.room.with(x) != self.room {
             return false;
@@ -184,9 +194,11 @@ impl<'a> Work<'a> {
         (self.shape.max_valence as u64).wrapping_mul(GOLDEN) ^ self.reach.to_bits()
     }
 
-    /// Distance to keep from planes so that rounding does not cross them: `steps` half-steps at the star.
+    /// Distance to keep from planes so that rounding does not cross them: `steps` half-steps at the
+    /// star.
     pub fn clearance(&self, star: &[StarFace], steps: f64) -> f64 {
-        let size = star.iter().flat_map(|f| f.corners).map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let size =
+            star.iter().flat_map(|f| f.corners).map(|p| p.abs().max_element()).fold(0.0, f64::max);
         self.rounding.half_step(size) * steps
     }
 }

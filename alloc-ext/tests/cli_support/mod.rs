@@ -79,8 +79,10 @@ pub fn triangles(path: &Path) -> Vec<Triangle> {
 /// `count` queries of `N` numbers, uniform in the box of `triangles` blown up by a half.
 pub fn random_queries<const N: usize>(triangles: &[Triangle], count: usize) -> Vec<[f32; N]> {
     let corners = || triangles.iter().flatten();
-    let low: [f64; 3] = core::array::from_fn(|k| corners().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-    let high: [f64; 3] = core::array::from_fn(|k| corners().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+    let low: [f64; 3] =
+        core::array::from_fn(|k| corners().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+    let high: [f64; 3] =
+        core::array::from_fn(|k| corners().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
     let mut state = 0x9E37_79B9_7F4A_7C15u64;
     let mut uniform = || {
         state ^= state << 13;
@@ -117,7 +119,10 @@ pub fn parse_csv(text: &str, header: &str) -> Vec<Vec<String>> {
     assert_eq!(lines.next(), Some(header));
     let rows: Vec<Vec<String>> =
         lines.map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>()).collect();
-    assert!(rows.iter().all(|row| row.len() == header.split(',').count()), "every line has all fields");
+    assert!(
+        rows.iter().all(|row| row.len() == header.split(',').count()),
+        "every line has all fields"
+    );
     rows
 }
 
@@ -146,10 +151,12 @@ fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     dot(d, d).sqrt()
 }
 
-/// Distance of a point and a triangle: that to its plane where the foot lies inside, else that to the nearest side.
+/// Distance of a point and a triangle: that to its plane where the foot lies inside, else that to
+/// the nearest side.
 pub fn to_triangle(p: Point, [a, b, c]: Triangle) -> f64 {
     let n = cross(sub(b, a), sub(c, a));
-    let inside = [(a, b), (b, c), (c, a)].iter().all(|&(u, v)| dot(cross(n, sub(v, u)), sub(p, u)) >= 0.0);
+    let inside =
+        [(a, b), (b, c), (c, a)].iter().all(|&(u, v)| dot(cross(n, sub(v, u)), sub(p, u)) >= 0.0);
     let sides = to_segment(p, a, b).min(to_segment(p, b, c)).min(to_segment(p, c, a));
     let length = dot(n, n).sqrt();
     if inside && length > 0.0 { (dot(n, sub(p, a)) / length).abs() } else { sides }

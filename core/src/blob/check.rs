@@ -12,7 +12,9 @@ impl Model<'_> {
         let (records, each) = match kind {
             SectionKind::Vertices => (h.vertices as usize, h.vertex_format.vertex_bytes()),
             SectionKind::BaseTriangles => (h.base_triangles as usize, 3 * self.widths.vertex),
-            SectionKind::BaseGroups => (h.base_triangles.div_ceil(BASE_GROUP) as usize, h.group_bytes()),
+            SectionKind::BaseGroups => {
+                (h.base_triangles.div_ceil(BASE_GROUP) as usize, h.group_bytes())
+            }
             SectionKind::Splits => (h.splits as usize, h.split_bytes()),
             SectionKind::Rings => (h.rings as usize, self.widths.vertex),
             SectionKind::Radii => {
@@ -42,8 +44,15 @@ impl Model<'_> {
     /// A blob without a hull hierarchy says nothing of one.
     pub(super) fn check_without_hull(&self) -> Result<(), OpenError> {
         let h = &self.header;
-        let counts =
-            [h.vertices, h.base_vertices, h.base_triangles, h.splits, h.rings, h.surface_triangles, h.levels];
+        let counts = [
+            h.vertices,
+            h.base_vertices,
+            h.base_triangles,
+            h.splits,
+            h.rings,
+            h.surface_triangles,
+            h.levels,
+        ];
         let rest = [h.flags, h.queue_capacity, h.dependency_depth];
         if counts.iter().chain(&rest).any(|&count| count != 0) {
             return Err(OpenError::Counts { what: "parts of a hull hierarchy without its cover" });
@@ -103,7 +112,8 @@ impl Model<'_> {
         Ok(())
     }
 
-    /// Every vertex lies in the hull's box: which makes it finite, and the rounding margins of queries true.
+    /// Every vertex lies in the hull's box: which makes it finite, and the rounding margins of
+    /// queries true.
     fn check_vertices(&self) -> Result<(), OpenError> {
         let bounds = &self.header.hull_box;
         for index in 0..self.header.vertices {
@@ -125,9 +135,9 @@ impl Model<'_> {
             }
         }
         for index in 0..self.header.base_triangles.div_ceil(BASE_GROUP) {
-            let sound = self
-                .base_group(index)
-                .is_some_and(|(corners, radius)| limit(corners, self.header.base_vertices) && radius >= 0.0);
+            let sound = self.base_group(index).is_some_and(|(corners, radius)| {
+                limit(corners, self.header.base_vertices) && radius >= 0.0
+            });
             if !sound {
                 return Err(OpenError::Record { section: SectionKind::BaseGroups, index });
             }
@@ -137,7 +147,9 @@ impl Model<'_> {
             let inside = self
                 .surface_triangle(TriIdx(index))
                 .and_then(|corners| self.positions(corners))
-                .is_some_and(|ps| ps.iter().all(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all()));
+                .is_some_and(|ps| {
+                    ps.iter().all(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all())
+                });
             if !inside {
                 return Err(OpenError::Record { section: SectionKind::Surface, index });
             }
@@ -148,7 +160,8 @@ impl Model<'_> {
         Ok(())
     }
 
-    /// Everything a split names exists before it, and "splits with" is its inverse: so dependencies have no cycle.
+    /// Everything a split names exists before it, and "splits with" is its inverse: so dependencies
+    /// have no cycle.
     fn check_splits(&self) -> Result<(), OpenError> {
         for index in 0..self.header.splits {
             let bad = OpenError::Record { section: SectionKind::Splits, index };
@@ -162,7 +175,10 @@ impl Model<'_> {
                 return Err(bad);
             }
             if self.split_of(split.vertex) != Some(SplitIdx(index)) {
-                return Err(OpenError::Record { section: SectionKind::SplitsWith, index: split.vertex.0 });
+                return Err(OpenError::Record {
+                    section: SectionKind::SplitsWith,
+                    index: split.vertex.0,
+                });
             }
             if (0..k).any(|i| split.ring(i).is_none_or(|v| v >= split.origin)) {
                 return Err(OpenError::Record { section: SectionKind::Rings, index });
@@ -179,13 +195,16 @@ impl Model<'_> {
         Ok(())
     }
 
-    /// Children come after their parent and belong to it alone: so a descent ends, in time linear in the tree.
+    /// Children come after their parent and belong to it alone: so a descent ends, in time linear
+    /// in the tree.
     ///
-    /// No memory is at hand to mark nodes as seen. The format makes up for it: within each level child groups stand in the
-    /// order of their parents, so that one pass for each level sees every group begin where the one before it ended.
+    /// No memory is at hand to mark nodes as seen. The format makes up for it: within each level
+    /// child groups stand in the order of their parents, so that one pass for each level sees
+    /// every group begin where the one before it ended.
     fn check_cover(&self) -> Result<(), OpenError> {
         let node = |index: u32| {
-            self.node(NodeIdx(index)).ok_or(OpenError::Record { section: SectionKind::Cover, index })
+            self.node(NodeIdx(index))
+                .ok_or(OpenError::Record { section: SectionKind::Cover, index })
         };
         let mut next_triangle = 0u32;
         for index in 0..self.header.nodes {

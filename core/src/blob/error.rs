@@ -48,7 +48,8 @@ pub enum OpenError {
         /// Which section; `None` for the header.
         section: Option<SectionKind>,
     },
-    /// A section is listed twice, out of order, misaligned, overlapping, outside the blob or of the wrong length.
+    /// A section is listed twice, out of order, misaligned, overlapping, outside the blob or of the
+    /// wrong length.
     Section {
         /// Index in the section table.
         index: u32,
@@ -78,7 +79,10 @@ impl core::fmt::Display for OpenError {
             }
             OpenError::NotABlob => write!(f, "not a meshsweep blob"),
             OpenError::Version { found } => {
-                write!(f, "format version {found}, and this reader knows version 1: build the blob again")
+                write!(
+                    f,
+                    "format version {found}, and this reader knows version 1: build the blob again"
+                )
             }
             OpenError::VertexFormat { found } => write!(f, "unknown vertex format {found}"),
             OpenError::NotFinite { field } => write!(f, "{field}: not a finite number"),
@@ -89,7 +93,9 @@ impl core::fmt::Display for OpenError {
                 write!(f, "section \"{}\" is damaged (CRC)", kind.name())
             }
             OpenError::Section { index } => write!(f, "section table: entry {index} is malformed"),
-            OpenError::MissingSection { section } => write!(f, "section \"{}\" is missing", section.name()),
+            OpenError::MissingSection { section } => {
+                write!(f, "section \"{}\" is missing", section.name())
+            }
             OpenError::Record { section, index } => {
                 write!(f, "section \"{}\": record {index} refers to nothing", section.name())
             }

@@ -1,12 +1,15 @@
 //! The fixed part of a blob: counts, scale, limits and error bound.
 
 use super::OpenError;
-use super::layout::{FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, index_bytes};
+use super::layout::{
+    FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, index_bytes,
+};
 use super::read::Bytes;
 use crate::geom::Aabb;
 use glam::Vec3;
 
-/// Everything that the fixed header says. Lengths are in the local frame: input units divided by `2^scale_exponent`.
+/// Everything that the fixed header says. Lengths are in the local frame: input units divided by
+/// `2^scale_exponent`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Header {
     /// Bytes of header and section table.
@@ -75,10 +78,15 @@ impl Header {
             if x.is_finite() { Ok(x) } else { Err(OpenError::NotFinite { field: name }) }
         };
         let corner = |at: usize, name: &'static str| {
-            Ok::<Vec3, OpenError>(Vec3::new(float(at, name)?, float(at + 4, name)?, float(at + 8, name)?))
+            Ok::<Vec3, OpenError>(Vec3::new(
+                float(at, name)?,
+                float(at + 4, name)?,
+                float(at + 8, name)?,
+            ))
         };
         let code = bytes.u8(32).ok_or(short)?;
-        let vertex_format = VertexFormat::from_code(code).ok_or(OpenError::VertexFormat { found: code })?;
+        let vertex_format =
+            VertexFormat::from_code(code).ok_or(OpenError::VertexFormat { found: code })?;
         let header = Header {
             header_bytes: word(12)?,
             total_bytes: word(16)?,
@@ -87,7 +95,11 @@ impl Header {
             scale_exponent: word(28)?.cast_signed(),
             vertex_format,
             grid_exponent: word(36)?.cast_signed(),
-            grid_origin: [word(40)?.cast_signed(), word(44)?.cast_signed(), word(48)?.cast_signed()],
+            grid_origin: [
+                word(40)?.cast_signed(),
+                word(44)?.cast_signed(),
+                word(48)?.cast_signed(),
+            ],
             vertices: word(52)?,
             base_vertices: word(56)?,
             base_triangles: word(60)?,
@@ -99,11 +111,15 @@ impl Header {
             input_triangles: word(84)?,
             surface_error: float(88, "surface error")?,
             hull_box: Aabb { min: corner(92, "hull box")?, max: corner(104, "hull box")? },
-            surface_box: Aabb { min: corner(116, "surface box")?, max: corner(128, "surface box")? },
+            surface_box: Aabb {
+                min: corner(116, "surface box")?,
+                max: corner(128, "surface box")?,
+            },
             queue_capacity: word(140)?,
             dependency_depth: word(144)?,
         };
-        let zero = |at: usize, len: usize| bytes.slice(at, len).is_some_and(|b| b.iter().all(|&b| b == 0));
+        let zero =
+            |at: usize, len: usize| bytes.slice(at, len).is_some_and(|b| b.iter().all(|&b| b == 0));
         if !zero(33, 3) || !zero(148, 8) || header.flags & !FLAG_CUT != 0 {
             return Err(OpenError::Reserved);
         }

@@ -1,5 +1,5 @@
-//! Where everything stands in a blob. The reader of this crate and the writer of `meshsweep-alloc` share these constants;
-//! `core/FORMAT.md` is the normative text.
+//! Where everything stands in a blob. The reader of this crate and the writer of `meshsweep-alloc`
+//! share these constants; `core/FORMAT.md` is the normative text.
 
 /// First eight bytes of every blob.
 pub const MAGIC: [u8; 8] = *b"meshswep";
@@ -9,7 +9,8 @@ pub const VERSION_MAJOR: u16 = 1;
 pub const VERSION_MINOR: u16 = 3;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
-/// Offset of the header's own CRC, which covers the header with this field skipped, and the section table.
+/// Offset of the header's own CRC, which covers the header with this field skipped, and the section
+/// table.
 pub const HEADER_CRC_AT: usize = 156;
 /// Bytes of one entry of the section table: kind, offset, length, CRC, each a u32.
 pub const SECTION_ENTRY_BYTES: usize = 16;
@@ -21,11 +22,13 @@ pub const MAX_LEVELS: u32 = 32;
 pub const MAX_SECTIONS: usize = 32;
 /// Bytes of one record of the level table.
 pub const LEVEL_BYTES: usize = 24;
-/// Children of a cover node fit in seven bits; the eighth says that they are triangles of the surface.
+/// Children of a cover node fit in seven bits; the eighth says that they are triangles of the
+/// surface.
 pub const MAX_CHILDREN: usize = 127;
 /// Flag of a cover node whose children are triangles.
 pub const LEAF_FLAG: u8 = 0x80;
-/// Header flag: finer levels were cut off, so that the triangles of the surface are not in the blob.
+/// Header flag: finer levels were cut off, so that the triangles of the surface are not in the
+/// blob.
 pub const FLAG_CUT: u32 = 1;
 /// Triangles of the base hull that share a bound.
 pub const BASE_GROUP: u32 = 16;
@@ -42,7 +45,8 @@ pub const LINK_BYTES: usize = 20;
 pub const FRAME_BYTES: usize = 108;
 /// Bytes of a node's axis-aligned boxes.
 pub const BOXES_BYTES: usize = 72;
-/// Bytes of zeros after the last leaf, so that a leaf may be read at full width wherever it lies; for f32 vertices twice that.
+/// Bytes of zeros after the last leaf, so that a leaf may be read at full width wherever it lies;
+/// for f32 vertices twice that.
 pub const FAN_PADDING: usize = 48;
 /// Triangles of a block of source numbers.
 pub const SOURCE_BLOCK: usize = 64;
@@ -52,7 +56,8 @@ pub const SOURCE_ENTRY_BYTES: usize = 8;
 pub const SOURCE_PADDING: usize = 8;
 /// Bytes of a leaf's normal cone.
 pub const CONE_BYTES: usize = 4;
-/// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so that the sign of a distance is defined.
+/// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so
+/// that the sign of a distance is defined.
 pub const TREE_CLOSED: u8 = 1;
 /// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
 pub const TREE_SINGLE: u8 = 2;
@@ -87,7 +92,8 @@ pub enum SectionKind {
     Vertices = 1,
     /// Corners of the base hull's triangles.
     BaseTriangles = 2,
-    /// One record for each split, coarse to fine: vertex, start of its ring, position of the right wing in it, reach.
+    /// One record for each split, coarse to fine: vertex, start of its ring, position of the right
+    /// wing in it, reach.
     Splits = 3,
     /// Rings of all splits: the vertices that must exist before the split.
     Rings = 4,
@@ -121,7 +127,8 @@ pub enum SectionKind {
     TreeCones = 18,
     /// A hierarchy of triboxes that hold the mesh: unions of 1, 2, 4, … of them.
     Triboxes = 19,
-    /// Tight hulls of the mesh, each a blob with a box tree of its own, and how far its faces are from the mesh.
+    /// Tight hulls of the mesh, each a blob with a box tree of its own, and how far its faces are
+    /// from the mesh.
     TightHulls = 20,
 }
 

@@ -1,4 +1,5 @@
-//! The format: the only place that reads bytes. `core/FORMAT.md` says what they are, `core/DESIGN.md` why.
+//! The format: the only place that reads bytes. `core/FORMAT.md` says what they are,
+//! `core/DESIGN.md` why.
 
 mod check;
 mod error;

@@ -1,8 +1,9 @@
 //! Checked views of an opened blob.
 //!
-//! If [`Model::open`] returned `Ok`, then every index that the blob stores is in range, every ring vertex exists before its
-//! split, every child of a cover node comes after it, and every coordinate is finite. The accessors still return `Option`:
-//! an index past the end gives `None` (or, where its byte offset wraps on a 32-bit target, some record), and no path can panic.
+//! If [`Model::open`] returned `Ok`, then every index that the blob stores is in range, every ring
+//! vertex exists before its split, every child of a cover node comes after it, and every coordinate
+//! is finite. The accessors still return `Option`: an index past the end gives `None` (or, where
+//! its byte offset wraps on a 32-bit target, some record), and no path can panic.
 
 use super::Header;
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
@@ -83,14 +84,17 @@ pub struct Capacities {
     pub queue: usize,
     /// Words of u32 for each of the two bit sets of a [`Front`](crate::refine::Front).
     pub front_words: usize,
-    /// Longest chain of splits of which each needs the one before it: how deep one refinement may have to search.
+    /// Longest chain of splits of which each needs the one before it: how deep one refinement may
+    /// have to search.
     pub dependency_depth: usize,
 }
 
-/// One vertex split: the inverse of an edge collapse (Guéziec 2000, 4.2; Platis & Theoharis 2003, 3.2.1).
+/// One vertex split: the inverse of an edge collapse (Guéziec 2000, 4.2; Platis & Theoharis 2003,
+/// 3.2.1).
 ///
-/// With ring `r[0..k]` counter-clockwise and right wing `m`, the star `(v, r[i], r[i+1])` of `vertex` becomes
-/// `(o, r[i], r[i+1])` for `i < m`, `(d, r[i], r[i+1])` for `i ≥ m`, `(o, r[m], d)` and `(o, d, r[0])`.
+/// With ring `r[0..k]` counter-clockwise and right wing `m`, the star `(v, r[i], r[i+1])` of
+/// `vertex` becomes `(o, r[i], r[i+1])` for `i < m`, `(d, r[i], r[i+1])` for `i ≥ m`, `(o, r[m],
+/// d)` and `(o, d, r[0])`.
 #[derive(Clone, Copy, Debug)]
 pub struct Split<'a> {
     /// The vertex that is replaced.
@@ -150,7 +154,8 @@ impl Split<'_> {
     }
 }
 
-/// A node of the cover tree: its triangle, swept by `radius`, contains every triangle of the surface below it.
+/// A node of the cover tree: its triangle, swept by `radius`, contains every triangle of the
+/// surface below it.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     /// Corners of the triangle.
@@ -182,7 +187,8 @@ pub enum Children {
     Cut,
 }
 
-/// One level of the hierarchy: the hull after the first `splits` splits. Lengths in the local frame.
+/// One level of the hierarchy: the hull after the first `splits` splits. Lengths in the local
+/// frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Triangles of the hull.
@@ -239,8 +245,12 @@ impl<'a> Model<'a> {
     pub fn position(&self, vertex: VertIdx) -> Option<Vec3> {
         match self.vertices {
             Vertices::F32(records) => records.get(vertex.usize()).map(single),
-            Vertices::Grid16(records) => self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 2)?),
-            Vertices::Grid24(records) => self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 3)?),
+            Vertices::Grid16(records) => {
+                self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 2)?)
+            }
+            Vertices::Grid24(records) => {
+                self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 3)?)
+            }
         }
     }
 
@@ -249,7 +259,8 @@ impl<'a> Model<'a> {
     fn on_grid(&self, stored: [u32; 3]) -> Option<Vec3> {
         let [x, y, z] = stored;
         let [ox, oy, oz] = self.header.grid_origin;
-        let coordinate = |s: u32, o: i32| s.cast_signed().wrapping_add(o) as f32 * self.widths.grid_step;
+        let coordinate =
+            |s: u32, o: i32| s.cast_signed().wrapping_add(o) as f32 * self.widths.grid_step;
         Some(Vec3::new(coordinate(x, ox), coordinate(y, oy), coordinate(z, oz)))
     }
 
@@ -274,7 +285,8 @@ impl<'a> Model<'a> {
         self.base.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
     }
 
-    /// Swept triangle that contains base triangles `16·index .. 16·(index + 1)`: corners and radius.
+    /// Swept triangle that contains base triangles `16·index .. 16·(index + 1)`: corners and
+    /// radius.
     #[inline]
     pub fn base_group(&self, index: u32) -> Option<([VertIdx; 3], f32)> {
         let width = self.widths.vertex;
@@ -330,7 +342,8 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// The split that replaces a vertex ("splits with"), `None` for a vertex of the surface and beyond a cut.
+    /// The split that replaces a vertex ("splits with"), `None` for a vertex of the surface and
+    /// beyond a cut.
     #[inline(always)]
     pub fn split_of(&self, vertex: VertIdx) -> Option<SplitIdx> {
         let width = self.widths.split;
@@ -338,14 +351,16 @@ impl<'a> Model<'a> {
         if stored == none(width) { None } else { Some(SplitIdx(stored)) }
     }
 
-    /// The split that brings a vertex ("split before", as a vertex of a ring), `None` for the base hull's.
+    /// The split that brings a vertex ("split before", as a vertex of a ring), `None` for the base
+    /// hull's.
     #[inline(always)]
     pub fn made_by(&self, vertex: VertIdx) -> Option<SplitIdx> {
         vertex.0.checked_sub(self.header.base_vertices).map(|past_base| SplitIdx(past_base / 2))
     }
 
-    /// Certified radius of a triangle of any level, local frame: base triangles first, then those of each split
-    /// ([`Split::first_triangle`]). The triangle swept by it contains the surface that it stands for; infinite where it stands for none.
+    /// Certified radius of a triangle of any level, local frame: base triangles first, then those
+    /// of each split ([`Split::first_triangle`]). The triangle swept by it contains the surface
+    /// that it stands for; infinite where it stands for none.
     #[inline(always)]
     pub fn radius(&self, triangle: u32) -> Option<f32> {
         self.radii.u8(triangle as usize).map(|code| Radius8(code).get())
@@ -354,7 +369,8 @@ impl<'a> Model<'a> {
     /// Swept triangle of a cover node: corners and radius.
     #[inline(always)]
     pub fn bound(&self, node: NodeIdx) -> Option<([VertIdx; 3], f32)> {
-        // No product of an index that the blob stores and a record's size overflows: `open` bounds the counts.
+        // No product of an index that the blob stores and a record's size overflows: `open` bounds
+        // the counts.
         let at = node.usize().wrapping_mul(self.widths.node);
         if self.widths.vertex == 2 {
             // Three corners and the radius in one load: most parts have fewer than 65,536 vertices.
@@ -376,7 +392,8 @@ impl<'a> Model<'a> {
         let first = self.cover.index(at + 3 * wv + 2, wc)?;
         let tag = self.cover.u8(at + 3 * wv + 2 + wc)?;
         let count = u32::from(tag & !LEAF_FLAG);
-        let limit = if tag & LEAF_FLAG != 0 { self.header.surface_triangles } else { self.header.nodes };
+        let limit =
+            if tag & LEAF_FLAG != 0 { self.header.surface_triangles } else { self.header.nodes };
         let children = if first.checked_add(count)? > limit {
             Children::Cut
         } else if tag & LEAF_FLAG != 0 {

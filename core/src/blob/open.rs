@@ -10,12 +10,13 @@ use super::tree::Tree;
 use super::triboxes::Triboxes;
 
 impl<'a> Model<'a> {
-    /// Opens a blob where it lies, and checks all of it: CRCs, every index, every coordinate, every order that the
-    /// queries rely on. Any bytes are safe to open.
+    /// Opens a blob where it lies, and checks all of it: CRCs, every index, every coordinate, every
+    /// order that the queries rely on. Any bytes are safe to open.
     ///
-    /// Cost: linear in the blob, no allocation; once per start, not per query. Alignment of `bytes` does not matter.
-    /// A program that only asks the box tree links less code with [`Tree::open`], one that only asks triboxes with [`Triboxes::open`],
-    /// one that only asks tight hulls with [`TightHulls::open`].
+    /// Cost: linear in the blob, no allocation; once per start, not per query. Alignment of `bytes`
+    /// does not matter. A program that only asks the box tree links less code with
+    /// [`Tree::open`], one that only asks triboxes with [`Triboxes::open`], one that only asks
+    /// tight hulls with [`TightHulls::open`].
     ///
     /// # Errors
     /// [`OpenError`] says what was wanted and what was found.
@@ -38,13 +39,14 @@ impl<'a> Model<'a> {
             source: Bytes(&[]),
             levels: Bytes(&[]),
         };
-        let seen = place_sections(&header, all, true, SectionKind::is_hull, |index, kind, data| {
-            if Some(data.len()) != model.section_len(kind) {
-                return Err(OpenError::Section { index });
-            }
-            model.place(kind, data);
-            Ok(())
-        })?;
+        let seen =
+            place_sections(&header, all, true, SectionKind::is_hull, |index, kind, data| {
+                if Some(data.len()) != model.section_len(kind) {
+                    return Err(OpenError::Section { index });
+                }
+                model.place(kind, data);
+                Ok(())
+            })?;
         let has = |kind: SectionKind| seen.checked_shr(kind as u32).unwrap_or(0) & 1 != 0;
         let missing = SectionKind::ALL
             .into_iter()
@@ -72,7 +74,8 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// Sections of the blob, in file order. Entries of a kind that this version does not know are passed over.
+    /// Sections of the blob, in file order. Entries of a kind that this version does not know are
+    /// passed over.
     pub fn sections(&self) -> impl Iterator<Item = Section> + '_ {
         (0..self.header.section_count).filter_map(|index| section(self.bytes, index).ok().flatten())
     }
@@ -95,7 +98,8 @@ impl<'a> Model<'a> {
         TightHulls::view(self.bytes.0).ok()
     }
 
-    /// Whether the blob has a hull hierarchy and cover tree. Without, [`tree`](Self::tree), [`triboxes`](Self::triboxes) or [`tight_hulls`](Self::tight_hulls) are there.
+    /// Whether the blob has a hull hierarchy and cover tree. Without, [`tree`](Self::tree),
+    /// [`triboxes`](Self::triboxes) or [`tight_hulls`](Self::tight_hulls) are there.
     pub fn has_hull(&self) -> bool {
         self.header.nodes != 0
     }

@@ -1,17 +1,20 @@
 //! Leaves of the box tree: one or two triangle fans, read where they lie.
 //!
-//! A patch comes out of a tree that was opened, so its window of the fans' section is in range; still no read can panic.
+//! A patch comes out of a tree that was opened, so its window of the fans' section is in range;
+//! still no read can panic.
 
 use super::layout::WIDTH;
 use crate::fan::{Edges8, LANES_BELOW, Ring8};
 use glam::Vec3;
 
-/// Shape of a leaf in one byte: vertices, where the second fan begins, whether its winding is opposite.
+/// Shape of a leaf in one byte: vertices, where the second fan begins, whether its winding is
+/// opposite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tag(pub u8);
 
 impl Tag {
-    /// The tag of a patch of `triangles` with the second fan beginning at triangle `turn` (0: one fan).
+    /// The tag of a patch of `triangles` with the second fan beginning at triangle `turn` (0: one
+    /// fan).
     pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
         let vertices = triangles + 2 + usize::from(turn > 0);
         Tag(vertices as u8 & 0x0F | (turn as u8 & 7) << 4 | u8::from(reversed) << 7)
@@ -153,7 +156,9 @@ fn blend(mask: u32, first: f32, second: f32) -> f32 {
 #[inline(always)]
 fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
     match window.get(at..).and_then(|b| b.first_chunk::<6>()) {
-        Some(&[a, b, c, d, e, f]) => [[a, b], [c, d], [e, f]].map(|pair| i32::from(u16::from_le_bytes(pair))),
+        Some(&[a, b, c, d, e, f]) => {
+            [[a, b], [c, d], [e, f]].map(|pair| i32::from(u16::from_le_bytes(pair)))
+        }
         None => [0; 3],
     }
 }
@@ -165,20 +170,26 @@ impl<'a> Patch<'a> {
         self.tag
     }
 
-    /// Centre 0 or 1, grid units, exactly. What is asked beyond a patch's centres, ring or triangles, here and below, reads as some number.
+    /// Centre 0 or 1, grid units, exactly. What is asked beyond a patch's centres, ring or
+    /// triangles, here and below, reads as some number.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> Vec3 {
         if self.single {
             let at = 12 * which;
-            return Vec3::new(single(self.bytes, at), single(self.bytes, at + 4), single(self.bytes, at + 8));
+            return Vec3::new(
+                single(self.bytes, at),
+                single(self.bytes, at + 4),
+                single(self.bytes, at + 8),
+            );
         }
         let [x, y, z] = self.stored(6 * which, 2);
         let [ox, oy, oz] = self.origin;
         Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
     }
 
-    /// All vertices without the grid's origin, as stored, exactly: both centres, alike if there is one fan, then nine of the ring, of which those beyond the
-    /// triangles' mean nothing but are finite. `[axis][vertex]`.
+    /// All vertices without the grid's origin, as stored, exactly: both centres, alike if there is
+    /// one fan, then nine of the ring, of which those beyond the triangles' mean nothing but
+    /// are finite. `[axis][vertex]`.
     #[inline(always)]
     pub fn stored_vertices(&self) -> [[f32; CORNERS]; 3] {
         let mut out = [[0f32; CORNERS]; 3];
@@ -267,7 +278,13 @@ impl<'a> Patch<'a> {
         let (y, rest) = rest.split_at_checked(2 * entries)?;
         let z = rest.get(..2 * entries)?;
         let (x, y, z) = (x.as_chunks().0, y.as_chunks().0, z.as_chunks().0);
-        Some(GridRing { origin: self.origin, centres: [three(window, 0), three(window, 6)], x, y, z })
+        Some(GridRing {
+            origin: self.origin,
+            centres: [three(window, 0), three(window, 6)],
+            x,
+            y,
+            z,
+        })
     }
 
     /// The point `centre + v·e + w·g` of triangle `lane`, grid units.
@@ -277,7 +294,8 @@ impl<'a> Patch<'a> {
         centre + e * v + g * w
     }
 
-    /// Centre and both spokes of triangle `lane`. A call, for where triangles are few: reading them is a lot of code.
+    /// Centre and both spokes of triangle `lane`. A call, for where triangles are few: reading them
+    /// is a lot of code.
     #[inline(never)]
     pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
         let which = usize::from(lane >= self.tag.turn());
@@ -328,8 +346,9 @@ impl<'a> Patch<'a> {
             let chunk = self.bytes.get(at..)?.first_chunk::<36>()?;
             for i in 0..WIDTH {
                 let centre = if i < turn { first[axis] } else { second[axis] };
-                let word =
-                    |k: usize| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]);
+                let word = |k: usize| {
+                    f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]])
+                };
                 edges.e[axis][i] = word(4 * i) - centre;
                 edges.g[axis][i] = word(4 * i + 4) - centre;
                 edges.s[axis][i] = if i < turn { first_s[axis] } else { second_s[axis] };
@@ -362,17 +381,23 @@ impl<'a> Patch<'a> {
         };
         let [u, v, w] = axes;
         let ((hx, nx, cx, dx), (hy, ny, cy, dy), (hz, nz, cz, dz)) = (axis(u), axis(v), axis(w));
-        Some(Ring8 { here: [hx, hy, hz], next: [nx, ny, nz], centres: [[cx, cy, cz], [dx, dy, dz]] })
+        Some(Ring8 {
+            here: [hx, hy, hz],
+            next: [nx, ny, nz],
+            centres: [[cx, cy, cz], [dx, dy, dz]],
+        })
     }
 
     #[inline(never)]
     fn single_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
         let second = 12 * (self.tag.centres() - 1);
         let step = 4 * (self.tag.triangles() + 1);
-        let mut ring = Ring8 { here: [[0.0; WIDTH]; 3], next: [[0.0; WIDTH]; 3], centres: [[0.0; 3]; 2] };
+        let mut ring =
+            Ring8 { here: [[0.0; WIDTH]; 3], next: [[0.0; WIDTH]; 3], centres: [[0.0; 3]; 2] };
         for (k, axis) in axes.into_iter().enumerate() {
             let chunk = self.bytes.get(12 + second + step * axis..)?.first_chunk::<36>()?;
-            let word = |k: usize| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]);
+            let word =
+                |k: usize| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]);
             for i in 0..WIDTH {
                 ring.here[k][i] = word(4 * i);
                 ring.next[k][i] = word(4 * i + 4);

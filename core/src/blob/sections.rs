@@ -37,7 +37,8 @@ pub struct Section {
     pub crc: u32,
 }
 
-/// Reads the header and checks that it, the section table and the length of `bytes` belong together.
+/// Reads the header and checks that it, the section table and the length of `bytes` belong
+/// together.
 pub(super) fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
     let all = Bytes(bytes);
     let header = Header::read(all)?;
@@ -73,8 +74,8 @@ pub(super) fn section(bytes: Bytes<'_>, index: u32) -> Result<Option<Section>, O
     Ok(kind.map(|kind| Section { kind, offset, bytes, crc }))
 }
 
-/// Hands `place` every section that `wants` names, with its index in the table, its CRC checked if `check`. Returns a bit for each kind
-/// that was there.
+/// Hands `place` every section that `wants` names, with its index in the table, its CRC checked if
+/// `check`. Returns a bit for each kind that was there.
 pub(super) fn place_sections<'a>(
     header: &Header,
     bytes: Bytes<'a>,
@@ -86,7 +87,8 @@ pub(super) fn place_sections<'a>(
     let mut seen = 0u32;
     for index in 0..header.section_count {
         let malformed = OpenError::Section { index };
-        // An unknown kind still has to lie where sections may lie; a later minor version may add one.
+        // An unknown kind still has to lie where sections may lie; a later minor version may add
+        // one.
         let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
         let offset = bytes.u32(at + 4).ok_or(malformed)?;
         let length = bytes.u32(at + 8).ok_or(malformed)?;

@@ -1,7 +1,9 @@
-//! Checked views of tight hulls: outer hulls of few faces, each with a box tree of its own and a certified distance from each face to the mesh.
+//! Checked views of tight hulls: outer hulls of few faces, each with a box tree of its own and a
+//! certified distance from each face to the mesh.
 //!
-//! If [`TightHulls::open`] returned `Ok`, then every hull's tree is one that [`Tree::open`] accepts, has as many triangles as the hull has faces, and every distance is
-//! finite and at least 0. Accessors still return `Option`, and no path can panic.
+//! If [`TightHulls::open`] returned `Ok`, then every hull's tree is one that [`Tree::open`]
+//! accepts, has as many triangles as the hull has faces, and every distance is finite and at least
+//! 0. Accessors still return `Option`, and no path can panic.
 
 use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED};
 use super::read::Bytes;
@@ -30,10 +32,12 @@ pub struct TightHulls<'a> {
     pub(super) data: Bytes<'a>,
 }
 
-/// A tight hull: a closed surface of few triangles that encloses the mesh, exactly, and what is known of the mesh by it.
+/// A tight hull: a closed surface of few triangles that encloses the mesh, exactly, and what is
+/// known of the mesh by it.
 ///
-/// Its [tree](Self::tree) answers all questions about the hull itself: whether two hulls are [apart](crate::query::tree::overlap), where a
-/// segment [first](crate::query::tree::first_hit) enters. [`query::tight`](crate::query::tight) answers about the mesh within. Copies are cheap.
+/// Its [tree](Self::tree) answers all questions about the hull itself: whether two hulls are
+/// [apart](crate::query::tree::overlap), where a segment [first](crate::query::tree::first_hit)
+/// enters. [`query::tight`](crate::query::tight) answers about the mesh within. Copies are cheap.
 #[derive(Clone, Copy, Debug)]
 pub struct TightHull<'a> {
     pub(super) tree: Tree<'a>,
@@ -89,7 +93,8 @@ impl<'a> TightHulls<'a> {
         self.records.iter().filter_map(|record| read(record).map(|(_, record)| record))
     }
 
-    /// Hull `index`, 0 being the coarsest. Cost: some thousand instructions; keep the hull, not its number.
+    /// Hull `index`, 0 being the coarsest. Cost: some thousand instructions; keep the hull, not its
+    /// number.
     pub fn get(&self, index: u32) -> Option<TightHull<'a>> {
         let (place, record) = read(self.records.get(index as usize)?)?;
         let (bytes, slacks) = self.parts(place, record.faces)?;
@@ -126,7 +131,8 @@ impl<'a> TightHull<'a> {
         &self.record
     }
 
-    /// No point of a face is farther than this from the mesh, input units. Not above the [record's](TightRecord::slack).
+    /// No point of a face is farther than this from the mesh, input units. Not above the
+    /// [record's](TightRecord::slack).
     #[inline]
     pub fn slack(&self, face: u32) -> Option<f32> {
         let stored = Radius16(u16::from_le_bytes(*self.slacks.get(face as usize)?)).get();

@@ -12,10 +12,12 @@ use super::tree::Tree;
 use crate::num::Radius16;
 
 impl<'a> TightHulls<'a> {
-    /// Opens the tight hulls of a blob where they lie, and checks all of them: CRCs, each tree, each distance. Any bytes are safe to open.
-    /// Other sections are not looked at, so that the code that checks them is not linked.
+    /// Opens the tight hulls of a blob where they lie, and checks all of them: CRCs, each tree,
+    /// each distance. Any bytes are safe to open. Other sections are not looked at, so that the
+    /// code that checks them is not linked.
     ///
-    /// Cost: linear in the hulls; no allocation; once per start. Alignment of `bytes` does not matter.
+    /// Cost: linear in the hulls; no allocation; once per start. Alignment of `bytes` does not
+    /// matter.
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without tight hulls.
@@ -60,7 +62,8 @@ impl<'a> TightHulls<'a> {
         for (index, bytes) in (0u32..).zip(self.records) {
             let bad = OpenError::Record { section: SectionKind::TightHulls, index };
             let (place, record) = read(bytes).ok_or(bad)?;
-            // Hulls follow each other; what is between them is shorter than the alignment, and zero.
+            // Hulls follow each other; what is between them is shorter than the alignment, and
+            // zero.
             let start = end.next_multiple_of(SECTION_ALIGNMENT);
             let gap = self.data.slice(end, start - end).ok_or(bad)?;
             if place.offset as usize != start || gap.iter().any(|&byte| byte != 0) {
@@ -74,7 +77,8 @@ impl<'a> TightHulls<'a> {
             }
             let (blob, slacks) = self.parts(place, record.faces).ok_or(bad)?;
             let tree = Tree::open(blob)?;
-            let whole = tree.header().triangles == record.faces && tree.input_triangles() == record.faces;
+            let whole =
+                tree.header().triangles == record.faces && tree.input_triangles() == record.faces;
             let sound = |bytes: &[u8; 2]| length(Radius16(u16::from_le_bytes(*bytes)).get());
             if !whole || slacks.len() != record.faces as usize || !slacks.iter().all(sound) {
                 return Err(bad);

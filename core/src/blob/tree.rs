@@ -1,15 +1,19 @@
 //! Checked views of the box tree.
 //!
-//! If [`Tree::open`] returned `Ok`, then every node below the root is a child of exactly one node with a lesser number, every leaf lies within the
-//! fans, and every coordinate is finite and within the tree's box. Accessors still return `Option`, and no path can panic.
+//! If [`Tree::open`] returned `Ok`, then every node below the root is a child of exactly one node
+//! with a lesser number, every leaf lies within the fans, and every coordinate is finite and within
+//! the tree's box. Accessors still return `Option`, and no path can panic.
 
-use super::layout::{BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK, SOURCE_ENTRY_BYTES};
+use super::layout::{
+    BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
+};
 use super::patch::{Patch, Tag};
 use super::read::Bytes;
 use super::tree_header::TreeHeader;
 use glam::Vec3;
 
-/// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows the bytes and holds the header.
+/// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows
+/// the bytes and holds the header.
 #[derive(Clone, Copy, Debug)]
 pub struct Tree<'a> {
     pub(super) header: TreeHeader,
@@ -77,11 +81,13 @@ pub struct Links {
     pub first_vertex: u32,
     /// First triangle of the first leaf.
     pub first_triangle: u32,
-    /// Shapes of the leaves, a byte for each child; 0 for a node. Two words: a Cortex-M has no 64-bit shifts.
+    /// Shapes of the leaves, a byte for each child; 0 for a node. Two words: a Cortex-M has no
+    /// 64-bit shifts.
     tags: [u32; 2],
 }
 
-/// A child of a node: another node, or a leaf. Plain numbers rather than an enum of views: the descent decides by the tag when it has to.
+/// A child of a node: another node, or a leaf. Plain numbers rather than an enum of views: the
+/// descent decides by the tag when it has to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TreeChild {
     /// Number of the node, or first vertex of the leaf.
@@ -163,8 +169,9 @@ impl Links {
     pub fn triangle(&self, lane: u32) -> u32 {
         // Vertices less two for each leaf and less one for each second fan.
         let [low, high] = before(self.tags, lane);
-        let turns =
-            |tags: u32| ((tags >> 4 | tags >> 5 | tags >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101) >> 24;
+        let turns = |tags: u32| {
+            ((tags >> 4 | tags >> 5 | tags >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101) >> 24
+        };
         let leaves = lane.saturating_sub(self.inner);
         let less = 2 * leaves + turns(low) + turns(high);
         self.first_triangle.wrapping_add(nibbles(low) + nibbles(high)).wrapping_sub(less)

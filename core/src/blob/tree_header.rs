@@ -6,7 +6,8 @@ use super::read::Bytes;
 
 /// Everything that the tree's header says.
 ///
-/// *Grid units* are units of the tree's grid: local frame divided by `2^grid_exponent`. A coordinate on the grid is a u16 plus `grid_origin`.
+/// *Grid units* are units of the tree's grid: local frame divided by `2^grid_exponent`. A
+/// coordinate on the grid is a u16 plus `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TreeHeader {
     /// [`TREE_CLOSED`] and [`TREE_SINGLE`].
@@ -25,7 +26,8 @@ pub struct TreeHeader {
     pub triangles: u32,
     /// Stack entries with which no query can overflow.
     pub stack_entries: u32,
-    /// No point of the input surface is farther than this from the stored one, nor the other way; local frame.
+    /// No point of the input surface is farther than this from the stored one, nor the other way;
+    /// local frame.
     pub surface_error: f32,
     /// The largest sum of the 1-norms of the two spokes of a triangle, grid units, rounded up.
     pub reach: f32,
@@ -108,11 +110,17 @@ impl TreeHeader {
         };
         put(1, &[self.flags]);
         let [x, y, z] = self.grid_origin.map(i32::cast_unsigned);
-        let words = [self.grid_exponent.cast_unsigned(), x, y, z, self.nodes, self.leaves, self.vertices];
+        let words =
+            [self.grid_exponent.cast_unsigned(), x, y, z, self.nodes, self.leaves, self.vertices];
         for (at, word) in (4..).step_by(4).zip(words) {
             put(at, &word.to_le_bytes());
         }
-        let words = [self.triangles, self.stack_entries, self.surface_error.to_bits(), self.reach.to_bits()];
+        let words = [
+            self.triangles,
+            self.stack_entries,
+            self.surface_error.to_bits(),
+            self.reach.to_bits(),
+        ];
         for (at, word) in (32..).step_by(4).zip(words) {
             put(at, &word.to_le_bytes());
         }

@@ -12,7 +12,8 @@ use super::tree::{GridScale, Tree};
 use super::tree_header::TreeHeader;
 use crate::num::tolerance::U32;
 
-/// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate input a few more.
+/// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
+/// input a few more.
 const MAX_TREE_DEPTH: usize = 64;
 
 /// Largest coordinate on a grid.
@@ -32,10 +33,12 @@ struct Family {
 }
 
 impl<'a> Tree<'a> {
-    /// Opens the box tree of a blob where it lies, and checks all of it: CRCs, every link, every coordinate. Any bytes are safe to
-    /// open. Other sections are not looked at, so that the code that checks them is not linked.
+    /// Opens the box tree of a blob where it lies, and checks all of it: CRCs, every link, every
+    /// coordinate. Any bytes are safe to open. Other sections are not looked at, so that the
+    /// code that checks them is not linked.
     ///
-    /// Cost: linear in the tree, no allocation; once per start. Alignment of `bytes` does not matter.
+    /// Cost: linear in the tree, no allocation; once per start. Alignment of `bytes` does not
+    /// matter.
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
@@ -111,14 +114,20 @@ impl<'a> Tree<'a> {
         if !h.grid_origin.iter().all(|&o| o >= -limit && o <= limit - 0xFFFF) {
             return wrong("tree grid out of range");
         }
-        if !(h.surface_error >= 0.0 && h.surface_error.is_finite() && h.reach >= 0.0 && h.reach <= 1e7) {
+        if !(h.surface_error >= 0.0
+            && h.surface_error.is_finite()
+            && h.reach >= 0.0
+            && h.reach <= 1e7)
+        {
             return wrong("negative or infinite error bound of the tree");
         }
         if h.low.iter().zip(&h.high).any(|(low, high)| low > high) {
             return wrong("the tree's box is inverted");
         }
         let nodes = h.nodes as usize;
-        if h.stack_entries < WIDTH as u32 || h.stack_entries as usize > nodes.saturating_mul(WIDTH) + WIDTH {
+        if h.stack_entries < WIDTH as u32
+            || h.stack_entries as usize > nodes.saturating_mul(WIDTH) + WIDTH
+        {
             return wrong("stack entries of the tree");
         }
         let missing = |section| Err(OpenError::MissingSection { section });
@@ -186,8 +195,9 @@ impl<'a> Tree<'a> {
         self.check_families()
     }
 
-    /// Families of siblings stand in the order of a depth-first walk. So one walk proves that every node but the root is the child of exactly
-    /// one, which comes before it; and it counts what a descent may leave on the stack.
+    /// Families of siblings stand in the order of a depth-first walk. So one walk proves that every
+    /// node but the root is the child of exactly one, which comes before it; and it counts what
+    /// a descent may leave on the stack.
     fn check_families(&self) -> Result<(), OpenError> {
         let mut open = [Family { next: 0, end: 1, waiting: 0 }; MAX_TREE_DEPTH];
         let (mut depth, mut fresh, mut most) = (0usize, 1u32, 0u32);
@@ -209,7 +219,9 @@ impl<'a> Tree<'a> {
                 }
                 fresh += links.inner;
                 depth += 1;
-                *open.get_mut(depth).ok_or(OpenError::Counts { what: "a tree deeper than 64 nodes" })? =
+                *open
+                    .get_mut(depth)
+                    .ok_or(OpenError::Counts { what: "a tree deeper than 64 nodes" })? =
                     Family { next: links.first_node, end: fresh, waiting };
             }
         }
@@ -236,9 +248,12 @@ impl<'a> Tree<'a> {
                     _ => (0.0..=MAX_WEIGHT).contains(&x),
                 }
             });
-            // A step is worth no more than its length: squares of distances then stay in f32's range.
+            // A step is worth no more than its length: squares of distances then stay in f32's
+            // range.
             let mut f = [0f32; 15];
-            f.iter_mut().zip(words.iter().skip(12)).for_each(|(x, word)| *x = f32::from_le_bytes(*word));
+            f.iter_mut()
+                .zip(words.iter().skip(12))
+                .for_each(|(x, word)| *x = f32::from_le_bytes(*word));
             let [a, b, c, d, e, g, h, i, j, _, _, _, u, v, w] = f;
             let short = |x: f32, y: f32, z: f32, weight: f32| {
                 (x * x) * weight + (y * y) * weight + (z * z) * weight <= 1.0 + 16.0 * U32
@@ -267,7 +282,8 @@ impl<'a> Tree<'a> {
             (0..3).all(|axis| {
                 let (x, o) = (p.to_array()[axis], h.grid_origin[axis]);
                 // Exact: sums of u16 and the origin fit f32.
-                x >= (o + i32::from(h.low[axis])) as f32 && x <= (o + i32::from(h.high[axis])) as f32
+                x >= (o + i32::from(h.low[axis])) as f32
+                    && x <= (o + i32::from(h.high[axis])) as f32
             })
         };
         let tag = patch.tag();
@@ -276,8 +292,10 @@ impl<'a> Tree<'a> {
             && (0..tag.triangles()).all(|i| {
                 let which = usize::from(i >= tag.turn());
                 let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
-                // Exact on the grid; with f32 vertices off by a few roundings, which the bounds that `reach` enters have room for.
-                norm(patch.spoke(i, which)) + norm(patch.spoke(i + 1, which)) <= h.reach * (1.0 + 8.0 * U32)
+                // Exact on the grid; with f32 vertices off by a few roundings, which the bounds
+                // that `reach` enters have room for.
+                norm(patch.spoke(i, which)) + norm(patch.spoke(i + 1, which))
+                    <= h.reach * (1.0 + 8.0 * U32)
             });
         if sound { Ok(()) } else { Err(bad) }
     }
@@ -291,7 +309,10 @@ impl<'a> Tree<'a> {
             let word = self.source.u32(block * SOURCE_ENTRY_BYTES + 4).ok_or(missing)?;
             let entries = (triangles - block * SOURCE_BLOCK).min(SOURCE_BLOCK);
             if (word >> 5) as usize != end {
-                return Err(OpenError::Record { section: SectionKind::TreeSource, index: block as u32 });
+                return Err(OpenError::Record {
+                    section: SectionKind::TreeSource,
+                    index: block as u32,
+                });
             }
             end += (entries * (word & 31) as usize).div_ceil(8);
         }

@@ -1,12 +1,15 @@
 //! Checked views of the tribox hierarchy (Crosnier & Rossignac 1999, section 4).
 //!
-//! If [`Triboxes::open`] returned `Ok`, then every node but the root is the child of exactly one node, which has a lesser number and whose parameters
-//! hold the child's, no node is more than [`MAX_TRIBOX_DEPTH`](super::layout::MAX_TRIBOX_DEPTH) splits deep, and every node's planes touch what is between
-//! them, so that its [boundary](Tribox::boundary) is exact. Accessors still return `Option`, and no path can panic.
+//! If [`Triboxes::open`] returned `Ok`, then every node but the root is the child of exactly one
+//! node, which has a lesser number and whose parameters hold the child's, no node is more than
+//! [`MAX_TRIBOX_DEPTH`](super::layout::MAX_TRIBOX_DEPTH) splits deep, and every node's planes touch
+//! what is between them, so that its [boundary](Tribox::boundary) is exact. Accessors still return
+//! `Option`, and no path can panic.
 
 use super::OpenError;
 use super::layout::{
-    SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES, TRIBOXES_SOLID,
+    SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
+    TRIBOXES_SOLID,
 };
 use super::read::Bytes;
 use crate::num::Radius16;
@@ -17,7 +20,8 @@ pub(super) const UNSPLIT: u16 = u16::MAX;
 
 /// What the hierarchy's header says.
 ///
-/// *Units* are units of the triboxes' grid: local frame divided by `2^grid_exponent`. Parameter k of a node is its stored i16 plus direction k · `grid_origin`.
+/// *Units* are units of the triboxes' grid: local frame divided by `2^grid_exponent`. Parameter k
+/// of a node is its stored i16 plus direction k · `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriboxesHeader {
     /// [`TRIBOXES_SOLID`].
@@ -55,8 +59,16 @@ impl TriboxesHeader {
     /// Writes the header.
     pub fn write(&self) -> [u8; TRIBOXES_BYTES] {
         let [x, y, z] = self.grid_origin.map(i32::cast_unsigned);
-        let words =
-            [self.flags, self.grid_exponent.cast_unsigned(), x, y, z, self.nodes, self.levels, self.depth];
+        let words = [
+            self.flags,
+            self.grid_exponent.cast_unsigned(),
+            x,
+            y,
+            z,
+            self.nodes,
+            self.levels,
+            self.depth,
+        ];
         let mut out = [0u8; TRIBOXES_BYTES];
         out.iter_mut()
             .zip(words.into_iter().flat_map(u32::to_le_bytes))
@@ -72,15 +84,19 @@ pub struct TriboxLevel {
     pub triboxes: u32,
     /// No point of the union's boundary is farther than this from the mesh.
     pub distance: f32,
-    /// Formula (10) of the paper: no point of a tribox is farther than this from the convex hull of what it holds.
+    /// Formula (10) of the paper: no point of a tribox is farther than this from the convex hull
+    /// of what it holds.
     pub error: f32,
-    /// The triboxes' volume over the solid's, less 1; 0 if the mesh bounds no solid. May be negative where parts of the mesh overlap.
+    /// The triboxes' volume over the solid's, less 1; 0 if the mesh bounds no solid. May be
+    /// negative where parts of the mesh overlap.
     pub void_ratio: f32,
 }
 
-/// The tribox hierarchy of a blob, or a coarser level of it. Copies are cheap: it borrows the bytes and holds the header.
+/// The tribox hierarchy of a blob, or a coarser level of it. Copies are cheap: it borrows the bytes
+/// and holds the header.
 ///
-/// Node 0 is all of the mesh. Split s makes nodes 2s + 1 and 2s + 2 of another node, so that the first 2s + 1 nodes are the hierarchy of s splits.
+/// Node 0 is all of the mesh. Split s makes nodes 2s + 1 and 2s + 2 of another node, so that the
+/// first 2s + 1 nodes are the hierarchy of s splits.
 #[derive(Clone, Copy, Debug)]
 pub struct Triboxes<'a> {
     pub(super) header: TriboxesHeader,
@@ -132,7 +148,8 @@ impl<'a> Triboxes<'a> {
         self.header.depth
     }
 
-    /// Planes of a node in units, outward: those of slab k at 2k (least value, negated) and 2k + 1 (greatest).
+    /// Planes of a node in units, outward: those of slab k at 2k (least value, negated) and 2k + 1
+    /// (greatest).
     #[inline(always)]
     pub(super) fn planes_in_units(&self, node: u32) -> Option<[i32; FACES]> {
         let record = self.nodes.get(node as usize)?;
@@ -148,21 +165,25 @@ impl<'a> Triboxes<'a> {
         Some(planes)
     }
 
-    /// Planes of a node, input units: of slab k the least value, negated, at 2k and the greatest at 2k + 1.
+    /// Planes of a node, input units: of slab k the least value, negated, at 2k and the greatest at
+    /// 2k + 1.
     #[inline(always)]
     pub(crate) fn planes(&self, node: u32) -> Option<[f32; FACES]> {
         // Exact: integers of 21 bits and a power of two.
         self.planes_in_units(node).map(|planes| planes.map(|plane| plane as f32 * self.unit))
     }
 
-    /// A node's tribox, input units; exactly as stored. It holds the part of the mesh, and of the solid, that is its own in real arithmetic. Tight.
+    /// A node's tribox, input units; exactly as stored. It holds the part of the mesh, and of the
+    /// solid, that is its own in real arithmetic. Tight.
     #[inline]
     pub fn node(&self, node: u32) -> Option<Tribox> {
         let planes = self.planes(node)?;
         let (slabs, _) = planes.as_chunks::<2>();
         let mut tribox = Tribox::EMPTY;
         let parameters = tribox.low.iter_mut().zip(tribox.high.iter_mut());
-        parameters.zip(slabs).for_each(|((low, high), [minus, plus])| (*low, *high) = (-*minus, *plus));
+        parameters
+            .zip(slabs)
+            .for_each(|((low, high), [minus, plus])| (*low, *high) = (-*minus, *plus));
         Some(tribox)
     }
 
@@ -188,7 +209,8 @@ impl<'a> Triboxes<'a> {
         self.splits.get(split as usize).map(|bytes| u32::from(u16::from_le_bytes(*bytes)))
     }
 
-    /// Formula (10) of the paper, input units: no point of a node's tribox is farther than this from the convex hull of what it holds.
+    /// Formula (10) of the paper, input units: no point of a node's tribox is farther than this
+    /// from the convex hull of what it holds.
     pub fn error(&self, node: u32) -> Option<f32> {
         self.local_error(node).map(|error| self.in_input_units(error))
     }
@@ -205,14 +227,16 @@ impl<'a> Triboxes<'a> {
         if local > 0.0 && length < f32::MIN_POSITIVE { length.next_up() } else { length }
     }
 
-    /// Nodes that are not split, with their triboxes: together they hold the mesh. By rising number. Cost: a look at each node.
+    /// Nodes that are not split, with their triboxes: together they hold the mesh. By rising
+    /// number. Cost: a look at each node.
     pub fn leaves(self) -> impl Iterator<Item = (u32, Tribox)> + 'a {
         (0..self.node_count())
             .filter(move |&node| self.children(node).is_none())
             .filter_map(move |node| self.node(node).map(|tribox| (node, tribox)))
     }
 
-    /// The same hierarchy with at most so many leaves, at least one: as if no more splits were stored.
+    /// The same hierarchy with at most so many leaves, at least one: as if no more splits were
+    /// stored.
     #[must_use]
     pub fn coarser(&self, leaves: u32) -> Triboxes<'a> {
         let splits = (self.splits.len() as u32).min(leaves.saturating_sub(1)) as usize;
@@ -227,7 +251,8 @@ impl<'a> Triboxes<'a> {
         self.levels.len() as u32
     }
 
-    /// A record of the level table, 0 being the coarsest; [`coarser`](Self::coarser) with its count gives the triboxes.
+    /// A record of the level table, 0 being the coarsest; [`coarser`](Self::coarser) with its count
+    /// gives the triboxes.
     pub fn level(&self, index: u32) -> Option<TriboxLevel> {
         let record = Bytes(self.levels.get(index as usize)?);
         Some(TriboxLevel {

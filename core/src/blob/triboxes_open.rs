@@ -3,7 +3,8 @@
 use super::OpenError;
 use super::header::Header;
 use super::layout::{
-    MAX_LEVELS, MAX_TRIBOX_DEPTH, MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOXES_BYTES,
+    MAX_LEVELS, MAX_TRIBOX_DEPTH, MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES,
+    TRIBOXES_BYTES,
 };
 use super::read::Bytes;
 use super::sections::{place_sections, read_header};
@@ -11,17 +12,20 @@ use super::triboxes::{Triboxes, TriboxesHeader, UNSPLIT};
 use crate::num::exp2;
 use crate::tribox::FACES;
 
-/// Largest coordinate of the origin, units: with an i16 added no parameter reaches 2^20, so that closure and boundary are exact in f32.
+/// Largest coordinate of the origin, units: with an i16 added no parameter reaches 2^20, so that
+/// closure and boundary are exact in f32.
 const MAX_ORIGIN: i32 = 1 << 18;
 
-/// Greatest parameter, input units: that of a diagonal where coordinates are at the end of [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN), and some.
+/// Greatest parameter, input units: that of a diagonal where coordinates are at the end of
+/// [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN), and some.
 const MAX_PARAMETER: f64 = (1u128 << 122) as f64;
 
 /// Numbers between which parameters bound differences: x, −x, y, −y, z, −z.
 const NUMBERS: usize = 6;
 
-/// For numbers i and j which plane bounds number j less number i: 2 · slab + (whether it is the greatest value). On the diagonal and for a number and its negative
-/// the axis's own, which counts nothing or twice.
+/// For numbers i and j which plane bounds number j less number i: 2 · slab + (whether it is the
+/// greatest value). On the diagonal and for a number and its negative the axis's own, which counts
+/// nothing or twice.
 const BOUNDED_BY: [[u8; NUMBERS]; NUMBERS] = {
     let mut planes = [[0u8; NUMBERS]; NUMBERS];
     let mut axis = 0;
@@ -38,7 +42,8 @@ const BOUNDED_BY: [[u8; NUMBERS]; NUMBERS] = {
         let (first, second) = pairs[k];
         let (a, b) = (2 * first, 2 * second);
         let (sum, difference) = (2 * (3 + 2 * k) as u8, 2 * (4 + 2 * k) as u8);
-        let entries = [(b + 1, a, sum + 1), (a, b + 1, sum), (b, a, difference + 1), (a, b, difference)];
+        let entries =
+            [(b + 1, a, sum + 1), (a, b + 1, sum), (b, a, difference + 1), (a, b, difference)];
         let mut entry = 0;
         while entry < 4 {
             let (i, j, plane) = entries[entry];
@@ -52,8 +57,9 @@ const BOUNDED_BY: [[u8; NUMBERS]; NUMBERS] = {
     planes
 };
 
-/// Whether no plane can move inward: no path of differences, and no two bounds of single coordinates, imply a stricter one (see
-/// [`Tribox::tightened`](crate::tribox::Tribox::tightened)). Implies that every least value is at most the greatest.
+/// Whether no plane can move inward: no path of differences, and no two bounds of single
+/// coordinates, imply a stricter one (see [`Tribox::tightened`](crate::tribox::Tribox::tightened)).
+/// Implies that every least value is at most the greatest.
 fn is_tight(planes: &[i32; FACES]) -> bool {
     let mut differences = [[0i32; NUMBERS]; NUMBERS];
     for ((i, row), names) in differences.iter_mut().enumerate().zip(&BOUNDED_BY) {
@@ -62,7 +68,8 @@ fn is_tight(planes: &[i32; FACES]) -> bool {
             *entry = if i == j { 0 } else { at.wrapping_mul(if j == i ^ 1 { 2 } else { 1 }) };
         }
     }
-    let entry = |i: usize, j: usize| differences.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0);
+    let entry =
+        |i: usize, j: usize| differences.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0);
     (0..NUMBERS).all(|i| {
         (0..NUMBERS).all(|j| {
             let here = entry(i, j);
@@ -74,10 +81,12 @@ fn is_tight(planes: &[i32; FACES]) -> bool {
 }
 
 impl<'a> Triboxes<'a> {
-    /// Opens the tribox hierarchy of a blob where it lies, and checks all of it: CRC, every link, every parameter. Any bytes are safe to
-    /// open. Other sections are not looked at, so that the code that checks them is not linked.
+    /// Opens the tribox hierarchy of a blob where it lies, and checks all of it: CRC, every link,
+    /// every parameter. Any bytes are safe to open. Other sections are not looked at, so that
+    /// the code that checks them is not linked.
     ///
-    /// Cost: linear in the nodes but for walks to the root, some thousand instructions a node; no allocation; once per start. Alignment of `bytes` does not matter.
+    /// Cost: linear in the nodes but for walks to the root, some thousand instructions a node; no
+    /// allocation; once per start. Alignment of `bytes` does not matter.
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without triboxes.
@@ -113,7 +122,8 @@ impl<'a> Triboxes<'a> {
             return wrong("levels of triboxes");
         }
         let exponent = blob.scale_exponent.saturating_add(header.grid_exponent);
-        // So that units and their halves are numbers of f32, and no sum of two parameters overflows.
+        // So that units and their halves are numbers of f32, and no sum of two parameters
+        // overflows.
         let in_range = (-149..=122).contains(&blob.scale_exponent)
             && (-40..=40).contains(&header.grid_exponent)
             && (-147..=107).contains(&exponent);
@@ -151,7 +161,9 @@ impl<'a> Triboxes<'a> {
                 }
                 None => {
                     let unit = exp2(self.scale_exponent.saturating_add(self.header.grid_exponent));
-                    planes.iter().all(|plane| f64::from(plane.unsigned_abs()) * unit <= MAX_PARAMETER)
+                    planes
+                        .iter()
+                        .all(|plane| f64::from(plane.unsigned_abs()) * unit <= MAX_PARAMETER)
                 }
             };
             let error = self.local_error(index).ok_or(bad)?;
@@ -175,18 +187,23 @@ impl<'a> Triboxes<'a> {
             before = triboxes;
         }
         if before != self.leaf_count() {
-            return Err(OpenError::Counts { what: "the last level of triboxes is not the whole hierarchy" });
+            return Err(OpenError::Counts {
+                what: "the last level of triboxes is not the whole hierarchy",
+            });
         }
         Ok(())
     }
 
-    /// Each split splits one node, which was there before, and which names it: so there is no cycle, and no node has two parents.
+    /// Each split splits one node, which was there before, and which names it: so there is no
+    /// cycle, and no node has two parents.
     fn check_splits(&self) -> Result<(), OpenError> {
         let bad = |index: u32| OpenError::Record { section: SectionKind::Triboxes, index };
         for index in 0..self.node_count() {
             let split = self.split_of(index).ok_or(bad(index))?;
-            let named =
-                self.splits.get(usize::from(split)).map(|bytes| u32::from(u16::from_le_bytes(*bytes)));
+            let named = self
+                .splits
+                .get(usize::from(split))
+                .map(|bytes| u32::from(u16::from_le_bytes(*bytes)));
             // Of no split, or of one that has this node and comes after it.
             let sound = match named {
                 None => split == UNSPLIT,
@@ -197,7 +214,8 @@ impl<'a> Triboxes<'a> {
             }
             // Nodes whose parent does not name the split would be beyond any descent.
             if let Some(parent) = self.parent(index) {
-                let names = self.split_of(parent).is_some_and(|split| u32::from(split) == (index - 1) / 2);
+                let names =
+                    self.split_of(parent).is_some_and(|split| u32::from(split) == (index - 1) / 2);
                 if parent >= index || !names {
                     return Err(bad(index));
                 }
@@ -206,7 +224,9 @@ impl<'a> Triboxes<'a> {
             while let Some(node) = above {
                 depth += 1;
                 if depth > self.header.depth {
-                    return Err(OpenError::Counts { what: "triboxes deeper than their header says" });
+                    return Err(OpenError::Counts {
+                        what: "triboxes deeper than their header says",
+                    });
                 }
                 above = self.parent(node);
             }

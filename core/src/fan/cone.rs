@@ -1,7 +1,8 @@
 //! The cone of a leaf's normals, in four bytes.
 //!
-//! After Galin & Akkouche 2005, section 6.4, and Shirman & Abi-Ezzi 1993. All triangles of a fan share its centre, so that the way from the centre
-//! to the eye says for each of them which side the eye is on: no bounding sphere is needed. A slip of the paper: a fan is back-facing if
+//! After Galin & Akkouche 2005, section 6.4, and Shirman & Abi-Ezzi 1993. All triangles of a fan
+//! share its centre, so that the way from the centre to the eye says for each of them which side
+//! the eye is on: no bounding sphere is needed. A slip of the paper: a fan is back-facing if
 //! `n₀·d ≤ −sin α`, not `≤ sin α`.
 
 use crate::blob::layout::CONE_BYTES;
@@ -43,8 +44,9 @@ impl NormalCone {
         [x.cast_unsigned(), y.cast_unsigned(), z.cast_unsigned(), sine]
     }
 
-    /// Whether no triangle with its normal in the cone faces the eye, for certain. `way` leads from a point that all of those triangles share
-    /// to the eye, or, for an eye at infinity, towards it; any length that f32 can square. If it is 0 nothing is certain.
+    /// Whether no triangle with its normal in the cone faces the eye, for certain. `way` leads from
+    /// a point that all of those triangles share to the eye, or, for an eye at infinity,
+    /// towards it; any length that f32 can square. If it is 0 nothing is certain.
     #[inline]
     pub fn is_behind(&self, way: Vec3) -> bool {
         let dot = |a: Vec3, b: Vec3| a.x * b.x + a.y * b.y + a.z * b.z;

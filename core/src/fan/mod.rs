@@ -1,7 +1,9 @@
-//! Kernels over triangle fans (Galin & Akkouche 2005, sections 3 and 4), scalar and eight lanes wide. Both give the same bits.
+//! Kernels over triangle fans (Galin & Akkouche 2005, sections 3 and 4), scalar and eight lanes
+//! wide. Both give the same bits.
 //!
-//! A *patch* is what one leaf of the box tree holds: up to [`WIDTH`] triangles in one fan, or in two that share a ring vertex.
-//! Triangle `i` of a patch is `(centre, ring[i], ring[i + 1])`; its centre is the first one below `turn`, the second from there on.
+//! A *patch* is what one leaf of the box tree holds: up to [`WIDTH`] triangles in one fan, or in
+//! two that share a ring vertex. Triangle `i` of a patch is `(centre, ring[i], ring[i + 1])`; its
+//! centre is the first one below `turn`, the second from there on.
 
 mod cone;
 mod point;
@@ -10,7 +12,9 @@ mod ray;
 mod ray8;
 
 pub use cone::NormalCone;
-pub use point::{Nearness, PointFan, SpokeTerms, certified_distance, lone_triangle, point_patch, refined};
+pub use point::{
+    Nearness, PointFan, SpokeTerms, certified_distance, lone_triangle, point_patch, refined,
+};
 pub use point8::{Edges8, LANES_BELOW, Nearness8, point_patch8};
 pub use ray::{Crossing, FanRay, STILL, Shadow, ray_patch};
 pub use ray8::{Ring8, ray_patch8};

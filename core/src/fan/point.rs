@@ -1,8 +1,9 @@
 //! Point and fan, one triangle after the other: what firmware runs.
 //!
-//! The terms of a spoke serve the two triangles beside it (Galin & Akkouche 2005, 4.1). Two slips of the paper: in 4.3, where
-//! `s = p − p₀`, a triangle is skipped if both products are *negative*, and `r_a` is `a²`.
-//! Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5, in the order in which the wide kernel overrides them.
+//! The terms of a spoke serve the two triangles beside it (Galin & Akkouche 2005, 4.1). Two slips
+//! of the paper: in 4.3, where `s = p − p₀`, a triangle is skipped if both products are *negative*,
+//! and `r_a` is `a²`. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5, in the
+//! order in which the wide kernel overrides them.
 
 use super::WIDTH;
 use crate::num::root;
@@ -60,16 +61,17 @@ impl PointFan {
         SpokeTerms { edge, along: dot(edge, self.s), length_sq: dot(edge, edge) }
     }
 
-    /// Whether the triangle between two spokes lies beyond a squared limit, by the supporting plane across the way to its centre: a first look that
-    /// takes three products. The limit has to allow for rounding already.
+    /// Whether the triangle between two spokes lies beyond a squared limit, by the supporting plane
+    /// across the way to its centre: a first look that takes three products. The limit has to
+    /// allow for rounding already.
     #[inline(always)]
     pub fn is_beyond(&self, a: &SpokeTerms, b: &SpokeTerms, limit: f32) -> bool {
         let least = self.centre_sq - above(above(0.0, a.along), b.along);
         least > 0.0 && least * least > limit * self.centre_sq
     }
 
-    /// The triangle between two spokes. Degenerate triangles are defined: a point of what is left of them is found, and the
-    /// certified bound is lower where it may not be the closest.
+    /// The triangle between two spokes. Degenerate triangles are defined: a point of what is left
+    /// of them is found, and the certified bound is lower where it may not be the closest.
     #[inline(always)]
     pub fn triangle(&self, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
         let s = self.s;
@@ -100,12 +102,14 @@ impl PointFan {
                 if va <= 0.0 && e >= 0.0 && g >= 0.0 {
                     (nv, nw, least) = (g, e, e + g);
                 } else {
-                    // Where rounding leaves one negative, it counts as 0: the point has to be one of the triangle's.
+                    // Where rounding leaves one negative, it counts as 0: the point has to be one
+                    // of the triangle's.
                     let (pa, pb, pc) = (above(0.0, va), above(0.0, vb), above(0.0, vc));
                     (nv, nw, least) = (pb, pc, pa + pb + pc);
                 }
             }
-            // A part of a triangle that is a point for all that f32 can tell: what is divided by it is smaller still.
+            // A part of a triangle that is a point for all that f32 can tell: what is divided by it
+            // is smaller still.
             den = above(TREE_TINY, least);
         }
         let inverse = 1.0 / den;
@@ -119,15 +123,17 @@ impl PointFan {
     }
 }
 
-/// [`PointFan::triangle`] as a call: where triangles are few, the kernel's code is not worth another copy.
+/// [`PointFan::triangle`] as a call: where triangles are few, the kernel's code is not worth
+/// another copy.
 #[inline(never)]
 pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
     fan.triangle(a, b)
 }
 
-/// A sliver again, whose certificate falls far short of its distance: there the kernel's weights are differences of numbers that are nearly equal. The
-/// projection into the plane starts from the residual, so that its rounding is that of the way left; and the edges, each by itself, are always
-/// well-conditioned. The nearest of these points; `certified_sq` stays.
+/// A sliver again, whose certificate falls far short of its distance: there the kernel's weights
+/// are differences of numbers that are nearly equal. The projection into the plane starts from the
+/// residual, so that its rounding is that of the way left; and the edges, each by itself, are
+/// always well-conditioned. The nearest of these points; `certified_sq` stays.
 #[inline(never)]
 pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
     let mut best = *near;
@@ -176,8 +182,9 @@ fn above(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
-/// All triangles of a patch, in order. `s` gives the point less the first or the second centre, `spoke(i)` ring vertex `i` less the centre of
-/// triangle `i` (or of the triangle before, for the last), `turn` is where the second fan begins (`count` or more: nowhere).
+/// All triangles of a patch, in order. `s` gives the point less the first or the second centre,
+/// `spoke(i)` ring vertex `i` less the centre of triangle `i` (or of the triangle before, for the
+/// last), `turn` is where the second fan begins (`count` or more: nowhere).
 #[inline(always)]
 pub fn point_patch(
     count: usize,
@@ -202,10 +209,12 @@ pub fn point_patch(
     }
 }
 
-/// A lower bound of the distance of a triangle, tight on slivers and next to the surface: the best of its plane and of supporting planes along
-/// the residual and along the residual made orthogonal to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
+/// A lower bound of the distance of a triangle, tight on slivers and next to the surface: the best
+/// of its plane and of supporting planes along the residual and along the residual made orthogonal
+/// to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
-/// Holds up to the rounding that `TREE_FAN` covers, whatever the triangle. Cost: five roots, so it is for the few triangles that need it.
+/// Holds up to the rounding that `TREE_FAN` covers, whatever the triangle. Cost: five roots, so it
+/// is for the few triangles that need it.
 #[inline]
 pub fn certified_distance(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let fan = PointFan::new(s);

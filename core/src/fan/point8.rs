@@ -1,12 +1,15 @@
-//! Point and patch, eight triangles at once: loops over `[f32; 8]` that the compiler turns into vector instructions.
+//! Point and patch, eight triangles at once: loops over `[f32; 8]` that the compiler turns into
+//! vector instructions.
 //!
-//! Every branch of the scalar kernel is taken and selected, in the order that gives the same result; products and sums are
-//! written in the same order, so the bits are the same (a test holds both to it).
+//! Every branch of the scalar kernel is taken and selected, in the order that gives the same
+//! result; products and sums are written in the same order, so the bits are the same (a test holds
+//! both to it).
 
 use super::WIDTH;
 use crate::num::tolerance::TREE_TINY;
 
-/// Spokes of the triangles of a patch: `e` to ring vertex `i`, `g` to ring vertex `i + 1`, each from the triangle's own centre. `[axis][lane]`.
+/// Spokes of the triangles of a patch: `e` to ring vertex `i`, `g` to ring vertex `i + 1`, each
+/// from the triangle's own centre. `[axis][lane]`.
 #[derive(Clone, Copy, Debug)]
 pub struct Edges8 {
     /// First spoke.
@@ -17,7 +20,8 @@ pub struct Edges8 {
     pub s: [[f32; WIDTH]; 3],
 }
 
-/// For each count, all ones in the lanes below it. A table and bits, for a comparison of lanes would become branches.
+/// For each count, all ones in the lanes below it. A table and bits, for a comparison of lanes
+/// would become branches.
 pub const LANES_BELOW: [[u32; WIDTH]; WIDTH + 1] = {
     let mut table = [[0; WIDTH]; WIDTH + 1];
     let mut count = 0;
@@ -118,6 +122,7 @@ pub fn point_patch8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
         distance_sq[i] = f32::from_bits(r2.to_bits() & used[i] | unused);
         certified_sq[i] = f32::from_bits(certified.to_bits() & used[i] | unused);
     }
-    // Written to memory side by side: what is only ever used lane by lane the compiler would compute so, too.
+    // Written to memory side by side: what is only ever used lane by lane the compiler would
+    // compute so, too.
     core::hint::black_box(Nearness8 { distance_sq, certified_sq, v: along_e, w: along_g })
 }

@@ -1,12 +1,17 @@
-//! Segment and fan, one triangle after the other: what firmware runs, and what settles the triangles that either kernel flags.
+//! Segment and fan, one triangle after the other: what firmware runs, and what settles the
+//! triangles that either kernel flags.
 //!
-//! Watertight after Woop, Benthin & Wald (*Watertight Ray/Triangle Intersection*, 2013): the segment's line becomes the third axis by a shear, and
-//! a triangle is met if the origin lies in its shadow. The shadow of a vertex depends on the vertex and the segment only, and the cross
-//! product of two shadows has the right sign or is 0, whatever the rounding; so triangles of equal vertices leave no gap between them.
+//! Watertight after Woop, Benthin & Wald (*Watertight Ray/Triangle Intersection*, 2013): the
+//! segment's line becomes the third axis by a shear, and a triangle is met if the origin lies in
+//! its shadow. The shadow of a vertex depends on the vertex and the segment only, and the cross
+//! product of two shadows has the right sign or is 0, whatever the rounding; so triangles of equal
+//! vertices leave no gap between them.
 //!
-//! The cross product of a spoke is the term `(s ∧ d)·eₖ` that Galin & Akkouche (2005, 3.1) share between the triangles beside it. Slips of
-//! the paper: `u` and `v` have the wrong sign in 3.1 (3.3 has them right), `(c ∧ b)·a` there is `(b ∧ c)·a`, in 3.2
-//! `n` is `(o − p₀) ∧ d`, and step 2 of 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is settled here.
+//! The cross product of a spoke is the term `(s ∧ d)·eₖ` that Galin & Akkouche (2005, 3.1) share
+//! between the triangles beside it. Slips of the paper: `u` and `v` have the wrong sign in 3.1 (3.3
+//! has them right), `(c ∧ b)·a` there is `(b ∧ c)·a`, in 3.2 `n` is `(o − p₀) ∧ d`, and step 2 of
+//! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is settled
+//! here.
 //!
 //! What rounding and the surface error leave open: `core/docs/rounding.md` §9.
 
@@ -14,21 +19,25 @@ use super::WIDTH;
 use crate::num::tolerance::{TREE_TINY, U32};
 use glam::Vec3;
 
-/// Half the width of the strip along an edge in which a kernel decides nothing, in units of [`U32`] times the 1-norm of the way to the
-/// farthest corner. Proved: 12.9 (§9). Smaller loses the guarantee, larger leaves more segments undecided.
+/// Half the width of the strip along an edge in which a kernel decides nothing, in units of [`U32`]
+/// times the 1-norm of the way to the farthest corner. Proved: 12.9 (§9). Smaller loses the
+/// guarantee, larger leaves more segments undecided.
 const SHEAR: f32 = 16.0;
 
-/// Rounding of a parameter, in units of [`U32`] times the greatest parameter of the triangle's corners, and of the segment's far end. Proved:
-/// 21.6 (§9).
+/// Rounding of a parameter, in units of [`U32`] times the greatest parameter of the triangle's
+/// corners, and of the segment's far end. Proved: 21.6 (§9).
 const PARAMETER: f32 = 24.0;
 
-/// What underflow may take from a cross product: nothing that is computed there loses more than 2^-147.
+/// What underflow may take from a cross product: nothing that is computed there loses more than
+/// 2^-147.
 pub(super) const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
-/// A component of a direction, grid units, that counts as 0: the way along it is lost in any rounding (2^-80).
+/// A component of a direction, grid units, that counts as 0: the way along it is lost in any
+/// rounding (2^-80).
 pub const STILL: f32 = TREE_TINY / (1u32 << 20) as f32;
 
-/// A segment as fans see it, grid units: a line, sheared into the third axis, and a range of parameters from 0.
+/// A segment as fans see it, grid units: a line, sheared into the third axis, and a range of
+/// parameters from 0.
 #[derive(Clone, Copy, Debug)]
 pub struct FanRay {
     /// The shadow plane's axes, then the dominant one.
@@ -71,7 +80,8 @@ pub struct Shadow {
     t: f32,
 }
 
-/// An edge seen from the line: twice the signed area that it spans with it, and what that may be off by.
+/// An edge seen from the line: twice the signed area that it spans with it, and what that may be
+/// off by.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     area: f32,
@@ -85,8 +95,10 @@ fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
 }
 
 impl FanRay {
-    /// The line through `origin` along `direction` with its reciprocals (components below [`STILL`] replaced), for parameters from 0 to `end`. `surface` is how
-    /// far the input's surface and the line may be from where they are said to be, `size` the 1-norm of the way to the farthest vertex.
+    /// The line through `origin` along `direction` with its reciprocals (components below [`STILL`]
+    /// replaced), for parameters from 0 to `end`. `surface` is how far the input's surface and
+    /// the line may be from where they are said to be, `size` the 1-norm of the way to the farthest
+    /// vertex.
     #[inline(always)]
     pub fn new(
         origin: [f32; 3],
@@ -172,16 +184,19 @@ impl FanRay {
         Side { area: a.x * y - a.y * x, doubt: self.doubt * (x.abs() + y.abs()) + UNDERFLOW }
     }
 
-    /// Which side of the triangle the segment comes from: 1 if corners in counter-clockwise order seen from the segment's start span a positive area.
+    /// Which side of the triangle the segment comes from: 1 if corners in counter-clockwise order
+    /// seen from the segment's start span a positive area.
     #[inline(always)]
     pub fn front(&self) -> f32 {
         if self.inverse < 0.0 { 1.0 } else { -1.0 }
     }
 
-    /// Settles one triangle. `wanted` is the sign of the areas that count, 0 for both. `None`: proved clear of it, or culled.
+    /// Settles one triangle. `wanted` is the sign of the areas that count, 0 for both. `None`:
+    /// proved clear of it, or culled.
     ///
-    /// A segment in the triangle's plane and triangles without area are never certain; they are met, as computed, where their shadow, a line, runs
-    /// through the origin, unless a facing is wanted, for they have none.
+    /// A segment in the triangle's plane and triangles without area are never certain; they are
+    /// met, as computed, where their shadow, a line, runs through the origin, unless a facing
+    /// is wanted, for they have none.
     #[inline(never)]
     pub fn crossing(&self, [a, b, c]: [Shadow; 3], wanted: f32) -> Option<Crossing> {
         let near = |p: f32, q: f32, r: f32| {
@@ -213,8 +228,9 @@ impl FanRay {
                 return None;
             }
             t = less(greater(flat, first), last);
-            let inside =
-                |sign: f32| (sign * p.area > p.doubt) & (sign * q.area > q.doubt) & (sign * r.area > r.doubt);
+            let inside = |sign: f32| {
+                (sign * p.area > p.doubt) & (sign * q.area > q.doubt) & (sign * r.area > r.doubt)
+            };
             let sign = if total < 0.0 { -1.0 } else { 1.0 };
             if inside(sign) {
                 if sign * wanted < 0.0 {
@@ -256,8 +272,8 @@ impl FanRay {
         })
     }
 
-    /// How often a way from `a` to `b` runs around the line, counted where it crosses one side of the shadow plane's first axis: 1, 0 or -1. `None`
-    /// if the way may meet the line.
+    /// How often a way from `a` to `b` runs around the line, counted where it crosses one side of
+    /// the shadow plane's first axis: 1, 0 or -1. `None` if the way may meet the line.
     fn turns(&self, a: Shadow, b: Shadow) -> Option<i32> {
         let side = self.side(a, b);
         let d = self.doubt;
@@ -274,11 +290,14 @@ impl FanRay {
             return None;
         }
         let passes = |towards: bool| right | towards;
-        Some(i32::from(rises & passes(side.area > 0.0)) - i32::from(falls & passes(side.area < 0.0)))
+        Some(
+            i32::from(rises & passes(side.area > 0.0)) - i32::from(falls & passes(side.area < 0.0)),
+        )
     }
 
-    /// How often the shadow of some triangles of a fan covers the line, counted with their sign, whatever rounding and surface error do to their vertices:
-    /// spokes between two of them cancel out, all other edges have to be clear of the line. `None` if one is not.
+    /// How often the shadow of some triangles of a fan covers the line, counted with their sign,
+    /// whatever rounding and surface error do to their vertices: spokes between two of them
+    /// cancel out, all other edges have to be clear of the line. `None` if one is not.
     ///
     /// `lanes` has the bits of triangles `first..end` of the fan with this centre.
     pub fn cover(
@@ -307,7 +326,8 @@ impl FanRay {
     }
 }
 
-/// Where the origin lies in a shadow that is a line: the first and the last parameter of the triangle there.
+/// Where the origin lies in a shadow that is a line: the first and the last parameter of the
+/// triangle there.
 #[cold]
 fn in_plane([a, b, c]: [Shadow; 3]) -> Option<(f32, f32)> {
     let mut range: Option<(f32, f32)> = None;
@@ -331,7 +351,8 @@ fn in_plane([a, b, c]: [Shadow; 3]) -> Option<(f32, f32)> {
     range
 }
 
-/// Twice the signed area that an edge spans with the origin: of opposite sign, bit for bit, for the opposite edge.
+/// Twice the signed area that an edge spans with the origin: of opposite sign, bit for bit, for the
+/// opposite edge.
 #[inline(always)]
 fn cross(a: Shadow, b: Shadow) -> f32 {
     a.x * b.y - a.y * b.x
@@ -347,10 +368,12 @@ fn less(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// Triangles of a patch that the segment's line may meet: a bit for each, none of them missing. The others are proved clear of it.
+/// Triangles of a patch that the segment's line may meet: a bit for each, none of them missing. The
+/// others are proved clear of it.
 ///
-/// `centres` and `ring` are shadows of vertices, `turn` is where the second fan begins (at the ring's end or later: nowhere). A spoke serves the
-/// triangles on both sides, and the outer edge is looked at only if the spokes leave the triangle open.
+/// `centres` and `ring` are shadows of vertices, `turn` is where the second fan begins (at the
+/// ring's end or later: nowhere). A spoke serves the triangles on both sides, and the outer edge is
+/// looked at only if the spokes leave the triangle open.
 #[inline(always)]
 pub fn ray_patch(
     ray: &FanRay,

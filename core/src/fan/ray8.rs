@@ -1,12 +1,14 @@
-//! Segment and patch, eight triangles at once: loops over `[f32; 8]` that the compiler turns into vector instructions.
+//! Segment and patch, eight triangles at once: loops over `[f32; 8]` that the compiler turns into
+//! vector instructions.
 //!
-//! It only flags the triangles that the line may meet, with the scalar kernel's arithmetic and so its bits (a test holds both to it). Few
-//! are flagged, so what decides about them is scalar.
+//! It only flags the triangles that the line may meet, with the scalar kernel's arithmetic and so
+//! its bits (a test holds both to it). Few are flagged, so what decides about them is scalar.
 
 use super::WIDTH;
 use super::ray::{FanRay, UNDERFLOW};
 
-/// Ring vertices of the triangles of a patch, grid units, in the order of [`FanRay::axes`]. `[axis][lane]`.
+/// Ring vertices of the triangles of a patch, grid units, in the order of [`FanRay::axes`].
+/// `[axis][lane]`.
 #[derive(Clone, Copy, Debug)]
 pub struct Ring8 {
     /// Ring vertex `i` of triangle `i`.
@@ -22,7 +24,8 @@ fn blend(mask: u32, first: f32, second: f32) -> f32 {
     f32::from_bits(first.to_bits() & mask | second.to_bits() & !mask)
 }
 
-/// Triangles of a patch that the segment's line may meet, as [`ray_patch`](super::ray_patch) says. `first` has ones in the lanes of the first fan, `used` in those of triangles.
+/// Triangles of a patch that the segment's line may meet, as [`ray_patch`](super::ray_patch) says.
+/// `first` has ones in the lanes of the first fan, `used` in those of triangles.
 #[inline(always)]
 pub fn ray_patch8(ray: &FanRay, ring: &Ring8, first: &[u32; WIDTH], used: &[u32; WIDTH]) -> u32 {
     let [ox, oy, oz] = ray.origin();

@@ -28,7 +28,8 @@ pub struct Clipped {
 }
 
 impl Aabb {
-    /// Distance bounds `(lower, upper)` from `p` to anything inside, in f64 with rounding taken into account.
+    /// Distance bounds `(lower, upper)` from `p` to anything inside, in f64 with rounding taken
+    /// into account.
     pub fn distance_range(&self, p: DVec3) -> (f64, f64) {
         let (lo, hi) = (self.min.as_dvec3(), self.max.as_dvec3());
         let gap = (lo - p).max(p - hi).max(DVec3::ZERO);
@@ -36,7 +37,8 @@ impl Aabb {
         (libm::sqrt(gap.dot(gap)) * (1.0 - 8.0 * U64), libm::sqrt(far.dot(far)) * (1.0 + 8.0 * U64))
     }
 
-    /// The part of the segment `a b` that may meet the box, by slabs, rounded outward; `None` if it certainly misses.
+    /// The part of the segment `a b` that may meet the box, by slabs, rounded outward; `None` if it
+    /// certainly misses.
     pub fn clip(&self, a: DVec3, b: DVec3) -> Option<Clipped> {
         let d = b - a;
         let size = a.abs() + b.abs();

@@ -1,7 +1,9 @@
-//! Four supporting planes at a time, for targets that have four lanes; one after the other elsewhere. The same bits either way.
+//! Four supporting planes at a time, for targets that have four lanes; one after the other
+//! elsewhere. The same bits either way.
 //!
-//! The lane loop takes every branch of the scalar kernel and selects, which a vectorising compiler turns into four-lane
-//! arithmetic; a Cortex-M would pay for all branches, so it gets the scalar one. Both evaluate the same formulas in the same order.
+//! The lane loop takes every branch of the scalar kernel and selects, which a vectorising compiler
+//! turns into four-lane arithmetic; a Cortex-M would pay for all branches, so it gets the scalar
+//! one. Both evaluate the same formulas in the same order.
 
 use super::swept_triangle::Support;
 use glam::Vec3;
@@ -12,7 +14,8 @@ pub const LANES: usize = 4;
 /// Whether four lanes are worth all branches.
 const VECTOR: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
-/// Up to [`LANES`] triangles, one array for each coordinate of each corner: what a vectoriser can load whole.
+/// Up to [`LANES`] triangles, one array for each coordinate of each corner: what a vectoriser can
+/// load whole.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes {
     t: [[f32; LANES]; 9],
@@ -31,7 +34,8 @@ impl Lanes {
         }
     }
 
-    /// Supporting planes, facing the origin, of the first `count` triangles; the others are arbitrary.
+    /// Supporting planes, facing the origin, of the first `count` triangles; the others are
+    /// arbitrary.
     #[inline(always)]
     pub fn supports(&self, count: usize) -> [Support; LANES] {
         if VECTOR {
@@ -40,7 +44,8 @@ impl Lanes {
         let mut out = [Support::default(); LANES];
         for (lane, slot) in out.iter_mut().enumerate().take(count) {
             let [ax, ay, az, bx, by, bz, cx, cy, cz] = self.t.map(|row| row[lane % LANES]);
-            *slot = Support::new(Vec3::new(ax, ay, az), Vec3::new(bx, by, bz), Vec3::new(cx, cy, cz));
+            *slot =
+                Support::new(Vec3::new(ax, ay, az), Vec3::new(bx, by, bz), Vec3::new(cx, cy, cz));
         }
         out
     }
@@ -64,7 +69,8 @@ fn in_lanes(t: &[[f32; LANES]; 9]) -> [Support; LANES] {
         let va = d3 * d6 - d5 * d4;
         let (e4, e5) = (d4 - d3, d5 - d6);
         let sum = va + vb + vc;
-        // From the last branch of the scalar kernel to the first, so that the first that applies wins.
+        // From the last branch of the scalar kernel to the first, so that the first that applies
+        // wins.
         let (mut den, mut nu, mut nv) = (sum, vb, vc);
         let empty = sum <= 0.0;
         (den, nu, nv) = if empty { (1.0, 0.0, 0.0) } else { (den, nu, nv) };
@@ -107,7 +113,8 @@ mod tests {
 
     /// Coordinates of few values, so that every region, tie and degenerate triangle comes up.
     fn coordinate(state: &mut u64, coarse: bool) -> f32 {
-        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let bits = (*state >> 33) as u32;
         if coarse { (bits % 5) as f32 - 2.0 } else { bits as f32 / 1e9 - 1.0 }
     }
@@ -116,9 +123,11 @@ mod tests {
     fn lanes_give_the_bits_of_the_scalar_kernel() {
         let mut state = 7;
         for round in 0..100_000 {
-            let mut vector =
-                || Vec3::from_array(core::array::from_fn(|_| coordinate(&mut state, round % 2 == 0)));
-            let triangles: [[Vec3; 3]; LANES] = core::array::from_fn(|_| core::array::from_fn(|_| vector()));
+            let mut vector = || {
+                Vec3::from_array(core::array::from_fn(|_| coordinate(&mut state, round % 2 == 0)))
+            };
+            let triangles: [[Vec3; 3]; LANES] =
+                core::array::from_fn(|_| core::array::from_fn(|_| vector()));
             let mut rows = Lanes::EMPTY;
             for (lane, triangle) in triangles.iter().enumerate() {
                 rows.set(lane, *triangle);

@@ -1,8 +1,8 @@
 //! Point–triangle distance in f64, as an interval that contains the real one.
 //!
-//! Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5. The upper end is the length of the residual
-//! `ap − u·ab − v·ac`; the lower end is a supporting plane, which holds whatever region rounding may have chosen.
-//! Derivation: `core/docs/rounding.md` §4.
+//! Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5. The upper end is the
+//! length of the residual `ap − u·ab − v·ac`; the lower end is a supporting plane, which holds
+//! whatever region rounding may have chosen. Derivation: `core/docs/rounding.md` §4.
 
 use crate::num::tolerance::{POINT_INTERVAL, U64};
 use glam::DVec3;
@@ -16,7 +16,8 @@ pub struct PointTriangle {
     pub upper: f64,
     /// Squared length of the residual as computed: what ties are decided by.
     pub distance_sq: f64,
-    /// The closest point is `a + u·(b − a) + v·(c − a)`, `u, v ≥ 0`, `u + v ≤ 1` up to one rounding.
+    /// The closest point is `a + u·(b − a) + v·(c − a)`, `u, v ≥ 0`, `u + v ≤ 1` up to one
+    /// rounding.
     pub u: f64,
     /// See [`u`](Self::u).
     pub v: f64,
@@ -24,9 +25,10 @@ pub struct PointTriangle {
 
 /// Distance interval of `p` and the triangle `a b c`.
 ///
-/// Degenerate triangles (segments, points) are defined: the nearest point of what is left. The width of the interval is a
-/// few 1e-16 of the lengths involved; on a needle of aspect ratio `k` the lower end loses `k` times that.
-/// Coordinates must be finite and below 1e75, so that no product overflows.
+/// Degenerate triangles (segments, points) are defined: the nearest point of what is left. The
+/// width of the interval is a few 1e-16 of the lengths involved; on a needle of aspect ratio `k`
+/// the lower end loses `k` times that. Coordinates must be finite and below 1e75, so that no
+/// product overflows.
 #[inline]
 pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
     let ap = p - a;
@@ -48,7 +50,8 @@ pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
     PointTriangle { lower: lower.max(0.0), upper: length + margin, distance_sq, u, v }
 }
 
-/// Barycentric coordinates of the closest point, and the direction to certify it by where a better one than the residual is known.
+/// Barycentric coordinates of the closest point, and the direction to certify it by where a better
+/// one than the residual is known.
 #[inline]
 fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
     let d1 = ab.dot(ap);
@@ -90,7 +93,8 @@ fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
     }
     let sum = va + vb + vc;
     if sum <= 0.0 {
-        // Only a triangle that rounding has flattened to nothing gets here; corner `a` is a true, if poor, upper bound.
+        // Only a triangle that rounding has flattened to nothing gets here; corner `a` is a true,
+        // if poor, upper bound.
         return (0.0, 0.0, None);
     }
     let inverse = 1.0 / sum;

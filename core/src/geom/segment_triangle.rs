@@ -1,9 +1,10 @@
-//! Segment–triangle intersection in f64 that never misses: what rounding leaves undecided counts as a hit.
+//! Segment–triangle intersection in f64 that never misses: what rounding leaves undecided counts as
+//! a hit.
 //!
-//! Signs of the three triple products `d · (B × C)`, `d · (C × A)`, `d · (A × B)` with the corners taken from the
-//! segment's start (Segura & Feito 1998). `x × y = −(y × x)` holds bit for bit, so that two triangles which share an edge
-//! agree on its side, and the closed test with a proved margin leaves no gap along edges and at vertices.
-//! Derivation: `core/docs/rounding.md` §5.
+//! Signs of the three triple products `d · (B × C)`, `d · (C × A)`, `d · (A × B)` with the corners
+//! taken from the segment's start (Segura & Feito 1998). `x × y = −(y × x)` holds bit for bit, so
+//! that two triangles which share an edge agree on its side, and the closed test with a proved
+//! margin leaves no gap along edges and at vertices. Derivation: `core/docs/rounding.md` §5.
 
 use super::point_triangle;
 use crate::num::tolerance::{COPLANAR_TOUCH, TRIPLE_PRODUCT, U64};
@@ -22,9 +23,10 @@ pub struct SegmentTriangle {
 
 /// First common point of the closed segment `a b` and the closed triangle `v0 v1 v2`.
 ///
-/// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths involved (on a needle, times its
-/// aspect ratio): a caller that must never hear "clear" by mistake wants exactly that. Both facings hit. A segment in the triangle's plane hits at
-/// the first point that it shares with it; a segment of zero length hits if its point lies on the triangle.
+/// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths
+/// involved (on a needle, times its aspect ratio): a caller that must never hear "clear" by mistake
+/// wants exactly that. Both facings hit. A segment in the triangle's plane hits at the first point
+/// that it shares with it; a segment of zero length hits if its point lies on the triangle.
 pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<SegmentTriangle> {
     let d = b - a;
     let (p, q, r) = (v0 - a, v1 - a, v2 - a);
@@ -51,7 +53,8 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
     let height_error = unit * np * norm_1(e1) * norm_1(e2);
     let t = height / across;
     // |δt| ≤ (δheight + |t| δacross) / (|across| − δacross), and what the corners' own rounding adds.
-    let error = (height_error + t.abs() * across_error) / (across.abs() - across_error) + 8.0 * U64 * t.abs();
+    let error = (height_error + t.abs() * across_error) / (across.abs() - across_error)
+        + 8.0 * U64 * t.abs();
     if t + error < 0.0 || t - error > 1.0 {
         return None;
     }
@@ -75,8 +78,8 @@ fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> 
     if point_triangle(a, v0, v1, v2).lower <= touch {
         return Some(SegmentTriangle { t: 0.0, t_lower: 0.0, t_upper: 0.0 });
     }
-    // The start is outside, so the first common point lies on an edge. The crossing of nearly parallel lines is
-    // ill-conditioned; the shadow of the triangle on the segment is not.
+    // The start is outside, so the first common point lies on an edge. The crossing of nearly
+    // parallel lines is ill-conditioned; the shadow of the triangle on the segment is not.
     let dd = d.dot(d);
     let nearest = d.dot(p).min(d.dot(q)).min(d.dot(r));
     let shadow = if dd > 0.0 { (nearest - touch * libm::sqrt(dd)) / dd - 16.0 * U64 } else { 0.0 };
@@ -90,10 +93,12 @@ fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> 
     Some(SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 })
 }
 
-/// A lower bound of the distance between a segment and a triangle, by separating axes; tight up to rounding.
+/// A lower bound of the distance between a segment and a triangle, by separating axes; tight up to
+/// rounding.
 ///
-/// The closest points of the two are an end and the triangle, two points inside the segment and an edge, or one inside the
-/// segment and a corner; so one of the axes below points from one to the other. Any axis gives a true bound.
+/// The closest points of the two are an end and the triangle, two points inside the segment and an
+/// edge, or one inside the segment and a corner; so one of the axes below points from one to the
+/// other. Any axis gives a true bound.
 fn gap(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> f64 {
     let d = b - a;
     let [v0, v1, v2] = corners;
@@ -104,7 +109,8 @@ fn gap(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> f64 {
         if gg <= 0.0 {
             return 0.0;
         }
-        let (low, high) = (g.dot(p).min(g.dot(q)).min(g.dot(r)), g.dot(p).max(g.dot(q)).max(g.dot(r)));
+        let (low, high) =
+            (g.dot(p).min(g.dot(q)).min(g.dot(r)), g.dot(p).max(g.dot(q)).max(g.dot(r)));
         let (near, far) = (g.dot(d).min(0.0), g.dot(d).max(0.0));
         (low - far).max(near - high) / libm::sqrt(gg) - margin
     };
@@ -193,7 +199,8 @@ mod tests {
     #[test]
     fn interior_edge_and_vertex_hit_from_both_sides() {
         for z in [1.0, -1.0] {
-            for (x, y) in [(0.25, 0.25), (0.5, 0.0), (0.5, 0.5), (0.0, 0.0), (1.0, 0.0), (0.0, 1.0)] {
+            for (x, y) in [(0.25, 0.25), (0.5, 0.0), (0.5, 0.5), (0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]
+            {
                 assert_eq!(hit([x, y, z], [x, y, -z]), Some(0.5), "{x} {y} {z}");
             }
         }
@@ -230,7 +237,13 @@ mod tests {
         assert_eq!(hit([0.2, 0.2, 0.0], [0.2, 0.2, 0.0]), Some(0.0));
         assert_eq!(hit([0.2, 0.2, 0.1], [0.2, 0.2, 0.1]), None);
         let needle = [DVec3::ZERO, DVec3::X, DVec3::X * 0.5];
-        assert!(segment_triangle(DVec3::new(0.5, 0.0, 1.0), DVec3::new(0.5, 0.0, -1.0), needle).is_some());
-        assert!(segment_triangle(DVec3::new(0.5, 0.1, 1.0), DVec3::new(0.5, 0.1, -1.0), needle).is_none());
+        assert!(
+            segment_triangle(DVec3::new(0.5, 0.0, 1.0), DVec3::new(0.5, 0.0, -1.0), needle)
+                .is_some()
+        );
+        assert!(
+            segment_triangle(DVec3::new(0.5, 0.1, 1.0), DVec3::new(0.5, 0.1, -1.0), needle)
+                .is_none()
+        );
     }
 }

@@ -1,7 +1,9 @@
-//! Lower bounds, in f32, of the distance from a point or a segment to a triangle swept by a sphere (Guéziec 2000, 3.1).
+//! Lower bounds, in f32, of the distance from a point or a segment to a triangle swept by a sphere
+//! (Guéziec 2000, 3.1).
 //!
-//! A bound of this file may be too low by rounding but never too high: it is a supporting plane, which holds for any
-//! direction, so a region misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §2, §3.
+//! A bound of this file may be too low by rounding but never too high: it is a supporting plane,
+//! which holds for any direction, so a region misjudged on a sliver costs tightness and not truth.
+//! Derivation: `core/docs/rounding.md` §2, §3.
 
 use super::lanes::Lanes;
 use super::{Aabb, Clipped};
@@ -11,7 +13,8 @@ use crate::num::tolerance::{
 use glam::Vec3;
 
 /// A lower bound of the distance from the origin to the triangle `a b c`, exact up to a
-/// dozen roundings of (farthest corner + longest edge). Zero where the direction is too short to trust.
+/// dozen roundings of (farthest corner + longest edge). Zero where the direction is too short to
+/// trust.
 #[inline(always)]
 pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
     let Support { along, length_sq } = Support::new(a, b, c);
@@ -35,18 +38,22 @@ impl Support {
         let ab = b - a;
         let ac = c - a;
         let r = residual(ap, ab, ac);
-        Support { along: r.dot(ap) - greater(greater(0.0, r.dot(ab)), r.dot(ac)), length_sq: r.dot(r) }
+        Support {
+            along: r.dot(ap) - greater(greater(0.0, r.dot(ab)), r.dot(ac)),
+            length_sq: r.dot(r),
+        }
     }
 }
 
-/// The greater of two numbers, by one instruction: `f32::max` spends four on NaN, which does not occur here.
+/// The greater of two numbers, by one instruction: `f32::max` spends four on NaN, which does not
+/// occur here.
 #[inline(always)]
 fn greater(x: f32, y: f32) -> f32 {
     if y > x { y } else { x }
 }
 
-/// Vector from the (approximately) closest point to the query. Any finite result is safe, so no branch needs a proof.
-/// `lanes` evaluates the same formulas.
+/// Vector from the (approximately) closest point to the query. Any finite result is safe, so no
+/// branch needs a proof. `lanes` evaluates the same formulas.
 #[inline(always)]
 fn residual(ap: Vec3, ab: Vec3, ac: Vec3) -> Vec3 {
     let d1 = ab.dot(ap);
@@ -106,8 +113,9 @@ impl PointProbe {
         PointProbe { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
     }
 
-    /// Not above the distance from the point to the triangle swept by `radius`, and never negative; `None` if that distance
-    /// certainly exceeds `limit`, which is found out without a square root.
+    /// Not above the distance from the point to the triangle swept by `radius`, and never negative;
+    /// `None` if that distance certainly exceeds `limit`, which is found out without a square
+    /// root.
     #[inline(always)]
     pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<f32> {
         self.bound(Support::new(a - self.point, b - self.point, c - self.point), radius, limit)
@@ -159,7 +167,10 @@ impl SegmentProbe {
         let edge = bounds.max - bounds.min;
         let reach = (start - bounds.min).abs().max((bounds.max - start).abs());
         let ends = start.abs() + end.abs();
-        let norms = 2.0 * (edge.x + edge.y + edge.z + reach.x + reach.y + reach.z) + ends.x + ends.y + ends.z;
+        let norms = 2.0 * (edge.x + edge.y + edge.z + reach.x + reach.y + reach.z)
+            + ends.x
+            + ends.y
+            + ends.z;
         // The clipped ends are off by roundings of the unclipped ones.
         let clipping = (16.0 * U64 * segment.magnitude) as f32;
         let margin = SEGMENT_BOUND * U32 * norms + clipping + UNDERFLOW;
@@ -177,8 +188,8 @@ impl SegmentProbe {
         }
     }
 
-    /// `Some(t)` if the segment may come within `radius` of the triangle, and then at no parameter below `t` of the
-    /// unclipped segment; `None` only if it certainly does not.
+    /// `Some(t)` if the segment may come within `radius` of the triangle, and then at no parameter
+    /// below `t` of the unclipped segment; `None` only if it certainly does not.
     #[inline(always)]
     pub fn enter(&self, corners: [Vec3; 3], radius: f32) -> Option<f32> {
         let reach = radius + self.margin;
@@ -190,9 +201,13 @@ impl SegmentProbe {
         if first > 1.0 || last < 0.0 {
             return None;
         }
-        // Seen along the segment, the distance of its line and the triangle is that of a point and a triangle.
-        let across =
-            direction_bound(a - self.direction * sa, b - self.direction * sb, c - self.direction * sc);
+        // Seen along the segment, the distance of its line and the triangle is that of a point and
+        // a triangle.
+        let across = direction_bound(
+            a - self.direction * sa,
+            b - self.direction * sb,
+            c - self.direction * sc,
+        );
         if across > reach {
             return None;
         }
@@ -215,10 +230,14 @@ mod tests {
             (Vec3::new(0.5, -2.0, 0.0), 2.0),
         ] {
             let probe = PointProbe::new(point, &bounds);
-            let lower = probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
+            let lower =
+                probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
             assert!(probe.lower(corners, 0.25, distance - 0.2).is_some());
             assert!(probe.lower(corners, 0.25, distance - 0.3).is_none());
-            assert!(lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4, "{lower} {distance}");
+            assert!(
+                lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4,
+                "{lower} {distance}"
+            );
         }
     }
 

@@ -1,9 +1,13 @@
-//! Whether two triangles meet, with proof, by signs of determinants after Devillers & Guigue, *Faster Triangle-Triangle Intersection Tests* (2002).
+//! Whether two triangles meet, with proof, by signs of determinants after Devillers & Guigue,
+//! *Faster Triangle-Triangle Intersection Tests* (2002).
 //!
-//! Two triangles have a common point exactly if an edge of one has a point in common with the other. An edge misses a triangle if its ends lie on one
-//! side of the plane, or if its line passes two of the triangle's edges on different sides; it crosses if its ends lie on different sides and its line passes all
-//! three on one side. If both triangles pass through the other's plane, it is enough to compare where they do. All of these are signs of determinants of three differences, and a sign counts only where it would be the
-//! same for all vertices within `doubt`: `core/docs/rounding.md` §11.
+//! Two triangles have a common point exactly if an edge of one has a point in common with the
+//! other. An edge misses a triangle if its ends lie on one side of the plane, or if its line passes
+//! two of the triangle's edges on different sides; it crosses if its ends lie on different sides
+//! and its line passes all three on one side. If both triangles pass through the other's plane, it
+//! is enough to compare where they do. All of these are signs of determinants of three differences,
+//! and a sign counts only where it would be the same for all vertices within `doubt`:
+//! `core/docs/rounding.md` §11.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -14,15 +18,19 @@ pub enum Contact {
     Apart,
     /// Proved: they have.
     Meets,
-    /// They come so near to each other that what the vertices may be off by, or rounding, leaves it open.
+    /// They come so near to each other that what the vertices may be off by, or rounding, leaves it
+    /// open.
     Open,
 }
 
 /// A precision that the test is done in.
-pub trait Real: Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub trait Real:
+    Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
     /// Zero.
     const ZERO: Self;
-    /// Rounding of a determinant, as a part of the product of its vectors' 1-norms. Proved: 10 unit roundoffs; here 16.
+    /// Rounding of a determinant, as a part of the product of its vectors' 1-norms. Proved: 10 unit
+    /// roundoffs; here 16.
     const DETERMINANT: Self;
     /// More than what underflow takes from a determinant and its bound.
     const UNDERFLOW: Self;
@@ -33,7 +41,8 @@ pub trait Real: Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mu
 impl Real for f32 {
     const ZERO: f32 = 0.0;
     const DETERMINANT: f32 = 8.0 * f32::EPSILON;
-    // Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than 2^38.
+    // Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than
+    // 2^38.
     const UNDERFLOW: f32 = 1.0 / (1u128 << 100) as f32;
     #[inline(always)]
     fn abs(self) -> f32 {
@@ -77,7 +86,9 @@ fn norm_1<T: Real>([x, y, z]: Point<T>) -> T {
 #[inline(always)]
 pub fn determinant_margin<T: Real>(x: T, y: T, z: T, shift: T) -> T {
     let (xy, sum) = (x * y, x + y);
-    T::DETERMINANT * (xy * z) + shift * ((xy + sum * z) + shift * ((sum + z) + shift)) + T::UNDERFLOW
+    T::DETERMINANT * (xy * z)
+        + shift * ((xy + sum * z) + shift * ((sum + z) + shift))
+        + T::UNDERFLOW
 }
 
 /// 1 or −1 if that is proved, else 0.
@@ -113,12 +124,15 @@ fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shif
     })
 }
 
-/// Whether the triangles `a` and `b` have a common point, vertices being known up to `doubt`: no true vertex is farther than that from its place here.
+/// Whether the triangles `a` and `b` have a common point, vertices being known up to `doubt`: no
+/// true vertex is farther than that from its place here.
 ///
-/// Triangles that touch are [`Contact::Open`], whatever the precision; so is every pair of which one has no area and the other comes within rounding of it. `doubt` may be 0: then the
+/// Triangles that touch are [`Contact::Open`], whatever the precision; so is every pair of which
+/// one has no area and the other comes within rounding of it. `doubt` may be 0: then the
 /// given coordinates are the truth. Products of three lengths have to stay within the type's range.
 ///
-/// Cost: 3 or 6 determinants if a plane of one parts them, 8 mostly; 15 and 36 inner products where a vertex comes near the other's plane.
+/// Cost: 3 or 6 determinants if a plane of one parts them, 8 mostly; 15 and 36 inner products where
+/// a vertex comes near the other's plane.
 #[inline(always)]
 pub fn triangles_meet<T: Real>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> Contact {
     // Each end of a difference may be off.
@@ -152,7 +166,8 @@ fn turn<T: Real>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
     sign(dot(cross(first.way, second.way), way), margin)
 }
 
-/// The edges by which a triangle passes up and down through a plane, if some of its vertices are above (1) and the others below it (−1).
+/// The edges by which a triangle passes up and down through a plane, if some of its vertices are
+/// above (1) and the others below it (−1).
 #[inline(always)]
 fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2] {
     let edge = |from: Point<T>, to: Point<T>| {
@@ -172,11 +187,14 @@ fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2
     [edge(up.0, up.1), edge(down.0, down.1)]
 }
 
-/// Whether two triangles meet of which each certainly has vertices on both sides of the other's plane. `sides`: on which side of the other's plane the vertices of the first, and of the second,
-/// lie, 1 where corners run counter-clockwise; `shift` is what a difference of two vertices may be off by.
+/// Whether two triangles meet of which each certainly has vertices on both sides of the other's
+/// plane. `sides`: on which side of the other's plane the vertices of the first, and of the second,
+/// lie, 1 where corners run counter-clockwise; `shift` is what a difference of two vertices may be
+/// off by.
 ///
-/// Both meet the planes' common line in an interval. Along the product of their normals the first triangle's begins where an edge passes up and the second's
-/// where one passes down; so two determinants tell whether either ends before the other begins.
+/// Both meet the planes' common line in an interval. Along the product of their normals the first
+/// triangle's begins where an edge passes up and the second's where one passes down; so two
+/// determinants tell whether either ends before the other begins.
 #[inline(always)]
 pub fn straddling_triangles_meet<T: Real>(
     a: [Point<T>; 3],
@@ -185,7 +203,8 @@ pub fn straddling_triangles_meet<T: Real>(
     shift: T,
 ) -> Contact {
     let ([a_up, a_down], [b_up, b_down]) = (passing(a, a_sides), passing(b, b_sides));
-    // Negative if the second begins behind the first one's end, positive if it ends before its beginning.
+    // Negative if the second begins behind the first one's end, positive if it ends before its
+    // beginning.
     let (behind, before) = (turn(&a_down, &b_down, shift), turn(&a_up, &b_up, shift));
     if behind < 0 || before > 0 {
         Contact::Apart
@@ -228,7 +247,8 @@ fn undecided<T: Real>(
     }
 }
 
-/// Whether some plane upright on a triangle, along one of its edges, parts it from the other. Of triangles in one plane no determinant says more than that.
+/// Whether some plane upright on a triangle, along one of its edges, parts it from the other. Of
+/// triangles in one plane no determinant says more than that.
 fn parted_in_a_plane<T: Real>(
     edges_a: &[Edge<T>; 3],
     edges_b: &[Edge<T>; 3],
@@ -242,7 +262,8 @@ fn parted_in_a_plane<T: Real>(
     })
 }
 
-/// Whether the direction, taken as it is, points from all of `own` to all of `other`. Distances are measured from a vertex of `own`.
+/// Whether the direction, taken as it is, points from all of `own` to all of `other`. Distances are
+/// measured from a vertex of `own`.
 #[inline(always)]
 fn parted_along<T: Real>(
     direction: Point<T>,
@@ -258,7 +279,9 @@ fn parted_along<T: Real>(
     };
     // The vertices that are farthest out and nearest.
     let [own, other] = [own, other].map(|points| points.map(reach));
-    own.iter().all(|&(height, margin)| other.iter().all(|&(beyond, doubt)| beyond - doubt > height + margin))
+    own.iter().all(|&(height, margin)| {
+        other.iter().all(|&(beyond, doubt)| beyond - doubt > height + margin)
+    })
 }
 
 #[cfg(test)]
@@ -294,7 +317,11 @@ mod tests {
             for (a, b) in [(FLAT, other), (other, FLAT), (turned(FLAT), turned(turned(other)))] {
                 let mirrored = [b[1], b[0], b[2]];
                 assert_eq!(triangles_meet(a, b, doubt), wanted, "{a:?} {b:?} {doubt}");
-                assert_eq!(triangles_meet(a, mirrored, doubt), wanted, "{a:?} {mirrored:?} {doubt}");
+                assert_eq!(
+                    triangles_meet(a, mirrored, doubt),
+                    wanted,
+                    "{a:?} {mirrored:?} {doubt}"
+                );
                 let wide = |t: [[f32; 3]; 3]| t.map(|p| p.map(f64::from));
                 assert_eq!(triangles_meet(wide(a), wide(b), f64::from(doubt)), wanted);
             }

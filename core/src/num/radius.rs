@@ -2,7 +2,8 @@
 //!
 //! Both are the top bits of an f32, so that decoding is a shift: no table, no multiplication.
 
-/// A radius in two bytes: sign, exponent and seven bits of mantissa of an f32, rounded up (at most 0.8 % too large).
+/// A radius in two bytes: sign, exponent and seven bits of mantissa of an f32, rounded up (at most
+/// 0.8 % too large).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Radius16(pub u16);
 
@@ -21,10 +22,12 @@ impl Radius16 {
     }
 }
 
-/// A radius in one byte: five bits of exponent and three of mantissa, rounded up (at most 12.5 % too large).
+/// A radius in one byte: five bits of exponent and three of mantissa, rounded up (at most 12.5 %
+/// too large).
 ///
-/// 0 is exactly zero, 1 to 254 run from 2^-29 to 3.5, 255 is infinity. In the blob's local frame the mesh lies within
-/// one unit of the origin, so that the range covers everything from a ten-millionth of the part to the part.
+/// 0 is exactly zero, 1 to 254 run from 2^-29 to 3.5, 255 is infinity. In the blob's local frame
+/// the mesh lies within one unit of the origin, so that the range covers everything from a
+/// ten-millionth of the part to the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Radius8(pub u8);
 
@@ -61,7 +64,8 @@ mod tests {
     fn stored_radii_never_shrink_and_stay_close() {
         let mut x = 1e-8f64;
         while x < 3.0 {
-            let (r8, r16) = (f64::from(Radius8::round_up(x).get()), f64::from(Radius16::round_up(x).get()));
+            let (r8, r16) =
+                (f64::from(Radius8::round_up(x).get()), f64::from(Radius16::round_up(x).get()));
             assert!(r8 >= x && r8 <= x * 1.1251, "{x} {r8}");
             assert!(r16 >= x && r16 <= x * 1.0079, "{x} {r16}");
             x *= 1.000_37;

@@ -1,6 +1,7 @@
 //! From f64 to f32 without losing a bound, and exact powers of two.
 
-/// The greatest f32 that is not above `x`; `f32::MAX` where `x` exceeds it, so that a finite lower bound stays finite.
+/// The greatest f32 that is not above `x`; `f32::MAX` where `x` exceeds it, so that a finite lower
+/// bound stays finite.
 ///
 /// NaN gives NaN. Cost: one conversion, one comparison.
 pub fn down_to_f32(x: f64) -> f32 {
@@ -14,7 +15,8 @@ pub fn up_to_f32(x: f64) -> f32 {
     if f64::from(nearest) >= x { nearest } else { nearest.next_up() }
 }
 
-/// `2^exponent` exactly, for `-1022 ≤ exponent ≤ 1023`; exponents outside are clamped to that range.
+/// `2^exponent` exactly, for `-1022 ≤ exponent ≤ 1023`; exponents outside are clamped to that
+/// range.
 pub fn exp2(exponent: i32) -> f64 {
     let clamped = exponent.clamp(-1022, 1023);
     f64::from_bits(u64::from((clamped + 1023).unsigned_abs()) << 52)

@@ -36,11 +36,12 @@ pub enum Ended {
     Tolerance,
     /// The step budget of [`Stop`] was used up.
     Steps,
-    /// The caller's memory was too short; [`Model::capacities`](crate::Model::capacities), or of a tree
-    /// [`TreeHeader::stack_entries`](crate::blob::TreeHeader::stack_entries), says what is needed.
+    /// The caller's memory was too short; [`Model::capacities`](crate::Model::capacities), or of a
+    /// tree [`TreeHeader::stack_entries`](crate::blob::TreeHeader::stack_entries), says what is
+    /// needed.
     Capacity,
-    /// The blob knows the surface only to within an error, and that decides: it was cut after a coarser level, or a segment
-    /// passes so near that vertices moved to a grid leave it open.
+    /// The blob knows the surface only to within an error, and that decides: it was cut after a
+    /// coarser level, or a segment passes so near that vertices moved to a grid leave it open.
     Level,
 }
 
@@ -70,7 +71,10 @@ impl Work {
 
     /// One number for a column: everything tested and opened.
     pub fn total(&self) -> u32 {
-        self.nodes.saturating_add(self.triangles).saturating_add(self.exact).saturating_add(self.splits)
+        self.nodes
+            .saturating_add(self.triangles)
+            .saturating_add(self.exact)
+            .saturating_add(self.splits)
     }
 }
 
@@ -81,9 +85,11 @@ pub struct ClosestPoint {
     pub lower: f32,
     /// Not below the distance, input units.
     pub upper: f32,
-    /// A point of the surface at most `upper` away, rounded to f32; on a cut blob a point of the hull.
+    /// A point of the surface at most `upper` away, rounded to f32; on a cut blob a point of the
+    /// hull.
     pub point: [f32; 3],
-    /// Number in the input file of the triangle that holds `point`; ties go to the least in blob order. `None` on a cut blob.
+    /// Number in the input file of the triangle that holds `point`; ties go to the least in blob
+    /// order. `None` on a cut blob.
     pub triangle: Option<u32>,
     /// What it cost.
     pub work: Work,
@@ -109,17 +115,19 @@ impl Hit {
 
 /// First hit of a segment.
 ///
-/// The segment is proved clear of the surface before `lower` (everywhere, if `lower` is infinite). If `hit` is there and
-/// `ended` is [`Ended::Exact`], the first common point has a parameter in `lower ..= upper`.
+/// The segment is proved clear of the surface before `lower` (everywhere, if `lower` is infinite).
+/// If `hit` is there and `ended` is [`Ended::Exact`], the first common point has a parameter in
+/// `lower ..= upper`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentHit {
     /// No common point below this parameter; infinity if there is none at all.
     pub lower: f32,
-    /// The first common point, if there is one, is not above this parameter; infinity if none is known. 1 where the segment
-    /// touches an edge or a plane so flatly that rounding leaves more open.
+    /// The first common point, if there is one, is not above this parameter; infinity if none is
+    /// known. 1 where the segment touches an edge or a plane so flatly that rounding leaves
+    /// more open.
     pub upper: f32,
-    /// The first hit found. With [`Ended::Level`] only the first place where the surface may be; with [`Ended::Steps`] or
-    /// [`Ended::Capacity`] perhaps not the first.
+    /// The first hit found. With [`Ended::Level`] only the first place where the surface may be;
+    /// with [`Ended::Steps`] or [`Ended::Capacity`] perhaps not the first.
     pub hit: Option<Hit>,
     /// What it cost.
     pub work: Work,
@@ -154,10 +162,15 @@ pub enum QueryError {
     NotFinite,
     /// A tolerance is negative, NaN or infinite.
     Tolerance,
-    /// A point or an end of a segment is too far away: on the cover tree farther than 2^40 times the model's size from its origin, on the box tree 2^38 grid
-    /// units from the model's farthest corner, of triboxes beyond [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN). Clip the segment first.
+    /// A point or an end of a segment is too far away: on the cover tree farther than 2^40 times
+    /// the model's size from its origin, on the box tree 2^38 grid units from the model's
+    /// farthest corner, of triboxes beyond [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN). Clip
+    /// the segment first.
     OutOfDomain,
-    /// An entry of a pose's matrix is beyond 2, of triboxes its translation beyond [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN), or one of two models is so much larger that the other is a point beside it: their grids differ by more than 2^40; or a blob's surface error is far larger than its model.
+    /// An entry of a pose's matrix is beyond 2, of triboxes its translation beyond
+    /// [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN), or one of two models is so much larger
+    /// that the other is a point beside it: their grids differ by more than 2^40; or a blob's
+    /// surface error is far larger than its model.
     PoseOutOfDomain,
     /// The caller's queue is empty.
     NoQueue,

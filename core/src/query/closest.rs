@@ -1,8 +1,9 @@
 //! Closest point by the sweeping process (Guéziec 2000, 3.2 and 4.3) on the cover tree.
 //!
-//! Any cut of the forest of swept triangles covers the surface, so a node may be opened without the splits that a consistent
-//! mesh would need first (`core/DESIGN.md`, "Cut"). Nodes are bounded in f32, rounded down with a proved margin; the few
-//! triangles that may hold the answer are evaluated in f64, so that the interval is a rounding of f32 wide.
+//! Any cut of the forest of swept triangles covers the surface, so a node may be opened without the
+//! splits that a consistent mesh would need first (`core/DESIGN.md`, "Cut"). Nodes are bounded in
+//! f32, rounded down with a proved margin; the few triangles that may hold the answer are evaluated
+//! in f64, so that the interval is a rounding of f32 wide.
 
 use super::answer::{ClosestPoint, Ended, QueryError, Stop, Work};
 use super::frame::Frame;
@@ -13,18 +14,22 @@ use crate::num::tolerance::{FAR, SINGLE, U32, U64};
 use crate::num::{down_to_f32, up_to_f32};
 use glam::{DVec3, Vec3};
 
-/// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that contains the distance.
+/// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that
+/// contains the distance.
 ///
-/// `queue` is working memory; [`Capacities::queue`](crate::blob::Capacities::queue) entries make overflow impossible, more give a
-/// tighter interval to a query that stops early. With fewer the interval still holds, and [`Ended::Capacity`] says so.
-/// A point on the surface gives `lower = 0`. Equidistant triangles: the least in blob order, whatever the order of visits.
-/// A point farther than 2^40 times the model's size gets an interval from the model's box.
+/// `queue` is working memory; [`Capacities::queue`](crate::blob::Capacities::queue) entries make
+/// overflow impossible, more give a tighter interval to a query that stops early. With fewer the
+/// interval still holds, and [`Ended::Capacity`] says so. A point on the surface gives `lower = 0`.
+/// Equidistant triangles: the least in blob order, whatever the order of visits. A point farther
+/// than 2^40 times the model's size gets an interval from the model's box.
 ///
-/// Cost: some hundreds of nodes and triangles near a scanned part (`cargo xtask measure` prints them for any mesh). The
-/// worst case is all of them, at the centre of a sphere: where time is bounded, set [`Stop::steps`].
+/// Cost: some hundreds of nodes and triangles near a scanned part (`cargo xtask measure` prints
+/// them for any mesh). The worst case is all of them, at the centre of a sphere: where time is
+/// bounded, set [`Stop::steps`].
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`]; [`QueryError::NotServed`] without a hull hierarchy.
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`];
+/// [`QueryError::NotServed`] without a hull hierarchy.
 pub fn closest_point(
     model: &Model<'_>,
     point: [f32; 3],
@@ -61,7 +66,8 @@ pub fn closest_point(
 #[inline(always)]
 fn chunks(first: u32, count: u32) -> impl Iterator<Item = (u32, usize)> {
     let run = LANES as u32;
-    (0..count.div_ceil(run)).map(move |i| (first.wrapping_add(i * run), (count - i * run).min(run) as usize))
+    (0..count.div_ceil(run))
+        .map(move |i| (first.wrapping_add(i * run), (count - i * run).min(run) as usize))
 }
 
 /// What rounding to f32 and the change of units may do to either end of the interval.
@@ -94,7 +100,8 @@ struct Sweep<'a> {
 
 impl<'a> Sweep<'a> {
     fn new(model: &'a Model<'a>, p: DVec3) -> Self {
-        // In f32's normal range the conversion is exact; below, it costs less than `tolerance::UNDERFLOW`.
+        // In f32's normal range the conversion is exact; below, it costs less than
+        // `tolerance::UNDERFLOW`.
         let probe = PointProbe::new(p.as_vec3(), &model.header().hull_box);
         Sweep {
             model,
@@ -110,7 +117,12 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    fn run(&mut self, mut frontier: Frontier<'_>, stop: &Stop, absolute: f64) -> Result<Ended, QueryError> {
+    fn run(
+        &mut self,
+        mut frontier: Frontier<'_>,
+        stop: &Stop,
+        absolute: f64,
+    ) -> Result<Ended, QueryError> {
         let relative = 1.0 + f64::from(stop.relative);
         let surface_error = f64::from(self.model.header().surface_error);
         let tolerant = stop.relative > 0.0 || stop.absolute > 0.0;
@@ -120,7 +132,8 @@ impl<'a> Sweep<'a> {
             let key = f64::from(entry.key);
             let beaten = entry.key > self.upper_f32;
             let tolerated = tolerant && {
-                // As it will be reported: with the stored surface's error, and rounded to f32 outward.
+                // As it will be reported: with the stored surface's error, and rounded to f32
+                // outward.
                 let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
                 let high = (self.upper + surface_error) * (1.0 + REPORTED);
                 high <= low * relative || high - low <= absolute
@@ -156,10 +169,15 @@ impl<'a> Sweep<'a> {
         })
     }
 
-    /// Replaces a node by what is below it, and returns the nearest child node instead of queueing it. `None`: not an opened
-    /// model.
+    /// Replaces a node by what is below it, and returns the nearest child node instead of queueing
+    /// it. `None`: not an opened model.
     #[inline]
-    fn open(&mut self, node: NodeIdx, key: f64, frontier: &mut Frontier<'_>) -> Option<Option<QueueEntry>> {
+    fn open(
+        &mut self,
+        node: NodeIdx,
+        key: f64,
+        frontier: &mut Frontier<'_>,
+    ) -> Option<Option<QueueEntry>> {
         self.work.splits += 1;
         let node = self.model.node(node)?;
         match node.children {
@@ -172,9 +190,12 @@ impl<'a> Sweep<'a> {
                         continue;
                     }
                     let (supports, radii) = self.bounds(from, lanes)?;
-                    for (node, (support, radius)) in (from..).zip(supports.into_iter().zip(radii)).take(lanes)
+                    for (node, (support, radius)) in
+                        (from..).zip(supports.into_iter().zip(radii)).take(lanes)
                     {
-                        let Some(key) = self.probe.bound(support, radius, self.upper_f32) else { continue };
+                        let Some(key) = self.probe.bound(support, radius, self.upper_f32) else {
+                            continue;
+                        };
                         let entry = QueueEntry { key, node };
                         match &mut nearest {
                             Some(near) if !entry.before(near) => frontier.push(entry),
@@ -195,9 +216,15 @@ impl<'a> Sweep<'a> {
         Some(None)
     }
 
-    /// Queues nodes by bounds in f64, for a query from which f32 cannot tell the parts of the model apart.
+    /// Queues nodes by bounds in f64, for a query from which f32 cannot tell the parts of the model
+    /// apart.
     #[cold]
-    fn visit_distant(&mut self, first: u32, count: usize, frontier: &mut Frontier<'_>) -> Option<()> {
+    fn visit_distant(
+        &mut self,
+        first: u32,
+        count: usize,
+        frontier: &mut Frontier<'_>,
+    ) -> Option<()> {
         self.work.nodes += count as u32;
         for (node, _) in (first..).zip(0..count) {
             let (corners, radius) = self.model.bound(NodeIdx(node))?;
@@ -224,7 +251,8 @@ impl<'a> Sweep<'a> {
         Some((lanes.supports(count), radii))
     }
 
-    /// Up to four triangles of the surface: a bound in f32, and the interval in f64 where the bound leaves them in the race.
+    /// Up to four triangles of the surface: a bound in f32, and the interval in f64 where the bound
+    /// leaves them in the race.
     #[inline(always)]
     fn triangles(&mut self, first: u32, count: usize) -> Option<()> {
         self.work.triangles += count as u32;
@@ -242,7 +270,8 @@ impl<'a> Sweep<'a> {
         for (bound, support) in bounds.iter_mut().zip(lanes.supports(count)).take(count) {
             *bound = self.probe.bound(support, 0.0, self.upper_f32).unwrap_or(f32::INFINITY);
         }
-        // Nearest first: each evaluation may spare the others theirs, which on a Cortex-M are done in software.
+        // Nearest first: each evaluation may spare the others theirs, which on a Cortex-M are done
+        // in software.
         for _ in 0..count {
             let mut nearest = (f32::INFINITY, 0);
             for (bound, triangle) in bounds.iter().zip(first..) {
@@ -290,7 +319,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// A node whose children were cut off: its triangle is near the surface by the level's certified distance.
+    /// A node whose children were cut off: its triangle is near the surface by the level's
+    /// certified distance.
     fn cut_node(&mut self, corners: [crate::blob::VertIdx; 3], key: f64) -> Option<()> {
         self.work.exact += 1;
         self.cut = true;
@@ -306,8 +336,8 @@ impl<'a> Sweep<'a> {
         Some(())
     }
 
-    /// The interval that the surface's box gives, with any point of the surface. From far enough away every point is the
-    /// closest, within a rounding of f32.
+    /// The interval that the surface's box gives, with any point of the surface. From far enough
+    /// away every point is the closest, within a rounding of f32.
     fn far(&mut self) -> Result<(), QueryError> {
         let (near, far) = self.model.header().surface_box.distance_range(self.p);
         self.lower = near;

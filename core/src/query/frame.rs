@@ -43,13 +43,15 @@ impl Frame {
         (local * self.scale).to_array().map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
-    /// A lower bound of the distance to the stored surface as one to the input surface, in input units.
+    /// A lower bound of the distance to the stored surface as one to the input surface, in input
+    /// units.
     pub(super) fn lower(&self, local: f64) -> f32 {
         let bound = (local - self.surface_error) * self.scale;
         down_to_f32((bound - 2.0 * U64 * bound.abs()).max(0.0))
     }
 
-    /// An upper bound of the distance to the stored surface as one to the input surface, in input units.
+    /// An upper bound of the distance to the stored surface as one to the input surface, in input
+    /// units.
     pub(super) fn upper(&self, local: f64) -> f32 {
         let bound = (local + self.surface_error) * self.scale;
         up_to_f32(bound + 2.0 * U64 * bound.abs())

@@ -1,9 +1,11 @@
 //! The priority queue of the sweeping process (Guéziec 2000, 3.2), in a slice of the caller's.
 //!
-//! Best first while there is room: a binary heap grows from the left. Where the heap could leave too little room for a
-//! descent, the search goes depth first on a stack that grows from the right, and comes back to the heap when that is empty.
-//! So [`Capacities::queue`](crate::blob::Capacities::queue) entries, the depth-first worst case that the builder counted, are
-//! enough for an exact answer, and every entry more buys tighter intervals for a query that is stopped early.
+//! Best first while there is room: a binary heap grows from the left. Where the heap could leave
+//! too little room for a descent, the search goes depth first on a stack that grows from the right,
+//! and comes back to the heap when that is empty.
+//! So [`Capacities::queue`](crate::blob::Capacities::queue) entries, the depth-first worst case
+//! that the builder counted, are enough for an exact answer, and every entry more buys tighter
+//! intervals for a query that is stopped early.
 
 /// A cover node that waits, with the lower bound that it waits by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +18,8 @@ impl QueueEntry {
     /// Any value, for filling arrays.
     pub const EMPTY: QueueEntry = QueueEntry { key: 0.0, node: 0 };
 
-    /// Total order by key, then node, so that the order of visits does not depend on the heap's history.
+    /// Total order by key, then node, so that the order of visits does not depend on the heap's
+    /// history.
     pub(super) fn before(&self, other: &QueueEntry) -> bool {
         self.key < other.key || (self.key == other.key && self.node < other.node)
     }
@@ -73,8 +76,9 @@ impl<'a> Frontier<'a> {
         }
     }
 
-    /// The entry to open next: `nearest`, the nearest child of the node opened last, if it comes first anyway or if `dive`
-    /// says to go down whatever waits; else the best that waits, `nearest` joining the queue.
+    /// The entry to open next: `nearest`, the nearest child of the node opened last, if it comes
+    /// first anyway or if `dive` says to go down whatever waits; else the best that waits,
+    /// `nearest` joining the queue.
     #[inline]
     pub(super) fn take(&mut self, nearest: Option<QueueEntry>, dive: bool) -> Option<Taken> {
         let Some(nearest) = nearest else { return self.pop() };
@@ -101,9 +105,13 @@ impl<'a> Frontier<'a> {
 
     /// Least key of all that waits or was dropped; infinity if there is none.
     pub(super) fn lower(&self) -> f32 {
-        let heap =
-            if self.heap > 0 { self.slots.first().map_or(f32::INFINITY, |e| e.key) } else { f32::INFINITY };
-        let stack = self.slots.iter().rev().take(self.stack).fold(f32::INFINITY, |low, e| low.min(e.key));
+        let heap = if self.heap > 0 {
+            self.slots.first().map_or(f32::INFINITY, |e| e.key)
+        } else {
+            f32::INFINITY
+        };
+        let stack =
+            self.slots.iter().rev().take(self.stack).fold(f32::INFINITY, |low, e| low.min(e.key));
         heap.min(stack).min(self.dropped)
     }
 
@@ -111,15 +119,16 @@ impl<'a> Frontier<'a> {
         self.dropped
     }
 
-    /// Pushes among the siblings since `begin_children`, nearest on top; what lies below them stays where it is, or a
-    /// descent could need more room than the builder counted.
+    /// Pushes among the siblings since `begin_children`, nearest on top; what lies below them stays
+    /// where it is, or a descent could need more room than the builder counted.
     fn push_stack(&mut self, entry: QueueEntry) {
         self.stack += 1;
         let mut at = self.slots.len() - self.stack;
         let bottom = at + self.siblings;
         self.siblings += 1;
         while at < bottom {
-            let Some(below) = self.slots.get(at + 1).copied().filter(|below| below.before(&entry)) else {
+            let Some(below) = self.slots.get(at + 1).copied().filter(|below| below.before(&entry))
+            else {
                 break;
             };
             self.set(at, below);
@@ -230,7 +239,10 @@ mod tests {
         frontier.begin_children(2);
         frontier.push(QueueEntry { key: 9.0, node: 7 });
         let nearest = QueueEntry { key: 8.0, node: 8 };
-        assert_eq!(frontier.take(Some(nearest), false), Some(Taken { entry: nearest, least: false }));
+        assert_eq!(
+            frontier.take(Some(nearest), false),
+            Some(Taken { entry: nearest, least: false })
+        );
         assert_eq!(frontier.pop().map(|t| (t.entry.key, t.least)), Some((9.0, false)));
         assert_eq!(frontier.pop().map(|t| (t.entry.key, t.least)), Some((2.0, true)));
     }

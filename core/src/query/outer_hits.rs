@@ -1,10 +1,12 @@
-//! Hits of a segment that starts outside the hull, by candidate faces on the selectively refined hull
-//! (Platis & Theoharis 2003, 3.2.1).
+//! Hits of a segment that starts outside the hull, by candidate faces on the selectively refined
+//! hull (Platis & Theoharis 2003, 3.2.1).
 //!
-//! Every hull encloses the surface. So between a start outside and the first point of the surface the segment crosses the
-//! refined hull, and when no face that it crosses can be refined any more, that face is the surface's: the first hit is
-//! found. Faces are tested a fragment at a time: those of a split lie within its `reach` of the vertex that it replaced,
-//! and sixteen base faces share a swept triangle. Hits farther on may lie below an unbroken hull face; [`all_hits`](super::all_hits) finds those.
+//! Every hull encloses the surface. So between a start outside and the first point of the surface
+//! the segment crosses the refined hull, and when no face that it crosses can be refined any more,
+//! that face is the surface's: the first hit is found. Faces are tested a fragment at a time: those
+//! of a split lie within its `reach` of the vertex that it replaced, and sixteen base faces share a
+//! swept triangle. Hits farther on may lie below an unbroken hull face;
+//! [`all_hits`](super::all_hits) finds those.
 
 use super::answer::{Ended, Hit, QueryError, Work};
 use super::frame::Frame;
@@ -37,9 +39,11 @@ pub struct OuterHits {
     pub stored: usize,
     /// Hits that did not fit.
     pub dropped: u32,
-    /// The segment starts inside the base hull's box: then the theorem does not hold, and nothing was computed.
+    /// The segment starts inside the base hull's box: then the theorem does not hold, and nothing
+    /// was computed.
     pub starts_inside: bool,
-    /// `triangles`: faces tested; `splits`: vertex splits performed; `nodes`: boxes and cover nodes.
+    /// `triangles`: faces tested; `splits`: vertex splits performed; `nodes`: boxes and cover
+    /// nodes.
     pub work: Work,
     /// Why it ended.
     pub ended: Ended,
@@ -47,13 +51,16 @@ pub struct OuterHits {
 
 /// Hits of the closed segment `a b`, whose start must lie outside the box of the hulls.
 ///
-/// `front` is working memory of any size ([`Front`]). The hull is reset to the base hull first. If `starts_inside` comes
-/// back set, ask [`first_hit`](super::first_hit) instead: the segment may start between hull and surface. The surface must
-/// be stored exactly (no grid rounding, no cut), or the answer is [`Ended::Level`] and says nothing. It must not wind around any
-/// point negatively, as a solid that is turned inside out where it passes through itself does: the hulls of such a mesh do
-/// not enclose it there. [`first_hit`](super::first_hit) has no such conditions.
+/// `front` is working memory of any size ([`Front`]). The hull is reset to the base hull first. If
+/// `starts_inside` comes back set, ask [`first_hit`](super::first_hit) instead: the segment may
+/// start between hull and surface. The surface must be stored exactly (no grid rounding, no cut),
+/// or the answer is [`Ended::Level`] and says nothing. It must not wind around any
+/// point negatively, as a solid that is turned inside out where it passes through itself does: the
+/// hulls of such a mesh do not enclose it there. [`first_hit`](super::first_hit) has no such
+/// conditions.
 ///
-/// Cost: faces tested and splits as in the paper's Table 3, which `cargo xtask measure` prints side by side.
+/// Cost: faces tested and splits as in the paper's Table 3, which `cargo xtask measure` prints side
+/// by side.
 ///
 /// # Errors
 /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::Model`].
@@ -139,8 +146,9 @@ impl Sweep<'_, '_> {
             if !self.overflowed {
                 return Some(());
             }
-            // Some candidates did not fit: what is alive and crossed is found again from the tables. At least one fits, and
-            // all of them can be refined, so the hull gets finer each time.
+            // Some candidates did not fit: what is alive and crossed is found again from the
+            // tables. At least one fits, and all of them can be refined, so the hull
+            // gets finer each time.
             self.overflowed = false;
             self.test_base(false)?;
             self.test_splits(0, self.model.header().splits, false)?;
@@ -153,7 +161,8 @@ impl Sweep<'_, '_> {
         self.front.candidates.get(last).copied()
     }
 
-    /// One candidate: forgotten if it is gone or too far, else replaced by the split that refines it.
+    /// One candidate: forgotten if it is gone or too far, else replaced by the split that refines
+    /// it.
     fn refine(&mut self, face: Face) -> Option<()> {
         let corners = face.corners(self.model)?;
         if self.beyond(face.enter_at()) || !self.front.is_alive(self.model, corners) {
@@ -214,7 +223,8 @@ impl Sweep<'_, '_> {
         Some(entered.is_some_and(|t| !self.beyond(t)))
     }
 
-    /// Faces of the splits in a range that were performed; only those not looked at before if `fresh`.
+    /// Faces of the splits in a range that were performed; only those not looked at before if
+    /// `fresh`.
     fn test_splits(&mut self, from: u32, to: u32, fresh: bool) -> Option<()> {
         for index in from / 32..to.div_ceil(32) {
             let performed = self.front.performed.get(index as usize).copied().unwrap_or(0);
@@ -251,7 +261,8 @@ impl Sweep<'_, '_> {
         self.search == Search::First && t > self.out.upper
     }
 
-    /// Tests a live face; one that the segment may cross is a hit if it is the surface's, else a candidate.
+    /// Tests a live face; one that the segment may cross is a hit if it is the surface's, else a
+    /// candidate.
     fn test(&mut self, face: Face, corners: [VertIdx; 3], record_hits: bool) -> Option<()> {
         self.out.work.triangles += 1;
         let positions = self.model.positions(corners)?;
@@ -288,8 +299,8 @@ impl Sweep<'_, '_> {
         Some(())
     }
 
-    /// Number of a surface triangle in the input file: the cover tree is searched at the triangle's centre, which saves
-    /// the blob a table and costs a few dozen nodes per hit.
+    /// Number of a surface triangle in the input file: the cover tree is searched at the triangle's
+    /// centre, which saves the blob a table and costs a few dozen nodes per hit.
     fn number(&mut self, corners: [VertIdx; 3], centre: DVec3) -> Option<Option<u32>> {
         let probe = PointProbe::new(centre.as_vec3(), &self.model.header().hull_box);
         let wanted = sorted(corners);
@@ -316,7 +327,11 @@ impl Sweep<'_, '_> {
             }
         }
         // A tree deeper than the stack: rare, and a scan of the surface is always right.
-        if complete { Some(None) } else { self.find(wanted, 0..self.model.header().surface_triangles) }
+        if complete {
+            Some(None)
+        } else {
+            self.find(wanted, 0..self.model.header().surface_triangles)
+        }
     }
 
     fn find(&self, wanted: [u32; 3], range: core::ops::Range<u32>) -> Option<Option<u32>> {

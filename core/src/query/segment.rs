@@ -1,7 +1,8 @@
 //! First hit and all hits of a segment, on the cover tree.
 //!
-//! A node is opened because the segment may meet the swept triangle that covers its part of the surface, not because it
-//! crosses a hull face; so hits below an unbroken hull (paper 000, Figure 5) are found, wherever the segment starts.
+//! A node is opened because the segment may meet the swept triangle that covers its part of the
+//! surface, not because it crosses a hull face; so hits below an unbroken hull (paper 000, Figure
+//! 5) are found, wherever the segment starts.
 
 use super::answer::{AllHits, Ended, Hit, QueryError, SegmentHit, Stop, Work};
 use super::frame::Frame;
@@ -13,15 +14,18 @@ use glam::DVec3;
 
 /// First common point of the closed segment `a b` (input units) and the surface, both facings.
 ///
-/// If [`SegmentHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the lengths involved, or within the
-/// stored surface's error, of an edge may be reported as a hit. Segments in the plane of a triangle hit where they enter
-/// it; a segment of zero length hits if its point lies on the surface. Where the stored surface is not exactly the input's (a cut
-/// blob, a grid that moved vertices), `hit` is the first place where the surface may be, and [`Ended::Level`] says so.
+/// If [`SegmentHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the
+/// lengths involved, or within the stored surface's error, of an edge may be reported as a hit.
+/// Segments in the plane of a triangle hit where they enter it; a segment of zero length hits if
+/// its point lies on the surface. Where the stored surface is not exactly the input's (a cut
+/// blob, a grid that moved vertices), `hit` is the first place where the surface may be, and
+/// [`Ended::Level`] says so.
 ///
 /// Of [`Stop`] only `steps` matters. `queue` as for [`closest_point`](super::closest_point).
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoQueue`], [`QueryError::Tolerance`].
+/// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoQueue`],
+/// [`QueryError::Tolerance`].
 pub fn first_hit(
     model: &Model<'_>,
     a: [f32; 3],
@@ -50,8 +54,9 @@ pub fn first_hit(
 
 /// All common points of the closed segment `a b` and the surface, by rising parameter, into `hits`.
 ///
-/// Each triangle that the segment meets gives one hit, so that a segment through an edge or a vertex gives one for each
-/// triangle there. What does not fit in `hits` is counted in [`AllHits::dropped`]; the first ones are kept.
+/// Each triangle that the segment meets gives one hit, so that a segment through an edge or a
+/// vertex gives one for each triangle there. What does not fit in `hits` is counted in
+/// [`AllHits::dropped`]; the first ones are kept.
 ///
 /// # Errors
 /// As [`first_hit`].
@@ -67,7 +72,8 @@ pub fn all_hits(
     Ok(AllHits { stored: all.stored, dropped: all.dropped, work: traced.work, ended: traced.ended })
 }
 
-/// Adds a hit to those found so far, kept by rising `t`, then triangle; counts what falls off the end.
+/// Adds a hit to those found so far, kept by rising `t`, then triangle; counts what falls off the
+/// end.
 pub(super) fn insert(hits: &mut [Hit], stored: &mut usize, dropped: &mut u32, hit: Hit) {
     let after = |x: &Hit| x.t > hit.t || (x.t == hit.t && x.triangle > hit.triangle);
     let at = hits.iter().take(*stored).position(after).unwrap_or(*stored);
@@ -164,8 +170,11 @@ fn trace(
     if queue.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let mut traced =
-        Traced { work: Work { nodes: 1, ..Work::default() }, ended: Ended::Exact, unopened: f32::INFINITY };
+    let mut traced = Traced {
+        work: Work { nodes: 1, ..Work::default() },
+        ended: Ended::Exact,
+        unopened: f32::INFINITY,
+    };
     let surface_error = model.header().surface_error;
     let mut bounds = model.header().surface_box;
     if surface_error > 0.0 {
@@ -279,7 +288,12 @@ impl Walk<'_> {
     }
 
     #[inline]
-    fn triangle(&mut self, triangle: TriIdx, collect: &mut dyn Collect, work: &mut Work) -> Option<()> {
+    fn triangle(
+        &mut self,
+        triangle: TriIdx,
+        collect: &mut dyn Collect,
+        work: &mut Work,
+    ) -> Option<()> {
         work.triangles += 1;
         let corners = self.model.positions(self.model.surface_triangle(triangle)?)?;
         let Some(key) = self.probe.enter(corners, self.surface_error) else { return Some(()) };
@@ -290,9 +304,11 @@ impl Walk<'_> {
         let corners = corners.map(|v| v.as_dvec3());
         let mut met = segment_triangle(self.start, self.end, corners);
         if self.surface_error > 0.0 {
-            // The input surface may lie up to `surface_error` from the stored one: a hit may be a miss, a near miss a
-            // hit, and the parameter is that uncertain.
-            if met.is_none() && !comes_within(self.start, self.end, corners, f64::from(self.surface_error)) {
+            // The input surface may lie up to `surface_error` from the stored one: a hit may be a
+            // miss, a near miss a hit, and the parameter is that uncertain.
+            if met.is_none()
+                && !comes_within(self.start, self.end, corners, f64::from(self.surface_error))
+            {
                 return Some(());
             }
             self.doubtful = true;

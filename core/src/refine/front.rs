@@ -1,10 +1,11 @@
 //! The selectively refined hull: which splits have been performed, in fixed-capacity arrays
 //! (Platis & Theoharis 2003, 3.2.1; Guéziec 2000, 4.2).
 //!
-//! A split may be performed when every vertex of its ring exists: then the star of its vertex is exactly what the builder
-//! collapsed, and the refined mesh still encloses the surface. Hull vertices of different levels are different vertices, so
-//! "exists" is "the split that makes it was performed", which two bit sets hold. There is no selective coarsening: a query
-//! starts from the base hull again, which clears the bits (paper 000, 3.2.2).
+//! A split may be performed when every vertex of its ring exists: then the star of its vertex is
+//! exactly what the builder collapsed, and the refined mesh still encloses the surface. Hull
+//! vertices of different levels are different vertices, so "exists" is "the split that makes it was
+//! performed", which two bit sets hold. There is no selective coarsening: a query starts from the
+//! base hull again, which clears the bits (paper 000, 3.2.2).
 
 use crate::blob::{Model, Split, SplitIdx, VertIdx};
 
@@ -52,9 +53,10 @@ impl Face {
 
 /// Memory of a refinement: two bit sets of one bit per split, candidates, and a path.
 ///
-/// Any length is correct. With [`Capacities::front_words`](crate::blob::Capacities::front_words) words in each bit set every split can be
-/// performed; with fewer, only the coarsest are, and a query says that capacity ended it. A short candidate list costs
-/// repeated scans, a short path repeated searches; neither costs an answer.
+/// Any length is correct. With [`Capacities::front_words`](crate::blob::Capacities::front_words)
+/// words in each bit set every split can be performed; with fewer, only the coarsest are, and a
+/// query says that capacity ended it. A short candidate list costs repeated scans, a short path
+/// repeated searches; neither costs an answer.
 #[derive(Debug)]
 pub struct Front<'a> {
     /// Bit set: split performed.
@@ -68,7 +70,8 @@ pub struct Front<'a> {
     pub(crate) fresh: heapless::Vec<SplitIdx, FRESH>,
 }
 
-/// Splits remembered on the way down a chain of dependencies. Deeper chains are searched again from their end.
+/// Splits remembered on the way down a chain of dependencies. Deeper chains are searched again from
+/// their end.
 const PATH: usize = 32;
 
 /// Splits of one refinement that are listed. After a larger one the bit sets are compared instead.
@@ -86,7 +89,13 @@ pub enum Refined {
 impl<'a> Front<'a> {
     /// A front in the caller's memory; its contents do not matter. The shorter bit set counts.
     pub fn new(performed: &'a mut [u32], swept: &'a mut [u32], candidates: &'a mut [Face]) -> Self {
-        Front { performed, swept, candidates, path: heapless::Vec::new(), fresh: heapless::Vec::new() }
+        Front {
+            performed,
+            swept,
+            candidates,
+            path: heapless::Vec::new(),
+            fresh: heapless::Vec::new(),
+        }
     }
 
     /// Back to the base hull. Cost: the words of the bit sets.
@@ -120,7 +129,8 @@ impl<'a> Front<'a> {
         !corners.into_iter().any(|v| self.is_split(model, v))
     }
 
-    /// The split that refines a live face: the coarsest among those of its corners. `None` on the surface.
+    /// The split that refines a live face: the coarsest among those of its corners. `None` on the
+    /// surface.
     ///
     /// The others need vertices that this one makes, so it comes before them.
     #[inline]
@@ -128,7 +138,8 @@ impl<'a> Front<'a> {
         corners.into_iter().filter_map(|v| model.split_of(v)).min()
     }
 
-    /// Performs a split and, before it, every split that it needs; no recursion. `None` only if the model is not one that was opened.
+    /// Performs a split and, before it, every split that it needs; no recursion. `None` only if the
+    /// model is not one that was opened.
     ///
     /// Every split on the way is coarser than the one that asked for it, so the search ends.
     pub fn refine(&mut self, model: &Model<'_>, wanted: SplitIdx) -> Option<Refined> {
@@ -153,17 +164,20 @@ impl<'a> Front<'a> {
                 *word |= 1 << (current.0 % 32);
             }
             count += 1;
-            // What does not fit is found by its `swept` bit: `count` tells that the list is not whole.
+            // What does not fit is found by its `swept` bit: `count` tells that the list is not
+            // whole.
             let _ = self.fresh.push(current);
             current = self.path.pop().unwrap_or(wanted);
         }
         Some(Refined::Splits(count))
     }
 
-    /// A split that must come before `split` and has not been performed. The outer `None`: not an opened model.
+    /// A split that must come before `split` and has not been performed. The outer `None`: not an
+    /// opened model.
     #[inline]
     fn missing(&self, model: &Model<'_>, split: &Split<'_>) -> Option<Option<SplitIdx>> {
-        let absent = |vertex: VertIdx| model.made_by(vertex).filter(|&maker| !self.is_performed(maker));
+        let absent =
+            |vertex: VertIdx| model.made_by(vertex).filter(|&maker| !self.is_performed(maker));
         if let Some(maker) = absent(split.vertex) {
             return Some(Some(maker));
         }

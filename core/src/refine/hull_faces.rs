@@ -7,14 +7,16 @@ use crate::blob::{Level, Model, SplitIdx, VertIdx};
 pub struct HullFace {
     /// Corners, counter-clockwise seen from outside.
     pub corners: [VertIdx; 3],
-    /// Certified radius, local frame; infinite where the triangle stands for no part of the surface.
+    /// Certified radius, local frame; infinite where the triangle stands for no part of the
+    /// surface.
     pub radius: f32,
 }
 
-/// Triangles of the hull after `level.splits` splits, from the tables alone: no memory, time linear in the splits.
+/// Triangles of the hull after `level.splits` splits, from the tables alone: no memory, time linear
+/// in the splits.
 ///
-/// A triangle is alive exactly while its three corners are: it comes with the last of them, and the first split of a
-/// corner takes it away (the whole star of a split vertex goes).
+/// A triangle is alive exactly while its three corners are: it comes with the last of them, and the
+/// first split of a corner takes it away (the whole star of a split vertex goes).
 pub fn hull_faces<'a>(model: &'a Model<'a>, level: &Level) -> impl Iterator<Item = HullFace> + 'a {
     let splits = level.splits;
     let alive = move |vertex: VertIdx| model.split_of(vertex).is_none_or(|split| split.0 >= splits);

@@ -1,7 +1,8 @@
 //! The frame that the boxes of a node share.
 //!
-//! Box coordinates of a point are `q = A·(p − origin) + 128`, axis by axis; a step of an axis is worth `√weight` grid units. The builder
-//! chooses `A` so that every entry is an f32 exactly and `√weight·A` is a rotation: no rounding but that of the sums here.
+//! Box coordinates of a point are `q = A·(p − origin) + 128`, axis by axis; a step of an axis is
+//! worth `√weight` grid units. The builder chooses `A` so that every entry is an f32 exactly and
+//! `√weight·A` is a rotation: no rounding but that of the sums here.
 
 use crate::blob::layout::FRAME_BYTES;
 use glam::Vec3;
@@ -26,7 +27,11 @@ impl NodeFrame {
         }
         let [a, b, c, d, e, g, h, i, j, ox, oy, oz, u, v, w] = f;
         let (x, y, z) = (p.x - ox, p.y - oy, p.z - oz);
-        let q = [a * x + b * y + c * z + 128.0, d * x + e * y + g * z + 128.0, h * x + i * y + j * z + 128.0];
+        let q = [
+            a * x + b * y + c * z + 128.0,
+            d * x + e * y + g * z + 128.0,
+            h * x + i * y + j * z + 128.0,
+        ];
         NodeFrame { q, weight: [u, v, w] }
     }
 }

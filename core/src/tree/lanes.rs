@@ -1,6 +1,7 @@
 //! Squared distances of a point from eight boxes.
 //!
-//! The wide form is loops over `[f32; 8]` without branches, the narrow one walks axis by axis and skips what is inside; both give the same bits.
+//! The wide form is loops over `[f32; 8]` without branches, the narrow one walks axis by axis and
+//! skips what is inside; both give the same bits.
 
 use super::NodeFrame;
 use crate::blob::layout::{FRAME_BYTES, WIDTH};
@@ -11,10 +12,17 @@ pub const LANE_MASK: u32 = WIDTH as u32 - 1;
 /// Key of a lane without a child: above every bound.
 pub const NO_CHILD: f32 = f32::from_bits(0x7F00_0000);
 
-/// Keys of a node's children: their squared distance from the point, grid units, not below `parent`'s, rounded down in the low three bits, which
-/// hold the lane. Lanes from `count` on are [`NO_CHILD`]. The distance is a lower bound up to the rounding that `core/docs/rounding.md` §8 bounds.
+/// Keys of a node's children: their squared distance from the point, grid units, not below
+/// `parent`'s, rounded down in the low three bits, which hold the lane. Lanes from `count` on are
+/// [`NO_CHILD`]. The distance is a lower bound up to the rounding that `core/docs/rounding.md` §8
+/// bounds.
 #[inline(always)]
-pub fn box_distances(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+pub fn box_distances(
+    record: &[u8; FRAME_BYTES],
+    frame: &NodeFrame,
+    count: u32,
+    parent: f32,
+) -> [f32; WIDTH] {
     if WIDE {
         return wide(record, frame, count, parent);
     }
@@ -45,7 +53,12 @@ pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
 pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
 #[inline(always)]
-pub(super) fn wide(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+pub(super) fn wide(
+    record: &[u8; FRAME_BYTES],
+    frame: &NodeFrame,
+    count: u32,
+    parent: f32,
+) -> [f32; WIDTH] {
     let mut keys = [0f32; WIDTH];
     let (rows, _) = record.as_chunks::<WIDTH>();
     let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };
@@ -60,7 +73,8 @@ pub(super) fn wide(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, pa
     in_memory(keys)
 }
 
-/// The same lanes, written to memory side by side. What is only ever used lane by lane the compiler would compute so, too.
+/// The same lanes, written to memory side by side. What is only ever used lane by lane the compiler
+/// would compute so, too.
 #[inline(always)]
 pub fn in_memory<T>(lanes: T) -> T {
     core::hint::black_box(lanes)
@@ -73,12 +87,18 @@ fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
     let beyond = q - f32::from(high);
     let far = if below > beyond { below } else { beyond };
     let far = if far > 0.0 { far } else { 0.0 };
-    // In this order no product leaves f32's range: a flat node's steps are tiny, and far away there are many.
+    // In this order no product leaves f32's range: a flat node's steps are tiny, and far away there
+    // are many.
     far * (far * weight)
 }
 
 #[inline(always)]
-pub(super) fn narrow(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, parent: f32) -> [f32; WIDTH] {
+pub(super) fn narrow(
+    record: &[u8; FRAME_BYTES],
+    frame: &NodeFrame,
+    count: u32,
+    parent: f32,
+) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     let (rows, _) = record.as_chunks::<WIDTH>();
     let Some([lx, hx, ly, hy, lz, hz]) = rows.first_chunk::<6>() else { return keys };
@@ -100,7 +120,14 @@ pub(super) fn narrow(record: &[u8; FRAME_BYTES], frame: &NodeFrame, count: u32, 
 
 /// Adds the squared distances along one axis.
 #[inline(never)]
-fn along(low: &[u8; WIDTH], high: &[u8; WIDTH], q: f32, weight: f32, count: usize, sum: &mut [f32; WIDTH]) {
+fn along(
+    low: &[u8; WIDTH],
+    high: &[u8; WIDTH],
+    q: f32,
+    weight: f32,
+    count: usize,
+    sum: &mut [f32; WIDTH],
+) {
     let (low, high, sum) = (low.iter().take(count), high.iter().take(count), sum.iter_mut());
     if q <= 0.0 {
         // Outside of all boxes on this axis: one side alone counts.

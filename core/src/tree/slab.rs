@@ -1,7 +1,8 @@
 //! A segment against eight axis-aligned boxes in 8 bits.
 //!
-//! A box plane of byte `v` lies at `origin + (v − 128)·step`, so the parameter at which the segment's line meets it is `v·m + c` with
-//! two numbers for each node and axis. Which row of bytes is the near one depends on the direction alone: it is chosen once for each segment.
+//! A box plane of byte `v` lies at `origin + (v − 128)·step`, so the parameter at which the
+//! segment's line meets it is `v·m + c` with two numbers for each node and axis. Which row of bytes
+//! is the near one depends on the direction alone: it is chosen once for each segment.
 
 use super::in_memory;
 use super::lanes::{LANE_MASK, NO_CHILD, WIDE};
@@ -20,8 +21,9 @@ pub struct Slabs {
 }
 
 impl Slabs {
-    /// The line through `origin` with `inverse`, by axis the reciprocals of its direction; boxes count as larger by `margin` on each side. Any
-    /// numbers will do as long as their products with the model's size stay finite.
+    /// The line through `origin` with `inverse`, by axis the reciprocals of its direction; boxes
+    /// count as larger by `margin` on each side. Any numbers will do as long as their products
+    /// with the model's size stay finite.
     #[inline(always)]
     pub fn new(origin: [f32; 3], inverse: [f32; 3], margin: [f32; 3]) -> Self {
         let [ix, iy, iz] = inverse;
@@ -44,8 +46,9 @@ impl Slabs {
     }
 }
 
-/// Keys of a node's children: the parameter at which the segment enters their boxes, not below `from`, rounded down in the low three bits, which
-/// hold the lane. What it does not enter up to `limit`, and lanes from `count` on, is [`NO_CHILD`] or more.
+/// Keys of a node's children: the parameter at which the segment enters their boxes, not below
+/// `from`, rounded down in the low three bits, which hold the lane. What it does not enter up to
+/// `limit`, and lanes from `count` on, is [`NO_CHILD`] or more.
 #[inline(always)]
 pub fn box_entries(
     record: &[u8; BOXES_BYTES],
@@ -86,7 +89,12 @@ impl<'a> Sides<'a> {
 }
 
 #[inline(always)]
-pub(super) fn wide(Sides([x, y, z]): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
+pub(super) fn wide(
+    Sides([x, y, z]): &Sides<'_>,
+    count: u32,
+    from: f32,
+    limit: f32,
+) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     let Some(present) = LANES_BELOW.get(count as usize) else { return keys };
     let at = |v: u8, step: f32, start: f32| f32::from(v) * step + start;
@@ -107,7 +115,8 @@ pub(super) fn wide(Sides([x, y, z]): &Sides<'_>, count: u32, from: f32, limit: f
     in_memory(keys)
 }
 
-/// What is entered only grows and what is left only falls: the first axis without an overlap decides, with the same keys.
+/// What is entered only grows and what is left only falls: the first axis without an overlap
+/// decides, with the same keys.
 #[inline(always)]
 pub(super) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
@@ -115,7 +124,9 @@ pub(super) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32)
         let (mut enter, mut leave) = (from, limit);
         let overlaps = axes.iter().all(|axis| {
             // Lanes are below 8, but not all of LLVM's targets see it.
-            let (Some(&near), Some(&far)) = (axis.near.get(lane), axis.far.get(lane)) else { return false };
+            let (Some(&near), Some(&far)) = (axis.near.get(lane), axis.far.get(lane)) else {
+                return false;
+            };
             enter = greater(f32::from(near) * axis.step + axis.enter, enter);
             leave = less(f32::from(far) * axis.step + axis.leave, leave);
             enter <= leave

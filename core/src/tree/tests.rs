@@ -33,11 +33,13 @@ impl Noise {
 
     /// Boxes of `count` children, the other lanes as the builder leaves them.
     fn planes(&mut self, count: usize) -> [[u8; WIDTH]; 6] {
-        let mut rows = [[255, 0], [255, 0], [255, 0]].map(|[low, high]| [[low; WIDTH], [high; WIDTH]]);
+        let mut rows =
+            [[255, 0], [255, 0], [255, 0]].map(|[low, high]| [[low; WIDTH], [high; WIDTH]]);
         for [low, high] in &mut rows {
             for lane in 0..count {
                 let (a, b) = (self.below(256) as u8, self.below(256) as u8);
-                (low[lane], high[lane]) = if self.below(9) == 0 { (a, a) } else { (a.min(b), a.max(b)) };
+                (low[lane], high[lane]) =
+                    if self.below(9) == 0 { (a, a) } else { (a.min(b), a.max(b)) };
             }
         }
         let [[a, b], [c, d], [e, f]] = rows;
@@ -109,7 +111,11 @@ fn entries_have_the_same_bits() {
             for (lane, (wide, narrow)) in wide.into_iter().zip(narrow).enumerate() {
                 if narrow < NO_CHILD {
                     entered += 1;
-                    assert_eq!(wide.to_bits(), narrow.to_bits(), "{slabs:?}, {count} of {record:?}");
+                    assert_eq!(
+                        wide.to_bits(),
+                        narrow.to_bits(),
+                        "{slabs:?}, {count} of {record:?}"
+                    );
                     assert_eq!(narrow.to_bits() & 7, lane as u32);
                 } else {
                     missed += 1;

@@ -1,7 +1,8 @@
 //! The boundary of a tribox, corner by corner (Crosnier & Rossignac 1999, sections 2.2 and 3).
 //!
-//! Three planes of the box and three chamfers meet at each of its eight corners. Where the chamfers' common point lies decides which of four ways
-//! they meet in; no corner depends on another. A corner has four vertices, so that there are 32 vertices, 48 edges and 18
+//! Three planes of the box and three chamfers meet at each of its eight corners. Where the
+//! chamfers' common point lies decides which of four ways they meet in; no corner depends on
+//! another. A corner has four vertices, so that there are 32 vertices, 48 edges and 18
 //! faces, always; some of them may have no extent.
 
 use super::{SLABS, Tribox};
@@ -16,8 +17,11 @@ pub const VERTICES: usize = 32;
 /// Most vertices of a face.
 pub const LOOP: usize = 8;
 
-/// What a boundary is computed in: f32, or integers of which a quarter exists, or what counts operations.
-pub trait Scalar: Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self> {
+/// What a boundary is computed in: f32, or integers of which a quarter exists, or what counts
+/// operations.
+pub trait Scalar:
+    Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self>
+{
     /// What unused places hold.
     const ZERO: Self;
     /// Half of it.
@@ -37,23 +41,27 @@ impl Scalar for f32 {
 /// Vertices, and faces as loops of their numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Boundary<S> {
-    /// Four vertices of each corner; corner `i` is where x is least if bit 0 is set, y if bit 1 is, z if bit 2 is. Vertices may coincide.
+    /// Four vertices of each corner; corner `i` is where x is least if bit 0 is set, y if bit 1
+    /// is, z if bit 2 is. Vertices may coincide.
     pub vertices: [[S; 3]; VERTICES],
     faces: [Loop; FACES],
 }
 
-/// Planes of a corner, in coordinates that grow towards it: box planes at the least three, chamfers between the first and second, second and third, third and first.
+/// Planes of a corner, in coordinates that grow towards it: box planes at the least three, chamfers
+/// between the first and second, second and third, third and first.
 #[derive(Clone, Copy)]
 struct Corner<S> {
     planes: [S; 3],
     chamfers: [S; 3],
 }
 
-/// By case (the chamfers' point is inside; beyond the first, second, third plane), and by axis: the part of a box face's loop.
+/// By case (the chamfers' point is inside; beyond the first, second, third plane), and by axis: the
+/// part of a box face's loop.
 const PLANE_PARTS: [[&[u8]; 3]; 4] =
     [[&[1], &[2], &[3]], [&[0, 1], &[2], &[3]], [&[3], &[0, 1], &[2]], [&[2], &[3], &[0, 1]]];
 
-/// The same for the chamfers after each axis: from the side of its first plane to that of its second.
+/// The same for the chamfers after each axis: from the side of its first plane to that of its
+/// second.
 const CHAMFER_PARTS: [[&[u8]; 3]; 4] = [
     [&[1, 0, 2], &[2, 0, 3], &[3, 0, 1]],
     [&[0, 2], &[2, 0, 1, 3], &[3, 1]],
@@ -76,7 +84,8 @@ const PARTS: [[Part; 12]; 4] = {
         let mut which = 0;
         while which < 12 {
             let face = which / 2;
-            let slots = if face < 3 { PLANE_PARTS[case][face] } else { CHAMFER_PARTS[case][face - 3] };
+            let slots =
+                if face < 3 { PLANE_PARTS[case][face] } else { CHAMFER_PARTS[case][face - 3] };
             let mut i = 0;
             while i < slots.len() {
                 let from = if which % 2 == 0 { i } else { slots.len() - 1 - i };
@@ -94,7 +103,8 @@ const PARTS: [[Part; 12]; 4] = {
 /// Most corners of a face.
 const CORNERS: usize = 4;
 
-/// For each face its corners in the order of the loop, each with the number of its part; chamfers have two.
+/// For each face its corners in the order of the loop, each with the number of its part; chamfers
+/// have two.
 const CORNERS_OF_FACES: [[(usize, usize); CORNERS]; FACES] = {
     let mut faces = [[(0, 0); CORNERS]; FACES];
     let mut axis = 0;
@@ -102,7 +112,8 @@ const CORNERS_OF_FACES: [[(usize, usize); CORNERS]; FACES] = {
         let (second, third) = ((axis + 1) % 3, (axis + 2) % 3);
         let mut low = 0;
         while low < 2 {
-            // Corners of a box plane, counter-clockwise about the axis; the other way where it is least.
+            // Corners of a box plane, counter-clockwise about the axis; the other way where it is
+            // least.
             let around = [[0, 0], [1, 0], [1, 1], [0, 1]];
             let mut i = 0;
             while i < 4 {
@@ -152,18 +163,22 @@ impl<S: Scalar> Corner<S> {
     }
 }
 
-/// Vertices where the chamfers' point lies beyond the first plane: two on it, and those on the other planes.
+/// Vertices where the chamfers' point lies beyond the first plane: two on it, and those on the
+/// other planes.
 #[inline(always)]
 fn beyond<S: Scalar>([a, b, c]: [S; 3], [ab, bc, ca]: [S; 3]) -> [[S; 3]; 4] {
     let (y, z) = (ab - a, ca - a);
     [[a, y, bc - y], [a, bc - z, z], [ab - b, b, bc - b], [ca - c, bc - c, c]]
 }
 
-/// The boundary of the intersection of nine slabs, of which every plane touches it ([`Tribox::tightened`] sees to that).
+/// The boundary of the intersection of nine slabs, of which every plane touches it
+/// ([`Tribox::tightened`] sees to that).
 ///
-/// Faces are counter-clockwise from outside. Between 96 and 112 additions, 24 halvings and at most 24 comparisons. With f32 a vertex is within 10·2^-24
-/// of the greatest parameter from where it should be, by coordinate; exact for parameters that are multiples of 2^-20 of a power of two above all of them
-/// ([`Tribox::on_grid`]). Planes that do not touch give vertices that lie beyond others, in loops that still close.
+/// Faces are counter-clockwise from outside. Between 96 and 112 additions, 24 halvings and at most
+/// 24 comparisons. With f32 a vertex is within 10·2^-24 of the greatest parameter from where it
+/// should be, by coordinate; exact for parameters that are multiples of 2^-20 of a power of two
+/// above all of them ([`Tribox::on_grid`]). Planes that do not touch give vertices that lie beyond
+/// others, in loops that still close.
 ///
 /// [`Boundary::compute`] does the same in place, which saves copying 600 bytes.
 #[inline]
@@ -175,10 +190,15 @@ pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> Boundary<S> {
 
 /// Puts the vertices of corner `I` into its slots; its case.
 #[inline(always)]
-fn at<S: Scalar, const I: usize>(low: &[S; SLABS], high: &[S; SLABS], slots: &mut [[S; 3]; 4]) -> u8 {
+fn at<S: Scalar, const I: usize>(
+    low: &[S; SLABS],
+    high: &[S; SLABS],
+    slots: &mut [[S; 3]; 4],
+) -> u8 {
     let [x, y, z] = [I & 1 != 0, I & 2 != 0, I & 4 != 0];
     let side = |low: S, high: S, is_low: bool| if is_low { -low } else { high };
-    // Where two coordinates grow in the same direction the sum's slab bounds the edge, else the difference's.
+    // Where two coordinates grow in the same direction the sum's slab bounds the edge, else the
+    // difference's.
     let planes = [side(low[0], high[0], x), side(low[1], high[1], y), side(low[2], high[2], z)];
     let chamfers = [
         if x == y { side(low[3], high[3], x) } else { side(low[4], high[4], x) },
@@ -203,7 +223,8 @@ struct Loop {
 impl Loop {
     const EMPTY: Loop = Loop { vertices: [0; LOOP + 3], length: 0 };
 
-    /// Makes it the loop of face `F`. A function for each face, so that the tables are constants in it: half the instructions of a loop over them.
+    /// Makes it the loop of face `F`. A function for each face, so that the tables are constants in
+    /// it: half the instructions of a loop over them.
     #[inline(always)]
     fn join<const F: usize>(&mut self, parts: &[&[Part; 12]; 8]) {
         let mut end = 0usize;
@@ -220,10 +241,17 @@ impl Loop {
 
     /// Writes a part of a corner from `start` on; where it ends.
     #[inline(always)]
-    fn put(&mut self, (corner, part): (usize, usize), parts: &[&[Part; 12]; 8], start: usize) -> usize {
+    fn put(
+        &mut self,
+        (corner, part): (usize, usize),
+        parts: &[&[Part; 12]; 8],
+        start: usize,
+    ) -> usize {
         let found = parts.get(corner).and_then(|parts| parts.get(part));
         let Some(&Part { slots, length }) = found else { return start };
-        if let Some(place) = self.vertices.get_mut(start..).and_then(|rest| rest.first_chunk_mut::<4>()) {
+        if let Some(place) =
+            self.vertices.get_mut(start..).and_then(|rest| rest.first_chunk_mut::<4>())
+        {
             *place = (slots + corner as u32 * 0x0404_0404).to_le_bytes();
         }
         start + length
@@ -233,7 +261,8 @@ impl Loop {
         self.vertices.get(..usize::from(self.length)).unwrap_or(&[])
     }
 
-    /// Adds a vertex unless it is the last one; one that was there before the last one takes that off: there and back again.
+    /// Adds a vertex unless it is the last one; one that was there before the last one takes that
+    /// off: there and back again.
     fn push(&mut self, vertex: u8) {
         match self.as_slice() {
             [.., before, _] if *before == vertex => self.length -= 1,
@@ -250,12 +279,14 @@ impl Loop {
 
 impl<S: Scalar> Boundary<S> {
     /// All vertices at the origin, no faces: to be [computed](Self::compute).
-    pub const EMPTY: Self = Boundary { vertices: [[S::ZERO; 3]; VERTICES], faces: [Loop::EMPTY; FACES] };
+    pub const EMPTY: Self =
+        Boundary { vertices: [[S::ZERO; 3]; VERTICES], faces: [Loop::EMPTY; FACES] };
 
     /// [`boundary()`], in place.
     #[inline]
     pub fn compute(&mut self, low: &[S; SLABS], high: &[S; SLABS]) {
-        let Some([a, b, c, d, e, f, g, h]) = self.vertices.as_chunks_mut::<4>().0.first_chunk_mut::<8>()
+        let Some([a, b, c, d, e, f, g, h]) =
+            self.vertices.as_chunks_mut::<4>().0.first_chunk_mut::<8>()
         else {
             return;
         };
@@ -292,7 +323,8 @@ impl<S: Scalar> Boundary<S> {
         l.join::<17>(&parts);
     }
 
-    /// The loop of a face, counter-clockwise from outside; empty for numbers from [`FACES`] on, and for faces that were [cleaned](Self::cleaned) away.
+    /// The loop of a face, counter-clockwise from outside; empty for numbers from [`FACES`] on, and
+    /// for faces that were [cleaned](Self::cleaned) away.
     pub fn face(&self, face: usize) -> &[u8] {
         self.faces.get(face).map_or(&[], Loop::as_slice)
     }
@@ -302,7 +334,8 @@ impl<S: Scalar> Boundary<S> {
         self.face(face).iter().filter_map(|&vertex| self.vertices.get(vertex as usize).copied())
     }
 
-    /// The same without edges of no length and faces of fewer than three vertices. Of vertices that coincide the first one's number is used; equality is exact.
+    /// The same without edges of no length and faces of fewer than three vertices. Of vertices that
+    /// coincide the first one's number is used; equality is exact.
     #[must_use]
     pub fn cleaned(&self) -> Boundary<S> {
         let mut first = [0u8; VERTICES];

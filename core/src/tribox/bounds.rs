@@ -5,13 +5,16 @@ use crate::num::tolerance::U32;
 use crate::num::{sum_down, sum_up};
 use core::fmt;
 
-/// The intersection of nine slabs `low ≤ direction · p ≤ high`, see [`DIRECTIONS`](super::DIRECTIONS).
+/// The intersection of nine slabs `low ≤ direction · p ≤ high`, see
+/// [`DIRECTIONS`](super::DIRECTIONS).
 ///
-/// What is put into one is inside in real arithmetic: sums of coordinates are rounded outward. Every plane touches what is inside, up to
-/// that rounding, as long as only points, triboxes and [translations](Tribox::translated) made it; after [`intersection`](Tribox::intersection) and
+/// What is put into one is inside in real arithmetic: sums of coordinates are rounded outward.
+/// Every plane touches what is inside, up to that rounding, as long as only points, triboxes and
+/// [translations](Tribox::translated) made it; after [`intersection`](Tribox::intersection) and
 /// [`padded`](Tribox::padded) a plane may be idle, which [`tightened`](Tribox::tightened) mends.
 ///
-/// Coordinates have to be within [`Tribox::DOMAIN`], so that no sum overflows. Unit and frame are the caller's.
+/// Coordinates have to be within [`Tribox::DOMAIN`], so that no sum overflows. Unit and frame are
+/// the caller's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tribox {
     /// Least values along the directions.
@@ -63,7 +66,8 @@ pub(super) fn checked(point: [f32; 3]) -> Result<[f32; 3], TriboxError> {
 
 impl Tribox {
     /// Holds nothing.
-    pub const EMPTY: Tribox = Tribox { low: [f32::INFINITY; SLABS], high: [f32::NEG_INFINITY; SLABS] };
+    pub const EMPTY: Tribox =
+        Tribox { low: [f32::INFINITY; SLABS], high: [f32::NEG_INFINITY; SLABS] };
 
     /// Largest coordinate: 2^120.
     pub const DOMAIN: f32 = (1u128 << 120) as f32;
@@ -77,16 +81,19 @@ impl Tribox {
         Ok(Tribox { low, high })
     }
 
-    /// The least tribox of all points; [`Tribox::EMPTY`] of none. Cost: 18 comparisons and 6 exact sums a point.
+    /// The least tribox of all points; [`Tribox::EMPTY`] of none. Cost: 18 comparisons and 6 exact
+    /// sums a point.
     ///
     /// # Errors
     /// As [`of_point`](Tribox::of_point), for the first point that is refused.
     pub fn of_points(points: impl IntoIterator<Item = [f32; 3]>) -> Result<Tribox, TriboxError> {
-        points.into_iter().try_fold(Tribox::EMPTY, |all, point| Ok(all.union(&Tribox::of_point(point)?)))
+        points
+            .into_iter()
+            .try_fold(Tribox::EMPTY, |all, point| Ok(all.union(&Tribox::of_point(point)?)))
     }
 
-    /// Whether a slab is empty: a proof that it holds nothing. Parameters that contradict each other in a less obvious way show once they are
-    /// [tightened](Tribox::tightened).
+    /// Whether a slab is empty: a proof that it holds nothing. Parameters that contradict each
+    /// other in a less obvious way show once they are [tightened](Tribox::tightened).
     pub fn is_empty(&self) -> bool {
         self.slabs().any(|(low, high)| low > high)
     }
@@ -111,10 +118,12 @@ impl Tribox {
         Tribox { low: greatest(&self.low, &other.low), high: least(&self.high, &other.high) }
     }
 
-    /// Whether the slabs of both overlap: `false` is a proof that they have no point in common. Both in one frame.
+    /// Whether the slabs of both overlap: `false` is a proof that they have no point in common.
+    /// Both in one frame.
     ///
-    /// `true` is no proof, for the intersection may be [empty](Tribox::tightened) although all nine slabs overlap. Touching counts as
-    /// overlapping; an empty tribox overlaps none. Cost: at most 18 comparisons, three times a box's.
+    /// `true` is no proof, for the intersection may be [empty](Tribox::tightened) although all nine
+    /// slabs overlap. Touching counts as overlapping; an empty tribox overlaps none. Cost: at
+    /// most 18 comparisons, three times a box's.
     #[inline]
     #[must_use]
     pub fn overlaps(&self, other: &Tribox) -> bool {
@@ -123,19 +132,20 @@ impl Tribox {
             .all(|((low, high), (other_low, other_high))| (low <= other_high) & (other_low <= high))
     }
 
-    /// Whether all of `other` is inside, by its parameters; an empty one is. Exact if `other` is tight.
+    /// Whether all of `other` is inside, by its parameters; an empty one is. Exact if `other` is
+    /// tight.
     #[inline]
     #[must_use]
     pub fn contains(&self, other: &Tribox) -> bool {
         other.is_empty()
-            || self
-                .slabs()
-                .zip(other.slabs())
-                .all(|((low, high), (other_low, other_high))| (low <= other_low) & (other_high <= high))
+            || self.slabs().zip(other.slabs()).all(|((low, high), (other_low, other_high))| {
+                (low <= other_low) & (other_high <= high)
+            })
     }
 
-    /// Whether a point may be inside: `false` is a proof that it is not. It is one in real arithmetic for all points whose sums f32 can
-    /// hold; for others `true` reaches one unit of rounding beyond a diagonal plane. Not for NaN.
+    /// Whether a point may be inside: `false` is a proof that it is not. It is one in real
+    /// arithmetic for all points whose sums f32 can hold; for others `true` reaches one unit of
+    /// rounding beyond a diagonal plane. Not for NaN.
     #[inline]
     #[must_use]
     pub fn contains_point(&self, point: [f32; 3]) -> bool {
@@ -145,7 +155,8 @@ impl Tribox {
             .all(|((from, to), (low, high))| (from <= high) & (low <= to))
     }
 
-    /// What it becomes if all that is inside moves by `by`, rounded outward. Exact where f32 holds the sums.
+    /// What it becomes if all that is inside moves by `by`, rounded outward. Exact where f32 holds
+    /// the sums.
     ///
     /// # Errors
     /// If a coordinate of `by`, or of the result, is not finite or beyond [`Tribox::DOMAIN`].
@@ -165,7 +176,8 @@ impl Tribox {
         Ok(moved)
     }
 
-    /// A tribox that holds every point within `distance ≥ 0` of this one: planes move outward by it, rounded outward. An empty one stays empty.
+    /// A tribox that holds every point within `distance ≥ 0` of this one: planes move outward by
+    /// it, rounded outward. An empty one stays empty.
     ///
     /// # Errors
     /// If `distance` is negative, not finite or beyond [`Tribox::DOMAIN`].
@@ -180,8 +192,11 @@ impl Tribox {
         // Two roundings, and the constant is below √2.
         let diagonal = distance * (core::f32::consts::SQRT_2 * (1.0 + 4.0 * U32));
         // Below f32's normal range roundings are not relative.
-        let diagonal =
-            if diagonal > 0.0 && diagonal < f32::MIN_POSITIVE { diagonal.next_up() } else { diagonal };
+        let diagonal = if diagonal > 0.0 && diagonal < f32::MIN_POSITIVE {
+            diagonal.next_up()
+        } else {
+            diagonal
+        };
         let mut padded = *self;
         let planes = padded.low.iter_mut().zip(padded.high.iter_mut()).enumerate();
         planes.for_each(|(slab, (low, high))| {

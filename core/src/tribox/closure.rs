@@ -1,8 +1,9 @@
 //! Parameters that no other ones imply.
 //!
-//! Slabs along the axes and the diagonals of the coordinate planes are the *octagons* of Miné (*The octagon abstract domain*, 2006). Between the six
-//! numbers x, −x, y, −y, z, −z every parameter bounds a difference; shortest paths give what differences imply, and one more step what two bounds
-//! of single coordinates do. The result is the tightest there is, over the reals.
+//! Slabs along the axes and the diagonals of the coordinate planes are the *octagons* of Miné (*The
+//! octagon abstract domain*, 2006). Between the six numbers x, −x, y, −y, z, −z every parameter
+//! bounds a difference; shortest paths give what differences imply, and one more step what two
+//! bounds of single coordinates do. The result is the tightest there is, over the reals.
 
 use super::{SLABS, Tribox};
 use crate::num::sum_up;
@@ -13,7 +14,8 @@ const NUMBERS: usize = 6;
 /// Entry `[i][j]` bounds number `j` less number `i`.
 type Differences = [[f32; NUMBERS]; NUMBERS];
 
-/// For each slab two coordinates, and whether the second one is negative; the same twice for the axes.
+/// For each slab two coordinates, and whether the second one is negative; the same twice for the
+/// axes.
 const PAIRS: [(usize, usize, bool); SLABS] = [
     (0, 0, false),
     (1, 1, false),
@@ -30,7 +32,8 @@ const PAIRS: [(usize, usize, bool); SLABS] = [
 #[inline(always)]
 fn places((first, second, negative): (usize, usize, bool)) -> [(usize, usize); 2] {
     let (a, minus_a) = (2 * first, 2 * first + 1);
-    let (b, minus_b) = if negative { (2 * second + 1, 2 * second) } else { (2 * second, 2 * second + 1) };
+    let (b, minus_b) =
+        if negative { (2 * second + 1, 2 * second) } else { (2 * second, 2 * second + 1) };
     // a + b ≤ high is a − (−b) ≤ high, and b − (−a) ≤ high.
     [(minus_b, a), (minus_a, b)]
 }
@@ -57,10 +60,12 @@ fn entry(differences: &Differences, i: usize, j: usize) -> f32 {
 }
 
 impl Tribox {
-    /// The same set with every plane moved inward until it touches, rounded outward. [`Tribox::EMPTY`] proves that the slabs have no common point; off a
+    /// The same set with every plane moved inward until it touches, rounded outward.
+    /// [`Tribox::EMPTY`] proves that the slabs have no common point; off a
     /// [grid](Self::on_grid) rounding may hide that they have none.
     ///
-    /// Parameters never grow. Exact if they are on a [grid](Self::on_grid). Cost: 216 sums and comparisons and some.
+    /// Parameters never grow. Exact if they are on a [grid](Self::on_grid). Cost: 216 sums and
+    /// comparisons and some.
     #[must_use]
     pub fn tightened(&self) -> Tribox {
         if self.is_empty() {
@@ -71,7 +76,8 @@ impl Tribox {
             let scale = if pair.0 == pair.1 { 2.0 } else { 1.0 };
             for (i, j) in places(pair) {
                 lower(&mut differences, i, j, scale * high);
-                // The least value of a + b is the greatest of −a − b, the same differences the other way.
+                // The least value of a + b is the greatest of −a − b, the same differences the
+                // other way.
                 lower(&mut differences, j, i, -(scale * low));
             }
         }
@@ -99,16 +105,19 @@ impl Tribox {
         for ((low, high), pair) in slabs.zip(PAIRS) {
             let [(i, j), _] = places(pair);
             let (up, down) = (entry(&differences, i, j), entry(&differences, j, i));
-            let (up, down) = if pair.0 == pair.1 { (half_up(up), half_up(down)) } else { (up, down) };
+            let (up, down) =
+                if pair.0 == pair.1 { (half_up(up), half_up(down)) } else { (up, down) };
             *high = if up < *high { up } else { *high };
             *low = if -down > *low { -down } else { *low };
         }
         if tight.is_empty() { Tribox::EMPTY } else { tight }
     }
 
-    /// A tribox that holds this one and whose [`boundary`](Self::boundary) f32 computes exactly: parameters are rounded outward to multiples of 2^-20 of
-    /// the power of two above all of them, then [tightened](Self::tightened), which may leave multiples of half of that, and which a second time would be
-    /// rounded again. Coarse for what lies far from the origin: the unit goes by coordinates, not by size.
+    /// A tribox that holds this one and whose [`boundary`](Self::boundary) f32 computes exactly:
+    /// parameters are rounded outward to multiples of 2^-20 of the power of two above all of
+    /// them, then [tightened](Self::tightened), which may leave multiples of half of that, and
+    /// which a second time would be rounded again. Coarse for what lies far from the origin:
+    /// the unit goes by coordinates, not by size.
     #[must_use]
     pub fn on_grid(&self) -> Tribox {
         if self.is_empty() {
@@ -118,7 +127,8 @@ impl Tribox {
             let here = if low.abs() > high.abs() { low.abs() } else { high.abs() };
             if here > most { here } else { most }
         });
-        // The exponent of the power of two above it less 20, but a quarter of it still has to exist.
+        // The exponent of the power of two above it less 20, but a quarter of it still has to
+        // exist.
         let exponent = (most.to_bits() >> 23).cast_signed() - 126 - 20;
         let unit = crate::num::exp2(if exponent > -147 { exponent } else { -147 }) as f32;
         let mut out = *self;
@@ -128,7 +138,8 @@ impl Tribox {
     }
 }
 
-/// The least multiple of `unit`, a power of two, that is not below `x`; there are few enough for an i32.
+/// The least multiple of `unit`, a power of two, that is not below `x`; there are few enough for an
+/// i32.
 #[inline(always)]
 fn multiple_above(x: f32, unit: f32) -> f32 {
     let whole = (x / unit) as i32 as f32 * unit;

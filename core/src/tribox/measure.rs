@@ -5,15 +5,17 @@ use super::bounds::projections;
 use crate::num::tolerance::U32;
 use crate::num::{root, sum_down, sum_up};
 
-/// Four frames of orthogonal slabs: the axes', and one turned by 45° about each axis. A slab's number, and the square of its direction's length, twice
-/// three times.
+/// Four frames of orthogonal slabs: the axes', and one turned by 45° about each axis. A slab's
+/// number, and the square of its direction's length, twice three times.
 const FRAMES: [[usize; 3]; 4] = [[0, 1, 2], [3, 4, 2], [5, 6, 0], [7, 8, 1]];
 
 impl Tribox {
-    /// A lower bound, in the unit of the parameters, of the distance from a point to all that is inside; infinity if that is nothing, NaN for none.
+    /// A lower bound, in the unit of the parameters, of the distance from a point to all that is
+    /// inside; infinity if that is nothing, NaN for none.
     ///
-    /// The greatest distance to the four boxes of which the tribox is the intersection, rounded down, below f32's normal range to 0: exact where the closest point lies on a face, short beside
-    /// some edges and vertices. 0 does not say that the point is inside.
+    /// The greatest distance to the four boxes of which the tribox is the intersection, rounded
+    /// down, below f32's normal range to 0: exact where the closest point lies on a face, short
+    /// beside some edges and vertices. 0 does not say that the point is inside.
     #[must_use]
     pub fn distance(&self, point: [f32; 3]) -> f32 {
         if self.is_empty() {
@@ -50,9 +52,11 @@ impl Tribox {
         if distance >= f32::MIN_POSITIVE { distance } else { 0.0 }
     }
 
-    /// Parameters between which the segment from `a` (0) to `b` (1) may be inside, rounded outward; `None` is a proof that it nowhere is.
+    /// Parameters between which the segment from `a` (0) to `b` (1) may be inside, rounded outward;
+    /// `None` is a proof that it nowhere is.
     ///
-    /// A segment of no length gives `(0, 1)` or nothing. Neither end may be NaN or infinite. Cost: 9 slabs.
+    /// A segment of no length gives `(0, 1)` or nothing. Neither end may be NaN or infinite. Cost:
+    /// 9 slabs.
     #[must_use]
     pub fn clip(&self, a: [f32; 3], b: [f32; 3]) -> Option<(f32, f32)> {
         let along = |[x, y, z]: [f32; 3]| [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x];

@@ -1,4 +1,5 @@
-//! Bounds of what was moved (Crosnier & Rossignac 1999, section 3: from a hull's vertices, or from the vertices of the tribox).
+//! Bounds of what was moved (Crosnier & Rossignac 1999, section 3: from a hull's vertices, or from
+//! the vertices of the tribox).
 
 use super::bounds::{TriboxError, checked};
 use super::{SLABS, Tribox};
@@ -7,7 +8,8 @@ use crate::num::{sum_down, sum_up};
 
 /// A motion: `rotation · p + translation`, each row of the matrix gives a coordinate.
 ///
-/// It is taken as it is, in real arithmetic: if the matrix is a rotation up to rounding only, then so is the motion.
+/// It is taken as it is, in real arithmetic: if the matrix is a rotation up to rounding only, then
+/// so is the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Rows of the matrix; entries of at most 1, up to rounding.
@@ -16,7 +18,8 @@ pub struct Pose {
     pub translation: [f32; 3],
 }
 
-/// What rounding may do to a coordinate, in units of [`U32`] times the sum of the sizes of its terms. Proved: 5, of the product 1, of sums 3, of this product 1.
+/// What rounding may do to a coordinate, in units of [`U32`] times the sum of the sizes of its
+/// terms. Proved: 5, of the product 1, of sums 3, of this product 1.
 const COORDINATE: f32 = 8.0;
 
 /// More than what products lose below f32's range.
@@ -24,8 +27,10 @@ const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 impl Pose {
     /// No motion.
-    pub const IDENTITY: Pose =
-        Pose { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
+    pub const IDENTITY: Pose = Pose {
+        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        translation: [0.0; 3],
+    };
 
     pub(crate) fn check(&self) -> Result<(), TriboxError> {
         checked(self.translation)?;
@@ -50,17 +55,23 @@ impl Pose {
         (place, size)
     }
 
-    /// A tribox of all points after the motion: tight but for rounding, for which each plane is moved outward once, as far as the worst point needs.
+    /// A tribox of all points after the motion: tight but for rounding, for which each plane is
+    /// moved outward once, as far as the worst point needs.
     ///
     /// # Errors
-    /// If a number is not finite, a coordinate beyond [`Tribox::DOMAIN`] before or after the motion, or an entry of the matrix beyond 2.
+    /// If a number is not finite, a coordinate beyond [`Tribox::DOMAIN`] before or after the
+    /// motion, or an entry of the matrix beyond 2.
     pub fn bound(&self, points: impl IntoIterator<Item = [f32; 3]>) -> Result<Tribox, TriboxError> {
         self.check()?;
         self.around(points, 0.0)
     }
 
     /// The tribox of points that are known up to `doubt` per coordinate.
-    fn around(&self, points: impl IntoIterator<Item = [f32; 3]>, doubt: f32) -> Result<Tribox, TriboxError> {
+    fn around(
+        &self,
+        points: impl IntoIterator<Item = [f32; 3]>,
+        doubt: f32,
+    ) -> Result<Tribox, TriboxError> {
         let mut around = Tribox::EMPTY;
         let mut sizes = [0f32; 3];
         for point in points {
@@ -96,8 +107,9 @@ impl Pose {
 }
 
 impl Tribox {
-    /// A tribox of everything that may be inside, after a motion: that of its own vertices, which is larger than that of what it bounds, the
-    /// more so the rounder that is. To have that, keep the vertices of its convex hull for [`Pose::bound`].
+    /// A tribox of everything that may be inside, after a motion: that of its own vertices, which
+    /// is larger than that of what it bounds, the more so the rounder that is. To have that,
+    /// keep the vertices of its convex hull for [`Pose::bound`].
     ///
     /// # Errors
     /// As [`Pose::bound`].
@@ -111,7 +123,8 @@ impl Tribox {
             let at = |of: &[f32; SLABS]| of.get(slab).copied().unwrap_or(0.0);
             largest(largest(most, at(&self.low)), at(&self.high))
         });
-        // Vertices as computed are that close to the real ones: five roundings of a vertex, and as many if rounding decided its corner's case.
+        // Vertices as computed are that close to the real ones: five roundings of a vertex, and as
+        // many if rounding decided its corner's case.
         let doubt = (16.0 * U32) * size;
         pose.around(self.boundary().vertices, doubt)
     }

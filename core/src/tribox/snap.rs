@@ -1,4 +1,5 @@
-//! Simplified triboxes (Crosnier & Rossignac 1999, section 3): planes are moved outward until small faces vanish.
+//! Simplified triboxes (Crosnier & Rossignac 1999, section 3): planes are moved outward until small
+//! faces vanish.
 
 use super::{FACES, SLABS, Tribox};
 
@@ -11,11 +12,14 @@ fn planes() -> impl Iterator<Item = Plane> {
 }
 
 impl Tribox {
-    /// A tribox with fewer faces that holds this one: planes are moved outward, none by more than `tolerance` (in the parameters' unit), the nearest
-    /// to being idle first, if there are fewer faces without it. Vertices may move by more than that where planes meet at small angles.
+    /// A tribox with fewer faces that holds this one: planes are moved outward, none by more than
+    /// `tolerance` (in the parameters' unit), the nearest to being idle first, if there are
+    /// fewer faces without it. Vertices may move by more than that where planes meet at small
+    /// angles.
     ///
-    /// Negative and NaN tolerances move nothing; what has no volume may get some. [`Boundary::cleaned`](super::Boundary::cleaned) then shows fewer faces.
-    /// Cost: some hundred to some thousand times that of [`tightened`](Tribox::tightened).
+    /// Negative and NaN tolerances move nothing; what has no volume may get some.
+    /// [`Boundary::cleaned`](super::Boundary::cleaned) then shows fewer faces. Cost: some
+    /// hundred to some thousand times that of [`tightened`](Tribox::tightened).
     #[must_use]
     pub fn snapped(&self, tolerance: f32) -> Tribox {
         let mut snapped = *self;
@@ -38,10 +42,17 @@ impl Tribox {
         snapped
     }
 
-    /// The plane that is idle after the shortest motion from where it is in `original`, and where; among those within the tolerance and not refused.
-    fn nearest_idle(&self, original: &Tribox, tolerance: f32, refused: u32) -> Option<(Plane, f32)> {
+    /// The plane that is idle after the shortest motion from where it is in `original`, and where;
+    /// among those within the tolerance and not refused.
+    fn nearest_idle(
+        &self,
+        original: &Tribox,
+        tolerance: f32,
+        refused: u32,
+    ) -> Option<(Plane, f32)> {
         let mut nearest: Option<(f32, Plane, f32)> = None;
-        for plane in planes().filter(|(slab, is_high)| refused >> (2 * slab + usize::from(*is_high)) & 1 == 0)
+        for plane in planes()
+            .filter(|(slab, is_high)| refused >> (2 * slab + usize::from(*is_high)) & 1 == 0)
         {
             let implied = self.implied(plane);
             let length = if plane.0 < 3 { 1.0 } else { core::f32::consts::SQRT_2 };

@@ -1,8 +1,12 @@
 //! How far tight triboxes reach along any direction, without their vertices.
 //!
-//! The greatest e·p of all points p between the planes nₖ·p ≤ hₖ is the least Σ λₖhₖ of all λ ≥ 0 with Σ λₖnₖ = e. Let e = (a, b, c) with a ≥ b ≥ c ≥ 0; the other orders and signs are mirror images. Where no plane can move inward, parameters obey
-//! 2h(x) ≤ h(x + y) + h(x − y), h(x) ≤ h(x − y) + h(y), h(x + z) ≤ h(x − y) + h(y + z), h(x + y) ≤ h(x) + h(y): so a least sum has none of the differences, and at most one of x, y, z. What remains is one parameter for each of the three, on which the sum depends
-//! linearly, and so these, of which the last three ask for a < b + c and the second for the contrary, the fourth beside that for a ≤ b + c of its own coefficient:
+//! The greatest e·p of all points p between the planes nₖ·p ≤ hₖ is the least Σ λₖhₖ of all λ ≥ 0
+//! with Σ λₖnₖ = e. Let e = (a, b, c) with a ≥ b ≥ c ≥ 0; the other orders and signs are mirror
+//! images. Where no plane can move inward, parameters obey 2h(x) ≤ h(x + y) + h(x − y), h(x) ≤ h(x
+//! − y) + h(y), h(x + z) ≤ h(x − y) + h(y + z), h(x + y) ≤ h(x) + h(y): so a least sum has none of
+//! the differences, and at most one of x, y, z. What remains is one parameter for each of the
+//! three, on which the sum depends linearly, and so these, of which the last three ask for a < b +
+//! c and the second for the contrary, the fourth beside that for a ≤ b + c of its own coefficient:
 //!
 //! ```text
 //! (b − c)(x + y) + c(y + z)       + (a − b + c) x
@@ -29,7 +33,8 @@ const DIAGONALS: [[u8; 3]; 3] = [[0, 3, 7], [3, 0, 5], [7, 5, 0]];
 
 impl Support {
     /// Nothing.
-    pub(crate) const NONE: Support = Support { factors: [[0.0; 3]; 4], planes: [[0; 3]; 4], count: 0 };
+    pub(crate) const NONE: Support =
+        Support { factors: [[0.0; 3]; 4], planes: [[0; 3]; 4], count: 0 };
 
     /// Whether it is that.
     #[inline(always)]
@@ -39,7 +44,8 @@ impl Support {
 
     /// Of a finite direction.
     pub(crate) fn along(direction: [f32; 3]) -> Support {
-        // Axes by falling size; each with the sign, and the sign of −x for the order in which z − x is stored.
+        // Axes by falling size; each with the sign, and the sign of −x for the order in which z − x
+        // is stored.
         let mut order = [0u8, 1, 2].map(|axis| {
             let x = direction.get(usize::from(axis)).copied().unwrap_or(0.0);
             (x.abs(), axis, x >= 0.0)
@@ -49,25 +55,37 @@ impl Support {
             if let (Some(first), Some(second)) = (first, second)
                 && second.0 > first.0
             {
-                order.iter_mut().skip(i).zip([second, first]).for_each(|(slot, entry)| *slot = entry);
+                order
+                    .iter_mut()
+                    .skip(i)
+                    .zip([second, first])
+                    .for_each(|(slot, entry)| *slot = entry);
             }
         }
         let [(a, x, x_up), (b, y, y_up), (c, z, z_up)] = order;
         let single = |axis: u8, up: bool| 2 * axis + u8::from(up);
         let double = |(i, i_up): (u8, bool), (j, j_up): (u8, bool)| {
-            let slab = DIAGONALS.get(usize::from(i)).and_then(|row| row.get(usize::from(j))).copied();
+            let slab =
+                DIAGONALS.get(usize::from(i)).and_then(|row| row.get(usize::from(j))).copied();
             // A difference is counted from the axis that comes first; of x and z that is z.
             let first = if (i < j) != (i + j == 2 && i != j) { i_up } else { j_up };
             2 * (slab.unwrap_or(0) + u8::from(i_up != j_up)) + u8::from(first)
         };
-        let (xy, zx, yz) =
-            (double((x, x_up), (y, y_up)), double((z, z_up), (x, x_up)), double((y, y_up), (z, z_up)));
+        let (xy, zx, yz) = (
+            double((x, x_up), (y, y_up)),
+            double((z, z_up), (x, x_up)),
+            double((y, y_up), (z, z_up)),
+        );
         let (x, y, z) = (single(x, x_up), single(y, y_up), single(z, z_up));
         let (cut, cut_planes) = ([b - c, c, a - b + c], [xy, yz, x]);
         let rest = b + c - a;
         if rest <= 0.0 {
             let factors = [cut, [b, c, a - b - c], [0.0; 3], [0.0; 3]];
-            return Support { factors, planes: [cut_planes, [xy, zx, x], [0; 3], [0; 3]], count: 2 };
+            return Support {
+                factors,
+                planes: [cut_planes, [xy, zx, x], [0; 3], [0; 3]],
+                count: 2,
+            };
         }
         let three = [0.5 * (a + b - c), 0.5 * (a - b + c), 0.5 * rest];
         let factors = [cut, three, [a - c, c, rest], [b, a - b, rest]];
@@ -79,7 +97,8 @@ impl Support {
         let mut least = f32::INFINITY;
         let sums = self.factors.iter().zip(&self.planes);
         for (&[a, b, c], &[i, j, k]) in sums.take(usize::from(self.count)) {
-            let at = |plane: u8| planes.get(usize::from(plane ^ flip)).copied().unwrap_or(f32::INFINITY);
+            let at =
+                |plane: u8| planes.get(usize::from(plane ^ flip)).copied().unwrap_or(f32::INFINITY);
             let (p, q, r) = (at(i) * a, at(j) * b, at(k) * c);
             let here = (p + q) + r;
             least = if here < least { here } else { least };
@@ -87,9 +106,11 @@ impl Support {
         least
     }
 
-    /// The greatest direction · point of a tight tribox, planes outward: of slab k its least value, negated, at 2k and its greatest at 2k + 1.
+    /// The greatest direction · point of a tight tribox, planes outward: of slab k its least value,
+    /// negated, at 2k and its greatest at 2k + 1.
     ///
-    /// Off by at most 22 units of rounding times the sum of the direction's sizes times the largest coordinate.
+    /// Off by at most 22 units of rounding times the sum of the direction's sizes times the largest
+    /// coordinate.
     #[inline(always)]
     pub(crate) fn greatest(&self, planes: &[f32; FACES]) -> f32 {
         self.least(planes, 0)
@@ -136,14 +157,18 @@ mod tests {
                 if kind % 3 == 0 {
                     e = e.map(|x| (4.0 * x).round());
                 }
-                let dot = |v: &[f32; 3]| (0..3).map(|k| f64::from(v[k]) * f64::from(e[k])).sum::<f64>();
+                let dot =
+                    |v: &[f32; 3]| (0..3).map(|k| f64::from(v[k]) * f64::from(e[k])).sum::<f64>();
                 let most = vertices.iter().map(dot).fold(f64::NEG_INFINITY, f64::max);
                 let least = vertices.iter().map(dot).fold(f64::INFINITY, f64::min);
                 let support = Support::along(e);
                 ways[usize::from(support.count == 4)] += 1;
                 let found = [support.greatest(&planes), -support.greatest_against(&planes)];
                 for (found, wanted) in found.into_iter().zip([most, least]) {
-                    assert!((f64::from(found) - wanted).abs() < 2e-6, "{e:?} {found} {wanted} {tribox:?}");
+                    assert!(
+                        (f64::from(found) - wanted).abs() < 2e-6,
+                        "{e:?} {found} {wanted} {tribox:?}"
+                    );
                 }
             }
         }

@@ -1,8 +1,10 @@
-//! What the images without a runtime share: the panic handler that cannot be linked, and opaque inputs.
+//! What the images without a runtime share: the panic handler that cannot be linked, and opaque
+//! inputs.
 
 use core::panic::PanicInfo;
 
-/// Calls a function that nobody defines: an image links only if the optimiser removed every way to get here.
+/// Calls a function that nobody defines: an image links only if the optimiser removed every way to
+/// get here.
 #[cfg(not(feature = "name_panics"))]
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -25,7 +27,8 @@ fn panic(info: &PanicInfo<'_>) -> ! {
 #[unsafe(no_mangle)]
 pub extern "C" fn ask_nothing() {}
 
-/// What a caller hands over. Reached through a pointer from outside of the image, so the optimiser knows nothing of it.
+/// What a caller hands over. Reached through a pointer from outside of the image, so the optimiser
+/// knows nothing of it.
 #[repr(C)]
 #[allow(dead_code, reason = "each image asks its own questions")]
 pub struct Input<'a> {

@@ -21,7 +21,8 @@ impl Meter {
     /// A meter that has measured what reading the counter costs.
     #[must_use]
     pub fn new() -> Self {
-        let mut meter = Self { begun: 0, overhead: 0, queries: 0, min: u32::MAX, sum: 0, max: 0, deepest: 0 };
+        let mut meter =
+            Self { begun: 0, overhead: 0, queries: 0, min: u32::MAX, sum: 0, max: 0, deepest: 0 };
         meter.query_begins();
         meter.overhead = board::elapsed(meter.begun, board::now());
         meter

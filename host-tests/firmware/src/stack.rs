@@ -1,4 +1,5 @@
-//! Stack depth by painting: fill what is below the stack pointer, run, look how far the paint is gone.
+//! Stack depth by painting: fill what is below the stack pointer, run, look how far the paint is
+//! gone.
 
 use crate::board::stack_pointer;
 
@@ -7,7 +8,8 @@ const PAINT: u32 = 0xA5C3_5A3C;
 const MARGIN: usize = 64;
 
 unsafe extern "C" {
-    /// The end of the static data, from the runtime's linker script: the stack may grow down to here.
+    /// The end of the static data, from the runtime's linker script: the stack may grow down to
+    /// here.
     static __ebss: u32;
 }
 
@@ -29,8 +31,8 @@ pub fn paint() {
     }
 }
 
-/// Bytes between the present stack pointer and the lowest word that was used since `paint`. No less than the margin, which
-/// is never painted.
+/// Bytes between the present stack pointer and the lowest word that was used since `paint`. No less
+/// than the margin, which is never painted.
 #[inline(never)]
 pub fn depth() -> usize {
     let pointer = stack_pointer();

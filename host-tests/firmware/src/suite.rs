@@ -18,7 +18,8 @@ use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Plan, Subject, run};
 use semihosting::{println, process};
 
-/// In flash, where the core reads it in place. Aligned as a linker script would align a section for it.
+/// In flash, where the core reads it in place. Aligned as a linker script would align a section for
+/// it.
 #[repr(C, align(16))]
 struct Flash<T: ?Sized>(T);
 

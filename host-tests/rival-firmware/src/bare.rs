@@ -12,7 +12,8 @@ fn panic(_: &PanicInfo<'_>) -> ! {
 #[unsafe(no_mangle)]
 pub extern "C" fn ask_nothing() {}
 
-/// What a caller hands over. Reached through a pointer from outside of the image, so the optimiser knows nothing of it.
+/// What a caller hands over. Reached through a pointer from outside of the image, so the optimiser
+/// knows nothing of it.
 #[repr(C)]
 #[allow(dead_code, reason = "each image asks its own questions")]
 pub struct Input<'a> {

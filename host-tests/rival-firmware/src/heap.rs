@@ -1,5 +1,5 @@
-//! A heap that counts, in the board's external RAM. The linker places nothing there: static data and stack stay in what such
-//! parts have on chip, and a mesh of any size fits.
+//! A heap that counts, in the board's external RAM. The linker places nothing there: static data
+//! and stack stay in what such parts have on chip, and a mesh of any size fits.
 
 use core::alloc::{GlobalAlloc, Layout};
 use core::cell::UnsafeCell;
@@ -35,7 +35,8 @@ unsafe impl GlobalAlloc for Counting {
 
     unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
         if let Some(block) = NonNull::new(block) {
-            // SAFETY: no other borrow lives, see `Sync`; block and layout are those of `alloc`, as the caller promises.
+            // SAFETY: no other borrow lives, see `Sync`; block and layout are those of `alloc`, as
+            // the caller promises.
             unsafe { (*self.0.get()).heap.deallocate(block, layout) }
         }
     }

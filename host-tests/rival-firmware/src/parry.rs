@@ -1,6 +1,8 @@
-//! parry3d's mesh as a program would use it: built from vertices and triangles at start, all options at their defaults.
+//! parry3d's mesh as a program would use it: built from vertices and triangles at start, all
+//! options at their defaults.
 //!
-//! Without std its square roots are libm's, in software: more than a third of a closest point's instructions.
+//! Without std its square roots are libm's, in software: more than a third of a closest point's
+//! instructions.
 
 use parry3d::math::Vector;
 use parry3d::query::{PointQuery, Ray, RayCast};

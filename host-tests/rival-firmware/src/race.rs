@@ -26,11 +26,13 @@ pub trait Engine {
     }
     /// Closest point of the surface.
     fn closest(&mut self, point: [f32; 3]) -> Self::Closest;
-    /// Closest point to the next point of a path: an engine may start from what it found for the one before.
+    /// Closest point to the next point of a path: an engine may start from what it found for the
+    /// one before.
     fn follow(&mut self, point: [f32; 3]) -> Self::Closest {
         self.closest(point)
     }
-    /// The distance in such an answer: for the sum by which the host knows that the answers are right.
+    /// The distance in such an answer: for the sum by which the host knows that the answers are
+    /// right.
     fn distance(point: [f32; 3], closest: &Self::Closest) -> f32;
     /// Parameter of a segment's first hit, 0 at `a` and 1 at `b`.
     fn first_hit(&mut self, a: [f32; 3], b: [f32; 3]) -> Option<f32>;
@@ -50,10 +52,12 @@ pub struct Questions {
 /// Bytes of heap in use, and the most since it was last asked.
 pub type Heap = fn() -> (usize, usize);
 
-/// Rounds that find out what reading the counter costs: a tick is many instructions, so only a mean tells.
+/// Rounds that find out what reading the counter costs: a tick is many instructions, so only a mean
+/// tells.
 const ROUNDS: u32 = 4_000;
 
-/// Builds an engine, asks it everything, prints, and leaves the emulator. An engine without a heap passes `|| (0, 0)`.
+/// Builds an engine, asks it everything, prints, and leaves the emulator. An engine without a heap
+/// passes `|| (0, 0)`.
 pub fn run<E: Engine>(questions: &Questions, heap: Heap, build: impl FnOnce() -> E) -> ! {
     board::start_counter();
     let (instructions, ticks) = board::calibrate();
@@ -145,6 +149,9 @@ impl Asked {
         let deep = stack::depth();
         let most = (self.heap)().1 - self.used;
         let Self { queries, ticks, max, found, sum, .. } = self;
-        println!("asked {name} {queries} {ticks} {max} {deep} {most} {found} {:016x}", sum.to_bits());
+        println!(
+            "asked {name} {queries} {ticks} {max} {deep} {most} {found} {:016x}",
+            sum.to_bits()
+        );
     }
 }

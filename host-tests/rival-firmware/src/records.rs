@@ -21,7 +21,12 @@ impl<const N: usize> Records<N> {
     pub fn integers(self) -> impl ExactSizeIterator<Item = [u32; N]> {
         self.0.chunks_exact(4 * N).map(|record| {
             core::array::from_fn(|k| {
-                u32::from_le_bytes([record[4 * k], record[4 * k + 1], record[4 * k + 2], record[4 * k + 3]])
+                u32::from_le_bytes([
+                    record[4 * k],
+                    record[4 * k + 1],
+                    record[4 * k + 2],
+                    record[4 * k + 3],
+                ])
             })
         })
     }

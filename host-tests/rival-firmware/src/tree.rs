@@ -1,4 +1,5 @@
-//! The box tree as a program would use it: the blob read where it lies, stacks that the caller owns.
+//! The box tree as a program would use it: the blob read where it lies, stacks that the caller
+//! owns.
 
 use meshsweep_core::query::tree::{Facing, Session, TreeEntry, closest_point, first_hit};
 use meshsweep_core::query::{ClosestPoint, SegmentHit, Stop};
@@ -21,11 +22,15 @@ impl BoxTree {
     /// Opens a blob; all of it is checked.
     #[inline(never)]
     pub fn open(blob: &'static [u8]) -> Result<Self, OpenError> {
-        Ok(Self { tree: Tree::open(blob)?, stack: [TreeEntry::EMPTY; STACK], session: Session::new() })
+        Ok(Self {
+            tree: Tree::open(blob)?,
+            stack: [TreeEntry::EMPTY; STACK],
+            session: Session::new(),
+        })
     }
 
-    /// Bytes that a query needs beside the processor's stack: the opened tree and the entries that the blob asks for. `None` if these
-    /// are more than there are.
+    /// Bytes that a query needs beside the processor's stack: the opened tree and the entries that
+    /// the blob asks for. `None` if these are more than there are.
     #[allow(dead_code, reason = "images that are never started do not ask")]
     pub fn memory(&self) -> Option<usize> {
         let entries = self.tree.header().stack_entries as usize;
@@ -43,7 +48,12 @@ impl BoxTree {
     #[allow(dead_code, reason = "each image asks its own questions")]
     #[inline(never)]
     pub fn follow(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
-        Some(self.session.closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack).ok()?.closest)
+        Some(
+            self.session
+                .closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack)
+                .ok()?
+                .closest,
+        )
     }
 
     /// First hit of a segment.

@@ -7,12 +7,16 @@ use glam::DVec3;
 /// A stored radius is a bound of real numbers; these distances are rounded.
 const ROUNDING: f64 = 1.0 + 1e-12;
 
-/// Least distance of a point and a triangle, up to some 1e-14 of the lengths: the foot on the plane if it lies inside three half-planes, else the
-/// nearest edge.
+/// Least distance of a point and a triangle, up to some 1e-14 of the lengths: the foot on the plane
+/// if it lies inside three half-planes, else the nearest edge.
 pub(super) fn distance(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let to_edge = |from: DVec3, to: DVec3| {
         let d = to - from;
-        let t = if d == DVec3::ZERO { 0.0 } else { (d.dot(p - from) / d.length_squared()).clamp(0.0, 1.0) };
+        let t = if d == DVec3::ZERO {
+            0.0
+        } else {
+            (d.dot(p - from) / d.length_squared()).clamp(0.0, 1.0)
+        };
         (p - from - d * t).length()
     };
     let edges = to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a));
@@ -62,7 +66,9 @@ pub(super) fn groups(blob: &Blob) -> Result<(), String> {
         for &v in faces.iter().flatten() {
             let d = distance(DVec3::from(blob.vertices[v as usize]), at(blob, corners));
             if d > radius * ROUNDING + ABSOLUTE {
-                return Err(format!("base group {index} leaves out vertex {v}: {d:e} > {radius:e}"));
+                return Err(format!(
+                    "base group {index} leaves out vertex {v}: {d:e} > {radius:e}"
+                ));
             }
         }
     }
@@ -102,7 +108,8 @@ pub(super) fn radii(blob: &Blob) -> Result<(), String> {
     Ok(())
 }
 
-/// Every node's swept triangle contains the vertices below it; every node but the root has one parent, every triangle one leaf.
+/// Every node's swept triangle contains the vertices below it; every node but the root has one
+/// parent, every triangle one leaf.
 pub(super) fn cover(blob: &Blob, report: &mut CheckReport) -> Result<(), String> {
     let mut parent = vec![None; blob.nodes.len()];
     let mut next_triangle = 0;
@@ -123,7 +130,9 @@ pub(super) fn cover(blob: &Blob, report: &mut CheckReport) -> Result<(), String>
             }
         } else if node.leaf {
             if node.first != next_triangle {
-                return Err(format!("cover node {index}: its triangles do not follow those before"));
+                return Err(format!(
+                    "cover node {index}: its triangles do not follow those before"
+                ));
             }
             next_triangle = children.end;
         } else {
@@ -137,7 +146,9 @@ pub(super) fn cover(blob: &Blob, report: &mut CheckReport) -> Result<(), String>
     if parent.iter().skip(1).any(Option::is_none) || next_triangle as usize != blob.surface.len() {
         return Err("a cover node or a triangle has no parent".into());
     }
-    for (index, leaf) in blob.nodes.iter().enumerate().filter(|(_, node)| node.leaf && node.count > 0) {
+    for (index, leaf) in
+        blob.nodes.iter().enumerate().filter(|(_, node)| node.leaf && node.count > 0)
+    {
         let mut below: Vec<u32> =
             (leaf.first..leaf.first + leaf.count).flat_map(|t| blob.surface[t as usize]).collect();
         below.sort_unstable();
@@ -148,7 +159,10 @@ pub(super) fn cover(blob: &Blob, report: &mut CheckReport) -> Result<(), String>
             let corners = at(blob, node.corners);
             for &v in &below {
                 let d = distance(DVec3::from(blob.vertices[v as usize]), corners);
-                if d > node.radius * ROUNDING && !node.corners.contains(&v) && d > node.radius + ABSOLUTE {
+                if d > node.radius * ROUNDING
+                    && !node.corners.contains(&v)
+                    && d > node.radius + ABSOLUTE
+                {
                     return Err(format!(
                         "cover node {above} leaves out vertex {v}: {d:e} > {:e}",
                         node.radius
@@ -174,14 +188,22 @@ pub(super) fn capacities(blob: &Blob) -> Result<(), String> {
     }
     let most = waiting.iter().copied().max().unwrap_or(0);
     if most > blob.queue_capacity {
-        return Err(format!("a descent needs {most} queue entries, the header says {}", blob.queue_capacity));
+        return Err(format!(
+            "a descent needs {most} queue entries, the header says {}",
+            blob.queue_capacity
+        ));
     }
     let mut depth: Vec<u32> = Vec::with_capacity(blob.splits.len());
     for split in &blob.splits {
-        let needs =
-            split.ring.iter().chain([&split.vertex]).filter_map(|v| v.checked_sub(blob.base_vertices));
-        let below =
-            needs.map(|past| depth.get(past as usize / 2).copied().unwrap_or(u32::MAX)).max().unwrap_or(0);
+        let needs = split
+            .ring
+            .iter()
+            .chain([&split.vertex])
+            .filter_map(|v| v.checked_sub(blob.base_vertices));
+        let below = needs
+            .map(|past| depth.get(past as usize / 2).copied().unwrap_or(u32::MAX))
+            .max()
+            .unwrap_or(0);
         depth.push(below.checked_add(1).ok_or("a ring names a vertex that does not exist yet")?);
     }
     let deepest = depth.into_iter().max().unwrap_or(0);

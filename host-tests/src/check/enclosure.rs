@@ -1,16 +1,19 @@
 //! Proof that a hull encloses a mesh, from the two files alone.
 //!
 //! If [`check_enclosure`] returns `Ok`, then in exact arithmetic on the files' coordinates
-//! 1. the hull is a closed manifold, and its faces have no point in common but the corners and edges that they share;
+//! 1. the hull is a closed manifold, and its faces have no point in common but the corners and
+//!    edges that they share;
 //! 2. no face of the hull touches or crosses a triangle of the mesh;
 //! 3. the hull winds exactly once around every vertex of the mesh.
 //!
-//! By the second, a triangle of the mesh is inside as a whole if one vertex is. The mesh may be anything: it is taken as loose triangles.
+//! By the second, a triangle of the mesh is inside as a whole if one vertex is. The mesh may be
+//! anything: it is taken as loose triangles.
 //!
 //! With a margin above 0, [`check_margin`] proves moreover that
 //! 4. no point of the hull is as near to the mesh as the margin, or nearer.
 //!
-//! So every point within the margin of the mesh is inside: the way to it from the mesh is no longer than the margin and does not meet the hull.
+//! So every point within the margin of the mesh is inside: the way to it from the mesh is no longer
+//! than the margin and does not meet the hull.
 
 mod distance;
 mod files;
@@ -32,7 +35,8 @@ pub struct EnclosureProof {
     pub triangles: usize,
     /// Vertices of the mesh that the hull was found to wind around once.
     pub inside: usize,
-    /// Pairs of a face and a triangle, or of two faces, whose boxes overlap and that were found to be apart.
+    /// Pairs of a face and a triangle, or of two faces, whose boxes overlap and that were found to
+    /// be apart.
     pub pairs: usize,
 }
 
@@ -46,7 +50,8 @@ pub fn check_enclosure_files(mesh: &[u8], hull: &[u8]) -> Result<EnclosureProof,
     check_enclosure(&mesh, &hull)
 }
 
-/// Proves it of two surfaces, with a margin in their unit; `pairs` counts those that are nearer than that in each coordinate.
+/// Proves it of two surfaces, with a margin in their unit; `pairs` counts those that are nearer
+/// than that in each coordinate.
 ///
 /// # Errors
 /// What does not hold, in words.
@@ -99,7 +104,9 @@ pub fn check_enclosure(mesh: &Surface, hull: &Surface) -> Result<EnclosureProof,
     for (v, &p) in mesh.positions.iter().enumerate().filter(|(v, _)| used[*v]) {
         let turns = winding.around(p)?;
         if turns != 1 {
-            return Err(format!("the hull winds {turns} times around vertex {v} of the mesh, {p:?}"));
+            return Err(format!(
+                "the hull winds {turns} times around vertex {v} of the mesh, {p:?}"
+            ));
         }
         proof.inside += 1;
     }
@@ -142,7 +149,8 @@ fn overlapping(first: &[Corners], second: &[Corners]) -> Vec<(usize, usize)> {
     near(first, second, 0.0)
 }
 
-/// Pairs whose boxes, the first being larger by a margin on all sides, overlap or touch: a sweep along x.
+/// Pairs whose boxes, the first being larger by a margin on all sides, overlap or touch: a sweep
+/// along x.
 fn near(first: &[Corners], second: &[Corners], margin: f64) -> Vec<(usize, usize)> {
     let bounds = |t: &Corners| {
         let pick = |k: usize, least: fn(f64, f64) -> f64| least(least(t[0][k], t[1][k]), t[2][k]);

@@ -3,8 +3,8 @@
 use num_bigint::BigInt;
 use num_traits::Signed;
 
-/// Sign of `(d − a) · ((b − a) × (c − a))`: positive in front of the plane of a counter-clockwise triangle; and whether
-/// integers had to decide.
+/// Sign of `(d − a) · ((b − a) × (c − a))`: positive in front of the plane of a counter-clockwise
+/// triangle; and whether integers had to decide.
 #[must_use]
 pub fn side([a, b, c]: [[f64; 3]; 3], d: [f64; 3]) -> (i8, bool) {
     let sub = |p: [f64; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
@@ -13,7 +13,8 @@ pub fn side([a, b, c]: [[f64; 3]; 3], d: [f64; 3]) -> (i8, bool) {
         .map(|(i, j)| (u[i] * v[j] - u[j] * v[i], (u[i] * v[j]).abs() + (u[j] * v[i]).abs()));
     let det: f64 = minors.iter().zip(w).map(|(m, x)| m.0 * x).sum();
     let size: f64 = minors.iter().zip(w).map(|(m, x)| m.1 * x.abs()).sum();
-    // Six roundings on the longest path, each at most half a unit; twice that to spare. A product that underflows is not trusted.
+    // Six roundings on the longest path, each at most half a unit; twice that to spare. A product
+    // that underflows is not trusted.
     if det.abs() > 16.0 * f64::EPSILON * size && size > 1e-250 {
         return (if det > 0.0 { 1 } else { -1 }, false);
     }
@@ -25,11 +26,14 @@ fn side_in_integers(points: [[f64; 3]; 4]) -> i8 {
     let parts = points.map(|p| p.map(decompose));
     let used = || parts.iter().flatten().filter(|(m, _)| *m != 0);
     let Some(least) = used().map(|(_, e)| *e).min() else { return 0 };
-    let bits =
-        used().map(|(m, e)| i64::from(64 - m.unsigned_abs().leading_zeros()) + i64::from(e - least)).max();
-    // Differences of 39-bit numbers have 40 bits, products of three 120, and six of these fit in 127.
+    let bits = used()
+        .map(|(m, e)| i64::from(64 - m.unsigned_abs().leading_zeros()) + i64::from(e - least))
+        .max();
+    // Differences of 39-bit numbers have 40 bits, products of three 120, and six of these fit in
+    // 127.
     if bits.unwrap_or(0) <= 39 {
-        let at = parts.map(|p| p.map(|(m, e)| if m == 0 { 0 } else { i128::from(m) << (e - least) }));
+        let at =
+            parts.map(|p| p.map(|(m, e)| if m == 0 { 0 } else { i128::from(m) << (e - least) }));
         let [a, b, c, d] = at;
         let sub = |p: [i128; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
         let (u, v, w) = (sub(b), sub(c), sub(d));
@@ -38,8 +42,9 @@ fn side_in_integers(points: [[f64; 3]; 4]) -> i8 {
             + w[2] * (u[0] * v[1] - u[1] * v[0]);
         return det.signum() as i8;
     }
-    let at = parts
-        .map(|p| p.map(|(m, e)| BigInt::from(m) << (if m == 0 { 0 } else { (e - least).unsigned_abs() })));
+    let at = parts.map(|p| {
+        p.map(|(m, e)| BigInt::from(m) << (if m == 0 { 0 } else { (e - least).unsigned_abs() }))
+    });
     let [a, b, c, d] = &at;
     let sub = |p: &[BigInt; 3]| [&p[0] - &a[0], &p[1] - &a[1], &p[2] - &a[2]];
     let (u, v, w) = (sub(b), sub(c), sub(d));
@@ -55,7 +60,8 @@ fn decompose(x: f64) -> (i64, i32) {
         return (0, 0);
     }
     let bits = x.to_bits();
-    let (exponent, fraction) = ((bits >> 52 & 0x7FF) as i32, (bits & ((1 << 52) - 1)).cast_signed());
+    let (exponent, fraction) =
+        ((bits >> 52 & 0x7FF) as i32, (bits & ((1 << 52) - 1)).cast_signed());
     let (mantissa, exponent) =
         if exponent == 0 { (fraction, -1074) } else { (fraction | 1 << 52, exponent - 1075) };
     let shift = mantissa.trailing_zeros();
@@ -73,7 +79,10 @@ mod tests {
         assert_eq!(side(t, [0.25, 0.5, 0.5e-20]).0, 0);
         assert_eq!(side(t, [0.25, 0.5, 0.5e-20f64.next_up()]).0, 1);
         assert_eq!(side(t, [0.25, 0.5, 0.5e-20f64.next_down()]).0, -1);
-        assert_eq!(side([[0.5, 0.25, 0.1], [0.75, 0.25, 0.1], [0.5, 0.5, 0.1]], [0.3, 0.3, 0.1]), (0, true));
+        assert_eq!(
+            side([[0.5, 0.25, 0.1], [0.75, 0.25, 0.1], [0.5, 0.5, 0.1]], [0.3, 0.3, 0.1]),
+            (0, true)
+        );
         assert_eq!(decompose(-6.0), (-3, 1));
         assert_eq!(decompose(f64::MIN_POSITIVE / 2.0), (1, -1023));
     }

@@ -35,14 +35,17 @@ pub(super) fn volumes(blob: &Blob, hulls: &[Vec<[u32; 3]>]) -> Result<(), String
             return Err(format!("level {index}: its void is {void:e}, the table says {stored:e}"));
         }
         if void > before + 1e-9 {
-            return Err(format!("level {index} is looser than the one before: {void:e} > {before:e}"));
+            return Err(format!(
+                "level {index} is looser than the one before: {void:e} > {before:e}"
+            ));
         }
         before = void;
     }
     Ok(())
 }
 
-/// The cover of each level is as near the surface as the table says, at sampled points, and its radii are below the table's.
+/// The cover of each level is as near the surface as the table says, at sampled points, and its
+/// radii are below the table's.
 pub(super) fn distances(blob: &Blob, report: &mut CheckReport) -> Result<(), String> {
     let Some((last, coarser)) = blob.levels.split_last() else { return Err("no levels".into()) };
     if !blob.is_cut && (last.hull_to_surface != 0.0 || last.surface_to_hull != 0.0) {
@@ -51,14 +54,16 @@ pub(super) fn distances(blob: &Blob, report: &mut CheckReport) -> Result<(), Str
     if blob.is_cut {
         return Ok(());
     }
-    let surface: Vec<[DVec3; 3]> = blob.surface.iter().map(|&t| blob.corners(t).map(DVec3::from)).collect();
+    let surface: Vec<[DVec3; 3]> =
+        blob.surface.iter().map(|&t| blob.corners(t).map(DVec3::from)).collect();
     let budget = (BUDGET / surface.len().max(1) / coarser.len().max(1)).max(8);
     for (index, level) in coarser.iter().enumerate() {
         let ends: Vec<_> = blob.nodes[..level.nodes as usize]
             .iter()
             .filter(|node| node.leaf || node.first + node.count > level.nodes)
             .collect();
-        if let Some(node) = ends.iter().find(|node| node.radius > f64::from(level.surface_to_hull)) {
+        if let Some(node) = ends.iter().find(|node| node.radius > f64::from(level.surface_to_hull))
+        {
             return Err(format!(
                 "level {index}: a radius of {:e} exceeds {:e}",
                 node.radius, level.surface_to_hull

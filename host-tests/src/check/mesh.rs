@@ -76,7 +76,9 @@ impl Mesh {
 
     /// Every edge has its other side, and every vertex one closed fan.
     pub(super) fn closed_manifold(&self) -> Result<(), String> {
-        if let Some((a, b)) = self.opposite.keys().find(|(a, b)| !self.opposite.contains_key(&(*b, *a))) {
+        if let Some((a, b)) =
+            self.opposite.keys().find(|(a, b)| !self.opposite.contains_key(&(*b, *a)))
+        {
             return Err(format!("edge ({a}, {b}) is open"));
         }
         let mut seen = HashSet::new();

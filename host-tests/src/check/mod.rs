@@ -1,9 +1,11 @@
-//! Proofs from a blob's bytes alone: a parser, exact arithmetic and a replay that share no code with reader or builder.
+//! Proofs from a blob's bytes alone: a parser, exact arithmetic and a replay that share no code
+//! with reader or builder.
 //!
-//! If [`check_blob`] returns `Ok`, the blob's hulls enclose its surface. Each split is undone in exact integer arithmetic: the
-//! vertex that it replaces lies on or outside every plane of the triangles that it brings, so that every step from fine to
-//! coarse adds tetrahedra of non-negative volume, and the finest mesh is the surface itself. Bounds (radii, reaches, groups,
-//! levels) are checked in `f64` with a margin for its rounding.
+//! If [`check_blob`] returns `Ok`, the blob's hulls enclose its surface. Each split is undone in
+//! exact integer arithmetic: the vertex that it replaces lies on or outside every plane of the
+//! triangles that it brings, so that every step from fine to coarse adds tetrahedra of non-negative
+//! volume, and the finest mesh is the surface itself. Bounds (radii, reaches, groups, levels) are
+//! checked in `f64` with a margin for its rounding.
 
 mod bounds;
 mod enclosure;

@@ -135,7 +135,9 @@ impl Blob {
     /// A section is missing, damaged or of the wrong length.
     pub fn parse(bytes: &[u8]) -> Result<Blob, String> {
         let at = |offset: usize| word(bytes, offset).ok_or("the header is cut short".to_owned());
-        if bytes.get(..10) != Some(b"meshswep\x01\x00".as_slice()) || at(16)? as usize != bytes.len() {
+        if bytes.get(..10) != Some(b"meshswep\x01\x00".as_slice())
+            || at(16)? as usize != bytes.len()
+        {
             return Err("not a whole blob of version 1".into());
         }
         let table_end = (at(12)? as usize).min(bytes.len()).max(160);
@@ -148,8 +150,9 @@ impl Blob {
                 return Ok(Cursor(&[], name));
             };
             let start = entry.offset as usize;
-            let body =
-                bytes.get(start..start + entry.bytes as usize).ok_or(format!("{name} leaves the blob"))?;
+            let body = bytes
+                .get(start..start + entry.bytes as usize)
+                .ok_or(format!("{name} leaves the blob"))?;
             if Some(crc32(body)) != word(bytes, entry.at + 12) {
                 return Err(format!("the CRC of {name} does not hold"));
             }
@@ -167,13 +170,15 @@ impl Blob {
         if vertices != base_vertices + 2 * splits {
             return Err("vertices are not those of the base and two for each split".into());
         }
-        let (wv, ws, wr, wc) = (width(vertices), width(splits), width(rings), width(nodes.max(surface)));
-        let triples = |kind: u32, name: &'static str, count: u32| -> Result<Vec<[u32; 3]>, String> {
-            let mut cursor = section(kind, name)?;
-            let read = (0..count).map(|_| cursor.triple(wv)).collect::<Result<_, _>>()?;
-            cursor.end()?;
-            Ok(read)
-        };
+        let (wv, ws, wr, wc) =
+            (width(vertices), width(splits), width(rings), width(nodes.max(surface)));
+        let triples =
+            |kind: u32, name: &'static str, count: u32| -> Result<Vec<[u32; 3]>, String> {
+                let mut cursor = section(kind, name)?;
+                let read = (0..count).map(|_| cursor.triple(wv)).collect::<Result<_, _>>()?;
+                cursor.end()?;
+                Ok(read)
+            };
 
         let mut cursor = section(7, "cover")?;
         let mut read_nodes = Vec::new();
@@ -227,7 +232,12 @@ impl Blob {
             vertices: read_vertices(bytes, section(1, "vertices")?, vertices)?,
             base: triples(2, "base triangles", base)?,
             groups,
-            splits: read_splits(section(3, "splits")?, section(4, "rings")?, [splits, rings], [wv, wr])?,
+            splits: read_splits(
+                section(3, "splits")?,
+                section(4, "rings")?,
+                [splits, rings],
+                [wv, wr],
+            )?,
             splits_with,
             radii,
             nodes: read_nodes,
@@ -251,14 +261,20 @@ impl Blob {
         let origin = self.base_vertices + 2 * index as u32;
         let destination = origin + 1;
         let mut fine: Vec<[u32; 3]> = (0..ring.len())
-            .map(|i| [if i < *right { origin } else { destination }, ring[i], ring[(i + 1) % ring.len()]])
+            .map(|i| {
+                [if i < *right { origin } else { destination }, ring[i], ring[(i + 1) % ring.len()]]
+            })
             .collect();
         fine.extend([[origin, ring[*right], destination], [origin, destination, ring[0]]]);
         fine
     }
 }
 
-fn read_vertices(bytes: &[u8], mut cursor: Cursor<'_>, count: u32) -> Result<Vec<[f64; 3]>, String> {
+fn read_vertices(
+    bytes: &[u8],
+    mut cursor: Cursor<'_>,
+    count: u32,
+) -> Result<Vec<[f64; 3]>, String> {
     let at = |offset: usize| word(bytes, offset).unwrap_or(0);
     let width = match at(32) & 0xFF {
         0 => 0,
@@ -303,7 +319,8 @@ fn read_splits(
     let mut read = Vec::new();
     for (i, &(vertex, start, right, reach)) in heads.iter().enumerate() {
         let end = heads.get(i + 1).map_or(ring_entries, |next| next.1);
-        let length = end.checked_sub(start).ok_or(format!("split {i}: its ring ends before it begins"))?;
+        let length =
+            end.checked_sub(start).ok_or(format!("split {i}: its ring ends before it begins"))?;
         let ring: Vec<u32> = (0..length).map(|_| rings.uint(wv)).collect::<Result<_, _>>()?;
         if right == 0 || right >= ring.len() {
             return Err(format!("split {i}: its right wing is not in its ring"));

@@ -71,12 +71,22 @@ fn splits_with(blob: &Blob) -> Result<(), String> {
     }
 }
 
-/// One split: its star is the ring's fan, its vertex lies on or outside every new plane, and what comes out is a manifold.
-fn split(blob: &Blob, index: usize, mesh: &mut Mesh, report: &mut CheckReport) -> Result<(), String> {
+/// One split: its star is the ring's fan, its vertex lies on or outside every new plane, and what
+/// comes out is a manifold.
+fn split(
+    blob: &Blob,
+    index: usize,
+    mesh: &mut Mesh,
+    report: &mut CheckReport,
+) -> Result<(), String> {
     let split = &blob.splits[index];
     let ring = &split.ring;
     if mesh.valence(split.vertex) != ring.len() {
-        return Err(format!("{} triangles around, {} in the ring", mesh.valence(split.vertex), ring.len()));
+        return Err(format!(
+            "{} triangles around, {} in the ring",
+            mesh.valence(split.vertex),
+            ring.len()
+        ));
     }
     for (i, &from) in ring.iter().enumerate() {
         mesh.remove([split.vertex, from, ring[(i + 1) % ring.len()]])?;
@@ -92,7 +102,8 @@ fn split(blob: &Blob, index: usize, mesh: &mut Mesh, report: &mut CheckReport) -
         mesh.add(triangle)?;
     }
     let origin = blob.base_vertices + 2 * index as u32;
-    let touched = ring.iter().map(|&v| (v, ring[0])).chain([(origin, origin + 1), (origin + 1, origin)]);
+    let touched =
+        ring.iter().map(|&v| (v, ring[0])).chain([(origin, origin + 1), (origin + 1, origin)]);
     for (i, (vertex, to)) in touched.enumerate() {
         // A ring vertex still has its edge to the next one.
         let to = if i < ring.len() { ring[(i + 1) % ring.len()] } else { to };

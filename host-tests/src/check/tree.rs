@@ -1,8 +1,10 @@
-//! Proof of a box tree from the blob's bytes and the mesh, by a parser and arithmetic that share no code with reader or builder.
+//! Proof of a box tree from the blob's bytes and the mesh, by a parser and arithmetic that share no
+//! code with reader or builder.
 //!
-//! If [`check_tree`] returns `Ok`, then no descent can miss a triangle but by the rounding of the query itself: every triangle of the mesh
-//! is in exactly one leaf, no farther from its place than the header's surface error; every box on the way to it contains it, by exact
-//! arithmetic on the stored numbers; and no frame makes a distance longer.
+//! If [`check_tree`] returns `Ok`, then no descent can miss a triangle but by the rounding of the
+//! query itself: every triangle of the mesh is in exactly one leaf, no farther from its place than
+//! the header's surface error; every box on the way to it contains it, by exact arithmetic on the
+//! stored numbers; and no frame makes a distance longer.
 
 mod contain;
 mod parse;
@@ -28,7 +30,8 @@ pub struct TreeProof {
     pub exact_contained: usize,
 }
 
-/// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by [`Mesh::rounding`].
+/// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by
+/// [`Mesh::rounding`].
 ///
 /// Cost: vertices times depth.
 ///

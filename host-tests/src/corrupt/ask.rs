@@ -1,13 +1,16 @@
-//! Asks an opened box tree everything, and holds the answers to what has to be true whatever the bytes say.
+//! Asks an opened box tree everything, and holds the answers to what has to be true whatever the
+//! bytes say.
 //!
-//! A blob that was changed on purpose may open: then its boxes may leave something out and its answers may be wrong. But every question ends,
-//! within work that the tree's counts bound, without a panic, and what it gives is in range.
+//! A blob that was changed on purpose may open: then its boxes may leave something out and its
+//! answers may be wrong. But every question ends, within work that the tree's counts bound, without
+//! a panic, and what it gives is in range.
 
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{
-    BatchError, Contact, Facing, Hint, Near, PairEntry, Session, Side, Sight, TreeEntry, TrianglePair,
-    Verdict, all_hits, all_overlaps, all_within, any_hit, closest_point, closest_point_from, closest_points,
-    first_hit, front_facing, is_within, nearest, overlap, signed_distance,
+    BatchError, Contact, Facing, Hint, Near, PairEntry, Session, Side, Sight, TreeEntry,
+    TrianglePair, Verdict, all_hits, all_overlaps, all_within, any_hit, closest_point,
+    closest_point_from, closest_points, first_hit, front_facing, is_within, nearest, overlap,
+    signed_distance,
 };
 use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, Stop, Work};
 use meshsweep_core::tribox::Pose;
@@ -33,7 +36,8 @@ impl Asker {
         }
     }
 
-    /// Every question about a point. The hint is left from the tree that was asked before, whichever that was.
+    /// Every question about a point. The hint is left from the tree that was asked before,
+    /// whichever that was.
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
@@ -50,7 +54,10 @@ impl Asker {
             if let Some(answer) = answered(is_within(tree, point, distance, stop, stack)) {
                 ends(answer.work, once);
                 if let Verdict::Yes { triangle } = answer.verdict {
-                    assert!(triangle.is_some_and(|number| number < tree.input_triangles()), "{answer:?}");
+                    assert!(
+                        triangle.is_some_and(|number| number < tree.input_triangles()),
+                        "{answer:?}"
+                    );
                 }
                 let certain = answer.verdict != Verdict::Unknown;
                 assert_eq!(certain, answer.ended == Ended::Exact, "{answer:?}");
@@ -64,7 +71,8 @@ impl Asker {
                 ends(answer.work, once);
                 assert!(answer.certain <= answer.stored, "{answer:?}");
                 assert!(
-                    answer.stored as u64 + u64::from(answer.dropped) <= u64::from(tree.header().triangles)
+                    answer.stored as u64 + u64::from(answer.dropped)
+                        <= u64::from(tree.header().triangles)
                 );
                 found(tree, &near[..answer.stored]);
             }
@@ -100,7 +108,8 @@ impl Asker {
         }
     }
 
-    /// A session of `N` entries along a path; its answers are those of the plain query unless that was cut short.
+    /// A session of `N` entries along a path; its answers are those of the plain query unless that
+    /// was cut short.
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
@@ -112,7 +121,9 @@ impl Asker {
         stop: &Stop,
     ) {
         for point in path {
-            if let Some(answer) = answered(session.closest_point(tree, point, stop, &mut self.stack)) {
+            if let Some(answer) =
+                answered(session.closest_point(tree, point, stop, &mut self.stack))
+            {
                 closest(tree, &answer.closest, 4 * descent(tree));
                 assert!(answer.safe_radius >= 0.0, "{answer:?}");
             }
@@ -145,7 +156,8 @@ impl Asker {
         }
     }
 
-    /// Whether two trees meet, and where, in at most so many steps: every pair of nodes may have to be opened.
+    /// Whether two trees meet, and where, in at most so many steps: every pair of nodes may have to
+    /// be opened.
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
@@ -153,7 +165,10 @@ impl Asker {
         let mut stack = vec![PairEntry::EMPTY; self.stack.len()];
         let mut pairs = vec![TrianglePair::EMPTY; self.near.len()];
         let in_range = |[first, second]: [u32; 2]| {
-            assert!(first < a.input_triangles() && second < b.input_triangles(), "{first} {second}");
+            assert!(
+                first < a.input_triangles() && second < b.input_triangles(),
+                "{first} {second}"
+            );
         };
         if let Some(answer) = answered(overlap(a, b, pose, steps, &mut stack)) {
             assert!(answer.work.splits <= steps, "{answer:?}");
@@ -175,9 +190,16 @@ impl Asker {
         for sight in [Sight::From(eye), Sight::Along(eye)] {
             let mut triangles = vec![u32::MAX; self.near.len()];
             if let Some(seen) = answered(front_facing(tree, &sight, &mut triangles)) {
-                assert!(triangles[..seen.stored].iter().all(|&t| t < tree.input_triangles()), "{seen:?}");
+                assert!(
+                    triangles[..seen.stored].iter().all(|&t| t < tree.input_triangles()),
+                    "{seen:?}"
+                );
                 let all = seen.stored as u32 + seen.dropped + seen.culled;
-                assert_eq!((seen.leaves, all), (tree.header().leaves, tree.header().triangles), "{seen:?}");
+                assert_eq!(
+                    (seen.leaves, all),
+                    (tree.header().leaves, tree.header().triangles),
+                    "{seen:?}"
+                );
             }
         }
     }
@@ -189,7 +211,8 @@ fn descent(tree: &Tree<'_>) -> u32 {
     9 * header.nodes + header.triangles + 16
 }
 
-/// The answer. A query is refused for what is wrong with it, never for what is wrong with an opened tree.
+/// The answer. A query is refused for what is wrong with it, never for what is wrong with an opened
+/// tree.
 fn answered<T>(result: Result<T, QueryError>) -> Option<T> {
     if let Err(error) = &result {
         assert_ne!(*error, QueryError::Model);

@@ -1,4 +1,5 @@
-//! Every way of damaging a blob that is worth trying on all of its bytes: cut short, a bit flipped, bytes replaced.
+//! Every way of damaging a blob that is worth trying on all of its bytes: cut short, a bit flipped,
+//! bytes replaced.
 
 use super::seal;
 use super::sections::Entry;
@@ -7,10 +8,12 @@ use meshsweep_core::OpenError;
 use std::collections::HashSet;
 use std::mem::{Discriminant, discriminant};
 
-/// Holds that nothing but the whole blob opens, as it is: neither a beginning of it nor one with a bit flipped.
+/// Holds that nothing but the whole blob opens, as it is: neither a beginning of it nor one with a
+/// bit flipped.
 ///
 /// # Panics
-/// If damage opens, a beginning is refused for another reason than its length, or the blob itself does not open.
+/// If damage opens, a beginning is refused for another reason than its length, or the blob itself
+/// does not open.
 pub fn assert_only_the_whole_opens(blob: &[u8], open: impl Fn(&[u8]) -> Result<(), OpenError>) {
     for length in 0..blob.len() {
         let error = open(&blob[..length]).expect_err("cut short");
@@ -49,7 +52,8 @@ impl Outcome {
     }
 }
 
-/// Flips one bit after the other, checksums made right each time, and has each such blob opened and asked.
+/// Flips one bit after the other, checksums made right each time, and has each such blob opened and
+/// asked.
 pub fn flip_bits(
     blob: &[u8],
     bits: impl Iterator<Item = usize>,
@@ -65,8 +69,9 @@ pub fn flip_bits(
     outcome
 }
 
-/// Replaces bytes of a section by any, one or two of them and up to `most` by turns, checksums made right, `runs` times, and has each such blob opened and
-/// asked. `section` says which, by the number of the run.
+/// Replaces bytes of a section by any, one or two of them and up to `most` by turns, checksums made
+/// right, `runs` times, and has each such blob opened and asked. `section` says which, by the
+/// number of the run.
 pub fn replace_bytes(
     blob: &[u8],
     (runs, most): (usize, usize),
@@ -79,7 +84,8 @@ pub fn replace_bytes(
         let mut changed = blob.to_vec();
         for _ in 0..1 + rng.below(if run % 2 == 0 { 2 } else { most }) {
             let section = section(run, rng);
-            changed[section.offset as usize + rng.below(section.bytes as usize)] = rng.next_u64() as u8;
+            changed[section.offset as usize + rng.below(section.bytes as usize)] =
+                rng.next_u64() as u8;
         }
         seal(&mut changed);
         outcome.count(ask(&changed));

@@ -23,8 +23,9 @@ pub fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0u32, |crc, &b| crc >> 8 ^ TABLE[((crc ^ u32::from(b)) & 0xFF) as usize])
 }
 
-/// Writes the CRC of every section that lies inside the blob, of blobs within sections too, then the header's. Whatever was damaged, `open` gets past the
-/// checksums as far as the table can be followed.
+/// Writes the CRC of every section that lies inside the blob, of blobs within sections too, then
+/// the header's. Whatever was damaged, `open` gets past the checksums as far as the table can be
+/// followed.
 pub fn seal(blob: &mut [u8]) {
     for entry in entries(blob) {
         let end = u64::from(entry.offset) + u64::from(entry.bytes);

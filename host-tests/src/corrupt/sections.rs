@@ -40,7 +40,12 @@ pub fn entries(blob: &[u8]) -> Vec<Entry> {
         .map_while(|index| {
             let at = TABLE + ENTRY * index;
             word(blob, at + 12)?;
-            Some(Entry { at, kind: word(blob, at)?, offset: word(blob, at + 4)?, bytes: word(blob, at + 8)? })
+            Some(Entry {
+                at,
+                kind: word(blob, at)?,
+                offset: word(blob, at + 4)?,
+                bytes: word(blob, at + 8)?,
+            })
         })
         .collect()
 }

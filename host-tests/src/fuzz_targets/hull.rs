@@ -106,12 +106,15 @@ pub fn segment(data: &[u8]) {
         }
     }
     if let Ok(answer) = all_hits(&model, a, b, &mut queue, &mut hits) {
-        assert!(answer.stored <= hits.len() && hits[..answer.stored].is_sorted_by(|x, y| x.t <= y.t));
+        assert!(
+            answer.stored <= hits.len() && hits[..answer.stored].is_sorted_by(|x, y| x.t <= y.t)
+        );
         assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
     }
 }
 
-/// Outer hits on an edited blob. The candidate list is long enough for every face, so that nothing is searched twice.
+/// Outer hits on an edited blob. The candidate list is long enough for every face, so that nothing
+/// is searched twice.
 pub fn outer(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(seeds());

@@ -52,8 +52,11 @@ impl Input<'_> {
         let mut blob = seeds[usize::from(self.byte()) % seeds.len()].clone();
         for _ in 0..self.byte() % 16 {
             let kind = self.byte();
-            let at =
-                if kind & 0x80 == 0 { self.u32() as usize % blob.len() } else { self.u32() as usize % 400 };
+            let at = if kind & 0x80 == 0 {
+                self.u32() as usize % blob.len()
+            } else {
+                self.u32() as usize % 400
+            };
             let at = at.min(blob.len() - 1);
             match kind % 6 {
                 0 => blob[at] ^= 1 << (self.byte() % 8),
@@ -65,8 +68,8 @@ impl Input<'_> {
                     blob[at] = blob[from];
                 }
                 _ => {
-                    let word =
-                        [0, 1, 0x7F80_0000, 0x7FC0_0000, 0x7FFF_FFFF, u32::MAX][usize::from(self.byte()) % 6];
+                    let word = [0, 1, 0x7F80_0000, 0x7FC0_0000, 0x7FFF_FFFF, u32::MAX]
+                        [usize::from(self.byte()) % 6];
                     put_u32(&mut blob, at & !3, word);
                 }
             }

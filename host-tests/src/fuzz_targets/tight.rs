@@ -13,27 +13,39 @@ use meshsweep_core::query::{Ended, QueryError, Stop};
 use meshsweep_core::{Model, TightHull, TightHulls};
 use std::sync::OnceLock;
 
-/// Small valid blobs of tight hulls: one and several, closed and open, nested, on a grid and not, one beside a box tree.
+/// Small valid blobs of tight hulls: one and several, closed and open, nested, on a grid and not,
+/// one beside a box tree.
 ///
 /// # Panics
 /// If one of them cannot be built.
 pub fn tight_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
-        let options =
-            |faces: &[usize]| ChainOptions { faces: faces.to_vec(), effort: 0.0, ..Default::default() };
+        let options = |faces: &[usize]| ChainOptions {
+            faces: faces.to_vec(),
+            effort: 0.0,
+            ..Default::default()
+        };
         let mut open = rough_sphere(1, 0.4, 5);
         open.1.truncate(50);
         vec![
             blob(&cube(1), &options(&[64]), false),
-            blob(&torus(2.0, 0.75, 10, 6), &ChainOptions { nested: true, ..options(&[64, 76]) }, false),
+            blob(
+                &torus(2.0, 0.75, 10, 6),
+                &ChainOptions { nested: true, ..options(&[64, 76]) },
+                false,
+            ),
             blob(&open, &ChainOptions { vertex_bits: VertexBits::F32, ..options(&[64]) }, false),
             blob(&icosphere(1), &options(&[64, 70]), true),
         ]
     })
 }
 
-fn blob((positions, triangles): &Triangles, options: &ChainOptions, beside_a_tree: bool) -> Vec<u8> {
+fn blob(
+    (positions, triangles): &Triangles,
+    options: &ChainOptions,
+    beside_a_tree: bool,
+) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let all = mesh.triangles.len();
     let (tables, _) = chain(&mesh, 0.0, all, options, |_| {}).expect("room around it");
@@ -72,8 +84,12 @@ fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Stop, entries: u
             assert_eq!(within.ended == Ended::Exact, within.verdict != Verdict::Unknown);
             assert!(!matches!(within.verdict, Verdict::Yes { triangle: Some(_) }), "{within:?}");
             // A side may be asked from nearer by, from several places.
-            let most = 64 * (u64::from(hull.tree().header().nodes) + u64::from(hull.record().faces) + 1);
-            assert!(u64::from(closest.work.total()) <= most && u64::from(within.work.total()) <= 2 * most);
+            let most =
+                64 * (u64::from(hull.tree().header().nodes) + u64::from(hull.record().faces) + 1);
+            assert!(
+                u64::from(closest.work.total()) <= most
+                    && u64::from(within.work.total()) <= 2 * most
+            );
         }
         (first, second) => {
             for error in [first.err(), second.err()].into_iter().flatten() {
@@ -91,7 +107,8 @@ pub fn tight(data: &[u8]) {
     let mut input = Input(data);
     let bytes = input.blob(tight_seeds());
     let opened = TightHulls::open(&bytes);
-    // The same bytes as a model: all of them are checked, the hulls among them. An edit may have made a section of an unknown kind of them.
+    // The same bytes as a model: all of them are checked, the hulls among them. An edit may have
+    // made a section of an unknown kind of them.
     if let Ok(model) = Model::open(&bytes) {
         assert_eq!(model.tight_hulls().is_some(), opened.is_ok(), "{opened:?}");
     }

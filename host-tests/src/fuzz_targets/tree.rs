@@ -13,8 +13,8 @@ use meshsweep_core::tribox::Pose;
 use meshsweep_core::{Model, Tree};
 use std::sync::OnceLock;
 
-/// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone, closed and open, one that holds a split
-/// hierarchy too.
+/// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
+/// closed and open, one that holds a split hierarchy too.
 ///
 /// # Panics
 /// If one of them cannot be built.
@@ -45,7 +45,8 @@ fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
 fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let coarse = BuildOptions { base_faces: 8, ..BuildOptions::default() };
-    let built = hull::build(&mesh, 0.0, mesh.triangles.len(), &coarse, |_| ()).expect("a sphere has hulls");
+    let built =
+        hull::build(&mesh, 0.0, mesh.triangles.len(), &coarse, |_| ()).expect("a sphere has hulls");
     emit::blob(Some(&built.tables), Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
 }
 
@@ -120,7 +121,8 @@ pub fn tree_closest(data: &[u8]) {
     asker.batch(&tree, &points, piece, &Stop::EXACT);
 }
 
-/// Every question about segments on an edited blob, one of them of no length, and what faces their ends.
+/// Every question about segments on an edited blob, one of them of no length, and what faces their
+/// ends.
 pub fn tree_segment(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
@@ -150,7 +152,12 @@ pub fn tree_session(data: &[u8]) {
             here = std::array::from_fn(|axis| here[axis] + scale * step[axis]);
         }
     }
-    fn follow<const N: usize>(asker: &mut Asker, trees: [&Tree<'_>; 2], path: &[[f32; 3]], stop: &Stop) {
+    fn follow<const N: usize>(
+        asker: &mut Asker,
+        trees: [&Tree<'_>; 2],
+        path: &[[f32; 3]],
+        stop: &Stop,
+    ) {
         let [tree, other] = trees;
         let mut session = Session::<N>::new();
         for stop in [&Stop::EXACT, stop] {

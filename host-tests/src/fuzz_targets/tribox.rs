@@ -3,7 +3,8 @@
 use super::input::Input;
 use meshsweep_core::tribox::{FACES, Pose, SLABS, Tribox};
 
-/// Triboxes of any floats, also such that contradict each other, are NaN or infinite: nothing panics, and what is derived holds what it should.
+/// Triboxes of any floats, also such that contradict each other, are NaN or infinite: nothing
+/// panics, and what is derived holds what it should.
 pub fn tribox(data: &[u8]) {
     let mut input = Input(data);
     let mut three = || input.point();
@@ -30,7 +31,8 @@ pub fn tribox(data: &[u8]) {
             assert!(boundary.corners(face).count() <= 8 && cleaned.corners(face).count() <= 8);
         }
         let _ = (tribox.clip(p, q), tribox.distance(p), tribox.contains_point(q), tribox.on_grid());
-        let _ = (tribox.padded(q[0]), tribox.translated(q), tribox.moved(&pose), pose.bound([p, q]));
+        let _ =
+            (tribox.padded(q[0]), tribox.translated(q), tribox.moved(&pose), pose.bound([p, q]));
         if let Some((enter, leave)) = tribox.clip(p, q) {
             assert!(enter <= leave);
         }

@@ -6,7 +6,9 @@ use meshsweep_alloc::emit::{Parts, assemble};
 use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_alloc::tribox::store;
-use meshsweep_core::query::tribox::{BoundEntry, NodePair, apart, candidates, clip, distance, stack_entries};
+use meshsweep_core::query::tribox::{
+    BoundEntry, NodePair, apart, candidates, clip, distance, stack_entries,
+};
 use meshsweep_core::query::{Ended, QueryError};
 use meshsweep_core::tribox::Pose;
 use meshsweep_core::{Model, Triboxes};
@@ -38,7 +40,8 @@ fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> 
     assemble(&Parts { tree: tree.as_ref(), triboxes: Some(&tables), ..Parts::default() })
 }
 
-/// Looks at everything of two opened hierarchies and asks everything, at ordinary places and at hostile ones.
+/// Looks at everything of two opened hierarchies and asks everything, at ordinary places and at
+/// hostile ones.
 ///
 /// # Panics
 /// If an answer is out of range or took too long.
@@ -87,13 +90,18 @@ fn ask(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &Pose, entries: usize) {
         (Ok(all), Ok(one)) => {
             assert_eq!(all.is_apart(), one.is_apart());
             assert!(one.work.nodes <= all.work.nodes);
-            assert!(u64::from(all.work.nodes) <= u64::from(a.node_count()) * u64::from(b.node_count()));
-            let fine =
-                |pair: &NodePair| u32::from(pair.a) < a.node_count() && u32::from(pair.b) < b.node_count();
+            assert!(
+                u64::from(all.work.nodes) <= u64::from(a.node_count()) * u64::from(b.node_count())
+            );
+            let fine = |pair: &NodePair| {
+                u32::from(pair.a) < a.node_count() && u32::from(pair.b) < b.node_count()
+            };
             assert!(pairs[..all.stored].iter().all(fine) && one.may_meet.iter().all(fine));
             assert!(all.ended == Ended::Exact || entries < stack_entries(a, b));
         }
-        (Err(first), Err(second)) => assert!(first == second && first != QueryError::Model, "{first}"),
+        (Err(first), Err(second)) => {
+            assert!(first == second && first != QueryError::Model, "{first}")
+        }
         (all, one) => panic!("{all:?} {one:?}"),
     }
 }
@@ -103,7 +111,10 @@ fn bounds(triboxes: &Triboxes<'_>, p: [f32; 3], q: [f32; 3], entries: usize) {
     for answer in [distance(triboxes, p, &mut stack), clip(triboxes, p, q, &mut stack)] {
         match answer {
             Ok(answer) => {
-                assert!(answer.lower >= 0.0 && answer.node.is_none_or(|node| node < triboxes.node_count()));
+                assert!(
+                    answer.lower >= 0.0
+                        && answer.node.is_none_or(|node| node < triboxes.node_count())
+                );
                 assert!(answer.work.nodes <= triboxes.node_count());
                 assert!(answer.ended == Ended::Exact || entries < triboxes.depth() as usize + 2);
             }
@@ -120,7 +131,8 @@ pub fn triboxes(data: &[u8]) {
     let mut input = Input(data);
     let (first, second) = (input.blob(triboxes_seeds()), input.blob(triboxes_seeds()));
     let opened = Triboxes::open(&first);
-    // The same bytes as a model: all of them are checked, the triboxes among them. An edit may have made a section of an unknown kind of them.
+    // The same bytes as a model: all of them are checked, the triboxes among them. An edit may have
+    // made a section of an unknown kind of them.
     if let Ok(model) = Model::open(&first) {
         assert_eq!(model.triboxes().is_some(), opened.is_ok(), "{opened:?}");
     }

@@ -5,12 +5,14 @@ use super::builder::Builder;
 
 const STEPS: usize = 240;
 
-/// An L-shaped bracket of two plates, each with a bore: closed, genus 2, 1,948 triangles, flat faces exactly flat, most
-/// triangles needles (fans from a face's corner to the bore's arc; walls one chord wide). Box (0,0,0)–(60,40,60).
+/// An L-shaped bracket of two plates, each with a bore: closed, genus 2, 1,948 triangles, flat
+/// faces exactly flat, most triangles needles (fans from a face's corner to the bore's arc; walls
+/// one chord wide). Box (0,0,0)–(60,40,60).
 #[must_use]
 pub fn bracket() -> Triangles {
     let mut builder = Builder::default();
-    // Profile in x and z, along y from 0 to 40; plates 8 thick. Both bores are centred at (36, 20) in their plates.
+    // Profile in x and z, along y from 0 to 40; plates 8 thick. Both bores are centred at (36, 20)
+    // in their plates.
     let lying = |u: f32, v: f32, w: f32| [u, v, w];
     let standing = |u: f32, v: f32, w: f32| [w, v, u];
     plate(&mut builder, lying, [0.0, 0.0, 1.0]);
@@ -32,8 +34,8 @@ pub fn bracket() -> Triangles {
     builder.finish()
 }
 
-/// The two faces and the bore of one plate. `place` maps plate coordinates (u along, v across, w through) to the part;
-/// `through` is the direction of w.
+/// The two faces and the bore of one plate. `place` maps plate coordinates (u along, v across, w
+/// through) to the part; `through` is the direction of w.
 fn plate(builder: &mut Builder, place: impl Fn(f32, f32, f32) -> [f32; 3], through: [f32; 3]) {
     let arc: Vec<[f32; 2]> = (0..STEPS)
         .map(|i| {
@@ -58,6 +60,9 @@ fn plate(builder: &mut Builder, place: impl Fn(f32, f32, f32) -> [f32; 3], throu
     for i in 0..STEPS {
         let ([u, v], [s, t]) = (arc[i], arc[(i + 1) % STEPS]);
         let inwards = place(36.0 - u, 20.0 - v, 0.0);
-        builder.quad([place(u, v, 0.0), place(s, t, 0.0), place(s, t, 8.0), place(u, v, 8.0)], inwards);
+        builder.quad(
+            [place(u, v, 0.0), place(s, t, 0.0), place(s, t, 8.0), place(u, v, 8.0)],
+            inwards,
+        );
     }
 }

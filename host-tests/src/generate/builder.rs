@@ -34,7 +34,8 @@ impl Builder {
         let [a, b, c] = corners.map(|p| p.map(f64::from));
         let sub = |p: [f64; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
         let (u, v) = (sub(b), sub(c));
-        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let normal =
+            [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let along: f64 = normal.iter().zip(outward).map(|(n, o)| n * f64::from(o)).sum();
         let [a, b, c] = corners;
         self.triangle(if along < 0.0 { [a, c, b] } else { [a, b, c] });

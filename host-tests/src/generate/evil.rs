@@ -49,8 +49,9 @@ fn unreadable() -> Vec<Evil> {
     let in_faces = ply.len() - 100;
     let text = ascii_ply(&small);
     let in_vertices = text.len() / 3;
-    let mut list =
-        ply_header("binary_little_endian", "float", 3, 1).replace("uchar int", "uint int").into_bytes();
+    let mut list = ply_header("binary_little_endian", "float", 3, 1)
+        .replace("uchar int", "uint int")
+        .into_bytes();
     list.extend([0; 36]);
     list.extend(4_000_000_000u32.to_le_bytes());
     list.extend([0; 12]);
@@ -65,7 +66,12 @@ fn unreadable() -> Vec<Evil> {
     let lying = ply_header("binary_little_endian", "float", 4_000_000_000, 1);
     let empty_faces = "ply\nformat binary_little_endian 1.0\nelement face 4000000000\nend_header\n";
     vec![
-        file("ascii_truncated.ply", cut(text, in_vertices), "Truncated", "ends among its vertices (ASCII)"),
+        file(
+            "ascii_truncated.ply",
+            cut(text, in_vertices),
+            "Truncated",
+            "ends among its vertices (ASCII)",
+        ),
         file("empty.obj", Vec::new(), "NoTriangles", "0 bytes"),
         file("empty.ply", Vec::new(), "Malformed", "0 bytes"),
         file("empty.stl", Vec::new(), "Truncated", "0 bytes"),
@@ -84,10 +90,20 @@ fn unreadable() -> Vec<Evil> {
             "its triangle has no area",
         ),
         file("lying_count.stl", count, "Truncated", "announces 4,294,967,295 triangles"),
-        file("lying_elements.ply", empty_faces.into(), "Malformed", "4,000,000,000 faces of no bytes each"),
+        file(
+            "lying_elements.ply",
+            empty_faces.into(),
+            "Malformed",
+            "4,000,000,000 faces of no bytes each",
+        ),
         file("lying_header.ply", lying.into(), "Truncated", "announces 4,000,000,000 vertices"),
         file("lying_list.ply", list, "Truncated", "a face announces 4,000,000,000 corners"),
-        file("nan.obj", TETRAHEDRON.replace("0 0 1", "0 nan 1").into(), "NotFinite", "a coordinate is NaN"),
+        file(
+            "nan.obj",
+            TETRAHEDRON.replace("0 0 1", "0 nan 1").into(),
+            "NotFinite",
+            "a coordinate is NaN",
+        ),
         file("nan.stl", nan, "NotFinite", "a coordinate is NaN"),
         file(
             "no_number.obj",
@@ -106,10 +122,14 @@ fn unreadable() -> Vec<Evil> {
 
 fn no_solid() -> Vec<Evil> {
     use Outcome::NoSolid as N;
-    let file = |name, bytes: Vec<u8>, outcome, flaw| Evil { name, bytes, outcome: N(outcome), flaw };
+    let file =
+        |name, bytes: Vec<u8>, outcome, flaw| Evil { name, bytes, outcome: N(outcome), flaw };
     let mut open = cube(2);
     open.1.truncate(open.1.len() - 8);
-    let wall = joined(&cube(1), &(cube(1).0.iter().map(|p| [p[0] + 2.0, p[1], p[2]]).collect(), cube(1).1));
+    let wall = joined(
+        &cube(1),
+        &(cube(1).0.iter().map(|p| [p[0] + 2.0, p[1], p[2]]).collect(), cube(1).1),
+    );
     vec![
         file("flat.obj", FLAT.into(), "ZeroVolume", "a tetrahedron squashed flat"),
         file(
@@ -125,10 +145,20 @@ fn no_solid() -> Vec<Evil> {
             "a Klein bottle: closed but one-sided",
         ),
         file("moebius.obj", obj(&moebius()), "Open", "a Möbius strip"),
-        file("non_manifold_edge.obj", SHARED_EDGE.into(), "NonManifoldEdges", "two tetrahedra share an edge"),
+        file(
+            "non_manifold_edge.obj",
+            SHARED_EDGE.into(),
+            "NonManifoldEdges",
+            "two tetrahedra share an edge",
+        ),
         file("open_box.stl", binary_stl(&open), "Open", "a cube without its lid"),
         file("stuck_cap.obj", STUCK_CAP.into(), "Open", "a zero-area triangle on a hole's rim"),
-        file("t_junction.obj", T_JUNCTION.into(), "Open", "a vertex on an edge that does not know of it"),
+        file(
+            "t_junction.obj",
+            T_JUNCTION.into(),
+            "Open",
+            "a vertex on an edge that does not know of it",
+        ),
     ]
 }
 
@@ -143,14 +173,24 @@ fn mendable() -> Vec<Evil> {
         file("cavity.stl", ascii_stl(&cavity), "nothing: a hollow cube"),
         file("inverted_cavity.stl", binary_stl(&inverted(&cavity)), "a hollow cube inside out"),
         file("inverted_cube.stl", binary_stl(&inverted(&cube(2))), "all triangles face inwards"),
-        file("mixed_winding.ply", binary_ply(&mixed), "a third of the triangles wound the wrong way"),
+        file(
+            "mixed_winding.ply",
+            binary_ply(&mixed),
+            "a third of the triangles wound the wrong way",
+        ),
         file("negative_zero.obj", NEGATIVE_ZERO.into(), "0.0 and -0.0 for the same vertex"),
-        file("solid_binary.stl", solid_header(), "nothing: a binary file whose header starts with solid"),
+        file(
+            "solid_binary.stl",
+            solid_header(),
+            "nothing: a binary file whose header starts with solid",
+        ),
     ]
 }
 
-const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-const TINY: &str = "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nv 0 0 1e-40\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+const TETRAHEDRON: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+const TINY: &str =
+    "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nv 0 0 1e-40\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 const FLAT: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 const SHARED_EDGE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 0 0 -1\n\
     f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 1 5 2\nf 1 2 6\nf 2 5 6\nf 1 6 5\n";
@@ -162,8 +202,7 @@ const NEGATIVE_ZERO: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -0 -0 -0\n\
 const T_JUNCTION: &str =
     "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 3 2\nf 1 5 4\nf 5 2 4\nf 2 3 4\nf 1 4 3\n";
 /// As above, the slit filled by the triangle 1 2 5.
-const CAP: &str =
-    "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 3 2\nf 1 2 5\nf 1 5 4\nf 5 2 4\nf 2 3 4\nf 1 4 3\n";
+const CAP: &str = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 3 2\nf 1 2 5\nf 1 5 4\nf 5 2 4\nf 2 3 4\nf 1 4 3\n";
 /// As above, but the face across the cap's long edge is missing.
 const STUCK_CAP: &str =
     "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 0\nf 1 2 5\nf 1 5 4\nf 5 2 4\nf 2 3 4\nf 1 4 3\n";
@@ -182,12 +221,14 @@ fn twisted_torus() -> Triangles {
     grid(positions, n, m, at)
 }
 
-/// A strip of four rows, glued with a half turn. Positions are those of a flat band: only the topology matters.
+/// A strip of four rows, glued with a half turn. Positions are those of a flat band: only the
+/// topology matters.
 fn moebius() -> Triangles {
     let (n, rows) = (8u32, 3u32);
     let (ring, _) = torus(2.0, 1.0, n as usize, 6);
-    let positions =
-        (0..n).flat_map(|i| (0..=rows).map(move |j| (i, j))).map(|(i, j)| ring[(i * 6 + j) as usize]);
+    let positions = (0..n)
+        .flat_map(|i| (0..=rows).map(move |j| (i, j)))
+        .map(|(i, j)| ring[(i * 6 + j) as usize]);
     let at = |i: u32, j: u32| if i == n { rows - j } else { i * (rows + 1) + j };
     grid(positions.collect(), n, rows, at)
 }

@@ -3,9 +3,10 @@
 use super::Triangles;
 use super::builder::Builder;
 
-/// A block 40 × 40 × 30 with a slot 4 wide and 24 deep along y that widens to 16 at its bottom, a T-slot: 404 triangles,
-/// genus 0. An outer hull soon bridges the slot, and then a segment inside it, such as from (15, 20, 8) up to
-/// (15, 20, 14), meets the overhang at z = 12 though it lies wholly below the hull.
+/// A block 40 × 40 × 30 with a slot 4 wide and 24 deep along y that widens to 16 at its bottom, a
+/// T-slot: 404 triangles, genus 0. An outer hull soon bridges the slot, and then a segment inside
+/// it, such as from (15, 20, 8) up to (15, 20, 14), meets the overhang at z = 12 though it lies
+/// wholly below the hull.
 #[must_use]
 pub fn groove_block() -> Triangles {
     #[rustfmt::skip]
@@ -16,8 +17,8 @@ pub fn groove_block() -> Triangles {
     extrude(&profile, 40.0, 16)
 }
 
-/// A comb of 32 teeth, each 1 high and 2⁻¹⁰ wide at its foot, 64 long: slivers with aspect ratios up to 65,536 and
-/// neighbours that almost touch. Closed, genus 0, 264 triangles.
+/// A comb of 32 teeth, each 1 high and 2⁻¹⁰ wide at its foot, 64 long: slivers with aspect ratios
+/// up to 65,536 and neighbours that almost touch. Closed, genus 0, 264 triangles.
 #[must_use]
 pub fn needle_comb() -> Triangles {
     let pitch = 1.0 / 1024.0;
@@ -30,7 +31,8 @@ pub fn needle_comb() -> Triangles {
     extrude(&profile, 64.0, 1)
 }
 
-/// The prism over a simple polygon in x and z, counter-clockwise seen from −y, from y = 0 to `length` in `steps` steps.
+/// The prism over a simple polygon in x and z, counter-clockwise seen from −y, from y = 0 to
+/// `length` in `steps` steps.
 fn extrude(profile: &[[f32; 2]], length: f32, steps: usize) -> Triangles {
     let mut builder = Builder::default();
     let at = |[x, z]: [f32; 2], step: usize| [x, length * step as f32 / steps as f32, z];
@@ -48,7 +50,8 @@ fn extrude(profile: &[[f32; 2]], length: f32, steps: usize) -> Triangles {
     builder.finish()
 }
 
-/// Triangulates a simple counter-clockwise polygon by cutting ears. Coordinates are short enough for f64 to be exact.
+/// Triangulates a simple counter-clockwise polygon by cutting ears. Coordinates are short enough
+/// for f64 to be exact.
 fn ears(profile: &[[f32; 2]]) -> Vec<[[f32; 2]; 3]> {
     let mut rest = profile.to_vec();
     let mut triangles = Vec::with_capacity(rest.len());
@@ -57,7 +60,8 @@ fn ears(profile: &[[f32; 2]]) -> Vec<[[f32; 2]; 3]> {
         let corner = |i: usize| [rest[(i + n - 1) % n], rest[i], rest[(i + 1) % n]];
         let is_ear = |i: &usize| {
             let [a, b, c] = corner(*i);
-            let inside = |p: [f32; 2]| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+            let inside =
+                |p: [f32; 2]| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
             turn(a, b, c) > 0.0 && !rest.iter().any(|&p| p != a && p != b && p != c && inside(p))
         };
         let Some(ear) = (0..n).find(is_ear) else { break };

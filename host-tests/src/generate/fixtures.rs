@@ -22,7 +22,11 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
             obj(&groove_block()),
             "`groove_block()`: a T-slot that a hull bridges; closed, genus 0",
         ),
-        ("torus.ply", binary_ply(&torus(2.0, 0.75, 48, 24)), "`torus(2.0, 0.75, 48, 24)`: closed, genus 1"),
+        (
+            "torus.ply",
+            binary_ply(&torus(2.0, 0.75, 48, 24)),
+            "`torus(2.0, 0.75, 48, 24)`: closed, genus 1",
+        ),
     ];
     let mut readme = String::from(
         "# Fixtures\n\n\

@@ -1,7 +1,8 @@
 //! Procedural meshes with known properties, the same bits on every machine.
 //!
-//! All are closed, wound counter-clockwise seen from outside, and share their vertices exactly, unless a function says
-//! otherwise. Sines and cosines come from `libm`, since those of the standard library differ between platforms.
+//! All are closed, wound counter-clockwise seen from outside, and share their vertices exactly,
+//! unless a function says otherwise. Sines and cosines come from `libm`, since those of the
+//! standard library differ between platforms.
 
 mod bracket;
 mod builder;

@@ -44,7 +44,8 @@ impl Rng {
         std::array::from_fn(|k| self.range(low[k], high[k]))
     }
 
-    /// A direction uniform on the unit sphere, of length 1 up to rounding (Marsaglia 1972: needs only a square root).
+    /// A direction uniform on the unit sphere, of length 1 up to rounding (Marsaglia 1972: needs
+    /// only a square root).
     pub fn direction(&mut self) -> [f32; 3] {
         loop {
             let (x, y) = (2.0 * self.unit_f64() - 1.0, 2.0 * self.unit_f64() - 1.0);

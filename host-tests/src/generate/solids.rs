@@ -9,8 +9,8 @@ fn turn(step: usize, steps: usize) -> [f64; 2] {
     [libm::cos(angle), libm::sin(angle)]
 }
 
-/// A torus around the z axis, genus 1: `n` steps around the axis, `m` around the tube, 2·n·m triangles. `n`, `m` ≥ 3,
-/// `minor` < `major`.
+/// A torus around the z axis, genus 1: `n` steps around the axis, `m` around the tube, 2·n·m
+/// triangles. `n`, `m` ≥ 3, `minor` < `major`.
 #[must_use]
 pub fn torus(major: f32, minor: f32, n: usize, m: usize) -> Triangles {
     let mut positions = Vec::with_capacity(n * m);
@@ -33,7 +33,8 @@ pub fn torus(major: f32, minor: f32, n: usize, m: usize) -> Triangles {
     (positions, triangles)
 }
 
-/// A unit sphere of `n` meridians and `m` bands, slivers at the poles: 2·n·(m − 1) triangles. `n` ≥ 3, `m` ≥ 2.
+/// A unit sphere of `n` meridians and `m` bands, slivers at the poles: 2·n·(m − 1) triangles. `n` ≥
+/// 3, `m` ≥ 2.
 #[must_use]
 pub fn uv_sphere(n: usize, m: usize) -> Triangles {
     let mut positions = vec![[0.0, 0.0, 1.0]];
@@ -59,14 +60,16 @@ pub fn uv_sphere(n: usize, m: usize) -> Triangles {
     (positions, triangles)
 }
 
-/// A unit sphere: an icosahedron whose triangles are split into four, `level` times; 20·4^`level` triangles.
+/// A unit sphere: an icosahedron whose triangles are split into four, `level` times; 20·4^`level`
+/// triangles.
 #[must_use]
 pub fn icosphere(level: u32) -> Triangles {
     let (positions, triangles) = icosphere_f64(level);
     (positions.into_iter().map(|p| p.map(|x| x as f32)).collect(), triangles)
 }
 
-/// An icosphere whose vertices are moved in or out by up to `amplitude` (less than 1) of the radius, at random.
+/// An icosphere whose vertices are moved in or out by up to `amplitude` (less than 1) of the
+/// radius, at random.
 #[must_use]
 pub fn rough_sphere(level: u32, amplitude: f32, seed: u64) -> Triangles {
     let (positions, triangles) = icosphere_f64(level);
@@ -119,7 +122,8 @@ fn icosphere_f64(level: u32) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     (positions, triangles)
 }
 
-/// The cube from −1 to 1, each face a grid of `n` × `n` squares, exactly flat: 12·n² triangles. `n` ≥ 1.
+/// The cube from −1 to 1, each face a grid of `n` × `n` squares, exactly flat: 12·n² triangles. `n`
+/// ≥ 1.
 #[must_use]
 pub fn cube(n: usize) -> Triangles {
     let step = |i: usize| (2.0 * i as f64 / n as f64 - 1.0) as f32;

@@ -8,9 +8,14 @@ pub fn scaled((positions, triangles): &Triangles, factor: f32) -> Triangles {
     (positions.iter().map(|p| p.map(|x| x * factor)).collect(), triangles.clone())
 }
 
-/// The mesh under p ↦ `rows`·p + `shift`, in f64, rounded to f32 once. Faces that were exactly flat may not be so after.
+/// The mesh under p ↦ `rows`·p + `shift`, in f64, rounded to f32 once. Faces that were exactly flat
+/// may not be so after.
 #[must_use]
-pub fn transformed((positions, triangles): &Triangles, rows: [[f32; 3]; 3], shift: [f32; 3]) -> Triangles {
+pub fn transformed(
+    (positions, triangles): &Triangles,
+    rows: [[f32; 3]; 3],
+    shift: [f32; 3],
+) -> Triangles {
     let apply = |p: &[f32; 3]| {
         std::array::from_fn(|k| {
             let products = rows[k].iter().zip(p).map(|(r, x)| f64::from(*r) * f64::from(*x));
@@ -35,8 +40,8 @@ pub fn joined((positions, triangles): &Triangles, (others, more): &Triangles) ->
     ([positions.as_slice(), others.as_slice()].concat(), all)
 }
 
-/// Two disjoint closed parts: a unit sphere of 320 triangles at the origin and a cube of 108, side 2, centred at
-/// (4, 0, 0).
+/// Two disjoint closed parts: a unit sphere of 320 triangles at the origin and a cube of 108, side
+/// 2, centred at (4, 0, 0).
 #[must_use]
 pub fn two_parts() -> Triangles {
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

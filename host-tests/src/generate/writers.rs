@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use super::Triangles;
 
-/// Binary STL: a header without meaning, zero normals, which readers are to compute from the winding.
+/// Binary STL: a header without meaning, zero normals, which readers are to compute from the
+/// winding.
 #[must_use]
 pub fn binary_stl((positions, triangles): &Triangles) -> Vec<u8> {
     let mut bytes = vec![0; 80];
@@ -87,8 +88,8 @@ pub fn ply_header(format: &str, scalar: &str, vertices: usize, faces: usize) -> 
     )
 }
 
-/// The shortest decimals that name the same f64: read as f64 they are the f32 exactly, which an f32's own shortest
-/// decimals are not.
+/// The shortest decimals that name the same f64: read as f64 they are the f32 exactly, which an
+/// f32's own shortest decimals are not.
 fn push_point(text: &mut String, p: [f32; 3]) {
     let [x, y, z] = p.map(f64::from);
     let _ = writeln!(text, " {x} {y} {z}");

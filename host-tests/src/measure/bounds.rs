@@ -7,8 +7,8 @@
 //!                                                                    │
 //! pose (a moved copy) ─ contact (whether it meets the mesh) ─────────┴─ false_positives ─ cost
 //! ```
-//! The tribox (Crosnier & Rossignac 1999) is the 18-DOP of the axes and the edges' diagonals. All but what is timed is in f64, of the
-//! f32 mesh.
+//! The tribox (Crosnier & Rossignac 1999) is the 18-DOP of the axes and the edges' diagonals. All
+//! but what is timed is in f64, of the f32 mesh.
 
 pub mod clip;
 pub mod contact;
@@ -47,7 +47,8 @@ impl Bounds {
     fn new(subject: &Subject) -> Result<Self, String> {
         let points: Vec<DVec3> =
             subject.mesh.positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        let hull = ConvexHull::new(&points).ok_or("the mesh is flat: it has no convex hull with a volume")?;
+        let hull = ConvexHull::new(&points)
+            .ok_or("the mesh is flat: it has no convex hull with a volume")?;
         let sphere = Sphere::enclosing(&hull.points);
         let slabs = Slabs::all()
             .into_iter()
@@ -73,14 +74,16 @@ pub fn tables(subject: &Subject, counts: Option<&[Cost]>) -> Result<Vec<Table>, 
     let bounds = Bounds::new(subject)?;
     let mut contenders = contenders::contenders(&bounds)?;
     let cases = Cases::new(subject, &bounds)?;
-    let tallies: Vec<Tally> = contenders.iter().map(|contender| Tally::of(&cases, contender)).collect();
+    let tallies: Vec<Tally> =
+        contenders.iter().map(|contender| Tally::of(&cases, contender)).collect();
     let mut tables = vec![sizes(&bounds), false_positives::table(&cases, &contenders, &tallies)];
     tables.extend(cost::tables(&cases, &mut contenders, &tallies, counts));
     Ok(tables)
 }
 
 fn sizes(bounds: &Bounds) -> Table {
-    let columns = ["bound", "faces", "vertices", "volume", "of the hull's", "area", "of the hull's area"];
+    let columns =
+        ["bound", "faces", "vertices", "volume", "of the hull's", "area", "of the hull's area"];
     let mut table = Table::new("bounds", "Convex bounds: volume and area, input units", &columns);
     let hull = [bounds.hull.volume(), bounds.hull.area()];
     let mut push = |name: &str, counts: Option<[usize; 2]>, [volume, area]: [f64; 2]| {
@@ -95,7 +98,11 @@ fn sizes(bounds: &Bounds) -> Table {
         ]);
     };
     for (slabs, _, solid) in &bounds.slabs {
-        push(slabs.name, Some([solid.faces.len(), solid.vertices.len()]), [solid.volume(), solid.area()]);
+        push(
+            slabs.name,
+            Some([solid.faces.len(), solid.vertices.len()]),
+            [solid.volume(), solid.area()],
+        );
     }
     push("smallest enclosing sphere", None, [bounds.sphere.volume(), bounds.sphere.area()]);
     for (name, oriented) in &bounds.boxes {
@@ -105,7 +112,9 @@ fn sizes(bounds: &Bounds) -> Table {
     table.note(
         "faces and vertices: those left of the solid, merged at 1e-9 of its size; of the hull: triangles",
     );
-    table.note("axes: x, y, z; edges: x±y, y±z, z±x; corners: x±y±z; a direction is a slab, so two planes");
+    table.note(
+        "axes: x, y, z; edges: x±y, y±z, z±x; corners: x±y±z; a direction is a slab, so two planes",
+    );
     table.note("principal axes: parry3d's obb, of all vertices; on a face: least volume with a side on a face of the hull");
     table
 }

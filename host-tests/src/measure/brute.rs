@@ -25,7 +25,8 @@ impl Brute {
         self.0.iter().map(|triangle| distance_sq(p, triangle)).fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// Parameter of the first hit of a segment, and whether every triangle was hit or missed by a clear margin.
+    /// Parameter of the first hit of a segment, and whether every triangle was hit or missed by a
+    /// clear margin.
     pub fn first_hit(&self, ends: [[f32; 3]; 2]) -> (Option<f64>, bool) {
         let [a, b] = ends.map(|end| Vec3::from_array(end).as_dvec3());
         let mut first = f64::INFINITY;
@@ -46,7 +47,11 @@ fn distance_sq(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
     let to_edge = |a: DVec3, b: DVec3| {
         let ab = b - a;
         // A grid may make an edge a point.
-        let t = if ab == DVec3::ZERO { 0.0 } else { ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0) };
+        let t = if ab == DVec3::ZERO {
+            0.0
+        } else {
+            ((p - a).dot(ab) / ab.length_squared()).clamp(0.0, 1.0)
+        };
         (p - a - ab * t).length_squared()
     };
     let normal = (b - a).cross(c - a);
@@ -58,8 +63,8 @@ fn distance_sq(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
     }
 }
 
-/// Parameter at which a line crosses a triangle's plane (Möller & Trumbore 1997), and by what margin it is inside the
-/// triangle and the segment: negative outside.
+/// Parameter at which a line crosses a triangle's plane (Möller & Trumbore 1997), and by what
+/// margin it is inside the triangle and the segment: negative outside.
 fn cross(from: DVec3, direction: DVec3, &[a, b, c]: &[DVec3; 3]) -> (f64, f64) {
     let (ab, ac) = (b - a, c - a);
     let p = direction.cross(ac);

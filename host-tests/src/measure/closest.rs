@@ -25,12 +25,19 @@ pub struct Answers {
 
 impl Answers {
     /// Asks all points.
-    pub fn of(model: &Model<'_>, points: &[[f32; 3]], stop: &Stop, queue: usize) -> Result<Self, String> {
+    pub fn of(
+        model: &Model<'_>,
+        points: &[[f32; 3]],
+        stop: &Stop,
+        queue: usize,
+    ) -> Result<Self, String> {
         let mut queue = vec![QueueEntry::EMPTY; queue];
         let mut answers = Vec::with_capacity(points.len());
         let begun = Stopwatch::start();
         for &point in points {
-            answers.push(closest_point(model, point, stop, &mut queue).map_err(|error| error.to_string())?);
+            answers.push(
+                closest_point(model, point, stop, &mut queue).map_err(|error| error.to_string())?,
+            );
         }
         let nanoseconds = begun.nanoseconds_each(points.len());
         Ok(Self { answers, nanoseconds })
@@ -63,7 +70,8 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
     ];
     let mut cost = Table::new("closest_point", "Closest point, exact", &columns);
     let columns = ["points", "asked", "outside the interval", "parry3d: largest relative error"];
-    let mut agreement = Table::new("closest_agreement", "Closest point against f64 brute force", &columns);
+    let mut agreement =
+        Table::new("closest_agreement", "Closest point against f64 brute force", &columns);
     let rival = Rival::new(subject)?;
     let brute = Brute::new(subject);
     for kind in Points::ALL {
@@ -76,7 +84,8 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
         let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
         let mut last = None;
         for queue in [model.capacities().queue, LONG_QUEUE] {
-            let run = fastest(|| Answers::of(model, &asked, &Stop::EXACT, queue), |run| run.nanoseconds)?;
+            let run =
+                fastest(|| Answers::of(model, &asked, &Stop::EXACT, queue), |run| run.nanoseconds)?;
             let widest = run.answers.iter().map(width).fold(0.0, f64::max);
             cost.push(row![
                 kind.name(),
@@ -91,7 +100,10 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
                 scientific(widest),
             ]);
             if let Some(early) = run.answers.iter().find(|answer| answer.ended != Ended::Exact) {
-                return Err(format!("an exact query ended by {:?} with {queue} queue entries", early.ended));
+                return Err(format!(
+                    "an exact query ended by {:?} with {queue} queue entries",
+                    early.ended
+                ));
             }
             last = Some(run);
         }
@@ -110,7 +122,11 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
 
 /// Width of an interval relative to its upper end.
 pub fn width(answer: &ClosestPoint) -> f64 {
-    if answer.upper > 0.0 { f64::from(answer.upper - answer.lower) / f64::from(answer.upper) } else { 0.0 }
+    if answer.upper > 0.0 {
+        f64::from(answer.upper - answer.lower) / f64::from(answer.upper)
+    } else {
+        0.0
+    }
 }
 
 /// Whether a distance that f64 rounding may have moved lies in the interval.

@@ -32,8 +32,13 @@ pub fn table(subject: &Subject) -> Table {
     for (strategy, (priority, name)) in STRATEGIES.into_iter().enumerate() {
         let begun = Stopwatch::start();
         let conditions = Conditions::default();
-        let mut engine =
-            Engine::new(&stored.positions, &subject.mesh.triangles, conditions, priority, stored.grid);
+        let mut engine = Engine::new(
+            &stored.positions,
+            &subject.mesh.triangles,
+            conditions,
+            priority,
+            stored.grid,
+        );
         for (size, &faces) in HULL_FACES.iter().enumerate() {
             if faces >= subject.mesh.triangles.len() {
                 continue;

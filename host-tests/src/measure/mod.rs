@@ -1,4 +1,5 @@
-//! What the library costs and yields, measured on a mesh: the numbers of the README and of `DESIGN.md`.
+//! What the library costs and yields, measured on a mesh: the numbers of the README and of
+//! `DESIGN.md`.
 //!
 //! ```text
 //! subject (mesh, builds) ─┬─ hulls    (paper 000, Tables 1 and 2)
@@ -12,8 +13,8 @@
 //!                         ├─ tight    (tight hulls, drawn) ─┤
 //!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
 //! ```
-//! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so only ratios within one run mean
-//! something. Counts are exact.
+//! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so
+//! only ratios within one run mean something. Counts are exact.
 
 pub mod bounds;
 pub(crate) mod brute;
@@ -56,7 +57,8 @@ pub fn measure_tree(file: &Path) -> Result<Vec<Table>, String> {
     Ok(tables)
 }
 
-/// Measures convex bounds of one mesh file, which need not be closed; `counts` as [`bounds::tables`] takes them.
+/// Measures convex bounds of one mesh file, which need not be closed; `counts` as
+/// [`bounds::tables`] takes them.
 ///
 /// # Errors
 /// The file is no mesh, or a flat one.
@@ -67,7 +69,8 @@ pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>
     Ok(tables)
 }
 
-/// Measures the overlap of one mesh file, which need not be closed, with itself under random motions.
+/// Measures the overlap of one mesh file, which need not be closed, with itself under random
+/// motions.
 ///
 /// # Errors
 /// The file is no mesh, or an answer is wrong.
@@ -89,7 +92,8 @@ pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
     Ok(tables)
 }
 
-/// Measures tight hulls of one mesh file, which need not be closed, and proves each; the tables, and pictures of hulls.
+/// Measures tight hulls of one mesh file, which need not be closed, and proves each; the tables,
+/// and pictures of hulls.
 ///
 /// # Errors
 /// The file is no mesh, or a hull is missing or not proved.
@@ -101,7 +105,8 @@ pub fn measure_tight(file: &Path) -> Result<(Vec<Table>, tight::picture::Gallery
     Ok((tables, tight::picture::Gallery::new(&subject.name, &subject.mesh, &hulls)))
 }
 
-/// Measures the hull hierarchy and the box tree of one mesh file; the tables in the order in which they should be read.
+/// Measures the hull hierarchy and the box tree of one mesh file; the tables in the order in which
+/// they should be read.
 ///
 /// # Errors
 /// The file is no closed manifold mesh, or an answer is missing that must be there.

@@ -1,4 +1,5 @@
-//! A mesh against itself in random motions: answers held to exact predicates, and time beside parry3d's.
+//! A mesh against itself in random motions: answers held to exact predicates, and time beside
+//! parry3d's.
 
 use meshsweep_alloc::emit;
 use meshsweep_alloc::tree::{TreeOptions, build};
@@ -40,7 +41,10 @@ struct Run<T> {
     nanoseconds: [f64; 2],
 }
 
-fn run<T>(cases: &[Case], mut ask: impl FnMut(&Case) -> Result<T, String>) -> Result<Run<T>, String> {
+fn run<T>(
+    cases: &[Case],
+    mut ask: impl FnMut(&Case) -> Result<T, String>,
+) -> Result<Run<T>, String> {
     let mut answers: Vec<Option<T>> = cases.iter().map(|_| None).collect();
     let mut nanoseconds = [0.0; 2];
     for (time, meets) in nanoseconds.iter_mut().zip([false, true]) {
@@ -55,7 +59,10 @@ fn run<T>(cases: &[Case], mut ask: impl FnMut(&Case) -> Result<T, String>) -> Re
     Ok(Run { answers: answers.into_iter().flatten().collect(), nanoseconds })
 }
 
-fn fastest_run<T>(cases: &[Case], mut ask: impl FnMut(&Case) -> Result<T, String>) -> Result<Run<T>, String> {
+fn fastest_run<T>(
+    cases: &[Case],
+    mut ask: impl FnMut(&Case) -> Result<T, String>,
+) -> Result<Run<T>, String> {
     fastest(|| run(cases, &mut ask), |run| run.nanoseconds.iter().sum())
 }
 
@@ -74,8 +81,13 @@ fn ours(tree: &Tree<'_>, cases: &[Case]) -> Result<Verdicts, String> {
         overlap(tree, tree, &case.pose, u32::MAX, &mut stack).map_err(|error| error.to_string())
     };
     let Run { answers, nanoseconds } = fastest_run(cases, ask)?;
-    let mut verdicts =
-        Verdicts { wrong: 0, open: 0, work: [Work::default(); 2], all_pairs: [0.0; 2], time: nanoseconds };
+    let mut verdicts = Verdicts {
+        wrong: 0,
+        open: 0,
+        work: [Work::default(); 2],
+        all_pairs: [0.0; 2],
+        time: nanoseconds,
+    };
     for (case, answer) in cases.iter().zip(&answers) {
         match answer.contact {
             Contact::Open => verdicts.open += 1,
@@ -121,12 +133,14 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
         "parry3d's",
         "us all pairs, meeting",
     ];
-    let mut times = Table::new("overlap", "A mesh against itself, moved: do the surfaces meet?", &columns);
+    let mut times =
+        Table::new("overlap", "A mesh against itself, moved: do the surfaces meet?", &columns);
     let columns = ["engine", "motions", "boxes", "nodes opened", "triangle pairs", "in f64"];
     let mut work = Table::new("overlap_work", "What that took, in mean", &columns);
     for (name, single) in [("16-bit grid", false), ("f32 vertices", true)] {
         let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
-        let bytes = emit::blob(None, Some(&build(&subject.mesh, 0.0, subject.triangles_read, &options).0));
+        let bytes =
+            emit::blob(None, Some(&build(&subject.mesh, 0.0, subject.triangles_read, &options).0));
         let tree = Tree::open(&bytes).map_err(|error| error.to_string())?;
         let verdicts = ours(&tree, &cases)?;
         let [apart, meets] = verdicts.time;

@@ -50,7 +50,8 @@ const MODELS: [Model; 4] = [
 /// Hull sizes of the paper's tables 1 and 2.
 pub const HULL_FACES: [usize; 2] = [2_000, 200];
 
-/// Table 3, on the horse: base faces; faces tested and splits a segment with the first strategy, then with the second.
+/// Table 3, on the horse: base faces; faces tested and splits a segment with the first strategy,
+/// then with the second.
 pub const HORSE: [(usize, [[u32; 2]; 2]); 8] = [
     (200, [[759, 226], [798, 238]]),
     (500, [[812, 203], [868, 217]]),

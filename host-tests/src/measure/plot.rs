@@ -1,4 +1,5 @@
-//! Tables that are a trade as a plot: error against work, one panel each, two beside each other, mesh below mesh.
+//! Tables that are a trade as a plot: error against work, one panel each, two beside each other,
+//! mesh below mesh.
 //!
 //! ```text
 //! tables ─ charts (which columns are what) ─ draw (plotters, SVG) ─ labels (a place for each)

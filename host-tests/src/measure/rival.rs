@@ -1,4 +1,5 @@
-//! The same questions to parry3d, the Rust library that a user without a microcontroller would take: an AABB tree in f32.
+//! The same questions to parry3d, the Rust library that a user without a microcontroller would
+//! take: an AABB tree in f32.
 
 use parry3d::math::Vector;
 use parry3d::query::{PointQuery, Ray, RayCast};
@@ -15,8 +16,11 @@ impl Rival {
     /// # Errors
     /// parry3d's refusal.
     pub fn new(subject: &Subject) -> Result<Self, String> {
-        let vertices = subject.mesh.positions.iter().map(|&[x, y, z]| Vector::new(x, y, z)).collect();
-        TriMesh::new(vertices, subject.mesh.triangles.clone()).map(Self).map_err(|error| error.to_string())
+        let vertices =
+            subject.mesh.positions.iter().map(|&[x, y, z]| Vector::new(x, y, z)).collect();
+        TriMesh::new(vertices, subject.mesh.triangles.clone())
+            .map(Self)
+            .map_err(|error| error.to_string())
     }
 
     /// Bytes that it keeps, the mesh included.

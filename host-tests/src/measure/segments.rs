@@ -23,14 +23,22 @@ struct Run {
     hits: Vec<Option<Hit>>,
     nanoseconds: f64,
     work: [u64; 4],
-    /// Answers that did not end exact, or were not given because the segment starts inside the base hull's box.
+    /// Answers that did not end exact, or were not given because the segment starts inside the
+    /// base hull's box.
     unsettled: usize,
 }
 
 impl Run {
-    fn of(segments: &[[[f32; 3]; 2]], mut ask: impl FnMut([[f32; 3]; 2]) -> Asked) -> Result<Self, String> {
-        let mut run =
-            Self { hits: Vec::with_capacity(segments.len()), nanoseconds: 0.0, work: [0; 4], unsettled: 0 };
+    fn of(
+        segments: &[[[f32; 3]; 2]],
+        mut ask: impl FnMut([[f32; 3]; 2]) -> Asked,
+    ) -> Result<Self, String> {
+        let mut run = Self {
+            hits: Vec::with_capacity(segments.len()),
+            nanoseconds: 0.0,
+            work: [0; 4],
+            unsettled: 0,
+        };
         let begun = Stopwatch::start();
         for &segment in segments {
             let (hit, work, settled) = ask(segment)?;
@@ -55,7 +63,11 @@ impl Run {
     }
 
     fn disagreements(&self, other: &Self) -> usize {
-        self.hits.iter().zip(&other.hits).filter(|(a, b)| a.map(|hit| hit.t) != b.map(|hit| hit.t)).count()
+        self.hits
+            .iter()
+            .zip(&other.hits)
+            .filter(|(a, b)| a.map(|hit| hit.t) != b.map(|hit| hit.t))
+            .count()
     }
 }
 
@@ -64,7 +76,8 @@ type Asked = Result<(Option<Hit>, Work, bool), String>;
 fn cover(model: &Model<'_>, segments: &[[[f32; 3]; 2]], queue: usize) -> Result<Run, String> {
     let mut queue = vec![QueueEntry::EMPTY; queue];
     Run::of(segments, |[a, b]| {
-        let answer = first_hit(model, a, b, &Stop::EXACT, &mut queue).map_err(|error| error.to_string())?;
+        let answer =
+            first_hit(model, a, b, &Stop::EXACT, &mut queue).map_err(|error| error.to_string())?;
         Ok((answer.hit, answer.work, answer.ended == Ended::Exact))
     })
 }
@@ -76,8 +89,8 @@ fn hull(model: &Model<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result
     let mut hits = [Hit::EMPTY; 64];
     let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
     Run::of(segments, |[a, b]| {
-        let answer =
-            outer_hits(model, a, b, search, &mut front, &mut hits).map_err(|error| error.to_string())?;
+        let answer = outer_hits(model, a, b, search, &mut front, &mut hits)
+            .map_err(|error| error.to_string())?;
         let settled = answer.ended == Ended::Exact && !answer.starts_inside;
         Ok((hits.get(..answer.stored).and_then(<[Hit]>::first).copied(), answer.work, settled))
     })
@@ -98,8 +111,11 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
         "first splits",
         "disagree",
     ];
-    let mut table =
-        Table::new("outer_hits", "Work a segment on the refined hull, beside paper 000, Table 3", &columns);
+    let mut table = Table::new(
+        "outer_hits",
+        "Work a segment on the refined hull, beside paper 000, Table 3",
+        &columns,
+    );
     let segments = segments(subject, COUNT);
     let paper = Paper::of(&subject.name);
     let (mut hit_count, mut unsettled) = (0, 0);
@@ -111,7 +127,8 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
             let built = subject.build(base_faces, priority)?;
             let model = open(&built.bytes)?;
             let reference = cover(&model, &segments, model.capacities().queue)?;
-            let [outer, first] = [Search::Outer, Search::First].map(|search| hull(&model, &segments, search));
+            let [outer, first] =
+                [Search::Outer, Search::First].map(|search| hull(&model, &segments, search));
             let (outer, first) = (outer?, first?);
             let theirs = paper.filter(|paper| paper.is_horse()).map(|_| theirs[strategy]);
             table.push(row![
@@ -131,14 +148,17 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
             unsettled += outer.unsettled + first.unsettled + reference.unsettled;
         }
     }
-    let paper_hits = paper.map_or_else(String::new, |paper| format!("; the paper's: {}", paper.hits));
+    let paper_hits =
+        paper.map_or_else(String::new, |paper| format!("; the paper's: {}", paper.hits));
     table.note(format!(
         "{COUNT} segments with ends on two different sides of a box twice the mesh's; {hit_count} hit{paper_hits}"
     ));
     table.note("outer: until every crossed face is the surface's, the paper's question; first: until the first hit is certain");
     table.note("bounds: swept triangles tested instead of the faces below; disagree: first hits that differ from the cover tree's");
     if unsettled > 0 {
-        table.note(format!("{unsettled} answers did not end exact or started inside the base hull's box"));
+        table.note(format!(
+            "{unsettled} answers did not end exact or started inside the base hull's box"
+        ));
     }
     if let Some(remark) = paper.and_then(|paper| paper.remark(subject.mesh.triangles.len())) {
         table.note(remark);
@@ -148,13 +168,15 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
 
 /// First hits by each engine and by parry3d: time, work and agreement.
 pub fn engines(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
-    let columns = ["engine", "ns", "of parry3d", "hits", "nodes", "triangles", "exact", "splits", "disagree"];
+    let columns =
+        ["engine", "ns", "of parry3d", "hits", "nodes", "triangles", "exact", "splits", "disagree"];
     let mut table = Table::new("first_hit", "First hit of the same segments", &columns);
     let segments = segments(subject, COUNT);
     let rival = Rival::new(subject)?;
     let by_rival = || {
         let begun = Stopwatch::start();
-        let hits: Vec<Option<f32>> = segments.iter().map(|&segment| rival.first_hit(segment)).collect();
+        let hits: Vec<Option<f32>> =
+            segments.iter().map(|&segment| rival.first_hit(segment)).collect();
         Ok((hits, begun.nanoseconds_each(segments.len())))
     };
     let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
@@ -192,7 +214,8 @@ pub fn engines(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
         ]);
     }
     let both = reference.hits.iter().zip(&theirs);
-    let their_disagreements = both.filter(|(ours, theirs)| ours.is_some() != theirs.is_some()).count();
+    let their_disagreements =
+        both.filter(|(ours, theirs)| ours.is_some() != theirs.is_some()).count();
     let empty = || Cell::Empty;
     table.push(row![
         "parry3d TriMesh ray",
@@ -210,12 +233,17 @@ pub fn engines(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
     Ok(table)
 }
 
-fn against_brute(subject: &Subject, model: &Model<'_>, segments: &[[[f32; 3]; 2]]) -> Result<String, String> {
+fn against_brute(
+    subject: &Subject,
+    model: &Model<'_>,
+    segments: &[[[f32; 3]; 2]],
+) -> Result<String, String> {
     let brute = Brute::new(subject);
     let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
     let (mut outside, mut grazing) = (0, 0);
     for &[a, b] in segments {
-        let ours = first_hit(model, a, b, &Stop::EXACT, &mut queue).map_err(|error| error.to_string())?;
+        let ours =
+            first_hit(model, a, b, &Stop::EXACT, &mut queue).map_err(|error| error.to_string())?;
         let (theirs, clear) = brute.first_hit([a, b]);
         let inside = match theirs {
             None => ours.is_clear(),

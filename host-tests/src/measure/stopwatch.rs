@@ -39,11 +39,15 @@ fn now() -> Duration {
 /// Repetitions of a timed run, of which the fastest counts.
 const ROUNDS: usize = 3;
 
-/// The fastest of three runs: others on the machine can only slow a run down. `time` reads a run's time.
+/// The fastest of three runs: others on the machine can only slow a run down. `time` reads a run's
+/// time.
 ///
 /// # Errors
 /// The first run's that fails.
-pub fn fastest<T>(mut run: impl FnMut() -> Result<T, String>, time: impl Fn(&T) -> f64) -> Result<T, String> {
+pub fn fastest<T>(
+    mut run: impl FnMut() -> Result<T, String>,
+    time: impl Fn(&T) -> f64,
+) -> Result<T, String> {
     let mut best = run()?;
     for _ in 1..ROUNDS {
         let next = run()?;

@@ -9,8 +9,16 @@ use super::table::{Table, fixed, row};
 pub fn build_times(built: &Built) -> Table {
     let report = &built.report;
     let title = "Whole build, default options";
-    let columns =
-        ["base faces", "collapse s", "cover s", "certify s", "programs", "ns/program", "bytes", "stuck"];
+    let columns = [
+        "base faces",
+        "collapse s",
+        "cover s",
+        "certify s",
+        "programs",
+        "ns/program",
+        "bytes",
+        "stuck",
+    ];
     let mut table = Table::new("build", title, &columns);
     let collapse = report.collapse_time.as_secs_f64();
     table.push(row![
@@ -28,10 +36,15 @@ pub fn build_times(built: &Built) -> Table {
 
 /// Bytes of each section.
 pub fn sections(model: &Model<'_>) -> Table {
-    let mut table = Table::new("sections", "Bytes of the blob", &["section", "bytes", "bytes/triangle"]);
+    let mut table =
+        Table::new("sections", "Bytes of the blob", &["section", "bytes", "bytes/triangle"]);
     let triangles = f64::from(model.header().surface_triangles.max(1));
     for section in model.sections() {
-        table.push(row![section.kind.name(), section.bytes, fixed(f64::from(section.bytes) / triangles, 2)]);
+        table.push(row![
+            section.kind.name(),
+            section.bytes,
+            fixed(f64::from(section.bytes) / triangles, 2)
+        ]);
     }
     let total = model.bytes().len();
     table.push(row!["all, with header", total, fixed(total as f64 / triangles, 2)]);
@@ -41,8 +54,15 @@ pub fn sections(model: &Model<'_>) -> Table {
 
 /// Capacities and counts.
 pub fn limits(model: &Model<'_>) -> Table {
-    let columns =
-        ["nodes", "splits", "queue entries", "queue bytes", "front words", "front bytes", "longest chain"];
+    let columns = [
+        "nodes",
+        "splits",
+        "queue entries",
+        "queue bytes",
+        "front words",
+        "front bytes",
+        "longest chain",
+    ];
     let mut table = Table::new("capacities", "Memory that no query outgrows", &columns);
     let capacities = model.capacities();
     table.push(row![
@@ -63,7 +83,8 @@ pub fn limits(model: &Model<'_>) -> Table {
 /// The first claim of the blob that does not hold.
 pub fn proofs(bytes: &[u8]) -> Result<Table, String> {
     let columns = ["splits", "planes", "by integers", "violations", "triangles", "cover pairs"];
-    let mut table = Table::new("proofs", "Proved again from the blob alone, by exact predicates", &columns);
+    let mut table =
+        Table::new("proofs", "Proved again from the blob alone, by exact predicates", &columns);
     let report = crate::check::check_blob(bytes)?;
     table.push(row![
         report.splits,
@@ -81,9 +102,11 @@ pub fn proofs(bytes: &[u8]) -> Result<Table, String> {
 
 /// The level table.
 pub fn levels(model: &Model<'_>) -> Table {
-    let columns = ["level", "faces", "splits", "nodes", "hull to surface", "surface to hull", "void %"];
+    let columns =
+        ["level", "faces", "splits", "nodes", "hull to surface", "surface to hull", "void %"];
     let mut table = Table::new("levels", "Levels; distances certified, of the diagonal", &columns);
-    let diagonal = f64::from((model.header().surface_box.max - model.header().surface_box.min).length());
+    let diagonal =
+        f64::from((model.header().surface_box.max - model.header().surface_box.min).length());
     for (index, level) in model.levels().enumerate() {
         table.push(row![
             index,

@@ -62,7 +62,8 @@ impl Subject {
     /// # Errors
     /// The builder's refusal.
     pub fn build_with(&self, options: &BuildOptions) -> Result<Built, String> {
-        build(&self.mesh, 0.0, self.triangles_read, options, |_| {}).map_err(|error| error.to_string())
+        build(&self.mesh, 0.0, self.triangles_read, options, |_| {})
+            .map_err(|error| error.to_string())
     }
 
     /// Diagonal of the mesh's box, input units.
@@ -74,9 +75,16 @@ impl Subject {
 
     /// What is measured.
     pub(super) fn table(&self) -> Table {
-        let mut table =
-            Table::new("mesh", format!("== {} ==", self.name), &["vertices", "triangles", "diagonal"]);
-        table.push(row![self.mesh.positions.len(), self.mesh.triangles.len(), fixed(self.diagonal(), 4)]);
+        let mut table = Table::new(
+            "mesh",
+            format!("== {} ==", self.name),
+            &["vertices", "triangles", "diagonal"],
+        );
+        table.push(row![
+            self.mesh.positions.len(),
+            self.mesh.triangles.len(),
+            fixed(self.diagonal(), 4)
+        ]);
         table
     }
 }

@@ -124,7 +124,13 @@ impl Table {
     /// A table without rows.
     #[must_use]
     pub fn new(key: &'static str, title: impl Into<String>, columns: &[&'static str]) -> Self {
-        Self { key, title: title.into(), columns: columns.to_vec(), rows: Vec::new(), notes: Vec::new() }
+        Self {
+            key,
+            title: title.into(),
+            columns: columns.to_vec(),
+            rows: Vec::new(),
+            notes: Vec::new(),
+        }
     }
 
     /// Adds a row.
@@ -149,8 +155,9 @@ impl Table {
             cells.map(|text| text.chars().count()).fold(head, usize::max)
         };
         let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
-        let is_text =
-            |column: usize| self.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Text(_))));
+        let is_text = |column: usize| {
+            self.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Text(_))))
+        };
         let mut out = format!("\n{}\n", self.title);
         let mut line = |cells: &mut dyn Iterator<Item = &str>| {
             let mut text = String::new();
@@ -184,7 +191,9 @@ impl Table {
             .map(|row| {
                 let pairs = self.columns.iter().zip(row);
                 Value::Object(
-                    pairs.map(|(column, cell)| ((*column).to_owned(), cell.json())).collect::<Map<_, _>>(),
+                    pairs
+                        .map(|(column, cell)| ((*column).to_owned(), cell.json()))
+                        .collect::<Map<_, _>>(),
                 )
             })
             .collect();

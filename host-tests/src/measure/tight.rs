@@ -1,4 +1,5 @@
-//! Tight hulls: void, distance, time and proof for some numbers of faces, beside other bounds of the same mesh.
+//! Tight hulls: void, distance, time and proof for some numbers of faces, beside other bounds of
+//! the same mesh.
 
 mod beside;
 mod cluster;
@@ -46,7 +47,11 @@ pub fn tables(subject: &Subject) -> Result<(Vec<Table>, Vec<Measured>), String> 
     Ok((tables, measured))
 }
 
-fn hulls(subject: &Subject, volume: Option<f64>, measured: &mut Vec<Measured>) -> Result<Table, String> {
+fn hulls(
+    subject: &Subject,
+    volume: Option<f64>,
+    measured: &mut Vec<Measured>,
+) -> Result<Table, String> {
     let mut table = Table::new(
         "tight",
         "Tight hulls, each proved by the checker, beside progressive hulls of as many faces",

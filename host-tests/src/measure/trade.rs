@@ -15,13 +15,15 @@ const COUNT: usize = 2_000;
 const TOLERANCES: [f32; 5] = [0.0, 0.001, 0.01, 0.1, 1.0];
 const STEPS: [u32; 7] = [4, 8, 16, 32, 64, 128, 256];
 const KINDS: [Points; 2] = [Points::Far, Points::Near];
-const MEASURED: [&str; 6] = ["ns", "nodes", "triangles", "guaranteed width", "mean error", "largest error"];
+const MEASURED: [&str; 6] =
+    ["ns", "nodes", "triangles", "guaranteed width", "mean error", "largest error"];
 
 /// A relative tolerance against cost.
 pub fn tolerances(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
     let columns = ["points", "tolerance"].iter().chain(&MEASURED).copied().collect::<Vec<_>>();
     let mut table = Table::new("tolerance", "Closest point within a relative tolerance", &columns);
-    let stops = TOLERANCES.map(|relative| (fixed(f64::from(relative), 3), Stop { relative, ..Stop::EXACT }));
+    let stops = TOLERANCES
+        .map(|relative| (fixed(f64::from(relative), 3), Stop { relative, ..Stop::EXACT }));
     fill(&mut table, subject, model, &stops)?;
     Ok(table)
 }
@@ -96,7 +98,8 @@ pub fn cuts(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
         let coarse = open(&bytes)?;
         let far = Answers::of(&coarse, &asked[0], &Stop::EXACT, LONG_QUEUE)?;
         let near = Answers::of(&coarse, &asked[1], &Stop::EXACT, LONG_QUEUE)?;
-        let absolute = |run: &Answers| run.mean(|a| f64::from(a.upper) - f64::from(a.lower)) / diagonal;
+        let absolute =
+            |run: &Answers| run.mean(|a| f64::from(a.upper) - f64::from(a.lower)) / diagonal;
         table.push(row![
             index,
             level.faces,

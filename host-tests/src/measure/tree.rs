@@ -60,7 +60,9 @@ impl Answers {
         let mut answers = Vec::with_capacity(points.len());
         let begun = Stopwatch::start();
         for &point in points {
-            answers.push(closest_point(tree, point, stop, &mut stack).map_err(|error| error.to_string())?);
+            answers.push(
+                closest_point(tree, point, stop, &mut stack).map_err(|error| error.to_string())?,
+            );
         }
         Ok(Self { answers, nanoseconds: begun.nanoseconds_each(points.len()) })
     }
@@ -102,7 +104,8 @@ fn shape(built: &Built) -> Table {
 /// Bytes a triangle of each section, for what the tree is to serve.
 fn sections(subject: &Subject) -> Table {
     let columns = ["section", "closest only", "segments only", "both", "both, f32", "everything"];
-    let mut table = Table::new("tree_sections", "Bytes a triangle of a box tree that serves", &columns);
+    let mut table =
+        Table::new("tree_sections", "Bytes a triangle of a box tree that serves", &columns);
     let both = TreeOptions { closest: true, segments: true, cull: false, ..TreeOptions::default() };
     let kinds = [
         TreeOptions { segments: false, ..both },
@@ -122,8 +125,12 @@ fn sections(subject: &Subject) -> Table {
         table.push([Cell::from(kind.name())].into_iter().chain(cells).collect());
     }
     let total = |built: &Built| fixed(built.bytes.len() as f64 / triangles, 2);
-    table.push([Cell::from("all, with header")].into_iter().chain(built.iter().map(total)).collect());
-    table.note("vertices on a 16-bit grid but for f32; everything: both, and normal cones for culling");
+    table.push(
+        [Cell::from("all, with header")].into_iter().chain(built.iter().map(total)).collect(),
+    );
+    table.note(
+        "vertices on a 16-bit grid but for f32; everything: both, and normal cones for culling",
+    );
     table
 }
 
@@ -180,8 +187,11 @@ fn proofs(subject: &Subject, trees: [(&str, &Built); 2]) -> Result<Table, String
         "by integers",
         "violations",
     ];
-    let mut table =
-        Table::new("tree_proofs", "Proved from the blob and the mesh, in exact arithmetic", &columns);
+    let mut table = Table::new(
+        "tree_proofs",
+        "Proved from the blob and the mesh, in exact arithmetic",
+        &columns,
+    );
     for (name, built) in trees {
         let proof = crate::check::check_tree(&built.bytes, &subject.mesh)?;
         table.push(row![

@@ -1,4 +1,5 @@
-//! Tribox hierarchies as stored: what they cost, and how often they prove a mesh apart from its moved copy.
+//! Tribox hierarchies as stored: what they cost, and how often they prove a mesh apart from its
+//! moved copy.
 
 use glam::DVec3;
 use meshsweep_alloc::emit::{Parts, assemble};
@@ -31,7 +32,8 @@ const TRIBOXES: u32 = 64;
 /// A coordinate is out of the domain.
 pub fn blob(subject: &Subject, count: u32) -> Result<Vec<u8>, String> {
     let mesh = &subject.mesh;
-    let (tables, _) = store(mesh, 0.0, mesh.triangles.len(), count).map_err(|error| error.to_string())?;
+    let (tables, _) =
+        store(mesh, 0.0, mesh.triangles.len(), count).map_err(|error| error.to_string())?;
     Ok(assemble(&Parts { triboxes: Some(&tables), ..Parts::default() }))
 }
 
@@ -44,7 +46,8 @@ fn rounded(pose: &Pose) -> CorePose {
     }
 }
 
-/// The core's pose with all its digits. parry3d, which only chooses triangles to look at, is told of the nearest rotation of `near`.
+/// The core's pose with all its digits. parry3d, which only chooses triangles to look at, is told
+/// of the nearest rotation of `near`.
 #[must_use]
 pub fn exact(core: &CorePose, near: &Pose) -> Pose {
     let columns = core.rotation.map(|row| row.map(f64::from));
@@ -54,7 +57,8 @@ pub fn exact(core: &CorePose, near: &Pose) -> Pose {
     Pose { rotation, shift, parry }
 }
 
-/// The paper's test: of the larger tribox's children, the moved one about its vertices; nine slabs. Whether apart, pairs tested.
+/// The paper's test: of the larger tribox's children, the moved one about its vertices; nine slabs.
+/// Whether apart, pairs tested.
 #[must_use]
 pub fn by_vertices(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &CorePose) -> (bool, u32) {
     let width = |t: &Tribox| (0..3).map(|k| t.high[k] - t.low[k]).sum::<f32>();
@@ -104,8 +108,9 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let bytes = blob(subject, TRIBOXES)?;
     let all = Triboxes::open(&bytes).map_err(|error| error.to_string())?;
     let surface = Surface::new(subject)?;
-    let cases: Vec<(CorePose, bool)> =
-        poses(&sphere(subject), POSES).map(|(pose, core)| (core, surface.meets_moved(&pose))).collect();
+    let cases: Vec<(CorePose, bool)> = poses(&sphere(subject), POSES)
+        .map(|(pose, core)| (core, surface.meets_moved(&pose)))
+        .collect();
     let apart_in_truth = cases.iter().filter(|(_, meet)| !meet).count();
     let columns = [
         "triboxes",
@@ -120,8 +125,11 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
         "pairs tested by vertices",
         "candidates",
     ];
-    let mut table =
-        Table::new("triboxes", "Stored triboxes: a mesh proved apart from its moved copy", &columns);
+    let mut table = Table::new(
+        "triboxes",
+        "Stored triboxes: a mesh proved apart from its moved copy",
+        &columns,
+    );
     for level in all.levels() {
         let triboxes = all.coarser(level.triboxes);
         let mut stack = vec![NodePair::EMPTY; stack_entries(&triboxes, &triboxes)];
@@ -129,10 +137,14 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
         let (mut settled, mut tested, mut most, mut tested_apart) = (0usize, 0u64, 0, 0u64);
         let (mut by_vertices_settled, mut by_vertices_tested, mut found) = (0usize, 0u64, 0usize);
         for (pose, meet) in &cases {
-            let answer = apart(&triboxes, &triboxes, pose, &mut stack).map_err(|error| error.to_string())?;
+            let answer =
+                apart(&triboxes, &triboxes, pose, &mut stack).map_err(|error| error.to_string())?;
             let (other, other_tested) = by_vertices(&triboxes, &triboxes, pose);
             if *meet && (answer.is_apart() || other) {
-                return Err(format!("{} triboxes deny that the meshes meet: {pose:?}", level.triboxes));
+                return Err(format!(
+                    "{} triboxes deny that the meshes meet: {pose:?}",
+                    level.triboxes
+                ));
             }
             settled += usize::from(answer.is_apart());
             by_vertices_settled += usize::from(other);

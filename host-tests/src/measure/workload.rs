@@ -47,7 +47,8 @@ pub fn points(subject: &Subject, kind: Points, count: usize) -> Vec<[f32; 3]> {
     }
 }
 
-/// `count` segments whose ends lie on two different sides of a box twice the mesh's: what gives the hits of paper 000.
+/// `count` segments whose ends lie on two different sides of a box twice the mesh's: what gives the
+/// hits of paper 000.
 #[must_use]
 pub fn segments(subject: &Subject, count: usize) -> Vec<[[f32; 3]; 2]> {
     let mut rng = Rng::new(0x7365_676d_656e_7473);
@@ -67,7 +68,8 @@ pub fn segments(subject: &Subject, count: usize) -> Vec<[[f32; 3]; 2]> {
         .collect()
 }
 
-/// Nodes of a grid with `side` nodes along each axis, x fastest, over the mesh's box enlarged by a tenth.
+/// Nodes of a grid with `side` nodes along each axis, x fastest, over the mesh's box enlarged by a
+/// tenth.
 #[must_use]
 pub fn field(subject: &Subject, side: usize) -> Vec<[f32; 3]> {
     let [low, high] = enlarged(subject, 1.1);
@@ -78,11 +80,13 @@ pub fn field(subject: &Subject, side: usize) -> Vec<[f32; 3]> {
     (0..side).flat_map(|z| (0..side).flat_map(move |y| row(y, z))).collect()
 }
 
-/// Step of [`surface_path`] and [`orbit`] in diagonals of the mesh's box: a tool that crosses it in 3 s, asked 1,000 times a second.
+/// Step of [`surface_path`] and [`orbit`] in diagonals of the mesh's box: a tool that crosses it in
+/// 3 s, asked 1,000 times a second.
 pub const COHERENT_STEP: f64 = 3.0e-4;
 
-/// A wandering path about 1 % of the diagonal off the surface, on whichever side it began, in steps of [`COHERENT_STEP`].
-/// `closest` tells the closest point of the surface, which keeps the path there.
+/// A wandering path about 1 % of the diagonal off the surface, on whichever side it began, in steps
+/// of [`COHERENT_STEP`]. `closest` tells the closest point of the surface, which keeps the path
+/// there.
 pub fn surface_path(
     subject: &Subject,
     count: usize,
@@ -99,16 +103,19 @@ pub fn surface_path(
             let away = here - glam::Vec3::from_array(closest(now));
             let distance = away.length();
             let outward = away.normalize_or_zero();
-            heading = (heading + glam::Vec3::from_array(rng.direction()) * 0.03).normalize_or_zero();
+            heading =
+                (heading + glam::Vec3::from_array(rng.direction()) * 0.03).normalize_or_zero();
             let pull = ((off - distance) / off).clamp(-1.0, 1.0);
-            heading = (heading + outward * (0.2 * pull - 0.05 * heading.dot(outward))).normalize_or_zero();
+            heading = (heading + outward * (0.2 * pull - 0.05 * heading.dot(outward)))
+                .normalize_or_zero();
             here += heading * step;
             now
         })
         .collect()
 }
 
-/// Along a closed curve through and around the mesh, in a box of 1.5 times its extents, in steps of about [`COHERENT_STEP`].
+/// Along a closed curve through and around the mesh, in a box of 1.5 times its extents, in steps of
+/// about [`COHERENT_STEP`].
 #[must_use]
 pub fn orbit(subject: &Subject, count: usize) -> Vec<[f32; 3]> {
     // Frequencies without a common multiple worth mentioning: the curve does not come back.

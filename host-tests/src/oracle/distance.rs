@@ -1,7 +1,8 @@
 //! Distance of a point and a mesh, every triangle looked at.
 //!
-//! Not Ericson's regions: the foot on the plane if three half-planes contain the point, else the nearest of three edges.
-//! In 106 bits for every triangle that may be the nearest by an estimate in `f64`.
+//! Not Ericson's regions: the foot on the plane if three half-planes contain the point, else the
+//! nearest of three edges. In 106 bits for every triangle that may be the nearest by an estimate in
+//! `f64`.
 
 use super::double::{Double, Vector};
 
@@ -14,11 +15,13 @@ pub struct Bounded {
     pub upper: f64,
 }
 
-/// Relative to the lengths in play, more than 106 bits lose on a triangle whose height is above 1e-10 of its length.
+/// Relative to the lengths in play, more than 106 bits lose on a triangle whose height is above
+/// 1e-10 of its length.
 const DOUBLE_ERROR: f64 = 1e-26;
 
-/// Relative to the lengths in play, more than the estimate in `f64` is off, degenerate triangles included: the three edges alone
-/// are good to 1e-14, and the plane is only trusted where its normal is.
+/// Relative to the lengths in play, more than the estimate in `f64` is off, degenerate triangles
+/// included: the three edges alone are good to 1e-14, and the plane is only trusted where its
+/// normal is.
 const ROUGH_ERROR: f64 = 1e-7;
 
 /// Distance of `p` and the triangle, to some 26 digits of the lengths involved.
@@ -29,8 +32,9 @@ pub fn distance_to_triangle(p: [f32; 3], corners: [[f32; 3]; 3]) -> Bounded {
     let size = p.minus(&a).norm_1() + b.minus(&a).norm_1() + c.minus(&a).norm_1();
     let normal = b.minus(&a).cross(&c.minus(&a));
     let squared = normal.dot(&normal);
-    let within =
-        |from: &Vector, to: &Vector| !to.minus(from).cross(&normal).dot(&p.minus(from)).is_positive();
+    let within = |from: &Vector, to: &Vector| {
+        !to.minus(from).cross(&normal).dot(&p.minus(from)).is_positive()
+    };
     let distance = if squared.is_positive() && within(&a, &b) && within(&b, &c) && within(&c, &a) {
         let height = normal.dot(&p.minus(&a)) / squared.sqrt();
         if height.is_positive() { height } else { -height }
@@ -57,8 +61,8 @@ fn squared_to_segment(p: &Vector, from: &Vector, to: &Vector) -> Double {
     gap.dot(&gap)
 }
 
-/// Distance of `p` and the nearest of the triangles; infinite if there is none. Cost: one estimate in `f64` for each triangle, 106 bits for
-/// the nearest few.
+/// Distance of `p` and the nearest of the triangles; infinite if there is none. Cost: one estimate
+/// in `f64` for each triangle, 106 bits for the nearest few.
 #[must_use]
 pub fn distance_to_mesh(p: [f32; 3], positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Bounded {
     let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
@@ -106,7 +110,8 @@ pub fn rough_distance_sq(p: [f32; 3], corners: [[f32; 3]; 3]) -> f64 {
     };
     let nearest_edge = edges.into_iter().map(to_edge).fold(f64::INFINITY, f64::min);
     let normal = cross(sub(b, a), sub(c, a));
-    let within = |(from, to): ([f64; 3], [f64; 3])| dot(cross(sub(to, from), normal), sub(p, from)) <= 0.0;
+    let within =
+        |(from, to): ([f64; 3], [f64; 3])| dot(cross(sub(to, from), normal), sub(p, from)) <= 0.0;
     if dot(normal, normal) > 0.0 && edges.into_iter().all(within) {
         let height = dot(normal, sub(p, a));
         return nearest_edge.min(height * height / dot(normal, normal));
@@ -123,7 +128,9 @@ mod tests {
     fn check(p: [f32; 3], expected: f64) {
         let d = distance_to_triangle(p, T);
         assert!(
-            d.lower <= expected && expected <= d.upper && d.upper - d.lower < 1e-15 * (1.0 + expected),
+            d.lower <= expected
+                && expected <= d.upper
+                && d.upper - d.lower < 1e-15 * (1.0 + expected),
             "{d:?}"
         );
         assert!((rough_distance_sq(p, T).sqrt() - expected).abs() < 1e-12);
@@ -144,10 +151,13 @@ mod tests {
     fn scale_does_not_matter() {
         for k in [-40, 40] {
             let s = 10f32.powi(k / 2) * 10f32.powi(k - k / 2).sqrt();
-            let d = distance_to_triangle([0.25 * s, 0.25 * s, 3.0 * s], T.map(|v| v.map(|x| x * s)));
+            let d =
+                distance_to_triangle([0.25 * s, 0.25 * s, 3.0 * s], T.map(|v| v.map(|x| x * s)));
             let expected = 3.0 * f64::from(s);
             assert!(
-                d.lower <= expected * (1.0 + 1e-7) && d.upper >= expected * (1.0 - 1e-7) && d.lower > 0.0,
+                d.lower <= expected * (1.0 + 1e-7)
+                    && d.upper >= expected * (1.0 - 1e-7)
+                    && d.lower > 0.0,
                 "{d:?}"
             );
         }

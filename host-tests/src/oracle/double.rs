@@ -1,7 +1,8 @@
 //! Numbers of 106 bits: unevaluated sums of two `f64` (Dekker 1971; Knuth, TAOCP 4.2.2).
 //!
-//! The relative error of one operation is below 2^-102 while nothing overflows and no product falls below 2^-960. Sums of two
-//! `f64` are exact, so differences of `f32` coordinates lose nothing however far apart their exponents are (up to 2^106).
+//! The relative error of one operation is below 2^-102 while nothing overflows and no product falls
+//! below 2^-960. Sums of two `f64` are exact, so differences of `f32` coordinates lose nothing
+//! however far apart their exponents are (up to 2^106).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

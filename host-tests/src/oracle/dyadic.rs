@@ -24,7 +24,10 @@ impl From<f64> for Dyadic {
             if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
         let zeros = if mantissa == 0 { 0 } else { mantissa.trailing_zeros() };
         let odd = BigInt::from(mantissa >> zeros);
-        Self { mantissa: if x < 0.0 { -odd } else { odd }, exponent: exponent + zeros.cast_signed() }
+        Self {
+            mantissa: if x < 0.0 { -odd } else { odd },
+            exponent: exponent + zeros.cast_signed(),
+        }
     }
 }
 
@@ -32,7 +35,8 @@ impl Dyadic {
     /// The nearest f64, or one of its neighbours.
     pub(crate) fn rounded(&self) -> f64 {
         let bits = self.mantissa.bits() as i32;
-        // A mantissa of more than 64 bits loses its last ones first: converting it whole could overflow.
+        // A mantissa of more than 64 bits loses its last ones first: converting it whole could
+        // overflow.
         let cut = (bits - 64).max(0);
         let kept = (&self.mantissa >> cut.unsigned_abs()).to_f64().unwrap_or(0.0);
         let exponent = self.exponent + cut;
@@ -81,7 +85,10 @@ impl Sub for &Dyadic {
 impl Mul for &Dyadic {
     type Output = Dyadic;
     fn mul(self, other: Self) -> Dyadic {
-        Dyadic { mantissa: &self.mantissa * &other.mantissa, exponent: self.exponent + other.exponent }
+        Dyadic {
+            mantissa: &self.mantissa * &other.mantissa,
+            exponent: self.exponent + other.exponent,
+        }
     }
 }
 
@@ -101,7 +108,8 @@ impl PartialOrd for Dyadic {
 pub(crate) fn is_semidefinite(m: &[[Dyadic; 3]; 3]) -> bool {
     let pair = |i: usize, j: usize| &(&m[i][i] * &m[j][j]) - &(&m[i][j] * &m[j][i]);
     let minor = |i: usize, j: usize| &(&m[1][i] * &m[2][j]) - &(&m[1][j] * &m[2][i]);
-    let all = &(&(&m[0][0] * &minor(1, 2)) - &(&m[0][1] * &minor(0, 2))) + &(&m[0][2] * &minor(0, 1));
+    let all =
+        &(&(&m[0][0] * &minor(1, 2)) - &(&m[0][1] * &minor(0, 2))) + &(&m[0][2] * &minor(0, 1));
     (0..3).all(|i| m[i][i].is_non_negative())
         && [(0, 1), (1, 2), (0, 2)].into_iter().all(|(i, j)| pair(i, j).is_non_negative())
         && all.is_non_negative()
@@ -130,6 +138,10 @@ mod tests {
         assert!(is_semidefinite(&matrix([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])));
         assert!(!is_semidefinite(&matrix([[1.0, 1.0, 0.0], [1.0, 0.999, 0.0], [0.0, 0.0, 1.0]])));
         assert!(!is_semidefinite(&matrix([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1e-300]])));
-        assert!(!is_semidefinite(&matrix([[1.0, -0.6, -0.6], [-0.6, 1.0, -0.6], [-0.6, -0.6, 1.0]])));
+        assert!(!is_semidefinite(&matrix([
+            [1.0, -0.6, -0.6],
+            [-0.6, 1.0, -0.6],
+            [-0.6, -0.6, 1.0]
+        ])));
     }
 }

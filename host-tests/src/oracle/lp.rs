@@ -1,12 +1,15 @@
-//! Exact answers to linear and quadratic programs in three variables, by trying every set of tight constraints.
+//! Exact answers to linear and quadratic programs in three variables, by trying every set of tight
+//! constraints.
 //!
-//! All inputs are `f64` and thus rational; all arithmetic is on big integers. Every binary number is multiplied by
-//! `2^SHIFT` first, and points are kept in homogeneous coordinates, so that nothing is ever reduced.
+//! All inputs are `f64` and thus rational; all arithmetic is on big integers. Every binary number
+//! is multiplied by `2^SHIFT` first, and points are kept in homogeneous coordinates, so that
+//! nothing is ever reduced.
 //!
-//! Sources: the fundamental theorem of linear programming (Schrijver, *Theory of Linear and Integer Programming*,
-//! 1986, §8.3: a polyhedron has points if and only if one of its minimal faces does), Farkas' lemma with Carathéodory's
-//! theorem (§7.1 and §7.7: the objective is bounded below if and only if it is a non-negative combination of at most
-//! three independent normals), and the Karush–Kuhn–Tucker conditions.
+//! Sources: the fundamental theorem of linear programming (Schrijver, *Theory of Linear and Integer
+//! Programming*, 1986, §8.3: a polyhedron has points if and only if one of its minimal faces does),
+//! Farkas' lemma with Carathéodory's theorem (§7.1 and §7.7: the objective is bounded below if and
+//! only if it is a non-negative combination of at most three independent normals), and the
+//! Karush–Kuhn–Tucker conditions.
 
 pub mod exact;
 pub mod programs;
@@ -32,7 +35,8 @@ pub struct Program {
 }
 
 impl Program {
-    /// The same program with its digits below `2^-SHIFT` rounded away, so that the oracle can read it.
+    /// The same program with its digits below `2^-SHIFT` rounded away, so that the oracle can read
+    /// it.
     #[must_use]
     pub fn representable(mut self) -> Self {
         self.objective = exact::representable(self.objective);
@@ -51,8 +55,8 @@ pub enum Verdict {
     Infeasible,
     /// There are such points, and the objective has no lower bound on them.
     Unbounded,
-    /// The least value of the objective, and a sum of multipliers that prove it: if every offset fell by `δ`, the
-    /// value would fall by at most `δ` times that.
+    /// The least value of the objective, and a sum of multipliers that prove it: if every offset
+    /// fell by `δ`, the value would fall by at most `δ` times that.
     Optimal {
         /// The least value, rounded to the nearest `f64` or its neighbour.
         value: f64,
@@ -85,17 +89,19 @@ pub fn solve(program: &Program) -> Verdict {
     // Points carry a positive weight, so fractions compare by cross products.
     let values: Vec<Integer> = faces.iter().map(|(point, _)| objective.dot(point)).collect();
     let less = |a: usize, b: usize| (&values[a] * &faces[b].1).cmp(&(&values[b] * &faces[a].1));
-    let best =
-        (0..faces.len()).min_by(|&a, &b| less(a, b)).expect("a polyhedron with points has a minimal face");
+    let best = (0..faces.len())
+        .min_by(|&a, &b| less(a, b))
+        .expect("a polyhedron with points has a minimal face");
     let optimal = (0..faces.len()).filter(|&idx| less(idx, best) == Ordering::Equal);
-    let distance =
-        optimal.map(|idx| exact::point(&faces[idx].0, &faces[idx].1).length()).fold(f64::INFINITY, f64::min);
+    let distance = optimal
+        .map(|idx| exact::point(&faces[idx].0, &faces[idx].1).length())
+        .fold(f64::INFINITY, f64::min);
     let value = exact::ratio(&values[best], &faces[best].1) / exact::unit();
     Verdict::Optimal { value, multipliers, distance }
 }
 
-/// Whether some point satisfies all `constraints`, exactly, after every offset has grown by `tightening`. Those without
-/// a normal stay as they are.
+/// Whether some point satisfies all `constraints`, exactly, after every offset has grown by
+/// `tightening`. Those without a normal stay as they are.
 ///
 /// # Panics
 /// As [`solve`].
@@ -114,10 +120,12 @@ fn constraints(half_spaces: &[HalfSpace], tightening: f64) -> Vec<Constraint> {
     half_spaces.iter().map(exact).collect()
 }
 
-/// One point, with its positive weight, of every minimal face of the polyhedron; `None` if the polyhedron is empty.
+/// One point, with its positive weight, of every minimal face of the polyhedron; `None` if the
+/// polyhedron is empty.
 ///
-/// A minimal face is an affine space on which as many independent constraints are tight as there are independent
-/// normals. It satisfies a constraint everywhere or nowhere, for no normal has a component along it.
+/// A minimal face is an affine space on which as many independent constraints are tight as there
+/// are independent normals. It satisfies a constraint everywhere or nowhere, for no normal has a
+/// component along it.
 fn minimal_faces(constraints: &[Constraint]) -> Option<Vec<(Vector, Integer)>> {
     let rank = rank(constraints);
     let mut faces = Vec::new();
@@ -141,16 +149,19 @@ fn rank(constraints: &[Constraint]) -> usize {
     (1..=3).rev().find(independent).unwrap_or(0)
 }
 
-/// The point nearest to the origin where all planes of `tight` meet, with a positive weight; `None` if the normals
-/// are dependent.
+/// The point nearest to the origin where all planes of `tight` meet, with a positive weight; `None`
+/// if the normals are dependent.
 fn meet(tight: &[&Constraint]) -> Option<(Vector, Integer)> {
     let (point, weight) = match tight {
         [] => (Vector::zero(), Integer::from(1)),
         [a] => (a.normal.times(&a.offset), a.normal.dot(&a.normal)),
         [a, b] => {
             let along = a.normal.cross(&b.normal);
-            let point =
-                b.normal.cross(&along).times(&a.offset).plus(&along.cross(&a.normal).times(&b.offset));
+            let point = b
+                .normal
+                .cross(&along)
+                .times(&a.offset)
+                .plus(&along.cross(&a.normal).times(&b.offset));
             (point, along.dot(&along))
         }
         [a, b, c] => {
@@ -168,8 +179,8 @@ fn meet(tight: &[&Constraint]) -> Option<(Vector, Integer)> {
     }
 }
 
-/// The least sum of multipliers with which `objective` is a non-negative combination of independent normals, or `None`
-/// if it is none.
+/// The least sum of multipliers with which `objective` is a non-negative combination of independent
+/// normals, or `None` if it is none.
 fn dual(objective: &Vector, constraints: &[Constraint]) -> Option<f64> {
     (0..=3usize.min(constraints.len()))
         .flat_map(|size| subsets(constraints.len(), size))
@@ -195,10 +206,17 @@ fn combination(objective: &Vector, normals: &[&Vector]) -> Option<f64> {
             if !objective.dot(&along).is_zero() {
                 return None;
             }
-            (vec![objective.cross(b).dot(&along), a.cross(objective).dot(&along)], along.dot(&along))
+            (
+                vec![objective.cross(b).dot(&along), a.cross(objective).dot(&along)],
+                along.dot(&along),
+            )
         }
         [a, b, c] => (
-            vec![objective.dot(&b.cross(c)), objective.dot(&c.cross(a)), objective.dot(&a.cross(b))],
+            vec![
+                objective.dot(&b.cross(c)),
+                objective.dot(&c.cross(a)),
+                objective.dot(&a.cross(b)),
+            ],
             a.dot(&b.cross(c)),
         ),
         _ => return None,
@@ -217,6 +235,8 @@ pub fn subsets(count: usize, size: usize) -> Vec<Vec<usize>> {
         0 => vec![Vec::new()],
         1 => (0..count).map(|a| vec![a]).collect(),
         2 => (0..count).flat_map(|b| (0..b).map(move |a| vec![a, b])).collect(),
-        _ => (0..count).flat_map(|c| (0..c).flat_map(move |b| (0..b).map(move |a| vec![a, b, c]))).collect(),
+        _ => (0..count)
+            .flat_map(|c| (0..c).flat_map(move |b| (0..b).map(move |a| vec![a, b, c])))
+            .collect(),
     }
 }

@@ -1,7 +1,9 @@
-//! Triangles of a mesh and of a moved one, compared exactly: every coordinate is a sum of products of floats, without rounding.
+//! Triangles of a mesh and of a moved one, compared exactly: every coordinate is a sum of products
+//! of floats, without rounding.
 //!
-//! Separating axes (Gottschalk 1996): two triangles are disjoint exactly if along a normal, a product of two edges, or a normal's product with an
-//! edge one lies before the other. Doubles decide where they can, with a margin of a thousand roundings; else integers do.
+//! Separating axes (Gottschalk 1996): two triangles are disjoint exactly if along a normal, a
+//! product of two edges, or a normal's product with an edge one lies before the other. Doubles
+//! decide where they can, with a margin of a thousand roundings; else integers do.
 
 use super::dyadic::Dyadic;
 
@@ -24,8 +26,9 @@ impl Place {
     #[must_use]
     pub fn moved(p: [f32; 3], rotation: &[[f32; 3]; 3], translation: [f32; 3]) -> Place {
         let exact: [Dyadic; 3] = std::array::from_fn(|k| {
-            let product =
-                |j: usize| &Dyadic::from(f64::from(rotation[k][j])) * &Dyadic::from(f64::from(p[j]));
+            let product = |j: usize| {
+                &Dyadic::from(f64::from(rotation[k][j])) * &Dyadic::from(f64::from(p[j]))
+            };
             &(&product(0) + &product(1)) + &(&product(2) + &Dyadic::from(f64::from(translation[k])))
         });
         let near = exact.each_ref().map(Dyadic::rounded);
@@ -82,7 +85,8 @@ fn axes<T: Number>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> Vec<[T; 3]> {
     axes
 }
 
-/// By how much the one triangle lies before the other along an axis, and what that may be off by; negative if it does not.
+/// By how much the one triangle lies before the other along an axis, and what that may be off by;
+/// negative if it does not.
 fn gap(axis: &[f64; 3], a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], margin: f64) -> (f64, f64) {
     let along = |p: &[f64; 3]| axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
     let range = |t: &[[f64; 3]; 3]| {
@@ -93,17 +97,20 @@ fn gap(axis: &[f64; 3], a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], margin: f64) -> (f
     ((b_low - a_high).max(a_low - b_high), margin)
 }
 
-/// Whether two closed triangles have a common point. Exact. Each must have an area, or the other must and it be a segment.
+/// Whether two closed triangles have a common point. Exact. Each must have an area, or the other
+/// must and it be a segment.
 #[must_use]
 pub fn triangles_meet(a: [&Place; 3], b: [&Place; 3]) -> bool {
-    // From a vertex, so that the margin is that of the triangles' size and of the coordinates' own rounding.
+    // From a vertex, so that the margin is that of the triangles' size and of the coordinates' own
+    // rounding.
     let origin = a[0].near;
     let local = |t: [&Place; 3]| t.map(|p| minus(&p.near, &origin));
     let (p, q) = (local(a), local(b));
     let largest = |t: &[[f64; 3]; 3]| t.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
     let size = largest(&p).max(largest(&q));
     let far = a.iter().chain(&b).flat_map(|p| p.near).fold(0f64, |m, x| m.max(x.abs()));
-    // Axes are of second degree in lengths, or of third, so that what `near` was rounded by counts as often.
+    // Axes are of second degree in lengths, or of third, so that what `near` was rounded by counts
+    // as often.
     let (second, third) = (size * size, size * size * size);
     let mut open = false;
     for (number, axis) in axes(&p, &q).iter().enumerate() {
@@ -122,7 +129,8 @@ pub fn triangles_meet(a: [&Place; 3], b: [&Place; 3]) -> bool {
     let exact = |t: [&Place; 3]| t.map(|p| p.exact.clone());
     let (p, q) = (exact(a), exact(b));
     !axes(&p, &q).iter().any(|axis| {
-        let along = |p: &[Dyadic; 3]| &(&(&axis[0] * &p[0]) + &(&axis[1] * &p[1])) + &(&axis[2] * &p[2]);
+        let along =
+            |p: &[Dyadic; 3]| &(&(&axis[0] * &p[0]) + &(&axis[1] * &p[1])) + &(&axis[2] * &p[2]);
         let before = |x: &[[Dyadic; 3]; 3], y: &[[Dyadic; 3]; 3]| {
             let beyond = y.each_ref().map(along);
             x.each_ref().map(along).iter().all(|x| beyond.iter().all(|y| x < y))
@@ -168,8 +176,10 @@ mod tests {
 
     fn meet(t: [[f32; 3]; 3], by: [f32; 3]) -> bool {
         let (a, b) = (FLAT.map(Place::of), t.map(|p| Place::moved(p, &ID, by)));
-        let (forth, back) =
-            (triangles_meet(a.each_ref(), b.each_ref()), triangles_meet(b.each_ref(), a.each_ref()));
+        let (forth, back) = (
+            triangles_meet(a.each_ref(), b.each_ref()),
+            triangles_meet(b.each_ref(), a.each_ref()),
+        );
         assert_eq!(forth, back);
         forth
     }

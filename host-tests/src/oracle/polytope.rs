@@ -1,11 +1,13 @@
 //! Bounded intersections of half-spaces with integer planes, exactly, by trying every three planes.
 //!
-//! What is claimed of triboxes (Crosnier & Rossignac 1999) and other slab bounds is compared with this. Nothing is known of slabs
-//! here, of directions or of corners: three planes meet in a point, and the point counts if no half-space excludes it.
+//! What is claimed of triboxes (Crosnier & Rossignac 1999) and other slab bounds is compared with
+//! this. Nothing is known of slabs here, of directions or of corners: three planes meet in a point,
+//! and the point counts if no half-space excludes it.
 //!
-//! Everything fits, for normals up to [`MAX_NORMAL`] and offsets up to [`MAX_OFFSET`]: a determinant of three normals is below
-//! 2¹² (Hadamard: (8√3)³), a component of a point's numerator below 3 · 2⁴⁰ · 128 < 2⁴⁹, an inner product with a normal below 2⁵⁴.
-//! Only where two points meet are 128 bits needed.
+//! Everything fits, for normals up to [`MAX_NORMAL`] and offsets up to [`MAX_OFFSET`]: a
+//! determinant of three normals is below 2¹² (Hadamard: (8√3)³), a component of a point's numerator
+//! below 3 · 2⁴⁰ · 128 < 2⁴⁹, an inner product with a normal below 2⁵⁴. Only where two points meet
+//! are 128 bits needed.
 
 use std::cmp::Ordering;
 
@@ -81,7 +83,8 @@ impl PartialOrd for Ratio {
 /// An extreme point.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Vertex {
-    /// Its coordinates times `denominator`; the four have no common divisor, so equal points have equal fields.
+    /// Its coordinates times `denominator`; the four have no common divisor, so equal points have
+    /// equal fields.
     pub numerator: [i64; 3],
     /// Positive.
     pub denominator: i64,
@@ -127,8 +130,9 @@ pub struct Polytope {
 }
 
 impl Polytope {
-    /// The intersection, which must be bounded: of another one the faces lack what lies at infinity. Half-spaces may repeat, be
-    /// redundant or contradict each other. O(n³) triples, n inner products each at worst.
+    /// The intersection, which must be bounded: of another one the faces lack what lies at
+    /// infinity. Half-spaces may repeat, be redundant or contradict each other. O(n³) triples,
+    /// n inner products each at worst.
     ///
     /// # Panics
     /// A normal is zero or too long, or an offset too large.
@@ -153,7 +157,8 @@ impl Polytope {
             .into_iter()
             .map(|(numerator, denominator)| vertex(numerator, denominator, planes))
             .collect();
-        let faces = (0..planes.len()).map(|plane| face(plane, planes[plane].normal, &vertices)).collect();
+        let faces =
+            (0..planes.len()).map(|plane| face(plane, planes[plane].normal, &vertices)).collect();
         Self { planes: planes.to_vec(), vertices, faces }
     }
 
@@ -169,8 +174,8 @@ impl Polytope {
         &self.vertices
     }
 
-    /// The vertices on plane `plane`, counter-clockwise seen from outside, the lowest number first. Two or fewer of a plane that
-    /// only touches: see [`is_degenerate`](Self::is_degenerate).
+    /// The vertices on plane `plane`, counter-clockwise seen from outside, the lowest number first.
+    /// Two or fewer of a plane that only touches: see [`is_degenerate`](Self::is_degenerate).
     #[must_use]
     pub fn face(&self, plane: usize) -> &[usize] {
         &self.faces[plane]
@@ -191,7 +196,8 @@ impl Polytope {
     /// What it is.
     #[must_use]
     pub fn dimension(&self) -> Dimension {
-        // No three extreme points lie on a line. A flat polytope has two opposite constraints that hold with equality all over it.
+        // No three extreme points lie on a line. A flat polytope has two opposite constraints that
+        // hold with equality all over it.
         match self.vertices.len() {
             0 => Dimension::Empty,
             1 => Dimension::Point,
@@ -201,13 +207,15 @@ impl Polytope {
         }
     }
 
-    /// Greatest `normal`·x over the polytope; `None` if that is empty. It equals the plane's offset where the plane is tight.
+    /// Greatest `normal`·x over the polytope; `None` if that is empty. It equals the plane's offset
+    /// where the plane is tight.
     #[must_use]
     pub fn support(&self, normal: [i64; 3]) -> Option<Ratio> {
         self.vertices.iter().map(|v| Ratio::new(dot(normal, v.numerator), v.denominator)).max()
     }
 
-    /// Least offset that plane `plane` could have without a change of the polytope; `None` if that is empty.
+    /// Least offset that plane `plane` could have without a change of the polytope; `None` if that
+    /// is empty.
     #[must_use]
     pub fn tight_offset(&self, plane: usize) -> Option<Ratio> {
         self.support(self.planes[plane].normal)
@@ -221,8 +229,10 @@ impl Polytope {
 
     /// Faces with an area, each once though planes may coincide: a plane's number and its corners.
     pub fn distinct_faces(&self) -> impl Iterator<Item = (usize, &[usize])> {
-        // Loops begin at their lowest vertex, so coinciding planes have the same list, and opposite ones have not.
-        let first = |plane: usize| self.faces[..plane].iter().all(|face| *face != self.faces[plane]);
+        // Loops begin at their lowest vertex, so coinciding planes have the same list, and opposite
+        // ones have not.
+        let first =
+            |plane: usize| self.faces[..plane].iter().all(|face| *face != self.faces[plane]);
         let wanted = move |plane: &usize| !self.is_degenerate(*plane) && first(*plane);
         (0..self.faces.len()).filter(wanted).map(|plane| (plane, self.faces[plane].as_slice()))
     }
@@ -252,7 +262,8 @@ impl Polytope {
         })
     }
 
-    /// Of a solid: that each edge has one face on either side, and Euler's formula. Of all else, nothing.
+    /// Of a solid: that each edge has one face on either side, and Euler's formula. Of all else,
+    /// nothing.
     ///
     /// # Errors
     /// What is wrong.
@@ -286,7 +297,8 @@ fn meet([a, b, c]: [&HalfSpace; 3], planes: &[HalfSpace]) -> Option<([i64; 3], i
     }
     let (ca, ab) = (cross(c.normal, a.normal), cross(a.normal, b.normal));
     let sign = denominator.signum();
-    let numerator = std::array::from_fn(|k| sign * (a.offset * bc[k] + b.offset * ca[k] + c.offset * ab[k]));
+    let numerator =
+        std::array::from_fn(|k| sign * (a.offset * bc[k] + b.offset * ca[k] + c.offset * ab[k]));
     let denominator = denominator.abs();
     if planes.iter().any(|plane| plane.slack(numerator, denominator) < 0) {
         return None;
@@ -305,12 +317,13 @@ fn face(plane: usize, normal: [i64; 3], vertices: &[Vertex]) -> Vec<usize> {
     let mut corners: Vec<usize> =
         (0..vertices.len()).filter(|v| vertices[*v].planes.binary_search(&plane).is_ok()).collect();
     let Some((&mut pivot, others)) = corners.split_first_mut() else { return corners };
-    // Seen along an axis that the plane does not contain. The others lie within half a turn around an extreme point, and no two
-    // in one direction.
+    // Seen along an axis that the plane does not contain. The others lie within half a turn around
+    // an extreme point, and no two in one direction.
     let axis = (0..3).find(|k| normal[*k] != 0).unwrap_or(0);
     let arm = |v: usize| {
         let from = |k: usize| {
-            let scaled = |a: &Vertex, b: &Vertex| i128::from(a.numerator[k]) * i128::from(b.denominator);
+            let scaled =
+                |a: &Vertex, b: &Vertex| i128::from(a.numerator[k]) * i128::from(b.denominator);
             scaled(&vertices[v], &vertices[pivot]) - scaled(&vertices[pivot], &vertices[v])
         };
         [from((axis + 1) % 3), from((axis + 2) % 3)]

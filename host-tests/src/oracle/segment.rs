@@ -1,5 +1,5 @@
-//! Segment against mesh, every triangle looked at; whether they meet is decided by exact predicates (`robust`, after
-//! Shewchuk 1997), so edges and vertices are watertight.
+//! Segment against mesh, every triangle looked at; whether they meet is decided by exact predicates
+//! (`robust`, after Shewchuk 1997), so edges and vertices are watertight.
 
 use super::double::{Double, Vector};
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -29,8 +29,8 @@ fn sign(x: f64) -> i8 {
     i8::from(x > 0.0) - i8::from(x < 0.0)
 }
 
-/// Whether the closed segment and the closed triangle have a common point, and whether they are coplanar. Exact. The
-/// triangle must have an area.
+/// Whether the closed segment and the closed triangle have a common point, and whether they are
+/// coplanar. Exact. The triangle must have an area.
 #[must_use]
 pub fn meets(a: [f32; 3], b: [f32; 3], [u, v, w]: [[f32; 3]; 3]) -> Option<bool> {
     let (sa, sb) = (side(u, v, w, a), side(u, v, w, b));
@@ -45,10 +45,13 @@ pub fn meets(a: [f32; 3], b: [f32; 3], [u, v, w]: [[f32; 3]; 3]) -> Option<bool>
     one_way.then_some(false)
 }
 
-/// The coplanar case, on a coordinate plane on which the triangle keeps its area. Leaving out a coordinate is exact.
+/// The coplanar case, on a coordinate plane on which the triangle keeps its area. Leaving out a
+/// coordinate is exact.
 fn meets_in_plane(a: [f32; 3], b: [f32; 3], t: [[f32; 3]; 3]) -> bool {
-    let flat =
-        |p: [f32; 3], drop: usize| Coord { x: f64::from(p[(drop + 1) % 3]), y: f64::from(p[(drop + 2) % 3]) };
+    let flat = |p: [f32; 3], drop: usize| Coord {
+        x: f64::from(p[(drop + 1) % 3]),
+        y: f64::from(p[(drop + 2) % 3]),
+    };
     let Some(drop) = (0..3).find(|&k| {
         let [u, v, w] = t.map(|p| flat(p, k));
         orient2d(u, v, w) != 0.0
@@ -71,7 +74,8 @@ fn cross_2d(p: Coord<f64>, q: Coord<f64>, u: Coord<f64>, v: Coord<f64>) -> bool 
     let [a, b] = [u, v].map(|x| sign(orient2d(p, q, x)));
     let [c, d] = [p, q].map(|x| sign(orient2d(u, v, x)));
     if a == 0 && b == 0 && c == 0 && d == 0 {
-        let overlap = |lo: f64, hi: f64, x: f64, y: f64| lo.min(hi) <= x.max(y) && x.min(y) <= lo.max(hi);
+        let overlap =
+            |lo: f64, hi: f64, x: f64, y: f64| lo.min(hi) <= x.max(y) && x.min(y) <= lo.max(hi);
         return overlap(p.x, q.x, u.x, v.x) && overlap(p.y, q.y, u.y, v.y);
     }
     a * b <= 0 && c * d <= 0
@@ -79,7 +83,12 @@ fn cross_2d(p: Coord<f64>, q: Coord<f64>, u: Coord<f64>, v: Coord<f64>) -> bool 
 
 /// All triangles that the closed segment meets, by rising `t_lower`, then index.
 #[must_use]
-pub fn contacts(a: [f32; 3], b: [f32; 3], positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<Contact> {
+pub fn contacts(
+    a: [f32; 3],
+    b: [f32; 3],
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+) -> Vec<Contact> {
     let mut found = Vec::new();
     for (index, triangle) in triangles.iter().enumerate() {
         let corners = triangle.map(|v| positions[v as usize]);
@@ -101,11 +110,13 @@ fn crossing(a: [f32; 3], b: [f32; 3], corners: [[f32; 3]; 3]) -> (f64, f64) {
     let across = normal.dot(&b.minus(&a));
     let t = (from / across).hi.clamp(0.0, 1.0);
     let sizes = v.minus(&u).norm_1() * w.minus(&u).norm_1();
-    let error = 1e-29 * sizes * (u.minus(&a).norm_1() + b.minus(&a).norm_1()) / across.hi.abs() + 1e-15 * t;
+    let error =
+        1e-29 * sizes * (u.minus(&a).norm_1() + b.minus(&a).norm_1()) / across.hi.abs() + 1e-15 * t;
     if error.is_finite() { ((t - error).max(0.0), (t + error).min(1.0)) } else { (0.0, 1.0) }
 }
 
-/// First common parameter in the plane: the least at which the segment is in the triangle, by clipping to its three sides.
+/// First common parameter in the plane: the least at which the segment is in the triangle, by
+/// clipping to its three sides.
 fn first_in_plane(a: [f32; 3], b: [f32; 3], corners: [[f32; 3]; 3]) -> (f64, f64) {
     let [u, v, w] = corners.map(Vector::new);
     let (a, b) = (Vector::new(a), Vector::new(b));
@@ -140,7 +151,8 @@ pub fn gap_to_triangle(a: [f32; 3], b: [f32; 3], corners: [[f32; 3]; 3]) -> f64 
     let ends = [a, b].map(|p| super::rough_distance_sq(p, corners));
     let corners_to_segment = corners.map(|p| super::rough_distance_sq(p, [a, b, b]));
     let edges = [(u, v), (v, w), (w, u)].map(|(p, q)| edge_gap_sq(a, b, p, q));
-    let least = ends.into_iter().chain(corners_to_segment).chain(edges).fold(f64::INFINITY, f64::min);
+    let least =
+        ends.into_iter().chain(corners_to_segment).chain(edges).fold(f64::INFINITY, f64::min);
     least.sqrt()
 }
 
@@ -186,7 +198,9 @@ mod tests {
         let at = |a, b| contacts(a, b, &positions, &triangles)[0];
         let through = at([0.2, 0.2, 1.0], [0.2, 0.2, -3.0]);
         assert!(
-            through.t_lower <= 0.25 && 0.25 <= through.t_upper && through.t_upper - through.t_lower < 1e-14
+            through.t_lower <= 0.25
+                && 0.25 <= through.t_upper
+                && through.t_upper - through.t_lower < 1e-14
         );
         let in_plane = at([-1.0, 0.25, 0.0], [1.0, 0.25, 0.0]);
         assert!(in_plane.t_lower <= 0.5 && 0.5 <= in_plane.t_upper && in_plane.coplanar);

@@ -15,7 +15,8 @@ pub struct Agreement {
     pub error: f64,
     /// Hits for misses and misses for hits against f64, where no triangle is grazed.
     pub wrong_hits: usize,
-    /// Largest difference from parry3d's answer: of a distance in diagonals, of a hit's parameter as it is.
+    /// Largest difference from parry3d's answer: of a distance in diagonals, of a hit's parameter
+    /// as it is.
     pub apart: f64,
     /// Hits where parry3d has a miss, and the other way round.
     pub other_hits: usize,
@@ -37,7 +38,9 @@ impl<'a> Truth<'a> {
         let brute = Brute::new(subject);
         let stride = stride(queries.len(), 3 * count);
         let known = match queries.thinned(stride) {
-            Queries::Points(points) => points.iter().map(|&point| Some(brute.distance(point))).collect(),
+            Queries::Points(points) => {
+                points.iter().map(|&point| Some(brute.distance(point))).collect()
+            }
             Queries::Segments(segments) => segments
                 .iter()
                 .map(|&segment| {
@@ -61,13 +64,18 @@ impl<'a> Truth<'a> {
                 agreement.checked += 1;
                 let scale = if matches!(self.queries, Queries::Points(_)) { truth } else { 1.0 };
                 match difference(value, truth) {
-                    Some(difference) => agreement.error = agreement.error.max(relative(difference, scale)),
+                    Some(difference) => {
+                        agreement.error = agreement.error.max(relative(difference, scale))
+                    }
                     None => agreement.wrong_hits += 1,
                 }
             }
-            let scale = if matches!(self.queries, Queries::Points(_)) { self.diagonal } else { 1.0 };
+            let scale =
+                if matches!(self.queries, Queries::Points(_)) { self.diagonal } else { 1.0 };
             match difference(value, self.value(query, &reference[query])) {
-                Some(difference) => agreement.apart = agreement.apart.max(relative(difference, scale)),
+                Some(difference) => {
+                    agreement.apart = agreement.apart.max(relative(difference, scale))
+                }
                 None => agreement.other_hits += 1,
             }
         }

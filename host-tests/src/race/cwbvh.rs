@@ -1,9 +1,11 @@
 //! obvhs: the 8-wide compressed tree of Ylitie, Karras & Laine (2017), for segments only.
 //!
-//! Tried on three meshes of 20,000 to 270,000 triangles, and the fastest taken: `very_slow_build` (3 to 10 % before `medium_build`),
-//! three triangles a leaf, triangles in the order of the leaves, and a test that divides only by a hit's determinant (10 to 25 %
-//! before the crate's `intersect`). The crate's `intersect_embree` is faster still, but gives the parameter multiplied by the
-//! determinant, which ends the search too early at a hit that need not be the first. Its binary tree is slower.
+//! Tried on three meshes of 20,000 to 270,000 triangles, and the fastest taken: `very_slow_build`
+//! (3 to 10 % before `medium_build`), three triangles a leaf, triangles in the order of the leaves,
+//! and a test that divides only by a hit's determinant (10 to 25 % before the crate's `intersect`).
+//! The crate's `intersect_embree` is faster still, but gives the parameter multiplied by the
+//! determinant, which ends the search too early at a hit that need not be the first. Its binary
+//! tree is slower.
 
 use std::mem::{size_of, size_of_val};
 use std::time::Duration;
@@ -42,7 +44,11 @@ pub fn build<'a>(
         .iter()
         .map(|&[a, b, c]| Triangle { v0: at(a), v1: at(b), v2: at(c) })
         .collect();
-    let tree = build_cwbvh_from_tris(&triangles, BvhBuildParams::very_slow_build(), &mut Duration::default());
+    let tree = build_cwbvh_from_tris(
+        &triangles,
+        BvhBuildParams::very_slow_build(),
+        &mut Duration::default(),
+    );
     let triangles = tree.primitive_indices.iter().map(|&index| triangles[index as usize]).collect();
     Ok(Some(Box::new(Compressed { tree, triangles })))
 }
@@ -62,12 +68,17 @@ impl Engine for Compressed {
         Err("obvhs answers no closest points".to_owned())
     }
 
-    fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
+    fn first_hits(
+        &mut self,
+        segments: &[[[f32; 3]; 2]],
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), String> {
         each(segments, answers, |[a, b]| {
             let direction = std::array::from_fn(|k| b[k] - a[k]);
             let ray = Ray::new(a.into(), <[f32; 3]>::into(direction), 0.0, 1.0);
             let mut hit = RayHit::none();
-            if self.tree.ray_traverse(ray, &mut hit, |ray, index| meet(&self.triangles[index], ray)) {
+            if self.tree.ray_traverse(ray, &mut hit, |ray, index| meet(&self.triangles[index], ray))
+            {
                 Answer::Hit(hit.t)
             } else {
                 Answer::Miss
@@ -77,7 +88,8 @@ impl Engine for Compressed {
     }
 }
 
-/// Parameter at which a ray meets a triangle of either facing (Möller & Trumbore 1997), infinity where it does not.
+/// Parameter at which a ray meets a triangle of either facing (Möller & Trumbore 1997), infinity
+/// where it does not.
 #[inline(always)]
 fn meet(triangle: &Triangle, ray: &Ray) -> f32 {
     const SIGN: u32 = 1 << 31;

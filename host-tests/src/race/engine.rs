@@ -6,26 +6,33 @@ use crate::measure::Subject;
 
 use super::{Scope, Workload, cwbvh, hull, parry, scalar, tree};
 
-/// An index over one mesh that answers lists of queries. A list is one call, so that the call's cost is no part of a query's, a
-/// session may carry over what it knows, and a batch may be sorted.
+/// An index over one mesh that answers lists of queries. A list is one call, so that the call's
+/// cost is no part of a query's, a session may carry over what it knows, and a batch may be sorted.
 pub trait Engine {
     /// Bytes that it keeps to answer, the triangles included.
     fn bytes(&self) -> usize;
 
-    /// How many queries of a workload it can be asked in reasonable time; 0 if it does not answer the question at all.
+    /// How many queries of a workload it can be asked in reasonable time; 0 if it does not answer
+    /// the question at all.
     fn limit(&self, workload: Workload) -> usize;
 
-    /// Replaces `answers` by those to `points`, in their order: [`Answer::Point`] or [`Answer::Distance`].
+    /// Replaces `answers` by those to `points`, in their order: [`Answer::Point`] or
+    /// [`Answer::Distance`].
     ///
     /// # Errors
     /// The engine's refusal.
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String>;
 
-    /// Replaces `answers` by those to `segments`, in their order: [`Answer::Hit`] or [`Answer::Miss`].
+    /// Replaces `answers` by those to `segments`, in their order: [`Answer::Hit`] or
+    /// [`Answer::Miss`].
     ///
     /// # Errors
     /// The engine's refusal.
-    fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String>;
+    fn first_hits(
+        &mut self,
+        segments: &[[[f32; 3]; 2]],
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), String>;
 }
 
 /// What an engine says; each says it in the way that costs it least.
@@ -41,8 +48,10 @@ pub enum Answer {
     Miss,
 }
 
-/// A mesh's engine, or none if it does not take part. The blob is for one that reads its index from bytes, which have to outlive it.
-type Build = for<'a> fn(&Subject, &Scope, &'a mut Vec<u8>) -> Result<Option<Box<dyn Engine + 'a>>, String>;
+/// A mesh's engine, or none if it does not take part. The blob is for one that reads its index from
+/// bytes, which have to outlive it.
+type Build =
+    for<'a> fn(&Subject, &Scope, &'a mut Vec<u8>) -> Result<Option<Box<dyn Engine + 'a>>, String>;
 
 /// One who takes part.
 pub struct Entrant {
@@ -106,7 +115,8 @@ pub const ENTRANTS: [Entrant; 8] = [
     Entrant { name: "scalar", remark: "every triangle, f32", counted: false, build: scalar::build },
 ];
 
-/// Asks one query after the other. Each answer passes through a [`black_box`], so that none is computed in part or left out.
+/// Asks one query after the other. Each answer passes through a [`black_box`], so that none is
+/// computed in part or left out.
 pub fn each<Q: Copy>(queries: &[Q], answers: &mut Vec<Answer>, mut ask: impl FnMut(Q) -> Answer) {
     answers.clear();
     answers.extend(queries.iter().map(|&query| black_box(ask(query))));

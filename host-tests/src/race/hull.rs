@@ -53,7 +53,11 @@ impl Engine for Hull<'_> {
         })
     }
 
-    fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
+    fn first_hits(
+        &mut self,
+        segments: &[[[f32; 3]; 2]],
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
             let found = first_hit(&self.model, a, b, &Stop::EXACT, &mut self.queue);
             let found = found.map_err(|error| error.to_string())?;

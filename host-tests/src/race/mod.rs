@@ -6,10 +6,12 @@
 //!   scalar, parry, cwbvh,     └─ counted (what callgrind counts)
 //!   tree, hull: one file each
 //! ```
-//! A new engine is a file with an [`Engine`](engine::Engine) and a line in [`ENTRANTS`](engine::ENTRANTS).
+//! A new engine is a file with an [`Engine`](engine::Engine) and a line in
+//! [`ENTRANTS`](engine::ENTRANTS).
 //!
-//! Times are the processor's, the fastest of three rounds; within a round every engine has its turn at a workload, so that a busy
-//! machine hits all alike. Even so only ratios within one run mean something.
+//! Times are the processor's, the fastest of three rounds; within a round every engine has its turn
+//! at a workload, so that a busy machine hits all alike. Even so only ratios within one run mean
+//! something.
 
 mod agreement;
 pub mod counted;
@@ -39,7 +41,8 @@ pub use workload::{Scale, Workload};
 pub struct Scope {
     /// How many queries.
     pub scale: Scale,
-    /// The hull engine takes part on meshes of up to so many triangles: building a blob for it takes 0.04 ms a triangle.
+    /// The hull engine takes part on meshes of up to so many triangles: building a blob for it
+    /// takes 0.04 ms a triangle.
     pub hull_triangles: usize,
 }
 

@@ -34,8 +34,14 @@ impl Engine for Parry {
         Ok(())
     }
 
-    fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        each(segments, answers, |segment| self.0.first_hit(segment).map_or(Answer::Miss, Answer::Hit));
+    fn first_hits(
+        &mut self,
+        segments: &[[[f32; 3]; 2]],
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), String> {
+        each(segments, answers, |segment| {
+            self.0.first_hit(segment).map_or(Answer::Miss, Answer::Hit)
+        });
         Ok(())
     }
 }

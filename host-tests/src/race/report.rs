@@ -60,19 +60,25 @@ pub fn laps(laps: &[Lap], scale: Scale) -> Table {
     table.note("x parry3d: how many times as fast; error, wrong hits: against every triangle in f64, relative for distances");
     table.note("off parry3d: largest difference from its answers, distances in diagonals of the mesh; other hits: hit here and miss there");
     table.note("far, segments: box twice the mesh's; near: Gaussian of 1 % of the diagonal; path: 1 % off the surface, orbit: around and through");
-    table.note(format!("path, orbit: steps of 0.03 % of the diagonal; field: {side}^3 nodes row by row"));
+    table.note(format!(
+        "path, orbit: steps of 0.03 % of the diagonal; field: {side}^3 nodes row by row"
+    ));
     table
 }
 
 /// Geometric means over all meshes, and how the cost grows with them.
 #[must_use]
 pub fn summary(races: &[Race]) -> Table {
-    let columns = ["workload", "engine", "meshes", "x parry3d", "least", "greatest", "x obvhs", "growth"];
+    let columns =
+        ["workload", "engine", "meshes", "x parry3d", "least", "greatest", "x obvhs", "growth"];
     let mut table = Table::new("summary", format!("== all meshes, {} ==", machine()), &columns);
     for workload in Workload::ALL {
         for entrant in &ENTRANTS {
             let of = |engine: &str, race: &Race| {
-                race.laps.iter().find(|lap| lap.workload == workload && lap.engine == engine).cloned()
+                race.laps
+                    .iter()
+                    .find(|lap| lap.workload == workload && lap.engine == engine)
+                    .cloned()
             };
             let laps: Vec<(usize, Lap)> = races
                 .iter()
@@ -84,7 +90,9 @@ pub fn summary(races: &[Race]) -> Table {
             let speeds: Vec<f64> = laps.iter().map(|(_, lap)| lap.speed).collect();
             let over_obvhs: Vec<f64> = races
                 .iter()
-                .filter_map(|race| Some(of("obvhs", race)?.nanoseconds / of(entrant.name, race)?.nanoseconds))
+                .filter_map(|race| {
+                    Some(of("obvhs", race)?.nanoseconds / of(entrant.name, race)?.nanoseconds)
+                })
                 .collect();
             table.push(row![
                 workload.name(),
@@ -93,7 +101,11 @@ pub fn summary(races: &[Race]) -> Table {
                 fixed(geometric_mean(&speeds), 3),
                 fixed(speeds.iter().copied().fold(f64::INFINITY, f64::min), 3),
                 fixed(speeds.iter().copied().fold(0.0, f64::max), 3),
-                if over_obvhs.is_empty() { Cell::Empty } else { fixed(geometric_mean(&over_obvhs), 3) },
+                if over_obvhs.is_empty() {
+                    Cell::Empty
+                } else {
+                    fixed(geometric_mean(&over_obvhs), 3)
+                },
                 growth(&laps).map_or(Cell::Empty, |growth| fixed(growth, 2)),
             ]);
         }
@@ -101,7 +113,8 @@ pub fn summary(races: &[Race]) -> Table {
     table.note(
         "x parry3d, x obvhs: how many times as fast, geometric means over the meshes that the engine ran on",
     );
-    table.note("growth: time on the mesh with the most triangles over time on that with the fewest");
+    table
+        .note("growth: time on the mesh with the most triangles over time on that with the fewest");
     table
 }
 

@@ -42,15 +42,24 @@ impl Engine for Scalar {
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         each(points, answers, |point| {
             let p = Vec3::from_array(point);
-            let least = self.0.iter().map(|triangle| distance_sq(p, triangle)).fold(f32::INFINITY, f32::min);
+            let least = self
+                .0
+                .iter()
+                .map(|triangle| distance_sq(p, triangle))
+                .fold(f32::INFINITY, f32::min);
             Answer::Distance(least.sqrt())
         });
         Ok(())
     }
 
-    fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
+    fn first_hits(
+        &mut self,
+        segments: &[[[f32; 3]; 2]],
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), String> {
         each(segments, answers, |[a, b]| {
-            let (from, direction) = (Vec3::from_array(a), Vec3::from_array(b) - Vec3::from_array(a));
+            let (from, direction) =
+                (Vec3::from_array(a), Vec3::from_array(b) - Vec3::from_array(a));
             let first = self.0.iter().map(|triangle| meet(from, direction, triangle));
             let first = first.fold(f32::INFINITY, f32::min);
             if first.is_finite() { Answer::Hit(first) } else { Answer::Miss }
@@ -59,7 +68,8 @@ impl Engine for Scalar {
     }
 }
 
-/// Squared distance by the regions of Ericson, *Real-Time Collision Detection* (2005), 5.1.5, as the residual's length.
+/// Squared distance by the regions of Ericson, *Real-Time Collision Detection* (2005), 5.1.5, as
+/// the residual's length.
 #[inline]
 fn distance_sq(p: Vec3, &[a, ab, ac]: &[Vec3; 3]) -> f32 {
     let ap = p - a;
@@ -87,7 +97,8 @@ fn distance_sq(p: Vec3, &[a, ab, ac]: &[Vec3; 3]) -> f32 {
     (ap - ab * u - ac * v).length_squared()
 }
 
-/// Parameter at which a segment meets a triangle (Möller & Trumbore 1997), infinity where it does not.
+/// Parameter at which a segment meets a triangle (Möller & Trumbore 1997), infinity where it does
+/// not.
 #[inline]
 fn meet(from: Vec3, direction: Vec3, &[a, ab, ac]: &[Vec3; 3]) -> f32 {
     let p = direction.cross(ac);

@@ -87,7 +87,11 @@ struct Run {
     nanoseconds: f64,
 }
 
-fn rounds(workload: Workload, queries: &Queries, lanes: &mut [Lane<'_>]) -> Result<Vec<Run>, String> {
+fn rounds(
+    workload: Workload,
+    queries: &Queries,
+    lanes: &mut [Lane<'_>],
+) -> Result<Vec<Run>, String> {
     let mut runs: Vec<(Run, &mut Lane<'_>)> = lanes
         .iter_mut()
         .filter(|lane| lane.engine.limit(workload) > 0)
@@ -95,7 +99,16 @@ fn rounds(workload: Workload, queries: &Queries, lanes: &mut [Lane<'_>]) -> Resu
             let stride = stride(queries.len(), lane.engine.limit(workload));
             let queries = queries.thinned(stride);
             let answers = Vec::with_capacity(queries.len());
-            (Run { engine: lane.entrant.name, queries, stride, answers, nanoseconds: f64::INFINITY }, lane)
+            (
+                Run {
+                    engine: lane.entrant.name,
+                    queries,
+                    stride,
+                    answers,
+                    nanoseconds: f64::INFINITY,
+                },
+                lane,
+            )
         })
         .collect();
     for _ in 0..ROUNDS {
@@ -103,7 +116,9 @@ fn rounds(workload: Workload, queries: &Queries, lanes: &mut [Lane<'_>]) -> Resu
             let begun = Stopwatch::start();
             match &run.queries {
                 Queries::Points(points) => lane.engine.closest(points, &mut run.answers)?,
-                Queries::Segments(segments) => lane.engine.first_hits(segments, &mut run.answers)?,
+                Queries::Segments(segments) => {
+                    lane.engine.first_hits(segments, &mut run.answers)?
+                }
             }
             run.nanoseconds = run.nanoseconds.min(begun.nanoseconds_each(run.queries.len()));
             if run.answers.len() != run.queries.len() {

@@ -1,7 +1,7 @@
 //! The library's box tree: certified answers in f32.
 //!
-//! The blob serves distances and segments alike. Every answer is computed whole, with its interval and triangle, though the race looks at its
-//! point or parameter alone.
+//! The blob serves distances and segments alike. Every answer is computed whole, with its interval
+//! and triangle, though the race looks at its point or parameter alone.
 
 use std::hint::black_box;
 
@@ -90,7 +90,11 @@ impl Engine for Alone<'_> {
         })
     }
 
-    fn first_hits(&mut self, segments: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
+    fn first_hits(
+        &mut self,
+        segments: &[[[f32; 3]; 2]],
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
             let found = black_box(first_hit(&self.tree, a, b, &Facing::Both, &mut self.stack));
             let found = found.map_err(|error| error.to_string())?;
@@ -131,7 +135,8 @@ impl Engine for Following<'_> {
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         let mut session = Session::<128>::new();
         try_each(points, answers, |point| {
-            let found = black_box(session.closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack));
+            let found =
+                black_box(session.closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack));
             found.map(|found| Answer::Point(found.closest.point)).map_err(|error| error.to_string())
         })
     }
@@ -170,7 +175,11 @@ impl Engine for Batched<'_> {
     }
 
     fn limit(&self, workload: Workload) -> usize {
-        if matches!(workload, Workload::Far | Workload::Near | Workload::Field) { usize::MAX } else { 0 }
+        if matches!(workload, Workload::Far | Workload::Near | Workload::Field) {
+            usize::MAX
+        } else {
+            0
+        }
     }
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {

@@ -9,7 +9,8 @@ use crate::measure::workload::{Points, field, orbit, points, segments, surface_p
 pub enum Workload {
     /// Closest points of random points in a box twice the mesh's.
     Far,
-    /// Closest points of random points near the surface: a Gaussian of 1 % of the diagonal on each axis.
+    /// Closest points of random points near the surface: a Gaussian of 1 % of the diagonal on each
+    /// axis.
     Near,
     /// Closest points along [`surface_path`].
     Path,
@@ -23,7 +24,8 @@ pub enum Workload {
 
 impl Workload {
     /// All, in the order of the tables.
-    pub const ALL: [Self; 6] = [Self::Far, Self::Near, Self::Path, Self::Orbit, Self::Field, Self::Segments];
+    pub const ALL: [Self; 6] =
+        [Self::Far, Self::Near, Self::Path, Self::Orbit, Self::Field, Self::Segments];
 
     /// Its name in tables.
     #[must_use]
@@ -44,7 +46,9 @@ impl Workload {
         match self {
             Self::Far => Queries::Points(points(subject, Points::Far, scale.random)),
             Self::Near => Queries::Points(points(subject, Points::Near, scale.random)),
-            Self::Path => Queries::Points(surface_path(subject, scale.coherent, |p| guide.closest(p))),
+            Self::Path => {
+                Queries::Points(surface_path(subject, scale.coherent, |p| guide.closest(p)))
+            }
             Self::Orbit => Queries::Points(orbit(subject, scale.coherent)),
             Self::Field => Queries::Points(field(subject, scale.side)),
             Self::Segments => Queries::Segments(segments(subject, scale.random)),
@@ -70,8 +74,8 @@ impl Scale {
     pub const FULL: Self = Self { random: 20_000, coherent: 40_000, side: 64, checked: 100 };
     /// For a look.
     pub const QUICK: Self = Self { random: 4_000, coherent: 8_000, side: 24, checked: 30 };
-    /// For a simulator that is fifty times slower. The field keeps its spacing, on which neighbours' nearness depends; few of its
-    /// rows are taken.
+    /// For a simulator that is fifty times slower. The field keeps its spacing, on which
+    /// neighbours' nearness depends; few of its rows are taken.
     pub const COUNTED: Self = Self { random: 1_000, coherent: 2_000, side: 64, checked: 0 };
 }
 
@@ -94,7 +98,9 @@ impl Queries {
     pub fn thinned(&self, stride: usize) -> Self {
         match self {
             Self::Points(points) => Self::Points(points.iter().copied().step_by(stride).collect()),
-            Self::Segments(segments) => Self::Segments(segments.iter().copied().step_by(stride).collect()),
+            Self::Segments(segments) => {
+                Self::Segments(segments.iter().copied().step_by(stride).collect())
+            }
         }
     }
 
@@ -110,9 +116,9 @@ impl Queries {
     }
 }
 
-/// The least power of three that thins `count` to at most `limit`. Of any two such strides one divides the other, so that lists
-/// thinned differently have queries in common; and none has a factor in common with a field's rows, so that a thinned field has
-/// nodes of every column.
+/// The least power of three that thins `count` to at most `limit`. Of any two such strides one
+/// divides the other, so that lists thinned differently have queries in common; and none has a
+/// factor in common with a field's rows, so that a thinned field has nodes of every column.
 pub(super) fn stride(count: usize, limit: usize) -> usize {
     let mut stride = 1;
     while count.div_ceil(stride) > limit.max(1) {

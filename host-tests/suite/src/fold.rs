@@ -2,8 +2,8 @@
 
 /// FNV-1a over 32-bit words taken as bytes, low byte first.
 ///
-/// Not a cryptographic hash, and it need not be: a wrong bit changes it, and the multiplication carries
-/// that change into every later state.
+/// Not a cryptographic hash, and it need not be: a wrong bit changes it, and the multiplication
+/// carries that change into every later state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fold {
     state: u64,

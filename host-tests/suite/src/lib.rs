@@ -1,13 +1,15 @@
 #![no_std]
 #![forbid(unsafe_code)]
-//! One fixed list of queries, run by the host and by every firmware image, so that their answers can be compared bit by bit.
+//! One fixed list of queries, run by the host and by every firmware image, so that their answers
+//! can be compared bit by bit.
 //!
 //! ```text
 //! rng ─ place (query points and segments from integers) ─ ask (the core's entry points) ─ fold (answer bits to hashes)
 //!                                          run: kinds × blocks × queries, told to a `Recorder`
 //! ```
-//! Answers are folded into one hash per block of queries: a difference is then located to a block without printing
-//! every answer over a debug link. [`ask`] is the only file that names the core's API.
+//! Answers are folded into one hash per block of queries: a difference is then located to a block
+//! without printing every answer over a debug link. [`ask`] is the only file that names the core's
+//! API.
 
 pub mod arith;
 pub mod ask;

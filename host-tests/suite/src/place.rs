@@ -1,7 +1,8 @@
 //! Where the queries are put: points and segments around a model's bounding box.
 //!
-//! Coordinates come from the integers of [`Rng`] through one addition and one multiplication an axis. Rust never contracts
-//! these to a fused multiply-add, so the query's bits are the same everywhere too.
+//! Coordinates come from the integers of [`Rng`] through one addition and one multiplication an
+//! axis. Rust never contracts these to a fused multiply-add, so the query's bits are the same
+//! everywhere too.
 
 use crate::rng::Rng;
 
@@ -71,7 +72,8 @@ impl Placer {
     }
 }
 
-/// A point in the box, inflated to twice its size about its centre: seven eighths of them are outside.
+/// A point in the box, inflated to twice its size about its centre: seven eighths of them are
+/// outside.
 pub fn far_point(rng: &mut Rng, bounds: &Bounds) -> [f32; 3] {
     core::array::from_fn(|axis| {
         let (centre, half) = centre_and_half(bounds, axis);
@@ -79,7 +81,8 @@ pub fn far_point(rng: &mut Rng, bounds: &Bounds) -> [f32; 3] {
     })
 }
 
-/// A point at most 1/64 of the box's half size from `base` on each axis: near the surface where `base` is on it.
+/// A point at most 1/64 of the box's half size from `base` on each axis: near the surface where
+/// `base` is on it.
 pub fn near_point(rng: &mut Rng, bounds: &Bounds, base: [f32; 3]) -> [f32; 3] {
     offset(rng, bounds, base, 1.0 / 64.0)
 }
@@ -175,7 +178,10 @@ mod tests {
         for _ in 0..1000 {
             let [a, b] = segment(&mut rng, &BOUNDS);
             for end in [a, b] {
-                assert!((0..3).any(|axis| end[axis] == DOUBLED[0][axis] || end[axis] == DOUBLED[1][axis]));
+                assert!(
+                    (0..3)
+                        .any(|axis| end[axis] == DOUBLED[0][axis] || end[axis] == DOUBLED[1][axis])
+                );
                 assert!(inside(end, &DOUBLED));
             }
         }

@@ -1,4 +1,5 @@
-//! SplitMix64 (Steele, Lea, Flood 2014): integer arithmetic only, so the same stream on every target.
+//! SplitMix64 (Steele, Lea, Flood 2014): integer arithmetic only, so the same stream on every
+//! target.
 
 /// A stream of pseudo-random numbers.
 #[derive(Clone, Debug)]

@@ -155,7 +155,10 @@ impl Kind {
     pub const fn is_triboxes(self) -> bool {
         matches!(
             self,
-            Self::TriboxesApart | Self::TriboxesCandidates | Self::TriboxesDistance | Self::TriboxesClip
+            Self::TriboxesApart
+                | Self::TriboxesCandidates
+                | Self::TriboxesDistance
+                | Self::TriboxesClip
         )
     }
 
@@ -178,7 +181,8 @@ impl Plan {
     pub const STANDARD: Self = Self { blocks: 16, queries: 32 };
 }
 
-/// Told when the core is called: what lies between the two is the core's alone, without placing the query and folding the answer.
+/// Told when the core is called: what lies between the two is the core's alone, without placing the
+/// query and folding the answer.
 pub trait Clock {
     /// The core is about to be called.
     fn query_begins(&mut self) {}
@@ -189,7 +193,8 @@ pub trait Clock {
 /// Nobody looks at the clock.
 impl Clock for () {}
 
-/// Told what happens, in this order: begins, then kind by kind: kind begins, (query begins, query ends) × queries, block, …, kind ends.
+/// Told what happens, in this order: begins, then kind by kind: kind begins, (query begins, query
+/// ends) × queries, block, …, kind ends.
 pub trait Recorder: Clock {
     /// The blob was opened; queries need so many bytes of RAM beside the stack.
     fn begins(&mut self, _memory: usize) {}
@@ -204,7 +209,8 @@ pub trait Recorder: Clock {
 /// Opens the blob and runs all kinds that suit it.
 ///
 /// # Errors
-/// The core's refusal of the blob, or [`Refused::MEMORY`] if queries could end for want of scratch. Refused queries are answers: they are folded like any other.
+/// The core's refusal of the blob, or [`Refused::MEMORY`] if queries could end for want of scratch.
+/// Refused queries are answers: they are folded like any other.
 pub fn run<'t, S: Subject<'t>>(
     blob: &'t [u8],
     plan: Plan,

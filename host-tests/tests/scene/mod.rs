@@ -6,8 +6,8 @@ use meshsweep_alloc::mesh::{RawMesh, repair, require_closed_manifold};
 use meshsweep_alloc::precision::VertexBits;
 use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, groove_block, needle_comb, rough_sphere, scaled, torus, transformed,
-    two_parts,
+    Rng, Triangles, bracket, cube, groove_block, needle_comb, rough_sphere, scaled, torus,
+    transformed, two_parts,
 };
 
 /// A mesh as it was given, and its blob.
@@ -26,7 +26,8 @@ impl Scene {
     pub fn new(name: impl Into<String>, mesh: Triangles, options: &BuildOptions) -> Scene {
         let name = name.into();
         let (positions, triangles) = mesh;
-        let (repaired, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("a sound mesh");
+        let (repaired, _) =
+            repair(RawMesh::from_f32(&positions, &triangles)).expect("a sound mesh");
         require_closed_manifold(&repaired).expect("a closed mesh");
         let built = build(&repaired, 0.0, triangles.len(), options, |_| ()).expect("builds");
         Scene { name, positions, triangles, bytes: built.bytes }
@@ -132,7 +133,11 @@ pub fn stretched() -> Vec<Scene> {
         Scene::new("rough sphere × 1e-30", scaled(&rough_sphere(2, 0.2, 3), 1e-30), &options(40)),
         Scene::new("groove block × 1e30", scaled(&groove_block(), 1e30), &options(40)),
         Scene::new("cube far away", moved(&cube(4), far), &options(12)),
-        Scene::new("two parts × 64 far away", moved(&scaled(&two_parts(), 64.0), far), &options(60)),
+        Scene::new(
+            "two parts × 64 far away",
+            moved(&scaled(&two_parts(), 64.0), far),
+            &options(60),
+        ),
         Scene::new("rough sphere, 16 bits", rough_sphere(3, 0.2, 7), &bits(VertexBits::Grid16)),
         Scene::new("torus, 24 bits", torus(2.0, 0.75, 24, 12), &bits(VertexBits::Grid24)),
         Scene::new("bracket, f32", bracket(), &bits(VertexBits::F32)),

@@ -10,7 +10,8 @@ use meshsweep_core::query::tree::{TreeEntry, Verdict};
 use meshsweep_core::query::{Ended, QueryError, Stop, tree};
 use meshsweep_core::{Model, TightHulls};
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, groove_block, icosphere, rough_sphere, scaled, torus, transformed, two_parts,
+    Rng, Triangles, bracket, groove_block, icosphere, rough_sphere, scaled, torus, transformed,
+    two_parts,
 };
 use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
 use std::sync::LazyLock;
@@ -51,13 +52,21 @@ fn points(of: &Mesh, hull: &Mesh, count: usize, rng: &mut Rng) -> Vec<[f32; 3]> 
         .collect()
 }
 
-/// Whatever the hull says of the triangles holds; returns how many distances were said to be greater, and smaller, than half and twice them.
-fn check(name: &str, hull: &TightHull<'_>, truth: &Triangles, points: &[[f32; 3]], moved: f64) -> [usize; 2] {
+/// Whatever the hull says of the triangles holds; returns how many distances were said to be
+/// greater, and smaller, than half and twice them.
+fn check(
+    name: &str,
+    hull: &TightHull<'_>,
+    truth: &Triangles,
+    points: &[[f32; 3]],
+    moved: f64,
+) -> [usize; 2] {
     let mut stack = vec![TreeEntry::EMPTY; hull.tree().header().stack_entries as usize];
     let (mut clear, mut near) = (0, 0);
     for &p in points {
         let real = distance_to_mesh(p, &truth.0, &truth.1);
-        let answer = closest_point(hull, p, &Stop::EXACT, &mut stack).expect("asked of an opened hull");
+        let answer =
+            closest_point(hull, p, &Stop::EXACT, &mut stack).expect("asked of an opened hull");
         let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
         assert!(lower <= real.upper && upper >= real.lower, "{name}: {p:?}: {answer:?}, {real:?}");
         assert!(
@@ -75,12 +84,15 @@ fn check(name: &str, hull: &TightHull<'_>, truth: &Triangles, points: &[[f32; 3]
         );
         for distance in [0.0, 0.5 * real.lower, real.lower, real.upper, 2.0 * real.upper, upper] {
             let distance = distance as f32;
-            let within = is_within(hull, p, distance, &Stop::EXACT, &mut stack).expect("a distance");
+            let within =
+                is_within(hull, p, distance, &Stop::EXACT, &mut stack).expect("a distance");
             match within.verdict {
                 Verdict::Yes { triangle: None } => {
                     assert!(f64::from(distance) >= real.lower, "{name}: {p:?} {distance}")
                 }
-                Verdict::No => assert!(f64::from(distance) < real.upper, "{name}: {p:?} {distance}"),
+                Verdict::No => {
+                    assert!(f64::from(distance) < real.upper, "{name}: {p:?} {distance}")
+                }
                 Verdict::Yes { triangle: Some(_) } => panic!("{name}: a hull knows no triangles"),
                 Verdict::Unknown => {}
             }
@@ -133,7 +145,8 @@ fn intervals_and_verdicts_hold_for_the_mesh_within() {
         let hulls = TightHulls::open(bytes).expect("opens");
         for index in 0..hulls.count() {
             let hull = hulls.get(index).expect("a hull");
-            let points = points(&mesh(shape), &hull_mesh(&hull), 240, &mut Rng::new(7 + u64::from(index)));
+            let points =
+                points(&mesh(shape), &hull_mesh(&hull), 240, &mut Rng::new(7 + u64::from(index)));
             let [no, yes] = check(name, &hull, shape, &points, 0.0);
             (clear, near) = (clear + no, near + yes);
         }
@@ -141,7 +154,8 @@ fn intervals_and_verdicts_hold_for_the_mesh_within() {
     for Solid { name, shape, bytes, .. } in &*SOLIDS {
         ask(name, shape, bytes);
     }
-    // How vertices are stored has nothing to do with how a hull begins, which takes long where a mesh is open.
+    // How vertices are stored has nothing to do with how a hull begins, which takes long where a
+    // mesh is open.
     for (name, shape) in shapes().into_iter().filter(|(name, _)| !name.contains("open")) {
         let options = ChainOptions { vertex_bits: VertexBits::F32, ..options(&[64]) };
         ask(name, &shape, &of(&mesh(&shape), 0.0, &options).0);
@@ -210,10 +224,14 @@ fn no_point_of_a_face_is_farther_from_the_mesh_than_the_face_says() {
             }
         }
         let record = hull.record();
-        // Next to walls that the hull all but touches, the search for the bound ends before it is within a twentieth.
+        // Next to walls that the hull all but touches, the search for the bound ends before it is
+        // within a twentieth.
         let extent = shape.0.iter().flatten().fold(0f32, |most, x| most.max(x.abs()));
         let found = 1.06 * reports[0].distances.slack.lower + 1e-3 * f64::from(extent);
-        assert!(said <= record.slack && f64::from(record.slack) <= found, "{name}: {record:?} {found}");
+        assert!(
+            said <= record.slack && f64::from(record.slack) <= found,
+            "{name}: {record:?} {found}"
+        );
         assert!(most > 0.3 * reports[0].distances.slack.lower, "{name}: {most} of {record:?}");
         // Vertices that no triangle has are not the mesh's.
         for p in shape.1.iter().flatten().map(|&v| &shape.0[v as usize]) {
@@ -242,8 +260,8 @@ fn within_the_part_the_answer_is_never_that_it_is_clear() {
             }
             asked += 1;
             for distance in [0.0, 1e-3, 0.1, 10.0] {
-                let answer =
-                    is_within(&hull, [x, y, z], distance, &Stop::EXACT, &mut stack).expect("a distance");
+                let answer = is_within(&hull, [x, y, z], distance, &Stop::EXACT, &mut stack)
+                    .expect("a distance");
                 assert!(!answer.is_clear(), "{x} {y} {z}: {distance}");
             }
         }
@@ -263,7 +281,10 @@ fn short_searches_say_so_and_their_intervals_hold() {
         for (stop, entries) in [(Stop { steps: 1, ..Stop::EXACT }, 64), (Stop::EXACT, 2)] {
             let mut stack = vec![TreeEntry::EMPTY; entries];
             let answer = closest_point(&hull, p, &stop, &mut stack).expect("asked");
-            assert!(f64::from(answer.lower) <= real.upper && f64::from(answer.upper) >= real.lower, "{p:?}");
+            assert!(
+                f64::from(answer.lower) <= real.upper && f64::from(answer.upper) >= real.lower,
+                "{p:?}"
+            );
             ended[0] += usize::from(answer.ended == Ended::Steps);
             ended[1] += usize::from(answer.ended == Ended::Capacity);
             let distance = (real.upper * 0.9) as f32;
@@ -281,7 +302,8 @@ fn a_tolerance_is_met_or_the_level_is_said_to_decide() {
     let (bytes, _) = of(&mesh, 0.0, &options(&[100]));
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
     let mut stack = vec![TreeEntry::EMPTY; 64];
-    let mut ask = |p: [f32; 3], stop: Stop| closest_point(&hull, p, &stop, &mut stack).expect("asked");
+    let mut ask =
+        |p: [f32; 3], stop: Stop| closest_point(&hull, p, &stop, &mut stack).expect("asked");
     let far = ask([50.0, 3.0, 1.0], Stop { relative: 0.1, ..Stop::EXACT });
     assert!(far.ended == Ended::Tolerance && far.upper <= 1.1 * far.lower);
     let near = ask([1.3, 0.1, 0.1], Stop { absolute: 1e-6, ..Stop::EXACT });
@@ -295,9 +317,18 @@ fn what_cannot_be_answered_is_refused() {
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
     let stack = &mut [TreeEntry::EMPTY; 64];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        assert_eq!(closest_point(&hull, [0.0, bad, 0.0], &Stop::EXACT, stack), Err(QueryError::NotFinite));
-        assert_eq!(is_within(&hull, [bad, 0.0, 0.0], 1.0, &Stop::EXACT, stack), Err(QueryError::NotFinite));
-        assert_eq!(is_within(&hull, [0.0; 3], bad, &Stop::EXACT, stack), Err(QueryError::Tolerance));
+        assert_eq!(
+            closest_point(&hull, [0.0, bad, 0.0], &Stop::EXACT, stack),
+            Err(QueryError::NotFinite)
+        );
+        assert_eq!(
+            is_within(&hull, [bad, 0.0, 0.0], 1.0, &Stop::EXACT, stack),
+            Err(QueryError::NotFinite)
+        );
+        assert_eq!(
+            is_within(&hull, [0.0; 3], bad, &Stop::EXACT, stack),
+            Err(QueryError::Tolerance)
+        );
         let stop = Stop { absolute: bad, ..Stop::EXACT };
         assert_eq!(closest_point(&hull, [0.0; 3], &stop, stack), Err(QueryError::Tolerance));
     }
@@ -322,7 +353,10 @@ fn a_hull_answers_as_a_blob_of_its_own() {
         let by_itself = alone.tree().expect("a box tree");
         for p in [[0.1, 0.2, 0.3], [3.0, 1.0, -2.0], [0.0; 3]] {
             let ours = tree::closest_point(hull.tree(), p, &Stop::EXACT, stack).expect("asked");
-            assert_eq!(ours, tree::closest_point(&by_itself, p, &Stop::EXACT, stack).expect("asked"));
+            assert_eq!(
+                ours,
+                tree::closest_point(&by_itself, p, &Stop::EXACT, stack).expect("asked")
+            );
         }
     }
     assert!(hulls.get(hulls.count()).is_none());

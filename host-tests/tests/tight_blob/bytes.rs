@@ -16,7 +16,9 @@ use std::sync::OnceLock;
 /// Three hulls.
 fn small() -> Vec<u8> {
     static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
-    BYTES.get_or_init(|| of(&mesh(&torus(2.0, 0.75, 10, 6)), 0.0, &options(&[64, 70, 76])).0).clone()
+    BYTES
+        .get_or_init(|| of(&mesh(&torus(2.0, 0.75, 10, 6)), 0.0, &options(&[64, 70, 76])).0)
+        .clone()
 }
 
 fn open(bytes: &[u8]) -> Result<(), OpenError> {
@@ -50,7 +52,8 @@ fn the_section_stands_as_the_format_says() {
     let bytes = small();
     let at = entry(&bytes, SectionKind::TightHulls as u32);
     let section = &bytes[at.offset as usize..][..at.bytes as usize];
-    let field = |record: usize, at: usize| word(section, RECORDS + RECORD * record + at).expect("there");
+    let field =
+        |record: usize, at: usize| word(section, RECORDS + RECORD * record + at).expect("there");
     assert_eq!(word(section, 0), Some(3));
     let mut end = RECORDS + 3 * RECORD;
     for record in 0..3 {
@@ -99,7 +102,9 @@ fn tables_that_contradict_themselves_are_named() {
     assert_eq!(edited(|bytes| put_u32(bytes, 4, 2)), Err(OpenError::Reserved));
     assert_eq!(edited(|bytes| put_u32(bytes, 4, 1)), Ok(()), "nested is not seen in bytes");
     let at = |record: usize, field: usize| RECORDS + RECORD * record + field;
-    for (field, value) in [(0, 0), (0, u32::MAX), (4, 0), (4, u32::MAX), (8, 0), (8, 10_000), (8, u32::MAX)] {
+    for (field, value) in
+        [(0, 0), (0, u32::MAX), (4, 0), (4, u32::MAX), (8, 0), (8, 10_000), (8, u32::MAX)]
+    {
         let result = edited(|bytes| put_u32(bytes, at(1, field), value));
         assert!(result.is_err() && result != hull(0), "{field} {value}: {result:?}");
     }
@@ -112,7 +117,10 @@ fn tables_that_contradict_themselves_are_named() {
     // The last two bytes are the slack of the last face.
     for x in [f32::NAN, f32::INFINITY, -1.0] {
         let high = (x.to_bits() >> 16) as u16;
-        assert_eq!(edited(|bytes| *bytes.last_chunk_mut().expect("two") = high.to_le_bytes()), hull(2));
+        assert_eq!(
+            edited(|bytes| *bytes.last_chunk_mut().expect("two") = high.to_le_bytes()),
+            hull(2)
+        );
     }
 }
 
@@ -130,7 +138,8 @@ fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let missing = OpenError::MissingSection { section: SectionKind::TightHulls };
     assert_eq!(open(&alone), Err(missing));
     assert!(Model::open(&alone).expect("opens").tight_hulls().is_none());
-    // A section that a tree's reader does not look at may hold anything; a kind that nobody knows is passed over.
+    // A section that a tree's reader does not look at may hold anything; a kind that nobody knows
+    // is passed over.
     let mut damaged = both.clone();
     let at = entry(&damaged, SectionKind::TightHulls as u32);
     damaged[at.offset as usize + 50] ^= 1;
@@ -143,7 +152,8 @@ fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
 
 #[test]
 fn a_blob_in_a_hull_is_not_asked_for_hulls_of_its_own() {
-    // The inner blob may hold sections of any kind that a tree's reader does not look at, hulls among them: they are not followed.
+    // The inner blob may hold sections of any kind that a tree's reader does not look at, hulls
+    // among them: they are not followed.
     let inner = small();
     let mut outer = small();
     let at = entry(&outer, SectionKind::TightHulls as u32);

@@ -12,7 +12,8 @@ use meshsweep_host_tests::generate::{bracket, icosphere, rough_sphere, torus};
 
 fn encloses(outer: &Mesh, inner: &Mesh) {
     let surface = |mesh: &Mesh| Surface::new(&mesh.positions, &mesh.triangles);
-    let proof = check_enclosure(&surface(inner), &surface(outer)).unwrap_or_else(|error| panic!("{error}"));
+    let proof =
+        check_enclosure(&surface(inner), &surface(outer)).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((proof.inside, proof.faces), (inner.positions.len(), outer.triangles.len()));
 }
 
@@ -72,7 +73,11 @@ fn nested_hulls_enclose_each_other_and_say_what_that_costs() {
     }
     let free = |index: usize| reports[index].free_void;
     assert!(free(2).is_none());
-    assert!((0..2).all(|index| free(index).is_some_and(|free| free < reports[index].void.expect("a solid"))));
+    assert!(
+        (0..2)
+            .all(|index| free(index)
+                .is_some_and(|free| free < reports[index].void.expect("a solid")))
+    );
 }
 
 #[test]
@@ -97,13 +102,18 @@ fn a_cut_keeps_the_coarse_hulls_as_they_are() {
         let left = TightHulls::open(&cut).expect("opens");
         assert!(left.records().eq(all[..kept].iter().copied()));
         for index in 0..left.count() {
-            let (hull, whole) =
-                (left.get(index).expect("a hull"), model.tight_hulls().and_then(|all| all.get(index)));
+            let (hull, whole) = (
+                left.get(index).expect("a hull"),
+                model.tight_hulls().and_then(|all| all.get(index)),
+            );
             let whole = whole.expect("a hull");
             assert!(hull.bytes() == whole.bytes());
             assert!((0..record.faces).all(|face| hull.slack(face) == whole.slack(face)));
         }
-        assert_eq!(Model::open(&cut).expect("opens").header().surface_box, model.header().surface_box);
+        assert_eq!(
+            Model::open(&cut).expect("opens").header().surface_box,
+            model.header().surface_box
+        );
     }
     // All of it, and no less than the coarsest.
     assert!(cut_blob(&model, &Keep::default()).expect("a blob") == bytes);

@@ -1,4 +1,5 @@
-//! Tight hulls stored in a blob: what they say of the mesh within holds, and any bytes are safe to open.
+//! Tight hulls stored in a blob: what they say of the mesh within holds, and any bytes are safe to
+//! open.
 
 mod answers;
 mod bytes;
@@ -18,7 +19,8 @@ fn options(faces: &[usize]) -> ChainOptions {
     ChainOptions { faces: faces.to_vec(), effort: 0.01, ..ChainOptions::default() }
 }
 
-/// A blob of tight hulls and nothing else, of a mesh of which every vertex was moved by `moved` at most.
+/// A blob of tight hulls and nothing else, of a mesh of which every vertex was moved by `moved` at
+/// most.
 fn of(mesh: &Mesh, moved: f64, options: &ChainOptions) -> (Vec<u8>, Vec<HullReport>) {
     let (tables, reports) =
         chain(mesh, moved, mesh.triangles.len(), options, |_| {}).expect("there is room around it");

@@ -5,10 +5,17 @@ use meshsweep_core::query::tree::{AllWithin, Near, all_within};
 use meshsweep_core::query::{Ended, QueryError, Stop};
 use meshsweep_host_tests::generate::{cube, scaled, torus};
 
-fn ask(scene: &Scene, p: [f32; 3], d: f32, n: usize, stop: &Stop, entries: usize) -> (AllWithin, Vec<Near>) {
+fn ask(
+    scene: &Scene,
+    p: [f32; 3],
+    d: f32,
+    n: usize,
+    stop: &Stop,
+    entries: usize,
+) -> (AllWithin, Vec<Near>) {
     let mut out = vec![Near::EMPTY; n];
-    let answer =
-        all_within(&scene.tree(), p, d, stop, &mut out, &mut stack(entries)).expect("a finite question");
+    let answer = all_within(&scene.tree(), p, d, stop, &mut out, &mut stack(entries))
+        .expect("a finite question");
     assert!(answer.certain <= answer.stored && answer.stored <= n);
     out.truncate(answer.stored);
     (answer, out)
@@ -26,22 +33,38 @@ fn distances(scene: &Scene, p: [f32; 3]) -> [f32; 6] {
 fn certain_ones_are_within_and_none_that_is_within_is_missing() {
     for scene in all() {
         for p in scene.points(24, 51) {
-            let truths: Vec<_> = (0..scene.triangles.len() as u32).map(|t| scene.truth_of(p, t)).collect();
+            let truths: Vec<_> =
+                (0..scene.triangles.len() as u32).map(|t| scene.truth_of(p, t)).collect();
             for d in distances(&scene, p) {
                 let (answer, out) = ask(&scene, p, d, truths.len() + 1, &Stop::EXACT, STACK);
                 let name = &scene.name;
-                assert_eq!((answer.dropped, answer.ended), (0, Ended::Exact), "{name}: {p:?}: {d:e}");
+                assert_eq!(
+                    (answer.dropped, answer.ended),
+                    (0, Ended::Exact),
+                    "{name}: {p:?}: {d:e}"
+                );
                 let mut listed = vec![false; truths.len()];
                 for (i, near) in out.iter().enumerate() {
                     let truth = truths[near.triangle as usize];
-                    let holds = f64::from(near.lower) <= truth.upper && truth.lower <= f64::from(near.upper);
+                    let holds = f64::from(near.lower) <= truth.upper
+                        && truth.lower <= f64::from(near.upper);
                     assert!(holds, "{name}: {p:?}: {near:?} does not contain {truth:?}");
                     assert!(near.lower <= d, "{name}: {p:?}: {near:?} is beyond {d:e}");
-                    assert_eq!(near.upper <= d, i < answer.certain, "{name}: {p:?}: {near:?} {d:e}");
-                    assert!(!std::mem::replace(&mut listed[near.triangle as usize], true), "{name}: twice");
+                    assert_eq!(
+                        near.upper <= d,
+                        i < answer.certain,
+                        "{name}: {p:?}: {near:?} {d:e}"
+                    );
+                    assert!(
+                        !std::mem::replace(&mut listed[near.triangle as usize], true),
+                        "{name}: twice"
+                    );
                 }
                 for (t, truth) in truths.iter().enumerate().filter(|(t, _)| !listed[*t]) {
-                    assert!(truth.upper > f64::from(d), "{name}: {p:?}: {t} at {truth:?} misses from {d:e}");
+                    assert!(
+                        truth.upper > f64::from(d),
+                        "{name}: {p:?}: {t} at {truth:?} misses from {d:e}"
+                    );
                 }
                 assert!(out.is_sorted_by(|a, b| a.upper <= b.upper), "{name}: {p:?}");
             }
@@ -57,7 +80,12 @@ fn what_does_not_fit_is_counted_and_the_closest_are_kept() {
                 let (all, most) = ask(&scene, p, d, scene.triangles.len(), &Stop::EXACT, STACK);
                 for n in [0, 1, 3, 10] {
                     let (answer, out) = ask(&scene, p, d, n, &Stop::EXACT, STACK);
-                    assert_eq!(answer.stored + answer.dropped as usize, all.stored, "{}: {p:?}", scene.name);
+                    assert_eq!(
+                        answer.stored + answer.dropped as usize,
+                        all.stored,
+                        "{}: {p:?}",
+                        scene.name
+                    );
                     assert_eq!(out, most[..answer.stored], "{}: {p:?}: {d:e}", scene.name);
                     assert_eq!(answer.certain, all.certain.min(answer.stored));
                 }
@@ -73,7 +101,8 @@ fn short_stacks_and_few_steps_store_only_what_is_within() {
         for p in scene.points(12, 53) {
             for d in distances(&scene, p) {
                 for (steps, entries) in [(u32::MAX, 1), (u32::MAX, 9), (0, 9), (2, STACK)] {
-                    let (answer, out) = ask(&scene, p, d, 16, &Stop { steps, ..Stop::EXACT }, entries);
+                    let (answer, out) =
+                        ask(&scene, p, d, 16, &Stop { steps, ..Stop::EXACT }, entries);
                     for near in out.iter().take(answer.certain) {
                         assert!(
                             scene.truth_of(p, near.triangle).lower <= f64::from(d),
@@ -114,5 +143,8 @@ fn bad_questions_are_typed_errors() {
         all_within(&tree, nan, 1.0, &Stop::EXACT, &mut out, &mut stack(64)),
         Err(QueryError::NotFinite)
     );
-    assert_eq!(all_within(&tree, [0.0; 3], 1.0, &Stop::EXACT, &mut out, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(
+        all_within(&tree, [0.0; 3], 1.0, &Stop::EXACT, &mut out, &mut []),
+        Err(QueryError::NoQueue)
+    );
 }

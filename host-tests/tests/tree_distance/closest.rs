@@ -4,7 +4,9 @@ use super::scene::{STACK, Scene, all, stack};
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::{Hint, Verdict, closest_point, closest_point_from, is_within};
 use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop};
-use meshsweep_host_tests::generate::{Rng, Triangles, cube, icosphere, rough_sphere, scaled, torus};
+use meshsweep_host_tests::generate::{
+    Rng, Triangles, cube, icosphere, rough_sphere, scaled, torus,
+};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_triangle};
 use proptest::prelude::*;
 
@@ -62,9 +64,18 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
                 "{}: {p:?}: {answer:?} is {off:e} off",
                 scene.name
             );
-            let gap: f64 = (0..3).map(|k| (f64::from(p[k]) - f64::from(answer.point[k])).powi(2)).sum();
-            assert!(gap.sqrt() <= f64::from(answer.upper) + rounding, "{}: {p:?}: {answer:?}", scene.name);
-            assert!(distance_to_triangle(p, named).lower <= f64::from(answer.upper), "{}: {p:?}", scene.name);
+            let gap: f64 =
+                (0..3).map(|k| (f64::from(p[k]) - f64::from(answer.point[k])).powi(2)).sum();
+            assert!(
+                gap.sqrt() <= f64::from(answer.upper) + rounding,
+                "{}: {p:?}: {answer:?}",
+                scene.name
+            );
+            assert!(
+                distance_to_triangle(p, named).lower <= f64::from(answer.upper),
+                "{}: {p:?}",
+                scene.name
+            );
         }
     }
 }
@@ -78,9 +89,11 @@ fn answer_has_the_same_bits_whatever_the_hint_and_what_the_stack_held() {
         let mut hint = Hint::NONE;
         for p in scene.points(POINTS, 14) {
             let plain = ask(&tree, p, &Stop::EXACT, STACK);
-            let hinted = closest_point_from(&tree, p, &Stop::EXACT, &mut used, &mut hint).expect("finite");
+            let hinted =
+                closest_point_from(&tree, p, &Stop::EXACT, &mut used, &mut hint).expect("finite");
             assert_eq!(same(&plain), same(&hinted), "{}: {p:?}", scene.name);
-            let again = closest_point_from(&tree, p, &Stop::EXACT, &mut used, &mut hint).expect("finite");
+            let again =
+                closest_point_from(&tree, p, &Stop::EXACT, &mut used, &mut hint).expect("finite");
             assert_eq!(same(&plain), same(&again), "{}: {p:?}", scene.name);
         }
     }
@@ -92,11 +105,19 @@ fn equidistant_triangles_go_to_the_least_in_blob_order() {
         let scene = Scene::new("cube", cube(4), single);
         let tree = scene.tree();
         let order = scene.order();
-        for p in [[0.0; 3], [0.25; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 2.0], [2.0; 3], [0.5, 0.5, 0.0], [-1.0; 3]]
-        {
+        for p in [
+            [0.0; 3],
+            [0.25; 3],
+            [0.5, 0.0, 0.0],
+            [0.0, 0.0, 2.0],
+            [2.0; 3],
+            [0.5, 0.5, 0.0],
+            [-1.0; 3],
+        ] {
             let nearest = scene.truth(p);
             // Distances to a cube's faces are exact.
-            let first = order.iter().find(|&&t| scene.truth_of(p, t).lower <= nearest.upper).copied();
+            let first =
+                order.iter().find(|&&t| scene.truth_of(p, t).lower <= nearest.upper).copied();
             assert_eq!(ask(&tree, p, &Stop::EXACT, STACK).triangle, first, "{p:?}");
         }
     }
@@ -111,7 +132,12 @@ fn named_stack_never_overflows_and_a_longer_one_answers_alike() {
             let answer = ask(&tree, p, &Stop::EXACT, entries);
             assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
             for more in [1, 2, 5, 7, 8, 40] {
-                assert_eq!(ask(&tree, p, &Stop::EXACT, entries + more), answer, "{}: {p:?}", scene.name);
+                assert_eq!(
+                    ask(&tree, p, &Stop::EXACT, entries + more),
+                    answer,
+                    "{}: {p:?}",
+                    scene.name
+                );
             }
         }
     }
@@ -154,7 +180,8 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
             for absolute in [size * 1e-6, size * 0.01, size] {
                 let answer = ask(&tree, p, &Stop { absolute, ..Stop::EXACT }, STACK);
                 contains(&scene, p, &answer, truth);
-                let allowed = f64::from(absolute) + scene.width(f64::from(answer.upper)) + boxes(&answer);
+                let allowed =
+                    f64::from(absolute) + scene.width(f64::from(answer.upper)) + boxes(&answer);
                 assert!(
                     f64::from(answer.upper) - f64::from(answer.lower) <= allowed,
                     "{}: {p:?} {absolute:e}: {answer:?}",
@@ -208,9 +235,16 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
             for p in plain.points(120, 18) {
                 let one = ask(&plain.tree(), p, &Stop::EXACT, STACK);
                 let other = ask(&scene.tree(), p.map(|x| x * factor), &Stop::EXACT, STACK);
-                assert_eq!((one.lower * factor, one.upper * factor), (other.lower, other.upper), "{p:?}");
+                assert_eq!(
+                    (one.lower * factor, one.upper * factor),
+                    (other.lower, other.upper),
+                    "{p:?}"
+                );
                 assert_eq!(one.point.map(|x| x * factor), other.point, "2^{exponent} {p:?}");
-                assert_eq!((one.triangle, one.work, one.ended), (other.triangle, other.work, other.ended));
+                assert_eq!(
+                    (one.triangle, one.work, one.ended),
+                    (other.triangle, other.work, other.ended)
+                );
             }
         }
     }
@@ -224,10 +258,16 @@ fn nan_infinity_bad_tolerances_and_no_stack_are_typed_errors() {
         for k in 0..3 {
             let mut p = [0.0; 3];
             p[k] = bad;
-            assert_eq!(closest_point(&tree, p, &Stop::EXACT, &mut stack(64)), Err(QueryError::NotFinite));
+            assert_eq!(
+                closest_point(&tree, p, &Stop::EXACT, &mut stack(64)),
+                Err(QueryError::NotFinite)
+            );
         }
         for stop in [Stop { relative: bad, ..Stop::EXACT }, Stop { absolute: bad, ..Stop::EXACT }] {
-            assert_eq!(closest_point(&tree, [0.0; 3], &stop, &mut stack(64)), Err(QueryError::Tolerance));
+            assert_eq!(
+                closest_point(&tree, [0.0; 3], &stop, &mut stack(64)),
+                Err(QueryError::Tolerance)
+            );
         }
     }
     assert_eq!(closest_point(&tree, [0.0; 3], &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
@@ -255,7 +295,8 @@ proptest! {
     }
 }
 
-/// Nodes that are flat in their frame have steps of 2^-36 units: their number from far away, squared, is beyond f32.
+/// Nodes that are flat in their frame have steps of 2^-36 units: their number from far away,
+/// squared, is beyond f32.
 #[test]
 fn flat_parts_are_right_from_any_distance() {
     for single in [false, true] {
@@ -271,15 +312,17 @@ fn flat_parts_are_right_from_any_distance() {
                     let answer = ask(&tree, p, &Stop::EXACT, STACK);
                     contains(&scene, p, &answer, truth);
                     let twice = (2.0 * truth.upper) as f32;
-                    let within =
-                        is_within(&tree, p, twice, &Stop::EXACT, &mut stack(STACK)).expect("finite").verdict;
+                    let within = is_within(&tree, p, twice, &Stop::EXACT, &mut stack(STACK))
+                        .expect("finite")
+                        .verdict;
                     assert!(
                         matches!(within, Verdict::Yes { triangle: Some(_) }),
                         "{}: {p:?}: {within:?}",
                         scene.name
                     );
                     let half = (0.5 * truth.lower) as f32;
-                    let within = is_within(&tree, p, half, &Stop::EXACT, &mut stack(STACK)).expect("finite");
+                    let within =
+                        is_within(&tree, p, half, &Stop::EXACT, &mut stack(STACK)).expect("finite");
                     assert_eq!(within.verdict, Verdict::No, "{}: {p:?}", scene.name);
                 }
             }

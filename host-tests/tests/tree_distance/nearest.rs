@@ -8,7 +8,8 @@ use meshsweep_host_tests::oracle::{Bounded, distance_to_triangle};
 
 fn ask(scene: &Scene, p: [f32; 3], n: usize, stop: &Stop, entries: usize) -> (Nearest, Vec<Near>) {
     let mut out = vec![Near::EMPTY; n];
-    let answer = nearest(&scene.tree(), p, stop, &mut out, &mut stack(entries)).expect("a finite question");
+    let answer =
+        nearest(&scene.tree(), p, stop, &mut out, &mut stack(entries)).expect("a finite question");
     assert!(answer.stored <= n);
     out.truncate(answer.stored);
     (answer, out)
@@ -25,7 +26,11 @@ fn check(scene: &Scene, p: [f32; 3], truths: &[Bounded], answer: &Nearest, out: 
         let truth = truths[near.triangle as usize];
         let holds = f64::from(near.lower) <= truth.upper && truth.lower <= f64::from(near.upper);
         assert!(holds, "{}: {p:?}: {near:?} does not contain {truth:?}", scene.name);
-        assert!(!std::mem::replace(&mut named[near.triangle as usize], true), "{}: {p:?}: twice", scene.name);
+        assert!(
+            !std::mem::replace(&mut named[near.triangle as usize], true),
+            "{}: {p:?}: twice",
+            scene.name
+        );
     }
     for (truth, _) in truths.iter().zip(named).filter(|(_, named)| !named) {
         let beyond = f64::from(answer.rest_lower) <= truth.upper;
@@ -50,7 +55,11 @@ fn intervals_hold_and_the_rest_is_farther() {
                 let mut sorted: Vec<f64> = truths.iter().map(|t| t.lower).collect();
                 sorted.sort_by(f64::total_cmp);
                 for (near, truth) in out.iter().zip(sorted) {
-                    assert!(truth <= f64::from(near.upper), "{}: {p:?}: {near:?} {truth:?}", scene.name);
+                    assert!(
+                        truth <= f64::from(near.upper),
+                        "{}: {p:?}: {near:?} {truth:?}",
+                        scene.name
+                    );
                 }
                 // As close as the last one stored, but for what f32 and the grid cannot tell.
                 if let (Some(last), true) = (out.last(), n < truths.len()) {
@@ -70,7 +79,8 @@ fn intervals_hold_and_the_rest_is_farther() {
 fn first_is_the_closest_point_and_fewer_are_a_prefix() {
     for scene in all() {
         for p in scene.points(48, 42) {
-            let closest = closest_point(&scene.tree(), p, &Stop::EXACT, &mut stack(STACK)).expect("finite");
+            let closest =
+                closest_point(&scene.tree(), p, &Stop::EXACT, &mut stack(STACK)).expect("finite");
             let (_, most) = ask(&scene, p, 20, &Stop::EXACT, STACK);
             assert_eq!(
                 (Some(most[0].triangle), most[0].upper),
@@ -79,7 +89,12 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
                 scene.name
             );
             for n in 1..most.len() {
-                assert_eq!(ask(&scene, p, n, &Stop::EXACT, STACK).1, most[..n], "{}: {p:?}", scene.name);
+                assert_eq!(
+                    ask(&scene, p, n, &Stop::EXACT, STACK).1,
+                    most[..n],
+                    "{}: {p:?}",
+                    scene.name
+                );
             }
         }
     }
@@ -155,8 +170,14 @@ fn bad_questions_are_typed_errors() {
     let scene = Scene::new("cube", cube(1), false);
     let (tree, mut out) = (scene.tree(), [Near::EMPTY; 2]);
     let nan = [0.0, f32::NAN, 0.0];
-    assert_eq!(nearest(&tree, nan, &Stop::EXACT, &mut out, &mut stack(64)), Err(QueryError::NotFinite));
+    assert_eq!(
+        nearest(&tree, nan, &Stop::EXACT, &mut out, &mut stack(64)),
+        Err(QueryError::NotFinite)
+    );
     assert_eq!(nearest(&tree, [0.0; 3], &Stop::EXACT, &mut out, &mut []), Err(QueryError::NoQueue));
     let bad = Stop { relative: -1.0, ..Stop::EXACT };
-    assert_eq!(nearest(&tree, [0.0; 3], &bad, &mut out, &mut stack(64)), Err(QueryError::Tolerance));
+    assert_eq!(
+        nearest(&tree, [0.0; 3], &bad, &mut out, &mut stack(64)),
+        Err(QueryError::Tolerance)
+    );
 }

@@ -6,8 +6,8 @@ use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::Tree;
 use meshsweep_core::query::tree::TreeEntry;
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled, torus,
-    transformed, two_parts, uv_sphere,
+    Rng, Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled,
+    torus, transformed, two_parts, uv_sphere,
 };
 use meshsweep_host_tests::oracle::{Bounded, distance_to_mesh, distance_to_triangle};
 
@@ -82,15 +82,18 @@ impl Scene {
         f64::from(tree.header().surface_error) * 2f64.powi(tree.scale_exponent())
     }
 
-    /// How wide an interval may be: the stored surface, and a few roundings of the distance and of the lengths of triangles.
+    /// How wide an interval may be: the stored surface, and a few roundings of the distance and of
+    /// the lengths of triangles.
     pub fn width(&self, distance: f64) -> f64 {
         let tree = self.tree();
         let unit = 2f64.powi(tree.scale_exponent() + tree.header().grid_exponent);
         let roundings = 64.0 * distance + 96.0 * f64::from(tree.header().reach) * unit;
-        // On the grid a certified square may fall short by one square unit before it is looked at again.
+        // On the grid a certified square may fall short by one square unit before it is looked at
+        // again.
         let rounding = roundings * f64::from(f32::EPSILON);
         let units = ((distance - self.surface_error() - rounding) / unit).max(1.0);
-        let short = if tree.header().is_single() { 0.0 } else { units - (units * units - 1.0).sqrt() };
+        let short =
+            if tree.header().is_single() { 0.0 } else { units - (units * units - 1.0).sqrt() };
         2.0 * self.surface_error() + rounding + short * unit
     }
 
@@ -111,12 +114,14 @@ impl Scene {
         let (low, high) = self.bounds();
         let size = self.size();
         std::array::from_fn(|k| {
-            let (middle, half) = (0.5 * low[k] + 0.5 * high[k], 0.5 * (high[k] - low[k]) + 0.05 * size);
+            let (middle, half) =
+                (0.5 * low[k] + 0.5 * high[k], 0.5 * (high[k] - low[k]) + 0.05 * size);
             middle + half * factor * rng.range(-1.0, 1.0)
         })
     }
 
-    /// Points of every kind that distances have trouble with: on faces, at vertices, on edges, next to them, around, and far away.
+    /// Points of every kind that distances have trouble with: on faces, at vertices, on edges, next
+    /// to them, around, and far away.
     pub fn points(&self, count: usize, seed: u64) -> Vec<[f32; 3]> {
         let rng = &mut Rng::new(seed);
         let size = self.size();
@@ -175,7 +180,8 @@ pub fn solids() -> Vec<(&'static str, Triangles)> {
 
 /// A tetrahedron a thousand times as high as wide: acute at every edge and at its tip.
 fn spire() -> Triangles {
-    let positions = vec![[1.0, 0.0, 0.0], [-0.5, 0.75, 0.0], [-0.5, -0.75, 0.0], [0.25, 0.0, 1000.0]];
+    let positions =
+        vec![[1.0, 0.0, 0.0], [-0.5, 0.75, 0.0], [-0.5, -0.75, 0.0], [0.25, 0.0, 1000.0]];
     (positions, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 }
 

@@ -18,7 +18,8 @@ fn number(scene: &Scene, p: [f32; 3]) -> Option<i32> {
     winding_number(p, &scene.positions, &scene.triangles, f64::from(scene.size()))
 }
 
-/// The side is that of the winding number, whose value on the inside is `inside`; the interval contains the signed distance. Whether there is a side.
+/// The side is that of the winding number, whose value on the inside is `inside`; the interval
+/// contains the signed distance. Whether there is a side.
 fn check(scene: &Scene, p: [f32; 3], inside: i32, answer: &SignedDistance) -> bool {
     let (name, truth) = (&scene.name, scene.truth(p));
     let signed = match (answer.side, number(scene, p)) {
@@ -29,8 +30,15 @@ fn check(scene: &Scene, p: [f32; 3], inside: i32, answer: &SignedDistance) -> bo
         }
         (side, Some(number)) => {
             let expected = if number == inside { Side::Inside } else { Side::Outside };
-            assert_eq!(side, expected, "{name}: {p:?}: {answer:?}, winding number {number}, {truth:?}");
-            if side == Side::Inside { (-truth.upper, -truth.lower) } else { (truth.lower, truth.upper) }
+            assert_eq!(
+                side, expected,
+                "{name}: {p:?}: {answer:?}, winding number {number}, {truth:?}"
+            );
+            if side == Side::Inside {
+                (-truth.upper, -truth.lower)
+            } else {
+                (truth.lower, truth.upper)
+            }
         }
         (Side::Inside, None) => (-truth.upper, -truth.lower),
         (Side::Outside, None) => (truth.lower, truth.upper),
@@ -58,7 +66,11 @@ fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
         }
         // Their triangles have no certain normals, or lie closer together than rounding can tell.
         let hopeless = ["needle comb", "spire"].iter().any(|name| scene.name.starts_with(name));
-        assert!(clear > 100 && (undefined == 0 || hopeless), "{}: {undefined} of {clear}", scene.name);
+        assert!(
+            clear > 100 && (undefined == 0 || hopeless),
+            "{}: {undefined} of {clear}",
+            scene.name
+        );
     }
 }
 
@@ -91,9 +103,12 @@ fn beyond_edges_and_vertices_of_a_cube_all_is_outside() {
 
 #[test]
 fn sharp_edges_and_tips_have_a_side() {
-    // Acute everywhere, so that triangles with their backs to the point are as near as those with their fronts.
+    // Acute everywhere, so that triangles with their backs to the point are as near as those with
+    // their fronts.
     for single in [false, true] {
-        for scene in closed().into_iter().filter(|s| s.name.contains("spire") || s.name.contains("spiky")) {
+        for scene in
+            closed().into_iter().filter(|s| s.name.contains("spire") || s.name.contains("spiky"))
+        {
             let size = scene.size();
             let mut rng = Rng::new(62);
             let mut defined = 0;
@@ -103,7 +118,8 @@ fn sharp_edges_and_tips_have_a_side() {
                 let p: [f32; 3] = std::array::from_fn(|k| vertex[k] + d[k] * size * 1e-3);
                 defined += u32::from(check(&scene, p, 1, &ask(&scene, p, &Stop::EXACT, STACK)));
             }
-            // Near the tip of a spire opposite walls are nearer to each other than rounding tells apart.
+            // Near the tip of a spire opposite walls are nearer to each other than rounding tells
+            // apart.
             assert!(defined > 250, "{}: {defined} of 400, {single}", scene.name);
         }
     }
@@ -141,29 +157,37 @@ fn a_cavity_is_outside() {
 #[test]
 fn overlapping_parts_answer_for_the_nearest_surface() {
     let scene = Scene::new("overlap", joined(&cube(2), &moved(&cube(2), [1.0, 0.0, 0.0])), true);
-    // Within the first cube, outside of the second, next to the second's wall at 0; and within both.
+    // Within the first cube, outside of the second, next to the second's wall at 0; and within
+    // both.
     assert_eq!(ask(&scene, [-0.1, 0.0, 0.0], &Stop::EXACT, STACK).side, Side::Outside);
     assert_eq!(ask(&scene, [0.1, 0.0, 0.0], &Stop::EXACT, STACK).side, Side::Inside);
 }
 
 #[test]
 fn overlapping_parts_that_are_equally_near_are_not_guessed() {
-    let turned =
-        [[0.764_842, -0.644_218, 0.0], [0.593_361, 0.704_466, -0.389_418], [0.250_870, 0.297_843, 0.921_061]];
+    let turned = [
+        [0.764_842, -0.644_218, 0.0],
+        [0.593_361, 0.704_466, -0.389_418],
+        [0.250_870, 0.297_843, 0.921_061],
+    ];
     let big = transformed(&scaled(&cube(1), 2.0), turned, [0.0; 3]);
-    let beam = transformed(&cube(1), [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [3.0, 0.0, 0.0]);
+    let beam =
+        transformed(&cube(1), [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [3.0, 0.0, 0.0]);
     let beam = transformed(&beam, turned, [0.0; 3]);
     let [both, big, beam] =
         [joined(&big, &beam), big, beam].map(|mesh| Scene::new("beam in a box", mesh, true));
     let mut rng = Rng::new(66);
     let (mut sides, mut open) = ([0u32; 2], 0u32);
     for i in 0..6_000 {
-        // Within the box, as far from its wall, whose back is there, as from the beam's end, whose front is.
+        // Within the box, as far from its wall, whose back is there, as from the beam's end, whose
+        // front is.
         let y = 0.05 + 0.9 * f64::from(rng.below(1000) as u32) / 1000.0;
-        let off = [0.0, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-3][i % 7] * (f64::from(rng.below(3) as u32) - 1.0);
+        let off = [0.0, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-3][i % 7]
+            * (f64::from(rng.below(3) as u32) - 1.0);
         let flat = [y - 1.0 + off, y, 0.1 * f64::from(rng.below(9) as u32) - 0.4];
         let p: [f32; 3] = std::array::from_fn(|k| {
-            turned[k].iter().zip(flat).map(|(row, x): (&f32, f64)| f64::from(*row) * x).sum::<f64>() as f32
+            turned[k].iter().zip(flat).map(|(row, x): (&f32, f64)| f64::from(*row) * x).sum::<f64>()
+                as f32
         });
         let (wall, end) = (big.truth(p), beam.truth(p));
         let answer = ask(&both, p, &Stop::EXACT, STACK);
@@ -208,7 +232,11 @@ fn open_meshes_and_soups_have_no_side() {
         }
         for p in scene.points(24, 66) {
             let answer = ask(&scene, p, &Stop::EXACT, STACK);
-            assert_eq!((answer.side, answer.closest.ended), (Side::Undefined, Ended::Exact), "{name}: {p:?}");
+            assert_eq!(
+                (answer.side, answer.closest.ended),
+                (Side::Undefined, Ended::Exact),
+                "{name}: {p:?}"
+            );
             check(&scene, p, 1, &answer);
         }
     }
@@ -246,7 +274,11 @@ fn distance_is_the_closest_points() {
             );
             let off = (f64::from(signed.lower) - f64::from(closest.lower)).abs();
             // The plain query lets its certificates fall short by 2^-19 of the distance.
-            assert!(off <= 2e-6 * f64::from(signed.upper) + scene.width(0.0), "{}: {p:?}", scene.name);
+            assert!(
+                off <= 2e-6 * f64::from(signed.upper) + scene.width(0.0),
+                "{}: {p:?}",
+                scene.name
+            );
         }
     }
 }
@@ -291,7 +323,10 @@ fn bad_questions_are_typed_errors() {
     let scene = Scene::new("cube", cube(1), false);
     let tree = scene.tree();
     let nan = [f32::NAN, 0.0, 0.0];
-    assert_eq!(signed_distance(&tree, nan, &Stop::EXACT, &mut stack(64)), Err(QueryError::NotFinite));
+    assert_eq!(
+        signed_distance(&tree, nan, &Stop::EXACT, &mut stack(64)),
+        Err(QueryError::NotFinite)
+    );
     assert_eq!(signed_distance(&tree, [0.0; 3], &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
     let bad = Stop { absolute: f32::NAN, ..Stop::EXACT };
     assert_eq!(signed_distance(&tree, [0.0; 3], &bad, &mut stack(64)), Err(QueryError::Tolerance));

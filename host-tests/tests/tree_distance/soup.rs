@@ -5,7 +5,8 @@ use meshsweep_host_tests::generate::{Rng, Triangles};
 
 fn separate(corners: impl IntoIterator<Item = [[f32; 3]; 3]>) -> Triangles {
     let positions: Vec<[f32; 3]> = corners.into_iter().flatten().collect();
-    let triangles = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let triangles =
+        (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     (positions, triangles)
 }
 
@@ -23,7 +24,8 @@ pub fn mixed(count: usize, seed: u64) -> Triangles {
     }))
 }
 
-/// Triangles up to a million times as long as high, some of them flat; with `along` their long side is cut anywhere.
+/// Triangles up to a million times as long as high, some of them flat; with `along` their long side
+/// is cut anywhere.
 pub fn slivers(count: usize, seed: u64, along: bool) -> Triangles {
     let rng = &mut Rng::new(seed);
     separate((0..count).map(|i| {
@@ -51,7 +53,16 @@ fn flat_fan(count: usize) -> Triangles {
 /// Points, segments, and repeated triangles among others.
 fn degenerate() -> Triangles {
     let (a, b, c, d) = ([0.0; 3], [1.0, 0.5, 0.25], [0.5, 0.25, 0.125], [-1.0, 0.75, 0.0]);
-    separate([[a, a, a], [b, b, d], [a, b, c], [a, b, d], [d, b, a], [a, b, d], [c, c, c], [d, d, d]])
+    separate([
+        [a, a, a],
+        [b, b, d],
+        [a, b, c],
+        [a, b, d],
+        [d, b, a],
+        [a, b, d],
+        [c, c, c],
+        [d, d, d],
+    ])
 }
 
 /// What a distance has to be defined for, though nobody would call it a surface.

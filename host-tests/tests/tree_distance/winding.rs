@@ -1,8 +1,14 @@
 //! Winding number by solid angles (Van Oosterom & Strackee 1983), in f64.
 
-/// Sum of the solid angles of all triangles as seen from `p`, over 4π; lengths are divided by `unit` first. `None` where the point is too near the surface for
-/// f64 to tell, or the sum is no integer.
-pub fn winding_number(p: [f32; 3], positions: &[[f32; 3]], triangles: &[[u32; 3]], unit: f64) -> Option<i32> {
+/// Sum of the solid angles of all triangles as seen from `p`, over 4π; lengths are divided by
+/// `unit` first. `None` where the point is too near the surface for f64 to tell, or the sum is no
+/// integer.
+pub fn winding_number(
+    p: [f32; 3],
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    unit: f64,
+) -> Option<i32> {
     let from = |v: u32| -> [f64; 3] {
         std::array::from_fn(|k| (f64::from(positions[v as usize][k]) - f64::from(p[k])) / unit)
     };
@@ -11,7 +17,8 @@ pub fn winding_number(p: [f32; 3], positions: &[[f32; 3]], triangles: &[[u32; 3]
         .iter()
         .map(|t| {
             let [a, b, c] = t.map(from);
-            let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+            let cross =
+                [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
             let [la, lb, lc] = [a, b, c].map(|x| dot(x, x).sqrt());
             let below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
             2.0 * dot(a, cross).atan2(below)

@@ -17,12 +17,21 @@ fn check(scene: &Scene, p: [f32; 3], d: f32, truth: Bounded, answer: Within) -> 
     match answer.verdict {
         Verdict::Yes { triangle } => {
             let triangle = triangle.expect("a tree knows its triangles");
-            assert!(truth.lower <= f64::from(d), "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}");
+            assert!(
+                truth.lower <= f64::from(d),
+                "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}"
+            );
             let named = scene.truth_of(p, triangle);
-            assert!(named.lower <= f64::from(d), "{name}: {p:?}: within {d:e}? {answer:?}, {named:?}");
+            assert!(
+                named.lower <= f64::from(d),
+                "{name}: {p:?}: within {d:e}? {answer:?}, {named:?}"
+            );
         }
         Verdict::No => {
-            assert!(truth.upper > f64::from(d), "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}")
+            assert!(
+                truth.upper > f64::from(d),
+                "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}"
+            )
         }
         Verdict::Unknown => assert_ne!(answer.ended, Ended::Exact),
     }
@@ -41,7 +50,11 @@ fn verdict_is_true_and_unknown_only_next_to_the_distance() {
                 if !check(&scene, p, d, truth, answer) {
                     let off = (truth.upper - f64::from(d)).abs();
                     let allowed = scene.width(truth.upper);
-                    assert!(off <= allowed, "{}: {p:?}: unknown at {d:e}, {off:e} off {truth:?}", scene.name);
+                    assert!(
+                        off <= allowed,
+                        "{}: {p:?}: unknown at {d:e}, {off:e} off {truth:?}",
+                        scene.name
+                    );
                     assert_eq!(answer.ended, Ended::Level);
                 }
             }
@@ -57,7 +70,9 @@ fn a_short_stack_or_few_steps_never_make_a_wrong_verdict() {
             let truth = scene.truth(p);
             for factor in [0.3, 0.9, 1.1, 3.0] {
                 let d = (truth.upper * factor).min(3e38) as f32;
-                for (steps, entries) in [(u32::MAX, 1), (u32::MAX, 3), (0, STACK), (1, STACK), (3, 8)] {
+                for (steps, entries) in
+                    [(u32::MAX, 1), (u32::MAX, 3), (0, STACK), (1, STACK), (3, 8)]
+                {
                     let answer = ask(&scene, p, d, &Stop { steps, ..Stop::EXACT }, entries);
                     unknown += u32::from(!check(&scene, p, d, truth, answer));
                     assert!(answer.work.splits <= steps);
@@ -87,7 +102,8 @@ fn far_points_and_huge_distances_are_answered() {
             ] {
                 check(&scene, p, d, truth, ask(&scene, p, d, &Stop::EXACT, STACK));
             }
-            let certain = check(&scene, p, f32::MAX, truth, ask(&scene, p, f32::MAX, &Stop::EXACT, STACK));
+            let certain =
+                check(&scene, p, f32::MAX, truth, ask(&scene, p, f32::MAX, &Stop::EXACT, STACK));
             assert!(certain, "{p:?}");
             far *= 7.0;
         }
@@ -106,7 +122,10 @@ fn bad_distances_and_points_are_typed_errors() {
     let scene = Scene::new("cube", cube(1), false);
     let tree = scene.tree();
     for bad in [f32::NAN, f32::INFINITY, -1.0, -f32::MIN_POSITIVE] {
-        assert_eq!(is_within(&tree, [0.0; 3], bad, &Stop::EXACT, &mut stack(64)), Err(QueryError::Tolerance));
+        assert_eq!(
+            is_within(&tree, [0.0; 3], bad, &Stop::EXACT, &mut stack(64)),
+            Err(QueryError::Tolerance)
+        );
     }
     for bad in [f32::NAN, f32::INFINITY] {
         assert_eq!(

@@ -77,7 +77,8 @@ fn contradictory_and_huge_counts_are_refused() {
         let bytes = sphere();
         let stored = word(&bytes, entry(&bytes, SectionKind::Tree as u32).offset as usize + at);
         let stored = stored.expect("a header");
-        let more = [stored - 1, stored + 1, 0, 1, 0xFFFF, 0x00FF_FFFF, 0x0100_0000, 0x0400_0001, u32::MAX];
+        let more =
+            [stored - 1, stored + 1, 0, 1, 0xFFFF, 0x00FF_FFFF, 0x0100_0000, 0x0400_0001, u32::MAX];
         // Entries more than are needed are needed by nobody, but there is no harm in them.
         for value in more.into_iter().filter(|&value| at != STACK || value != stored + 1) {
             assert!(header_word(at, value).is_err(), "{value:#x} at {at}");
@@ -115,15 +116,20 @@ fn error_bounds_that_are_negative_or_not_finite_are_refused() {
 #[test]
 fn an_inverted_box_is_refused_and_one_that_is_too_small_names_the_leaf() {
     let corner = |at: usize, value: u16| {
-        edited(sphere(), SectionKind::Tree, |bytes| bytes[at..at + 2].copy_from_slice(&value.to_le_bytes()))
+        edited(sphere(), SectionKind::Tree, |bytes| {
+            bytes[at..at + 2].copy_from_slice(&value.to_le_bytes())
+        })
     };
     for axis in 0..3 {
         let bytes = sphere();
         let at = entry(&bytes, SectionKind::Tree as u32).offset as usize + 48 + 2 * axis;
         let short = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
         assert!(is_count(corner(48 + 2 * axis, short(at + 6) + 1)));
-        for result in [corner(48 + 2 * axis, short(at) + 1), corner(54 + 2 * axis, short(at + 6) - 1)] {
-            let named = matches!(result, Err(OpenError::Record { section: SectionKind::TreeFans, .. }));
+        for result in
+            [corner(48 + 2 * axis, short(at) + 1), corner(54 + 2 * axis, short(at + 6) - 1)]
+        {
+            let named =
+                matches!(result, Err(OpenError::Record { section: SectionKind::TreeFans, .. }));
             assert!(named, "{result:?}");
         }
     }
@@ -144,7 +150,10 @@ fn fewer_input_triangles_than_source_numbers_are_refused() {
     let mut bytes = sphere();
     put_u32(&mut bytes, 84, 319);
     seal(&mut bytes);
-    assert!(matches!(open(&bytes), Err(OpenError::Record { section: SectionKind::TreeSource, .. })));
+    assert!(matches!(
+        open(&bytes),
+        Err(OpenError::Record { section: SectionKind::TreeSource, .. })
+    ));
 }
 
 #[test]

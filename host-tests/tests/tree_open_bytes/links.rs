@@ -44,8 +44,11 @@ fn links_that_lead_elsewhere_name_the_node() {
         let named = record(SectionKind::TreeLinks, node);
         if links.inner > 0 {
             inner += 1;
-            // Its parent, itself, its own child again, and past the end: cycles, second parents, nothing.
-            for first in [0, node, links.first_node + 1, links.first_node - 1, header.nodes, 0xFF_FFFF] {
+            // Its parent, itself, its own child again, and past the end: cycles, second parents,
+            // nothing.
+            for first in
+                [0, node, links.first_node + 1, links.first_node - 1, header.nodes, 0xFF_FFFF]
+            {
                 let result = link_word(node as usize, 0, |word| word & 0xFF00_0000 | first);
                 assert_eq!(result, named, "node {node} with first child {first}");
             }
@@ -78,7 +81,8 @@ fn tags_of_no_shape_name_the_node() {
             if lane < links.inner || lane >= links.count {
                 assert_eq!(tag(node, lane, 0x05), named, "a shape for what is no leaf");
             } else {
-                // No vertices, no triangle, nine of them, a second fan that begins past the end, one reversed that is not there.
+                // No vertices, no triangle, nine of them, a second fan that begins past the end,
+                // one reversed that is not there.
                 for bad in [0x00, 0x01, 0x02, 0x0B, 0x13, 0x0F, 0x75, 0x85] {
                     assert_eq!(tag(node, lane, bad), named, "tag {bad:#x}");
                 }

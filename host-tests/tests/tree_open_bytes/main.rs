@@ -1,4 +1,5 @@
-//! Opening the bytes of a box tree: whatever is wrong is a typed error that names the record, and whatever opens is safe to ask.
+//! Opening the bytes of a box tree: whatever is wrong is a typed error that names the record, and
+//! whatever opens is safe to ask.
 
 mod header;
 mod links;
@@ -35,7 +36,11 @@ fn open(bytes: &[u8]) -> Result<(), OpenError> {
 }
 
 /// Opens a blob after an edit of one section's bytes, its CRCs right.
-fn edited(mut bytes: Vec<u8>, kind: SectionKind, edit: impl FnOnce(&mut [u8])) -> Result<(), OpenError> {
+fn edited(
+    mut bytes: Vec<u8>,
+    kind: SectionKind,
+    edit: impl FnOnce(&mut [u8]),
+) -> Result<(), OpenError> {
     let at = entry(&bytes, kind as u32);
     edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
     seal(&mut bytes);
@@ -46,10 +51,16 @@ fn record(section: SectionKind, index: u32) -> Result<(), OpenError> {
     Err(OpenError::Record { section, index })
 }
 
-/// Asks an opened tree everything, at ordinary places and at hostile ones, with much memory and with little.
+/// Asks an opened tree everything, at ordinary places and at hostile ones, with much memory and
+/// with little.
 fn ask_everything(tree: &Tree<'_>, some: bool) {
-    const POINTS: [[f32; 3]; 5] =
-        [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0], [1e38, -1e38, 1e38], [1e-40, 0.0, -0.0], [0.5, 0.5, 1e19]];
+    const POINTS: [[f32; 3]; 5] = [
+        [0.1, 0.2, 0.3],
+        [5.0, -3.0, 1.0],
+        [1e38, -1e38, 1e38],
+        [1e-40, 0.0, -0.0],
+        [0.5, 0.5, 1e19],
+    ];
     const ENDS: [[[f32; 3]; 2]; 4] = [
         [[-3.0, 0.1, 0.2], [3.0, 0.15, 0.1]],
         [[0.0, 0.0, 1.0]; 2],

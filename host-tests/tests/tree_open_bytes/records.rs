@@ -19,7 +19,11 @@ fn frames_out_of_range_name_the_node() {
                 let result = edited(sphere(), SectionKind::TreeFrames, |bytes| {
                     put_u32(bytes, FRAME * node + 48 + 4 * field, x.to_bits());
                 });
-                assert_eq!(result, record(SectionKind::TreeFrames, node as u32), "{x} in field {field}");
+                assert_eq!(
+                    result,
+                    record(SectionKind::TreeFrames, node as u32),
+                    "{x} in field {field}"
+                );
             }
         }
     }
@@ -35,7 +39,11 @@ fn boxes_out_of_range_name_the_node() {
                 let result = edited(sphere(), SectionKind::TreeBoxes, |bytes| {
                     put_u32(bytes, BOXES * node + 48 + 4 * field, x.to_bits());
                 });
-                assert_eq!(result, record(SectionKind::TreeBoxes, node as u32), "{x} in field {field}");
+                assert_eq!(
+                    result,
+                    record(SectionKind::TreeBoxes, node as u32),
+                    "{x} in field {field}"
+                );
             }
         }
     }
@@ -49,7 +57,8 @@ fn vertices_that_are_outside_or_not_numbers_name_the_leaf() {
     for x in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e9, -1e9] {
         assert_eq!(fans(single(), 4, x.to_bits()), record(SectionKind::TreeFans, 0), "{x}");
     }
-    // On the grid every number is one: the sphere does not fill its grid, so the greatest lies outside.
+    // On the grid every number is one: the sphere does not fill its grid, so the greatest lies
+    // outside.
     assert_eq!(fans(sphere(), 0, u32::MAX), record(SectionKind::TreeFans, 0));
 }
 
@@ -75,8 +84,14 @@ fn source_numbers_out_of_range_name_the_block_or_the_triangle() {
     // The second block's least number, offset and width.
     let in_block = source(8, |_| 320);
     assert_eq!(in_block, record(SectionKind::TreeSource, 64), "a number past the input's");
-    assert_eq!(source(8, |_| u32::MAX), record(SectionKind::TreeSource, 64), "a sum past the integers");
-    for change in [(|word| word + 32) as fn(u32) -> u32, |word| word - 32, |_| u32::MAX, |word| word & 31] {
+    assert_eq!(
+        source(8, |_| u32::MAX),
+        record(SectionKind::TreeSource, 64),
+        "a sum past the integers"
+    );
+    for change in
+        [(|word| word + 32) as fn(u32) -> u32, |word| word - 32, |_| u32::MAX, |word| word & 31]
+    {
         assert_eq!(source(12, change), record(SectionKind::TreeSource, 1), "data elsewhere");
     }
     assert_eq!(

@@ -37,7 +37,10 @@ fn answers_at_extreme_scales_are_exact() {
         for pose in motions(&a, &b, 20, 2) {
             holds("scaled", &a, &b, &pose, &mut tallies);
         }
-        assert!(tallies[3].open == 0 && tallies[3].meets > 0 && tallies[3].apart > 0, "{tallies:?}");
+        assert!(
+            tallies[3].open == 0 && tallies[3].meets > 0 && tallies[3].apart > 0,
+            "{tallies:?}"
+        );
     }
 }
 
@@ -86,8 +89,10 @@ fn matrices_with_next_to_nothing_in_a_column_part_nothing_that_meets() {
         while column < 1e-2 {
             for by in [1.500_591f32, 1.4991, 1.502] {
                 let matrix = [[column, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-                let pose =
-                    meshsweep_core::tribox::Pose { rotation: matrix, translation: [by * factor, 0.0, 0.0] };
+                let pose = meshsweep_core::tribox::Pose {
+                    rotation: matrix,
+                    translation: [by * factor, 0.0, 0.0],
+                };
                 holds("column", &a, &b, &pose, &mut tallies);
             }
             column *= 7.0;
@@ -108,9 +113,13 @@ fn answers_hold_where_far_origins_cancel() {
     for _ in 0..60 {
         let offset = rng.point_in([-1.6e7; 3], [1.6e7; 3]);
         let plate = vec![[0.0, -3.0, -3.0], [0.0, 5.0, -2.0], [0.0, -1.0, 6.0]];
-        let plate = plate.into_iter().map(|p: [f32; 3]| std::array::from_fn(|k| p[k] + offset[k])).collect();
+        let plate = plate
+            .into_iter()
+            .map(|p: [f32; 3]| std::array::from_fn(|k| p[k] + offset[k]))
+            .collect();
         let b = Scene::new((plate, vec![[0, 1, 2]]));
-        // A grain, which the motion's rounding alone keeps off the plate, and a ball that is larger than such rounding.
+        // A grain, which the motion's rounding alone keeps off the plate, and a ball that is larger
+        // than such rounding.
         for scale in [1.0 / (1u32 << 24) as f32, 1.0] {
             let a = Scene::new(scaled(&icosphere(0), scale));
             holds("cancelled", &a, &b, &placed(&b, rotation, [0.0; 3]), &mut tallies);

@@ -46,12 +46,16 @@ fn short_stacks_and_few_steps_leave_answers_open_and_never_wrong() {
 fn pairs_that_do_not_fit_are_counted() {
     let (a, b) = (Scene::new(torus(2.0, 0.75, 24, 12)), Scene::new(rough_sphere(3, 0.6, 1)));
     let (first, second) = (a.trees()[1], b.trees()[1]);
-    let pose = motions(&a, &b, 40, 7).into_iter().find(|pose| truth(&a, &b, pose).len() > 20).expect("one");
+    let pose = motions(&a, &b, 40, 7)
+        .into_iter()
+        .find(|pose| truth(&a, &b, pose).len() > 20)
+        .expect("one");
     let (all, _) = ask_all(&first, &second, &pose);
     let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
     for room in [0, 1, 7] {
         let mut pairs = vec![TrianglePair::EMPTY; room];
-        let found = all_overlaps(&first, &second, &pose, u32::MAX, &mut pairs, &mut stack).expect("answers");
+        let found = all_overlaps(&first, &second, &pose, u32::MAX, &mut pairs, &mut stack)
+            .expect("answers");
         assert_eq!((found.stored, found.dropped as usize), (room, all.len() - room));
         assert_eq!(found.ended, Ended::Capacity);
         assert_eq!(pairs, all[..room]);
@@ -100,9 +104,15 @@ fn what_cannot_be_answered_is_refused() {
 fn far_translations_are_apart_at_once() {
     let scene = Scene::new(cube(2));
     for tree in scene.trees() {
-        for translation in [[f32::MAX, 0.0, 0.0], [0.0, -1e30, 1e30], [0.0, 0.0, 2.01], [3e38, 3e38, 3e38]] {
+        for translation in
+            [[f32::MAX, 0.0, 0.0], [0.0, -1e30, 1e30], [0.0, 0.0, 2.01], [3e38, 3e38, 3e38]]
+        {
             let answer = ask(&tree, &tree, &Pose { translation, ..Pose::IDENTITY });
-            assert_eq!((answer.contact, answer.ended), (Contact::Apart, Ended::Exact), "{translation:?}");
+            assert_eq!(
+                (answer.contact, answer.ended),
+                (Contact::Apart, Ended::Exact),
+                "{translation:?}"
+            );
         }
     }
 }

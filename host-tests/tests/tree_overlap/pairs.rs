@@ -23,7 +23,8 @@ fn pair(rng: &mut Rng) -> [Triangle; 2] {
     let mut shapes = Rng::new(7 + triangle(1.0, 1.0, 1.0)[0][0].to_bits() as u64);
     let flat = pick(&mut shapes, &[1.0, 1.0, 1e-3, 0.0]);
     let mut next = || {
-        let (size, thin) = (pick(&mut shapes, &[1.0, 1.0, 0.1, 1e-3]), pick(&mut shapes, &[1.0, 1.0, 1e-3]));
+        let (size, thin) =
+            (pick(&mut shapes, &[1.0, 1.0, 0.1, 1e-3]), pick(&mut shapes, &[1.0, 1.0, 1e-3]));
         triangle(size, flat, thin)
     };
     [next(), next()]

@@ -5,7 +5,9 @@ use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::Tree;
 use meshsweep_core::query::Ended;
-use meshsweep_core::query::tree::{Contact, Overlap, PairEntry, TrianglePair, all_overlaps, overlap};
+use meshsweep_core::query::tree::{
+    Contact, Overlap, PairEntry, TrianglePair, all_overlaps, overlap,
+};
 use meshsweep_core::tribox::Pose;
 use meshsweep_host_tests::generate::{Rng, Triangles};
 use meshsweep_host_tests::oracle::moved::{Place, meeting_pairs};
@@ -26,7 +28,8 @@ impl Scene {
         Scene::moved(mesh, 0.0, 0)
     }
 
-    /// The blobs are of a mesh whose vertices were moved by up to `by` before, which their surface error says.
+    /// The blobs are of a mesh whose vertices were moved by up to `by` before, which their surface
+    /// error says.
     pub fn moved((positions, triangles): Triangles, by: f32, seed: u64) -> Scene {
         let rng = &mut Rng::new(seed);
         let stored = positions.iter().map(|p| {
@@ -130,7 +133,8 @@ pub struct Tally {
     pub open: usize,
 }
 
-/// Holds every answer about two meshes to the exact one, for each pair of their trees; counts the answers of each.
+/// Holds every answer about two meshes to the exact one, for each pair of their trees; counts the
+/// answers of each.
 pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tallies: &mut [Tally; 4]) {
     let truth = truth(a, b, pose);
     for (number, tally) in tallies.iter_mut().enumerate() {
@@ -171,6 +175,10 @@ pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tallies: &mut [Tally
         let all_certain = pairs.iter().all(|pair| pair.is_certain);
         assert_eq!(ended, if all_certain { Ended::Exact } else { Ended::Level }, "{name}");
         assert_eq!(answer.contact == Contact::Apart, pairs.is_empty(), "{name}");
-        assert_eq!(answer.contact == Contact::Meets, pairs.iter().any(|pair| pair.is_certain), "{name}");
+        assert_eq!(
+            answer.contact == Contact::Meets,
+            pairs.iter().any(|pair| pair.is_certain),
+            "{name}"
+        );
     }
 }

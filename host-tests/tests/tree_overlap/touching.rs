@@ -15,7 +15,11 @@ fn surfaces_that_touch_are_open_and_never_apart() {
         let scene = Scene::new(mesh);
         let mut tallies: [Tally; 4] = Default::default();
         holds(name, &scene, &scene, &Pose::IDENTITY, &mut tallies);
-        assert_eq!(tallies.iter().map(|tally| tally.apart).sum::<usize>(), 0, "{name}: {tallies:?}");
+        assert_eq!(
+            tallies.iter().map(|tally| tally.apart).sum::<usize>(),
+            0,
+            "{name}: {tallies:?}"
+        );
     }
     // Cubes of side 2 that share a face, an edge, a vertex.
     let scene = Scene::new(cube(2));
@@ -84,7 +88,11 @@ fn triangles_without_area_are_never_proved_to_meet_and_never_lost() {
         vec![[0, 1, 2], [0, 2, 3]],
     ));
     for (a, b) in square.trees().iter().zip(needle.trees()) {
-        assert_eq!(ask(a, &b, &Pose::IDENTITY).contact, Contact::Meets, "its edge passes through the square");
+        assert_eq!(
+            ask(a, &b, &Pose::IDENTITY).contact,
+            Contact::Meets,
+            "its edge passes through the square"
+        );
         assert_eq!(ask(a, &b, &shifted([2.0, 0.0, 0.0])).contact, Contact::Apart);
     }
     for (a, b) in square.trees().iter().zip(dot.trees()) {

@@ -2,8 +2,8 @@
 
 use super::scene::{Scene, Tally, holds, motions};
 use meshsweep_host_tests::generate::{
-    Triangles, bracket, cube, groove_block, icosphere, joined, needle_comb, rough_sphere, torus, two_parts,
-    uv_sphere,
+    Triangles, bracket, cube, groove_block, icosphere, joined, needle_comb, rough_sphere, torus,
+    two_parts, uv_sphere,
 };
 
 /// Random triangles of sizes from a thousandth of the whole to all of it.
@@ -81,6 +81,9 @@ fn blobs_of_vertices_that_were_moved_speak_of_the_input() {
         for pose in motions(&first, &second, 40, seed) {
             holds("moved", &first, &second, &pose, &mut tallies);
         }
-        assert!(tallies.iter().all(|tally| tally.apart > 4 && tally.meets > 4), "{by}: {tallies:?}");
+        assert!(
+            tallies.iter().all(|tally| tally.apart > 4 && tally.meets > 4),
+            "{by}: {tallies:?}"
+        );
     }
 }

@@ -130,7 +130,8 @@ fn to_an_end_on_the_surface() {
     });
 }
 
-/// Nearly in a coordinate plane through a vertex: one component is tiny, on both sides of the plane.
+/// Nearly in a coordinate plane through a vertex: one component is tiny, on both sides of the
+/// plane.
 #[test]
 fn nearly_along_a_coordinate_plane() {
     prove(120, 11, |scene, rng| {
@@ -144,7 +145,8 @@ fn nearly_along_a_coordinate_plane() {
     });
 }
 
-/// The model is one point, nearly 2^24 of its grid units from its origin, and lies on the segment exactly.
+/// The model is one point, nearly 2^24 of its grid units from its origin, and lies on the segment
+/// exactly.
 #[test]
 fn through_a_point_far_from_its_origin() {
     let mut asker = Asker::new();

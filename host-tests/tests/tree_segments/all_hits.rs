@@ -24,7 +24,8 @@ fn every_shell_is_met_twice_and_truncation_says_how_many_are_left() {
             assert_eq!(hit.triangle, Some(met.triangle));
             assert!((f64::from(hit.t) - met.t_lower).abs() < 1e-5, "{hit:?} {met:?}");
         }
-        let few = all_hits(&tree, a, b, &Facing::Both, &mut hits[..7], &mut stack).expect("answers");
+        let few =
+            all_hits(&tree, a, b, &Facing::Both, &mut hits[..7], &mut stack).expect("answers");
         assert_eq!((few.stored, few.dropped as usize), (7, met.len() - 7));
         let fronts = all_hits(&tree, a, b, &Facing::Front, &mut hits, &mut stack).expect("answers");
         let backs = all_hits(&tree, a, b, &Facing::Back, &mut hits, &mut stack).expect("answers");

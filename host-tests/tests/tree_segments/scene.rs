@@ -6,8 +6,8 @@ use meshsweep_alloc::mesh::Mesh;
 use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_core::Tree;
 use meshsweep_host_tests::generate::{
-    Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb, rough_sphere,
-    scaled, torus, transformed, two_parts, uv_sphere,
+    Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb,
+    rough_sphere, scaled, torus, transformed, two_parts, uv_sphere,
 };
 
 pub type Point = [f32; 3];
@@ -29,10 +29,13 @@ impl Scene {
         Scene::moved(name, mesh, 0.0, 0)
     }
 
-    /// The blobs are of a mesh whose vertices were moved by up to `by` before, which their surface error says.
+    /// The blobs are of a mesh whose vertices were moved by up to `by` before, which their surface
+    /// error says.
     pub fn moved(name: &str, (positions, triangles): Triangles, by: f32, seed: u64) -> Scene {
         let rng = &mut Rng::new(seed);
-        let stored = positions.iter().map(|&p| if by > 0.0 { add(p, rng.direction(), 0.99 * by) } else { p });
+        let stored = positions
+            .iter()
+            .map(|&p| if by > 0.0 { add(p, rng.direction(), 0.99 * by) } else { p });
         let mesh = Mesh::new(stored.collect(), triangles.clone());
         let blobs = [false, true].map(|single| {
             let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
@@ -87,7 +90,8 @@ impl Scene {
         let (low, high) = self.bounds();
         let size = self.size();
         std::array::from_fn(|k| {
-            let (middle, half) = (0.5 * low[k] + 0.5 * high[k], 0.5 * (high[k] - low[k]) + 0.05 * size);
+            let (middle, half) =
+                (0.5 * low[k] + 0.5 * high[k], 0.5 * (high[k] - low[k]) + 0.05 * size);
             middle + half * factor * rng.range(-1.0, 1.0)
         })
     }
@@ -128,7 +132,8 @@ fn corner_touch() -> Triangles {
 pub fn all() -> Vec<Scene> {
     let mut meshes = solids();
     meshes.extend(soups());
-    let mut scenes: Vec<Scene> = meshes.into_iter().map(|(name, mesh)| Scene::new(name, mesh)).collect();
+    let mut scenes: Vec<Scene> =
+        meshes.into_iter().map(|(name, mesh)| Scene::new(name, mesh)).collect();
     scenes.push(Scene::moved("moved cube", cube(3), 1e-3, 5));
     scenes.push(Scene::moved("moved sphere", rough_sphere(2, 0.2, 1), 3e-2, 6));
     scenes.push(Scene::moved("moved torus", torus(2.0, 0.75, 16, 8), 1e-6, 7));

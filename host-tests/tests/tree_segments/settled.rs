@@ -36,7 +36,11 @@ fn with_exact_vertices_hits_are_those_of_brute_force() {
                 let found = hit.hit.unwrap_or_else(|| panic!("{}", at()));
                 let slack = f64::from(hit.upper - hit.lower);
                 let near = wanted.iter().filter(|met| met.t_lower <= first.t_upper + slack);
-                assert!(near.into_iter().any(|met| Some(met.triangle) == found.triangle), "{}", at());
+                assert!(
+                    near.into_iter().any(|met| Some(met.triangle) == found.triangle),
+                    "{}",
+                    at()
+                );
                 assert!((f64::from(found.t) - first.t_lower).abs() <= slack, "{}", at());
             }
         }
@@ -45,7 +49,8 @@ fn with_exact_vertices_hits_are_those_of_brute_force() {
     assert!(open * 100 < asked, "{open} of {asked}");
 }
 
-/// The interval of a proved hit is a few roundings wide with f32 vertices, and a few steps of the grid else.
+/// The interval of a proved hit is a few roundings wide with f32 vertices, and a few steps of the
+/// grid else.
 #[test]
 fn proved_intervals_are_narrow() {
     let scene = Scene::new("icosphere", icosphere(4));
@@ -62,7 +67,11 @@ fn proved_intervals_are_narrow() {
             }
         }
         widths.sort_by(f32::total_cmp);
-        println!("{} proved, widths {:?}", widths.len(), [0, 1, 5, 9].map(|i| widths[widths.len() * i / 10]));
+        println!(
+            "{} proved, widths {:?}",
+            widths.len(),
+            [0, 1, 5, 9].map(|i| widths[widths.len() * i / 10])
+        );
         println!("{:?}", widths.last());
         assert!(widths.len() > 1950, "{}", widths.len());
         assert!(widths[widths.len() / 2] < most, "{:?}", widths[widths.len() / 2]);

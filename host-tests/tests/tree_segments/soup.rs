@@ -5,7 +5,8 @@ use meshsweep_host_tests::generate::{Rng, Triangles, cube, icosphere, transforme
 
 fn separate(corners: impl IntoIterator<Item = [Point; 3]>) -> Triangles {
     let positions: Vec<Point> = corners.into_iter().flatten().collect();
-    let triangles = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let triangles =
+        (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     (positions, triangles)
 }
 
@@ -32,7 +33,8 @@ fn slivers(count: usize, seed: u64) -> Triangles {
     }))
 }
 
-/// A solid whose triangles run this way and that: fans end where winding changes, or pair up with one that is reversed.
+/// A solid whose triangles run this way and that: fans end where winding changes, or pair up with
+/// one that is reversed.
 fn unsteady((positions, mut triangles): Triangles, seed: u64) -> Triangles {
     let rng = &mut Rng::new(seed);
     for triangle in &mut triangles {
@@ -47,7 +49,15 @@ fn unsteady((positions, mut triangles): Triangles, seed: u64) -> Triangles {
 fn non_manifold() -> Triangles {
     let (mut positions, mut triangles) = icosphere(2);
     triangles.extend_from_within(..20);
-    triangles.extend([[0, 1, 9], [1, 0, 11], [0, 0, 1], [2, 2, 2], [3, 4, 3], [5, 6, 7], [7, 6, 5]]);
+    triangles.extend([
+        [0, 1, 9],
+        [1, 0, 11],
+        [0, 0, 1],
+        [2, 2, 2],
+        [3, 4, 3],
+        [5, 6, 7],
+        [7, 6, 5],
+    ]);
     let centre = positions.len() as u32;
     positions.push([0.0; 3]);
     triangles.extend((0..30).map(|i| [centre, i, i + 1]));
@@ -69,7 +79,16 @@ fn sheet(n: u32, z: f32) -> Triangles {
 /// Points, segments, and repeated triangles among others.
 fn degenerate() -> Triangles {
     let (a, b, c, d) = ([0.0; 3], [1.0, 0.5, 0.25], [0.5, 0.25, 0.125], [-1.0, 0.75, 0.0]);
-    separate([[a, a, a], [b, b, d], [a, b, c], [a, b, d], [d, b, a], [a, b, d], [c, c, c], [d, d, d]])
+    separate([
+        [a, a, a],
+        [b, b, d],
+        [a, b, c],
+        [a, b, d],
+        [d, b, a],
+        [a, b, d],
+        [c, c, c],
+        [d, d, d],
+    ])
 }
 
 /// What a segment's hit has to be defined for, though nobody would call it a surface.
@@ -84,11 +103,19 @@ pub fn soups() -> Vec<(&'static str, Triangles)> {
         ("sheet aloft", sheet(6, 0.7)),
         (
             "slanted sheet",
-            transformed(&sheet(6, 0.0), [[1.0, 0.0, 0.25], [0.0, 1.0, 0.5], [0.0, 0.0, 1.0]], [0.0; 3]),
+            transformed(
+                &sheet(6, 0.0),
+                [[1.0, 0.0, 0.25], [0.0, 1.0, 0.5], [0.0, 0.0, 1.0]],
+                [0.0; 3],
+            ),
         ),
         (
             "sheet upright",
-            transformed(&sheet(5, 0.0), [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], [0.0; 3]),
+            transformed(
+                &sheet(5, 0.0),
+                [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+                [0.0; 3],
+            ),
         ),
         ("small sheet far away", transformed(&sheet(4, 0.0), IDENTITY, [1000.0, -700.0, 0.0])),
         ("degenerate", degenerate()),

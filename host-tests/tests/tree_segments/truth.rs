@@ -52,7 +52,8 @@ fn meet([a, b]: [Point; 2], [p, q]: [Point; 2]) -> bool {
         && overlap([a, b], [p, q])
 }
 
-/// All input triangles that the closed segment meets, those without area as the segments or points that they are.
+/// All input triangles that the closed segment meets, those without area as the segments or points
+/// that they are.
 pub fn truth(scene: &Scene, a: Point, b: Point) -> Vec<Met> {
     let mut met: Vec<Met> = Vec::new();
     let is_thin = |&[u, v, w]: &[Point; 3]| collinear(u, v, w);
@@ -113,7 +114,8 @@ impl Asker {
         Asker { stack: vec![TreeEntry::EMPTY; 4096], hits: vec![none; 1024], few: vec![none; 3] }
     }
 
-    /// Asks both trees of a scene everything about a segment, and compares with what is so. Counts the first hits of both facings.
+    /// Asks both trees of a scene everything about a segment, and compares with what is so. Counts
+    /// the first hits of both facings.
     pub fn prove(&mut self, scene: &Scene, a: Point, b: Point) -> [Tally; 2] {
         let truth = truth(scene, a, b);
         let mut tallies = [Tally::default(); 2];
@@ -155,11 +157,17 @@ impl Asker {
         };
         assert_eq!(any, same, "{}: {hit:?}", at());
         for entries in [1, 2, 5, 9] {
-            let short = first_hit(tree, a, b, &facing, &mut self.stack[..entries]).expect("answers");
+            let short =
+                first_hit(tree, a, b, &facing, &mut self.stack[..entries]).expect("answers");
             check_first(&short, wanted, at);
             if short.ended != Ended::Capacity {
                 let same = (short.lower, short.upper, short.hit, short.ended);
-                assert_eq!(same, (hit.lower, hit.upper, hit.hit, hit.ended), "{entries} entries, {}", at());
+                assert_eq!(
+                    same,
+                    (hit.lower, hit.upper, hit.hit, hit.ended),
+                    "{entries} entries, {}",
+                    at()
+                );
             }
             let any = any_hit(tree, a, b, &facing, &mut self.stack[..entries]).expect("answers");
             let right = match any {
@@ -185,20 +193,23 @@ impl Asker {
         let hits = &self.hits[..all.stored];
         assert!(hits.is_sorted_by_key(|hit| (hit.t, hit.triangle)), "{}: {hits:?}", at());
         if all.ended == Ended::Exact {
-            let mut found: Vec<u32> = hits.iter().map(|hit| hit.triangle.expect("numbered")).collect();
+            let mut found: Vec<u32> =
+                hits.iter().map(|hit| hit.triangle.expect("numbered")).collect();
             found.sort_unstable();
             let mut expected: Vec<u32> = wanted.iter().map(|met| met.triangle).collect();
             expected.sort_unstable();
             assert_eq!(found, expected, "{}", at());
         }
         for room in 0..=3 {
-            let few = all_hits(tree, a, b, &facing, &mut self.few[..room], &mut self.stack).expect("answers");
+            let few = all_hits(tree, a, b, &facing, &mut self.few[..room], &mut self.stack)
+                .expect("answers");
             assert_eq!(few.stored + few.dropped as usize, all.stored, "{}", at());
             assert_eq!(few.stored, room.min(all.stored), "{}", at());
             assert_eq!(self.few[..few.stored], hits[..few.stored], "{}", at());
             assert_eq!(few.ended, all.ended, "{}", at());
         }
-        let short = all_hits(tree, a, b, &facing, &mut self.hits, &mut self.stack[..1]).expect("answers");
+        let short =
+            all_hits(tree, a, b, &facing, &mut self.hits, &mut self.stack[..1]).expect("answers");
         if short.ended == Ended::Exact {
             assert_eq!(all.ended, Ended::Exact, "{}", at());
             assert_eq!(short.stored, all.stored, "{}", at());

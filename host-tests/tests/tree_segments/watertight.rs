@@ -37,13 +37,15 @@ fn no_segment_out_of_a_solid_slips_through() {
         let size = scene.size();
         for tree in scene.trees() {
             for (i, target) in targets(&scene).into_iter().enumerate() {
-                let inside = if i % 2 == 0 { [0.0; 3] } else { add([0.0; 3], rng.direction(), 0.05 * size) };
+                let inside =
+                    if i % 2 == 0 { [0.0; 3] } else { add([0.0; 3], rng.direction(), 0.05 * size) };
                 let out = std::array::from_fn(|k| inside[k] + 3.0 * (target[k] - inside[k]));
                 let name = || format!("{} {target:?} from {inside:?}", scene.name);
                 for (a, b) in [(inside, out), (out, inside)] {
                     let hit = first_hit(&tree, a, b, &Facing::Both, &mut stack).expect("answers");
                     assert!(hit.hit.is_some() && !hit.is_clear(), "{}: {hit:?}", name());
-                    let all = all_hits(&tree, a, b, &Facing::Both, &mut hits, &mut stack).expect("answers");
+                    let all = all_hits(&tree, a, b, &Facing::Both, &mut hits, &mut stack)
+                        .expect("answers");
                     assert!(all.stored > 0, "{}: {all:?}", name());
                     // A solid is left through a back and entered through a front.
                     let facing = if a == inside { Facing::Back } else { Facing::Front };

@@ -17,7 +17,10 @@ fn no_boundary_takes_more_than_112_additions_24_halvings_24_comparisons() {
         let scalar = |x: f32| Counted(f64::from(x));
         let _ = boundary(&tribox.low.map(scalar), &tribox.high.map(scalar));
         let counts = COUNTS.with(Cell::get);
-        assert!(counts[0] >= 96 && counts[0] <= 112 && counts[1] == 24 && counts[2] <= 24, "{counts:?}");
+        assert!(
+            counts[0] >= 96 && counts[0] <= 112 && counts[1] == 24 && counts[2] <= 24,
+            "{counts:?}"
+        );
         for (most, here) in most.iter_mut().zip(counts) {
             *most = here.max(*most);
         }
@@ -73,7 +76,10 @@ fn vertices_are_inside_all_slabs_and_on_those_whose_faces_hold_them() {
         }
         for face in 0..FACES {
             let side = if face % 2 == 0 { &tribox.low } else { &tribox.high };
-            assert!(of.corners(face).all(|vertex| along(face / 2, vertex) == side[face / 2]), "{face}");
+            assert!(
+                of.corners(face).all(|vertex| along(face / 2, vertex) == side[face / 2]),
+                "{face}"
+            );
         }
     }
 }
@@ -193,7 +199,8 @@ fn boundaries_in_f32_are_within_ten_roundings() {
         let points: Vec<[f32; 3]> =
             (0..4 + round % 40).map(|_| [unit() + away, unit() * flat, unit() - 0.5]).collect();
         let tribox = Tribox::of_points(points.iter().copied()).unwrap();
-        let most = tribox.slabs().fold(0f32, |most, (low, high)| most.max(low.abs()).max(high.abs()));
+        let most =
+            tribox.slabs().fold(0f32, |most, (low, high)| most.max(low.abs()).max(high.abs()));
         let doubt = f64::from(most) * 10.0 / f64::from(1u32 << 24);
         let single = tribox.boundary();
         let exact = |x: f32| Counted(f64::from(x));

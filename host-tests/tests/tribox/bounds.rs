@@ -19,7 +19,8 @@ fn tightened_intersections_touch_with_every_plane_or_are_empty() {
     let mut rng = Rng(6);
     let mut empty = 0;
     for _ in 0..5_000 {
-        let (a, b) = (Tribox::of_points(rng.points()).unwrap(), Tribox::of_points(rng.points()).unwrap());
+        let (a, b) =
+            (Tribox::of_points(rng.points()).unwrap(), Tribox::of_points(rng.points()).unwrap());
         let both = a.intersection(&b);
         let tight = both.tightened();
         if tight.is_empty() {
@@ -62,7 +63,8 @@ fn snapping_moves_planes_outward_and_no_farther_than_told() {
     }
     assert!(fewer > 50, "{fewer}");
     let cut =
-        Tribox::of_points([[0.0, 0.0, 0.0], [8.0, 7.0, 8.0], [7.0, 8.0, 8.0], [8.0, 8.0, 0.0]]).unwrap();
+        Tribox::of_points([[0.0, 0.0, 0.0], [8.0, 7.0, 8.0], [7.0, 8.0, 8.0], [8.0, 8.0, 0.0]])
+            .unwrap();
     assert_eq!(cut.snapped(0.0), cut);
     assert!(cut.snapped(1.0) != cut);
 }
@@ -81,8 +83,10 @@ fn a_grid_holds_all_and_makes_the_boundary_exact() {
         let grid = tight.on_grid();
         assert!(grid.contains(&tight), "{tight:?} {grid:?}");
         let of = grid.boundary();
-        let exact =
-            boundary(&grid.low.map(|x| Counted(f64::from(x))), &grid.high.map(|x| Counted(f64::from(x))));
+        let exact = boundary(
+            &grid.low.map(|x| Counted(f64::from(x))),
+            &grid.high.map(|x| Counted(f64::from(x))),
+        );
         for (vertex, exact) in of.vertices.iter().zip(exact.vertices) {
             assert_eq!(vertex.map(f64::from), exact.map(|x| x.0));
         }
@@ -104,7 +108,10 @@ fn padding_and_translation_hold_what_they_should() {
         Tribox::EMPTY.padded(1.0).unwrap().is_empty()
             && Tribox::EMPTY.translated([1.0; 3]).unwrap().is_empty()
     );
-    assert!(Tribox::of_point([f32::NAN, 0.0, 0.0]).is_err() && Tribox::of_point([1e38, 0.0, 0.0]).is_err());
+    assert!(
+        Tribox::of_point([f32::NAN, 0.0, 0.0]).is_err()
+            && Tribox::of_point([1e38, 0.0, 0.0]).is_err()
+    );
     assert!(Tribox::EMPTY.boundary().vertices.iter().flatten().all(|x| !x.is_finite()));
     assert!(!Tribox::EMPTY.overlaps(&tribox) && tribox.contains(&Tribox::EMPTY));
     assert_eq!(Tribox::EMPTY.tightened(), Tribox::EMPTY);

@@ -1,4 +1,5 @@
-//! The boundary counts what it does; loops close; triboxes keep their words on small integers, where everything is exact.
+//! The boundary counts what it does; loops close; triboxes keep their words on small integers,
+//! where everything is exact.
 
 mod boundary;
 mod bounds;

@@ -46,7 +46,8 @@ fn distances_are_below_those_to_the_vertices_hull_and_exact_beyond_faces() {
         let p = [0; 3].map(|_: i32| (rng.below(4001) as f32 - 2000.0) / 64.0);
         let lower = f64::from(tribox.distance(p));
         for point in points {
-            let way = glam::Vec3::from_array(p).as_dvec3() - glam::Vec3::from_array(point).as_dvec3();
+            let way =
+                glam::Vec3::from_array(p).as_dvec3() - glam::Vec3::from_array(point).as_dvec3();
             assert!(lower <= way.length());
         }
         if tribox.contains_point(p) {
@@ -88,7 +89,9 @@ fn what_is_moved_stays_inside() {
                 let d = direction.map(f64::from);
                 let here = d[0] * q[0] + d[1] * q[1] + d[2] * q[2];
                 for bound in [&tight, &loose] {
-                    assert!(f64::from(bound.low[slab]) <= here && here <= f64::from(bound.high[slab]));
+                    assert!(
+                        f64::from(bound.low[slab]) <= here && here <= f64::from(bound.high[slab])
+                    );
                 }
             }
         }
@@ -101,7 +104,8 @@ fn what_is_moved_stays_inside() {
 
 #[test]
 fn what_f32_cannot_sum_is_neither_clear_nor_far() {
-    let cube = Tribox::of_points([[-1.0; 3], [1.0; 3], [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]]).unwrap();
+    let cube =
+        Tribox::of_points([[-1.0; 3], [1.0; 3], [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]]).unwrap();
     assert!(
         cube.clip([2e38, -3.0, 0.0], [-2e38, 3.0, 0.0])
             .is_some_and(|(enter, leave)| enter <= 0.5 && 0.5 <= leave)

@@ -15,10 +15,20 @@ use meshsweep_host_tests::measure::triboxes::{by_vertices, exact, poses, sphere}
 use meshsweep_host_tests::oracle::polytope::{HalfSpace, Polytope};
 use std::collections::HashSet;
 
-const DIRECTIONS: [[i64; 3]; 9] =
-    [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, -1, 0], [0, 1, 1], [0, 1, -1], [1, 0, 1], [-1, 0, 1]];
+const DIRECTIONS: [[i64; 3]; 9] = [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+    [1, 1, 0],
+    [1, -1, 0],
+    [0, 1, 1],
+    [0, 1, -1],
+    [1, 0, 1],
+    [-1, 0, 1],
+];
 
-/// Twice these are integers: of a rotation by a half each, one by 60° that is half as large again, one that shears.
+/// Twice these are integers: of a rotation by a half each, one by 60° that is half as large again,
+/// one that shears.
 const MATRICES: [[[f32; 3]; 3]; 5] = [
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
     [[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]],
@@ -27,15 +37,22 @@ const MATRICES: [[[f32; 3]; 3]; 5] = [
     [[1.0, 0.5, 0.0], [0.0, 1.0, 0.5], [0.5, 0.0, 1.0]],
 ];
 
-/// Half-spaces of a tribox in the frame of what is moved by `p ↦ M p + t`, all times 2; parameters in `unit`s.
-fn half_spaces(tribox: &Tribox, unit: f32, matrix: [[f32; 3]; 3], shift: [f32; 3]) -> Vec<HalfSpace> {
+/// Half-spaces of a tribox in the frame of what is moved by `p ↦ M p + t`, all times 2; parameters
+/// in `unit`s.
+fn half_spaces(
+    tribox: &Tribox,
+    unit: f32,
+    matrix: [[f32; 3]; 3],
+    shift: [f32; 3],
+) -> Vec<HalfSpace> {
     let integer = |x: f32| {
         assert_eq!(x.fract(), 0.0);
         x as i64
     };
     let mut all = Vec::new();
     for (k, d) in DIRECTIONS.iter().enumerate() {
-        let back = [0, 1, 2].map(|j| (0..3).map(|i| d[i] * integer(2.0 * matrix[i][j])).sum::<i64>());
+        let back =
+            [0, 1, 2].map(|j| (0..3).map(|i| d[i] * integer(2.0 * matrix[i][j])).sum::<i64>());
         let along: i64 = (0..3).map(|i| d[i] * integer(shift[i] / unit)).sum();
         let [low, high] = [tribox.low[k], tribox.high[k]].map(|x| integer(x / unit));
         all.push(HalfSpace::new(back, 2 * (high - along)));
@@ -113,14 +130,16 @@ fn surfaces_that_touch_are_never_apart() {
             if meet {
                 continue;
             }
-            // Towards the mesh, to where it just meets: the nearest pose to contact that f32 can say.
+            // Towards the mesh, to where it just meets: the nearest pose to contact that f32 can
+            // say.
             let centre = sphere(&subject).centre;
             let to = pose.apply(centre) - centre;
             let (mut clear, mut near) = (0.0, 1.0);
             let at = |t: f64| {
                 let mut moved = core;
-                (0..3)
-                    .for_each(|k| moved.translation[k] = (f64::from(core.translation[k]) - t * to[k]) as f32);
+                (0..3).for_each(|k| {
+                    moved.translation[k] = (f64::from(core.translation[k]) - t * to[k]) as f32
+                });
                 moved
             };
             if !surface.meets_moved(&exact(&at(1.0), &pose)) {
@@ -128,7 +147,11 @@ fn surfaces_that_touch_are_never_apart() {
             }
             for _ in 0..40 {
                 let middle = 0.5 * (clear + near);
-                if surface.meets_moved(&exact(&at(middle), &pose)) { near = middle } else { clear = middle }
+                if surface.meets_moved(&exact(&at(middle), &pose)) {
+                    near = middle
+                } else {
+                    clear = middle
+                }
             }
             let answer = apart(&all, &all, &at(near), &mut stack).expect("answered");
             assert!(!answer.is_apart(), "{:?}", at(near));
@@ -153,7 +176,8 @@ fn answers_do_not_depend_on_the_scale() {
         for (_, pose) in poses(&sphere(&subject), 100) {
             let moved = Pose { translation: pose.translation.map(|x| x * factor), ..pose };
             let here = candidates(&plain, &plain, &pose, &mut pairs, &mut stack).expect("answered");
-            let there = candidates(&scaled, &scaled, &moved, &mut others, &mut stack).expect("answered");
+            let there =
+                candidates(&scaled, &scaled, &moved, &mut others, &mut stack).expect("answered");
             assert_eq!((here, pairs), (there, others), "{exponent}");
             apart_count += usize::from(here.is_apart());
         }
@@ -164,7 +188,8 @@ fn answers_do_not_depend_on_the_scale() {
 #[test]
 fn two_models_of_different_size_are_looked_at_where_they_are() {
     let (large, small) = (of(&torus(2.0, 0.75, 24, 12), 64), of(&scaled(&cube(1), 0.25), 4));
-    let (large, small) = (Triboxes::open(&large).expect("opens"), Triboxes::open(&small).expect("opens"));
+    let (large, small) =
+        (Triboxes::open(&large).expect("opens"), Triboxes::open(&small).expect("opens"));
     let mut stack = vec![NodePair::EMPTY; stack_entries(&large, &small)];
     let hole = Pose { translation: [-0.125, -0.125, -0.125], ..Pose::IDENTITY };
     let answer = apart(&large, &small, &hole, &mut stack).expect("answered");
@@ -200,15 +225,17 @@ fn short_memory_is_said_and_proves_no_less() {
     let mut stack = vec![NodePair::EMPTY; stack_entries(&all, &all)];
     let (mut short, mut full) = (0, 0);
     for (_, pose) in poses(&sphere(&subject), 60) {
-        let whole =
-            candidates(&all, &all, &pose, &mut [NodePair::EMPTY; 1024], &mut stack).expect("answered");
+        let whole = candidates(&all, &all, &pose, &mut [NodePair::EMPTY; 1024], &mut stack)
+            .expect("answered");
         assert_eq!((whole.ended, whole.dropped), (Ended::Exact, 0));
-        let few = candidates(&all, &all, &pose, &mut [NodePair::EMPTY; 3], &mut stack).expect("answered");
+        let few =
+            candidates(&all, &all, &pose, &mut [NodePair::EMPTY; 3], &mut stack).expect("answered");
         assert_eq!(few.stored + few.dropped as usize, whole.stored);
         assert_eq!(few.work, whole.work);
         for entries in 1..6 {
             let mut pairs = [NodePair::EMPTY; 1024];
-            let answer = candidates(&all, &all, &pose, &mut pairs, &mut stack[..entries]).expect("answered");
+            let answer =
+                candidates(&all, &all, &pose, &mut pairs, &mut stack[..entries]).expect("answered");
             assert!(whole.is_apart() || !answer.is_apart(), "less memory cannot prove more");
             let one = apart(&all, &all, &pose, &mut stack[..entries]).expect("answered");
             assert_eq!(one.is_apart(), answer.is_apart());
@@ -231,7 +258,8 @@ fn poses_that_are_none_are_refused() {
     ] {
         let shifted = Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
         assert_eq!(apart(&all, &all, &shifted, stack).unwrap_err(), error);
-        let turned = Pose { rotation: [[1.0, 0.0, 0.0], [0.0, x, 0.0], [0.0; 3]], ..Pose::IDENTITY };
+        let turned =
+            Pose { rotation: [[1.0, 0.0, 0.0], [0.0, x, 0.0], [0.0; 3]], ..Pose::IDENTITY };
         assert_eq!(apart(&all, &all, &turned, stack).unwrap_err(), error);
     }
     assert_eq!(apart(&all, &all, &Pose::IDENTITY, &mut []).unwrap_err(), QueryError::NoQueue);
@@ -239,5 +267,8 @@ fn poses_that_are_none_are_refused() {
     let far = Pose { translation: [1e36, -1e36, 1e36], ..Pose::IDENTITY };
     assert!(apart(&all, &all, &far, stack).expect("answered").is_apart());
     let flat = Pose { rotation: [[0.0; 3]; 3], translation: [0.5; 3] };
-    assert!(!apart(&all, &all, &flat, stack).expect("answered").is_apart(), "a point inside of the cube");
+    assert!(
+        !apart(&all, &all, &flat, stack).expect("answered").is_apart(),
+        "a point inside of the cube"
+    );
 }

@@ -122,7 +122,11 @@ fn levels_that_do_not_rise_or_are_no_numbers_are_named() {
         }
     }
     counts(edited(|bytes| put_u32(bytes, LEVELS + 4, (-1f32).to_bits())));
-    assert_eq!(edited(|bytes| put_u32(bytes, LEVELS + 12, (-0.5f32).to_bits())), Ok(()), "parts may overlap");
+    assert_eq!(
+        edited(|bytes| put_u32(bytes, LEVELS + 12, (-0.5f32).to_bits())),
+        Ok(()),
+        "parts may overlap"
+    );
 }
 
 #[test]
@@ -132,11 +136,15 @@ fn links_that_make_no_tree_name_the_node() {
     // The root is not split, or by another split.
     for value in [u16::MAX, 1, 14, 15, 1000] {
         let result = edited(|bytes| bytes[link(0)..][..2].copy_from_slice(&value.to_le_bytes()));
-        assert!(matches!(result, Err(OpenError::Record { index: 0..=2, .. })), "{value}: {result:?}");
+        assert!(
+            matches!(result, Err(OpenError::Record { index: 0..=2, .. })),
+            "{value}: {result:?}"
+        );
     }
     // A split of a node that comes after it, of itself, of one that is split already.
     for (split, value) in [(3usize, 30u16), (3, 7), (1, 0)] {
-        let result = edited(|bytes| bytes[SPLITS + 2 * split..][..2].copy_from_slice(&value.to_le_bytes()));
+        let result =
+            edited(|bytes| bytes[SPLITS + 2 * split..][..2].copy_from_slice(&value.to_le_bytes()));
         assert!(matches!(result, Err(OpenError::Record { .. })), "{split} of {value}: {result:?}");
     }
     // Two nodes that exchange their splits: each is named by another.
@@ -168,8 +176,9 @@ fn planes_that_do_not_touch_or_leave_the_parent_name_the_node() {
         }
     }
     for error in [0x7F80u16, 0x7FC0, 0x8001] {
-        let result =
-            edited(|bytes| bytes[NODES + NODE * 7 + 38..][..2].copy_from_slice(&error.to_le_bytes()));
+        let result = edited(|bytes| {
+            bytes[NODES + NODE * 7 + 38..][..2].copy_from_slice(&error.to_le_bytes())
+        });
         assert_eq!(result, node(7));
     }
 }
@@ -209,7 +218,8 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
     }
     assert!(Model::open(&assemble(&Parts::default())).is_err());
     // A section that a tree's reader does not look at may hold anything.
-    let mut bytes = assemble(&Parts { tree: Some(&tree), triboxes: Some(&triboxes), ..Parts::default() });
+    let mut bytes =
+        assemble(&Parts { tree: Some(&tree), triboxes: Some(&triboxes), ..Parts::default() });
     let at = entry(&bytes, SectionKind::Triboxes as u32).offset as usize;
     bytes[at + 50] ^= 1;
     assert!(Tree::open(&bytes).is_ok() && Model::open(&bytes).is_err());
@@ -231,14 +241,20 @@ fn every_cut_is_the_blob_that_the_prefix_of_splits_makes() {
         assert_eq!(left.leaves().collect::<Vec<_>>(), coarser.leaves().collect::<Vec<_>>());
         for node in 0..left.node_count() {
             let of = |triboxes: &Triboxes<'_>| {
-                (triboxes.node(node), triboxes.children(node), triboxes.parent(node), triboxes.error(node))
+                (
+                    triboxes.node(node),
+                    triboxes.children(node),
+                    triboxes.parent(node),
+                    triboxes.error(node),
+                )
             };
             assert_eq!(of(&left), of(&coarser));
         }
         assert!(left.levels().eq(all.levels().take(left.level_count() as usize)));
     }
     // Between two levels, the coarser; below all, the first; without a limit, what it was.
-    let leaves = |count: u32| word(&cut(&model, count).expect("there").section, 20).expect("nodes") / 2 + 1;
+    let leaves =
+        |count: u32| word(&cut(&model, count).expect("there").section, 20).expect("nodes") / 2 + 1;
     assert_eq!([leaves(0), leaves(1), leaves(7), leaves(u32::MAX)], [1, 1, 4, 24]);
     assert_eq!(emit::cut_blob(&model, &emit::Keep::default()).expect("a blob"), bytes);
 }

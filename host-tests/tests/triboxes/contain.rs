@@ -55,9 +55,11 @@ fn winding(p: [f64; 3], mesh: &Mesh) -> f64 {
     for t in 0..mesh.triangles.len() {
         let corners = mesh.corners(t).expect("a triangle");
         let [a, b, c] = corners.map(|v| [0, 1, 2].map(|k| f64::from(v[k]) - p[k]));
-        let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        let cross =
+            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
         let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
-        sum += 2.0 * dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+        sum += 2.0
+            * dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
     }
     sum / (4.0 * std::f64::consts::PI)
 }
@@ -85,7 +87,10 @@ fn shapes() -> Vec<(&'static str, Triangles)> {
         ("point", (vec![[0.25, -1.0, 0.5]], vec![[0, 0, 0]])),
         ("origin", (vec![[0.0; 3]], vec![[0, 0, 0]])),
         ("flat", (vec![[0.0; 3], [3.0, 0.0, 0.0], [0.0, 5.0, 0.0]], vec![[0, 1, 2]])),
-        ("at the end", (vec![[1.32e36, 0.0, 0.0], [0.0, -1.32e36, 0.0], [0.0, 0.0, 1.0]], vec![[0, 1, 2]])),
+        (
+            "at the end",
+            (vec![[1.32e36, 0.0, 0.0], [0.0, -1.32e36, 0.0], [0.0, 0.0, 1.0]], vec![[0, 1, 2]]),
+        ),
     ]
 }
 
@@ -99,10 +104,16 @@ fn every_level_holds_every_point_of_the_surface() {
         for level in triboxes.levels() {
             let leaves = leaves(triboxes.coarser(level.triboxes));
             assert_eq!(leaves.len(), level.triboxes as usize);
-            let worst = points.iter().map(|&p| outside(&leaves, p)).fold(f64::NEG_INFINITY, f64::max);
+            let worst =
+                points.iter().map(|&p| outside(&leaves, p)).fold(f64::NEG_INFINITY, f64::max);
             // What f64 makes of eighths of three corners, and no more.
-            let size = mesh.positions.iter().flatten().fold(0f64, |most, &x| most.max(f64::from(x).abs()));
-            assert!(worst <= 8.0 * f64::EPSILON * size, "{name}, {} triboxes: {worst}", level.triboxes);
+            let size =
+                mesh.positions.iter().flatten().fold(0f64, |most, &x| most.max(f64::from(x).abs()));
+            assert!(
+                worst <= 8.0 * f64::EPSILON * size,
+                "{name}, {} triboxes: {worst}",
+                level.triboxes
+            );
         }
     }
 }
@@ -172,13 +183,16 @@ fn vertices_of_every_node_are_exact_and_distances_are_bounds() {
             }
             // Every plane is reached by a vertex, exactly.
             for (k, d) in DIRECTIONS.iter().enumerate() {
-                let along = boundary
-                    .vertices
-                    .iter()
-                    .map(|v| d[0] * f64::from(v[0]) + d[1] * f64::from(v[1]) + d[2] * f64::from(v[2]));
+                let along = boundary.vertices.iter().map(|v| {
+                    d[0] * f64::from(v[0]) + d[1] * f64::from(v[1]) + d[2] * f64::from(v[2])
+                });
                 let most = along.clone().fold(f64::NEG_INFINITY, f64::max);
                 let least = along.fold(f64::INFINITY, f64::min);
-                assert_eq!((least, most), (f64::from(tribox.low[k]), f64::from(tribox.high[k])), "{name}");
+                assert_eq!(
+                    (least, most),
+                    (f64::from(tribox.low[k]), f64::from(tribox.high[k])),
+                    "{name}"
+                );
             }
         }
         for level in triboxes.levels().take(4) {

@@ -21,7 +21,8 @@ fn blob(mesh: &Mesh, count: u32) -> Vec<u8> {
     static ALL: Mutex<Vec<Built>> = Mutex::new(Vec::new());
     let built = {
         let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = all.iter().find(|(m, c, _)| *c == count && m == mesh).map(|(.., built)| built.clone());
+        let known =
+            all.iter().find(|(m, c, _)| *c == count && m == mesh).map(|(.., built)| built.clone());
         known.unwrap_or_else(|| {
             let built = Arc::<OnceLock<Vec<u8>>>::default();
             all.push((mesh.clone(), count, built.clone()));

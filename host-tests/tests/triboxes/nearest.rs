@@ -10,9 +10,12 @@ use meshsweep_host_tests::oracle::{distance_to_mesh, meets};
 #[test]
 fn distances_are_those_of_the_nearest_leaf_and_below_the_mesh_s() {
     let mut rng = Rng::new(21);
-    for triangles in
-        [torus(2.0, 0.75, 24, 12), bracket(), scaled(&groove_block(), 1e-30), scaled(&groove_block(), 1e30)]
-    {
+    for triangles in [
+        torus(2.0, 0.75, 24, 12),
+        bracket(),
+        scaled(&groove_block(), 1e-30),
+        scaled(&groove_block(), 1e30),
+    ] {
         let mesh = mesh(&triangles);
         let bytes = blob(&mesh, 32);
         let all = Triboxes::open(&bytes).expect("opens");
@@ -28,16 +31,23 @@ fn distances_are_those_of_the_nearest_leaf_and_below_the_mesh_s() {
             );
             let mut stack = vec![BoundEntry::EMPTY; all.depth() as usize + 2];
             let answer = distance(&triboxes, p, &mut stack).expect("answered");
-            let brute = triboxes.leaves().map(|(_, tribox)| tribox.distance(p)).fold(f32::INFINITY, f32::min);
+            let brute = triboxes
+                .leaves()
+                .map(|(_, tribox)| tribox.distance(p))
+                .fold(f32::INFINITY, f32::min);
             // A parent's bound may be a little above a child's, and is as good.
-            assert!(answer.lower >= brute && answer.lower <= brute * (1.0 + 1e-5), "{answer:?} {brute}");
+            assert!(
+                answer.lower >= brute && answer.lower <= brute * (1.0 + 1e-5),
+                "{answer:?} {brute}"
+            );
             let truth = distance_to_mesh(p, &mesh.positions, &mesh.triangles);
             assert!(f64::from(answer.lower) <= truth.upper, "{answer:?} {truth:?}");
             assert_eq!(answer.ended, Ended::Exact);
             few += usize::from(answer.work.nodes < triboxes.node_count());
             let short = distance(&triboxes, p, &mut stack[..1]).expect("answered");
             assert!(
-                short.lower <= answer.lower && (short.ended == Ended::Capacity || triboxes.leaf_count() == 1)
+                short.lower <= answer.lower
+                    && (short.ended == Ended::Capacity || triboxes.leaf_count() == 1)
             );
         }
         assert!(few > 100, "{few}: nothing was spared");
@@ -70,8 +80,8 @@ fn segments_are_clear_of_the_mesh_before_the_bound() {
             let t = if answer.lower.is_infinite() { 1.0 } else { answer.lower - 1e-5 };
             let end = if t >= 1.0 { b } else { [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k])) };
             if t > 0.0 {
-                let met =
-                    (0..mesh.triangles.len()).any(|i| meets(a, end, mesh.corners(i).expect("one")).is_some());
+                let met = (0..mesh.triangles.len())
+                    .any(|i| meets(a, end, mesh.corners(i).expect("one")).is_some());
                 assert!(!met, "{a:?} {b:?} {answer:?}");
                 clear += 1;
             }

@@ -1,4 +1,5 @@
-//! The command line. Values are checked here, so that a bad one is a usage error (exit status 2) before any file is touched.
+//! The command line. Values are checked here, so that a bad one is a usage error (exit status 2)
+//! before any file is touched.
 
 mod asking;
 mod bounding;
@@ -8,11 +9,13 @@ mod given;
 mod values;
 
 pub use asking::{
-    ClosestArgs, ClosestEngine, CullArgs, FieldArgs, NearestArgs, OverlapArgs, PointArgs, SearchArgs,
-    SegmentArgs, SegmentEngine, SignedArgs, WithinArgs,
+    ClosestArgs, ClosestEngine, CullArgs, FieldArgs, NearestArgs, OverlapArgs, PointArgs,
+    SearchArgs, SegmentArgs, SegmentEngine, SignedArgs, WithinArgs,
 };
 pub use bounding::TriboxArgs;
-pub use building::{BuildArgs, CutArgs, HullArgs, HullServes, InfoArgs, StoredBits, slack_within_margin};
+pub use building::{
+    BuildArgs, CutArgs, HullArgs, HullServes, InfoArgs, StoredBits, slack_within_margin,
+};
 pub use given::{Given, number};
 pub use values::Margin;
 

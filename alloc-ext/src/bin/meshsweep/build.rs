@@ -35,10 +35,14 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         return Err(Failure::Usage { what: format!("{option} is for a hull; add hull to --for") });
     }
     if args.triboxes.is_some() && !wanted.triboxes {
-        return Err(Failure::Usage { what: "--triboxes is for triboxes; add triboxes to --for".to_owned() });
+        return Err(Failure::Usage {
+            what: "--triboxes is for triboxes; add triboxes to --for".to_owned(),
+        });
     }
     if let Some(option) = args.tight_option().filter(|_| !wanted.tight) {
-        return Err(Failure::Usage { what: format!("{option} is for tight hulls; add tight to --for") });
+        return Err(Failure::Usage {
+            what: format!("{option} is for tight hulls; add tight to --for"),
+        });
     }
     if let Some(what) = slack_within_margin(args.slack, args.margin) {
         return Err(Failure::Usage { what });
@@ -66,8 +70,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > tree::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
-    let tree =
-        wanted.tree().then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
+    let tree = wanted
+        .tree()
+        .then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
     let triboxes = if wanted.triboxes { Some(build_triboxes(args, &loaded)?) } else { None };
     let tight = if wanted.tight { Some(build_tight(args, &loaded)?) } else { None };
     let bytes = emit::assemble(&Parts {
@@ -106,13 +111,19 @@ fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
     .map_err(|error| failed(args, error))
 }
 
-fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(TriboxTables, TriboxReport), Failure> {
+fn build_triboxes(
+    args: &BuildArgs,
+    loaded: &Loaded,
+) -> Result<(TriboxTables, TriboxReport), Failure> {
     let Loaded { mesh, moved, input_triangles, .. } = loaded;
     tribox::store(mesh, *moved, *input_triangles, args.triboxes.unwrap_or(TRIBOXES))
         .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })
 }
 
-fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(TightTables, Vec<HullReport>), Failure> {
+fn build_tight(
+    args: &BuildArgs,
+    loaded: &Loaded,
+) -> Result<(TightTables, Vec<HullReport>), Failure> {
     let Loaded { mesh, moved, input_triangles, .. } = loaded;
     let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
     let options = ChainOptions {
@@ -160,7 +171,11 @@ impl Report<'_> {
             writeln!(out, "  volume {}", describe::About(report.volume))?;
         }
         if loaded.moved > 0.0 {
-            writeln!(out, "  vertices moved to the hull's grid by up to {}", describe::AtMost(loaded.moved))?;
+            writeln!(
+                out,
+                "  vertices moved to the hull's grid by up to {}",
+                describe::AtMost(loaded.moved)
+            )?;
         }
         writeln!(out, "{}", args.output.display())?;
         if let Some(report) = hull {
@@ -213,7 +228,10 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
     asked.dedup();
     asked.retain(|&faces| reports.iter().all(|report| report.asked != Goal::Faces(faces as usize)));
     for faces in asked {
-        writeln!(out, "  no tight hull of {faces} faces: it came to no fewer than the next finer one")?;
+        writeln!(
+            out,
+            "  no tight hull of {faces} faces: it came to no fewer than the next finer one"
+        )?;
     }
     Ok(())
 }

@@ -14,7 +14,8 @@ use meshsweep_core::query::tree::{BatchError, Hint, closest_points};
 use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Work, closest_point};
 use std::io::{self, Write};
 
-/// Queries that are sorted at once: enough for neighbours to be near, and for all threads to have some.
+/// Queries that are sorted at once: enough for neighbours to be near, and for all threads to have
+/// some.
 const BATCH: usize = 1 << 14;
 
 const UNANSWERED: ClosestPoint = ClosestPoint {
@@ -62,9 +63,11 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
             let mut order = vec![0; 2 * BATCH.min(points.rows.len())];
             move |first, rows: &[[f32; 3]], answers: &mut Vec<ClosestPoint>, tally: &mut Tally| {
                 answers.resize(rows.len(), UNANSWERED);
-                // From nowhere, so that the work does not depend on which thread took the batch before.
+                // From nowhere, so that the work does not depend on which thread took the batch
+                // before.
                 let mut hint = Hint::NONE;
-                let done = closest_points(&tree, rows, answers, &stop, &mut stack, &mut order, &mut hint);
+                let done =
+                    closest_points(&tree, rows, answers, &stop, &mut stack, &mut order, &mut hint);
                 if done.is_err() {
                     // A batch is not answered in its order.
                     answers.clear();
@@ -86,7 +89,11 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let stopped = points.stopped(asked.refused);
     output.finish_until(stopped, |out| {
         writeln!(out, "{HEADER}")?;
-        points.rows.iter().zip(&asked.answers).try_for_each(|(point, answer)| write_row(out, point, answer))
+        points
+            .rows
+            .iter()
+            .zip(&asked.answers)
+            .try_for_each(|(point, answer)| write_row(out, point, answer))
     })?;
     args.search.note(&asked, hull.is_some());
     Ok(())

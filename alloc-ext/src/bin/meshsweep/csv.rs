@@ -44,13 +44,15 @@ pub fn parse<const N: usize>(file: &Path, bytes: &[u8], wanted: &'static str) ->
     found
 }
 
-/// Whether a field may head a column: it begins with a letter or a quotation mark, and is no number (as `nan` is).
+/// Whether a field may head a column: it begins with a letter or a quotation mark, and is no number
+/// (as `nan` is).
 fn is_name(field: &str) -> bool {
     let begins = field.starts_with(|c: char| c.is_alphabetic() || c == '"' || c == '_');
     begins && field.parse::<f64>().is_err()
 }
 
-/// The fields of a line: between semicolons if it has any, else between commas, else between blanks.
+/// The fields of a line: between semicolons if it has any, else between commas, else between
+/// blanks.
 fn fields(text: &str) -> Box<dyn Iterator<Item = &str> + '_> {
     match [';', ','].into_iter().find(|&separator| text.contains(separator)) {
         Some(separator) => Box::new(text.split(separator).map(str::trim)),
@@ -85,7 +87,8 @@ fn row<const N: usize>(
     Ok(row)
 }
 
-/// A number in the fewest characters that read back as the same f32: with an exponent where there would be many zeros.
+/// A number in the fewest characters that read back as the same f32: with an exponent where there
+/// would be many zeros.
 pub struct Short(pub f32);
 
 impl fmt::Display for Short {
@@ -133,7 +136,10 @@ mod tests {
     fn what_stands_before_a_broken_line_is_read() {
         let Rows { rows, lines, broken } = read("x,y,z\n1,2,3\n\n4,5,6\n7,8\n9,9,9\n");
         assert_eq!((rows, lines), (vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], vec![2, 4]));
-        assert!(broken.is_some_and(|failure| failure.to_string().starts_with("a.csv, line 5: 2 fields")));
+        assert!(
+            broken
+                .is_some_and(|failure| failure.to_string().starts_with("a.csv, line 5: 2 fields"))
+        );
     }
 
     #[test]
@@ -149,7 +155,8 @@ mod tests {
     fn malformed_lines_are_refused_with_line_and_field() {
         let at = |text: &str| read(text).broken.unwrap().to_string();
         assert!(
-            at("x y z\n1 2 3\n1 2 three\n").starts_with("a.csv, line 3, field 3: \"three\" is not a number")
+            at("x y z\n1 2 3\n1 2 three\n")
+                .starts_with("a.csv, line 3, field 3: \"three\" is not a number")
         );
         assert!(at("1,2,3\nx,y,z").starts_with("a.csv, line 2, field 1"));
         assert!(at("1,,3").starts_with("a.csv, line 1, field 2: \"\" is not a number"));

@@ -1,4 +1,5 @@
-//! `meshsweep cut`: a coarser blob out of a finer one. A box tree knows the whole surface or none, so it is left out.
+//! `meshsweep cut`: a coarser blob out of a finer one. A box tree knows the whole surface or none,
+//! so it is left out.
 
 use super::args::CutArgs;
 use super::counted::Counted;
@@ -19,15 +20,20 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         served::require_tight(&args.blob, &model, faces)?;
     }
     let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
-    let cut =
-        emit::cut_blob(&model, &keep).map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
+    let cut = emit::cut_blob(&model, &keep)
+        .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
     // What does not open must not be handed out.
     let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
     Output::stdout().finish(|out| {
         let (kept, all) = (cut.len(), bytes.len());
         let share = kept as f64 / all as f64 * 100.0;
-        write!(out, "{}: {kept} of {} ({share:.1} %)", args.output.display(), Counted(all, "byte"))?;
+        write!(
+            out,
+            "{}: {kept} of {} ({share:.1} %)",
+            args.output.display(),
+            Counted(all, "byte")
+        )?;
         if let Some(level) = args.level {
             write!(out, ", levels 0 to {level}")?;
         }

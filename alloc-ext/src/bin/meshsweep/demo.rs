@@ -70,7 +70,8 @@ pub fn run() -> Result<(), Failure> {
     })
 }
 
-/// How the program is called: by `cargo run`, which says so in the environment, or by the name that it was called by now.
+/// How the program is called: by `cargo run`, which says so in the environment, or by the name that
+/// it was called by now.
 fn program() -> String {
     if std::env::var_os("CARGO_MANIFEST_DIR").is_some() {
         return "cargo run --release --".to_owned();

@@ -20,7 +20,8 @@ use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::geom::Aabb;
 use std::io::{self, Write};
 
-/// What bytes per triangle are divided by: the surface's triangles, or in a cut blob those of its finest level.
+/// What bytes per triangle are divided by: the surface's triangles, or in a cut blob those of its
+/// finest level.
 pub fn triangles(model: &Model<'_>) -> u32 {
     let of_levels = || model.levels().last().map_or(0, |level| level.faces);
     let of_tree = || model.tree().map_or(0, |tree| tree.header().triangles);

@@ -1,4 +1,5 @@
-//! What ends the program early: each variant one line that names the file, the place and the remedy.
+//! What ends the program early: each variant one line that names the file, the place and the
+//! remedy.
 
 use super::counted::Counted;
 use super::hull::Unmet;
@@ -14,8 +15,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Why a command did not do what it was asked. No file was written then; on the standard output are the answers to the queries
-/// before the one that is refused.
+/// Why a command did not do what it was asked. No file was written then; on the standard output are
+/// the answers to the queries before the one that is refused.
 #[derive(Debug)]
 pub enum Failure {
     /// A file cannot be read.
@@ -46,7 +47,8 @@ pub enum Failure {
     Open { file: PathBuf, error: OpenError },
     /// The blob has no such level.
     Cut { file: PathBuf, error: CutError },
-    /// The blob was built without what the question needs; another engine may have it. What it does serve.
+    /// The blob was built without what the question needs; another engine may have it. What it does
+    /// serve.
     NotServed { file: PathBuf, need: Need, other: Option<&'static str>, served: String },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
@@ -101,7 +103,8 @@ impl Failure {
     }
 
     pub fn write(file: &Path, error: io::Error) -> Self {
-        let directory = file.parent().filter(|parent| !parent.as_os_str().is_empty() && !parent.exists());
+        let directory =
+            file.parent().filter(|parent| !parent.as_os_str().is_empty() && !parent.exists());
         match directory {
             Some(directory) if error.kind() == io::ErrorKind::NotFound => {
                 Failure::NoDirectory { file: file.to_owned(), directory: directory.to_owned() }
@@ -120,8 +123,10 @@ impl Failure {
         let line = text.lines().map(str::trim).collect::<Vec<_>>().join("; ");
         // If the standard error is closed too, there is nobody left to tell.
         let _ = writeln!(io::stderr(), "error: {line}");
-        let is_usage =
-            matches!(self, Failure::Usage { .. } | Failure::NoRotation { place: Place::Argument { .. } });
+        let is_usage = matches!(
+            self,
+            Failure::Usage { .. } | Failure::NoRotation { place: Place::Argument { .. } }
+        );
         ExitCode::from(if is_usage { 2 } else { 1 })
     }
 }
@@ -191,12 +196,20 @@ impl fmt::Display for Failure {
                 content.to_ascii_uppercase()
             ),
             Failure::BlobForMesh { file } => {
-                write!(f, "{}: is a blob already; name the mesh that it was built from", file.display())
+                write!(
+                    f,
+                    "{}: is a blob already; name the mesh that it was built from",
+                    file.display()
+                )
             }
             Failure::Wrap { file, error } => write!(f, "{}: {error}", file.display()),
-            Failure::Unmet { file, unmet } => write!(f, "{}: {unmet}; nothing is written", file.display()),
+            Failure::Unmet { file, unmet } => {
+                write!(f, "{}: {unmet}; nothing is written", file.display())
+            }
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
-            Failure::Open { file, error } => write!(f, "{}: {error}; {}", file.display(), remedy(error)),
+            Failure::Open { file, error } => {
+                write!(f, "{}: {error}; {}", file.display(), remedy(error))
+            }
             Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Tribox { file, error } => {
                 write!(f, "{}: {error}; choose a larger unit", file.display())
@@ -204,7 +217,10 @@ impl fmt::Display for Failure {
             Failure::NotServed { file, need, other, served } => {
                 let (part, option) = (need.part(), need.option());
                 write!(f, "{}: has no {part}, and serves {served}", file.display())?;
-                write!(f, "; build one from the mesh: meshsweep build MESH -o BLOB --for {option}")?;
+                write!(
+                    f,
+                    "; build one from the mesh: meshsweep build MESH -o BLOB --for {option}"
+                )?;
                 other.map_or(Ok(()), |engine| write!(f, ", or use --engine {engine}"))
             }
             Failure::NoTightHull { file, faces, least } => write!(
@@ -256,12 +272,20 @@ impl fmt::Display for Failure {
                 write!(f, "{place}: {error}{remedy}")
             }
             Failure::NoRotation { place } => {
-                write!(f, "{place}: the quaternion is 0, which says no rotation; 1,0,0,0 turns nothing")
+                write!(
+                    f,
+                    "{place}: the quaternion is 0, which says no rotation; 1,0,0,0 turns nothing"
+                )
             }
             Failure::TooFar { place, limit } => {
-                write!(f, "{place}: an end is too far away for this blob: {limit}; clip the segment first")
+                write!(
+                    f,
+                    "{place}: an end is too far away for this blob: {limit}; clip the segment first"
+                )
             }
-            Failure::Unwritten { file, cause } => write!(f, "{cause}; {} is not written", file.display()),
+            Failure::Unwritten { file, cause } => {
+                write!(f, "{cause}; {} is not written", file.display())
+            }
             Failure::Search { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Usage { what } => f.write_str(what),
             Failure::ClosedPipe => f.write_str("the standard output was closed"),

@@ -46,7 +46,8 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
     let output = Output::file(&args.output)?;
     let sampler = Sampler { tree: &tree, lattice, signed: args.signed, interval: args.interval };
     let [nx, ny, nz] = lattice.size;
-    let bytes = 4 * sampler.values() as u64 * lattice.size.iter().map(|&n| n as u64).product::<u64>();
+    let bytes =
+        4 * sampler.values() as u64 * lattice.size.iter().map(|&n| n as u64).product::<u64>();
     if bytes > LARGE {
         // A standard error that is closed is no reason to withhold the field.
         let (file, gibibytes) = (args.output.display(), bytes as f64 / LARGE as f64);
@@ -100,8 +101,11 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
 /// Says on the standard error how many of `samples` have no sign, and why.
 fn note(file: &Path, no_sign: &NoSign, samples: usize, interval: bool) {
     if no_sign.count() > 0 {
-        let instead =
-            if interval { "their interval reaches from -upper to upper" } else { "their value is NaN" };
+        let instead = if interval {
+            "their interval reaches from -upper to upper"
+        } else {
+            "their value is NaN"
+        };
         // A standard error that is closed is no reason to fail.
         let _ = writeln!(
             io::stderr(),

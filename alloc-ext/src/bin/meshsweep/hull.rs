@@ -48,13 +48,16 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             args.input.display()
         )),
         Some(level) => of_blob(args, level),
-        None if args.tight.is_some() && !is_blob && named_as_mesh => {
-            usage(format!("{}: is a mesh, and --tight is for a blob; give --faces", args.input.display()))
-        }
+        None if args.tight.is_some() && !is_blob && named_as_mesh => usage(format!(
+            "{}: is a mesh, and --tight is for a blob; give --faces",
+            args.input.display()
+        )),
         None if is_blob || args.tight.is_some() => blob_without_level(args),
         None if args.progressive => of_mesh(args, args.faces.unwrap_or(FACES)),
         None => match args.progressive_option() {
-            Some(option) => usage(format!("{option} is for the progressive hull; give --progressive too")),
+            Some(option) => {
+                usage(format!("{option} is for the progressive hull; give --progressive too"))
+            }
             None => tight::run(args, args.faces.unwrap_or(FACES)),
         },
     }
@@ -62,7 +65,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
 
 /// A tight hull of a blob, or why none.
 fn blob_without_level(args: &HullArgs) -> Result<(), Failure> {
-    let usage = |what: &str| Err(Failure::Usage { what: format!("{}: {what}", args.input.display()) });
+    let usage =
+        |what: &str| Err(Failure::Usage { what: format!("{}: {what}", args.input.display()) });
     if let Some(faces) = args.tight {
         return tight_of_blob(args, faces);
     }
@@ -71,7 +75,9 @@ fn blob_without_level(args: &HullArgs) -> Result<(), Failure> {
             "--faces, --void and --slack are for a mesh; choose a hull of a blob with --level or --tight",
         );
     }
-    usage("a blob holds several hulls; choose one with --level or --tight (meshsweep info lists them)")
+    usage(
+        "a blob holds several hulls; choose one with --level or --tight (meshsweep info lists them)",
+    )
 }
 
 fn tight_of_blob(args: &HullArgs, faces: u32) -> Result<(), Failure> {
@@ -113,7 +119,11 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
             writeln!(out, "{}\n  {}", args.input.display(), solid.report)?;
         }
         if solid.moved > 0.0 {
-            writeln!(out, "vertices of the mesh moved to the grid by up to {}", AtMost(solid.moved))?;
+            writeln!(
+                out,
+                "vertices of the mesh moved to the grid by up to {}",
+                AtMost(solid.moved)
+            )?;
         }
         writeln!(
             out,
@@ -132,8 +142,10 @@ fn of_blob(args: &HullArgs, index: u32) -> Result<(), Failure> {
     let model = blob_file::open(&args.input, &bytes)?;
     served::require_hull(&args.input, &model)?;
     let levels = model.header().levels;
-    let no_level =
-        || Failure::Cut { file: args.input.clone(), error: CutError::NoLevel { wanted: index, levels } };
+    let no_level = || Failure::Cut {
+        file: args.input.clone(),
+        error: CutError::NoLevel { wanted: index, levels },
+    };
     let level = model.level(index).ok_or_else(no_level)?;
     let hull = level_mesh(&model, &level);
     write_hull(&args.output, &hull)?;
@@ -149,7 +161,8 @@ fn of_blob(args: &HullArgs, index: u32) -> Result<(), Failure> {
     })
 }
 
-/// The hull of a level in the mesh's unit. The scale is a power of two, so its vertices are exactly those stored.
+/// The hull of a level in the mesh's unit. The scale is a power of two, so its vertices are exactly
+/// those stored.
 fn level_mesh(model: &Model<'_>, level: &Level) -> Mesh {
     let mut number = vec![None; model.header().vertices as usize];
     let mut positions = Vec::new();

@@ -32,7 +32,8 @@ fn write_header(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     let low = low.map(|x| AtLeast(x).to_string());
     let high = high.map(|x| AtMost(x).to_string());
     let cut = if model.is_cut() { ", cut: finer levels are not there" } else { "" };
-    let input = Counted(model.tree().map_or(h.input_triangles, |tree| tree.input_triangles()), "triangle");
+    let input =
+        Counted(model.tree().map_or(h.input_triangles, |tree| tree.input_triangles()), "triangle");
     writeln!(out, "  format {VERSION_MAJOR}, {} bytes{cut}", h.total_bytes)?;
     writeln!(out, "  {input} in the input file; box {} to {}", low.join(", "), high.join(", "))?;
     if model.has_hull() {

@@ -31,7 +31,8 @@ pub fn load(file: &Path) -> Result<Loaded, Failure> {
 /// Corners of a triangle.
 pub type Corners = [[f32; 3]; 3];
 
-/// Reads, moves to the hull's grid, and repairs; and the file's triangles that are not in the mesh: without area, or there twice.
+/// Reads, moves to the hull's grid, and repairs; and the file's triangles that are not in the mesh:
+/// without area, or there twice.
 pub fn load_all(file: &Path, bits: VertexBits) -> Result<(Loaded, Vec<Corners>), Failure> {
     let started = Instant::now();
     let (raw, moved) = read_snapped(file, bits)?;
@@ -40,7 +41,8 @@ pub fn load_all(file: &Path, bits: VertexBits) -> Result<(Loaded, Vec<Corners>),
     let mut is_in = vec![false; triangles.len()];
     loaded.mesh.source.iter().for_each(|&t| is_in[t as usize] = true);
     let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize].map(|x| x as f32));
-    let left_out = triangles.iter().zip(is_in).filter(|(_, is_in)| !is_in).map(|(t, _)| corners(t)).collect();
+    let left_out =
+        triangles.iter().zip(is_in).filter(|(_, is_in)| !is_in).map(|(t, _)| corners(t)).collect();
     Ok((loaded, left_out))
 }
 
@@ -49,15 +51,21 @@ fn read_snapped(file: &Path, bits: VertexBits) -> Result<(RawMesh, f64), Failure
     let mut raw = read(file)?;
     let mut moved = snap(&mut raw.positions, bits);
     if moved > 0.0 && raw.decimal {
-        // The decimals were rounded to f64 first, which repair no longer sees: half a unit in the last place per axis.
+        // The decimals were rounded to f64 first, which repair no longer sees: half a unit in the
+        // last place per axis.
         let largest = raw.positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
         moved += 2.0 * f64::EPSILON * largest;
     }
     Ok((raw, moved))
 }
 
-/// Reads, moves to the hull's grid, repairs, and refuses what is not closed and manifold; the refusal says what can be had `instead`.
-pub fn load_solid(file: &Path, bits: VertexBits, instead: Option<&'static str>) -> Result<Loaded, Failure> {
+/// Reads, moves to the hull's grid, repairs, and refuses what is not closed and manifold; the
+/// refusal says what can be had `instead`.
+pub fn load_solid(
+    file: &Path,
+    bits: VertexBits,
+    instead: Option<&'static str>,
+) -> Result<Loaded, Failure> {
     let started = Instant::now();
     let (raw, moved) = read_snapped(file, bits)?;
     let loaded = repaired(file, raw, moved, started)?;
@@ -70,7 +78,8 @@ pub fn load_solid(file: &Path, bits: VertexBits, instead: Option<&'static str>) 
     }
 }
 
-/// Whether the file is a blob. One that cannot be read is none here; whoever reads it next says why.
+/// Whether the file is a blob. One that cannot be read is none here; whoever reads it next says
+/// why.
 pub fn is_blob(path: &Path) -> bool {
     let mut head = [0; MAGIC.len()];
     let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut head));
@@ -78,7 +87,8 @@ pub fn is_blob(path: &Path) -> bool {
 }
 
 fn read(file: &Path) -> Result<RawMesh, Failure> {
-    let bytes = std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
+    let bytes =
+        std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
     if bytes.starts_with(&MAGIC) {
         return Err(Failure::BlobForMesh { file: file.to_owned() });
     }
@@ -95,7 +105,9 @@ fn read(file: &Path) -> Result<RawMesh, Failure> {
 /// The kind of mesh file that the first bytes give away, as its extension.
 fn content(bytes: &[u8]) -> Option<&'static str> {
     let begins = |with: &[u8]| {
-        bytes.strip_prefix(with).is_some_and(|rest| rest.starts_with(b"\n") || rest.starts_with(b"\r"))
+        bytes
+            .strip_prefix(with)
+            .is_some_and(|rest| rest.starts_with(b"\n") || rest.starts_with(b"\r"))
     };
     if begins(b"ply") {
         return Some("ply");
@@ -110,7 +122,8 @@ fn content(bytes: &[u8]) -> Option<&'static str> {
 
 fn repaired(file: &Path, raw: RawMesh, moved: f64, started: Instant) -> Result<Loaded, Failure> {
     let input_triangles = raw.triangles.len();
-    let (mesh, report) = mesh::repair(raw).map_err(|error| Failure::Mesh { file: file.to_owned(), error })?;
+    let (mesh, report) =
+        mesh::repair(raw).map_err(|error| Failure::Mesh { file: file.to_owned(), error })?;
     Ok(Loaded { mesh, report, moved, input_triangles, time: started.elapsed() })
 }
 

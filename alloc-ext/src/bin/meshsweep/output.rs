@@ -1,4 +1,5 @@
-//! Output that is whole or not there: a file is written beside its place and renamed when it is complete.
+//! Output that is whole or not there: a file is written beside its place and renamed when it is
+//! complete.
 
 use super::failure::Failure;
 use std::fs::{self, File};
@@ -48,11 +49,13 @@ impl Output {
     /// Whether `path` can be written, asked before hours of work.
     pub fn probe(path: &Path) -> Result<(), Failure> {
         // Opening a pipe and closing it would tell its reader that this was all.
-        let is_device = fs::metadata(path).is_ok_and(|existing| !existing.is_file() && !existing.is_dir());
+        let is_device =
+            fs::metadata(path).is_ok_and(|existing| !existing.is_file() && !existing.is_dir());
         if is_device { Ok(()) } else { Self::file(path).map(drop) }
     }
 
-    /// Whether the file system has files of so many bytes; whether it has room for one is not known.
+    /// Whether the file system has files of so many bytes; whether it has room for one is not
+    /// known.
     pub fn require_size(&self, bytes: u64) -> Result<(), Failure> {
         let Target::File { out, .. } = &self.target else { return Ok(()) };
         let file = out.get_ref();
@@ -61,7 +64,10 @@ impl Output {
     }
 
     /// Runs `write` on the output, then puts the file in its place.
-    pub fn finish(mut self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    pub fn finish(
+        mut self,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
         let done = write(&mut self).and_then(|()| self.commit());
         done.map_err(|error| {
             let is_stdout = matches!(self.target, Target::Stdout(_));
@@ -73,8 +79,8 @@ impl Output {
         })
     }
 
-    /// The same for answers that end before their time, if they are `stopped`: the standard output gets them, a file does not
-    /// come to be, for it is whole or not there.
+    /// The same for answers that end before their time, if they are `stopped`: the standard output
+    /// gets them, a file does not come to be, for it is whole or not there.
     pub fn finish_until(
         self,
         stopped: Option<Failure>,

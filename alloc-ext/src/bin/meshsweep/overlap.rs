@@ -30,7 +30,8 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
     if args.matrix.is_empty() {
         let mut poses = Queries::poses(&args.pose)?;
         if args.pose.is_empty() {
-            poses = Queries::poses(&[super::args::Given::Query([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])])?;
+            poses =
+                Queries::poses(&[super::args::Given::Query([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])])?;
         }
         if let Some(index) = poses.rows.iter().position(|row| row[3..].iter().all(|&x| x == 0.0)) {
             let failure = Failure::NoRotation { place: poses.place(index) };
@@ -103,7 +104,8 @@ fn answer<const N: usize>(
     Ok(())
 }
 
-/// All pairs of a pose, a row each; one without triangles if there is none, or if some may be missing.
+/// All pairs of a pose, a row each; one without triangles if there is none, or if some may be
+/// missing.
 #[allow(clippy::too_many_arguments, reason = "what a thread works with, and where its rows go")]
 fn every(
     first: &Tree<'_>,
@@ -121,11 +123,9 @@ fn every(
         found = all_overlaps(first, second, pose, steps, pairs, stack)?;
     }
     let row = |contact, triangles| Row { pose: index, contact, triangles, work: found.work };
-    rows.extend(
-        pairs.iter().take(found.stored).map(|pair| {
-            row(if pair.is_certain { Contact::Meets } else { Contact::Open }, Some(pair.triangles))
-        }),
-    );
+    rows.extend(pairs.iter().take(found.stored).map(|pair| {
+        row(if pair.is_certain { Contact::Meets } else { Contact::Open }, Some(pair.triangles))
+    }));
     match found.ended {
         Ended::Exact | Ended::Level if found.stored == 0 => rows.push(row(Contact::Apart, None)),
         Ended::Exact | Ended::Level => {}

@@ -51,7 +51,11 @@ pub trait Question: Clone + Sync {
 }
 
 /// Asks `question` about every point of the file.
-pub fn run<Q: Question>(input: &PointArgs, search: &SearchArgs, question: &Q) -> Result<(), Failure> {
+pub fn run<Q: Question>(
+    input: &PointArgs,
+    search: &SearchArgs,
+    question: &Q,
+) -> Result<(), Failure> {
     refuse_blob_as_output(input, search)?;
     let bytes = blob_file::read(&input.blob)?;
     let model = blob_file::open(&input.blob, &bytes)?;
@@ -95,7 +99,8 @@ pub fn ask<Q: Question>(
     Ok(())
 }
 
-/// The last columns of a triangle's row: its interval, its closest point, its number, and the work of the query.
+/// The last columns of a triangle's row: its interval, its closest point, its number, and the work
+/// of the query.
 pub fn write_near(out: &mut dyn Write, near: &Near, work: u32) -> io::Result<()> {
     let Near { lower, upper, point: [x, y, z], triangle } = near;
     for number in [lower, upper, x, y, z] {

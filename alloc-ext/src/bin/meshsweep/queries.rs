@@ -1,4 +1,5 @@
-//! Queries of the command line, of text files, of raw f32 files and of the standard input, in the order given.
+//! Queries of the command line, of text files, of raw f32 files and of the standard input, in the
+//! order given.
 
 use super::args::Given;
 use super::csv::{self, Rows, Short};
@@ -64,7 +65,9 @@ impl<const N: usize> Queries<N> {
     fn read(given: &[Given<N>], wanted: &'static str) -> Result<Self, Failure> {
         let is_stdin = |path: &Path| path.as_os_str() == "-";
         if given.iter().filter_map(Given::file).filter(|path| is_stdin(path)).count() > 1 {
-            return Err(Failure::Usage { what: "-: the standard input can be read only once".to_owned() });
+            return Err(Failure::Usage {
+                what: "-: the standard input can be read only once".to_owned(),
+            });
         }
         let mut queries = Queries { rows: Vec::new(), origins: Vec::new(), broken: None };
         for given in given {
@@ -82,7 +85,9 @@ impl<const N: usize> Queries<N> {
                     let read = std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes);
                     queries.text(Path::new(STANDARD_INPUT), read, wanted)?;
                 }
-                Given::File(path) if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("f32")) => {
+                Given::File(path)
+                    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("f32")) =>
+                {
                     queries.raw(path)?;
                 }
                 Given::File(path) => queries.text(path, std::fs::read(path), wanted)?,
@@ -108,7 +113,8 @@ impl<const N: usize> Queries<N> {
         bytes: std::io::Result<Vec<u8>>,
         wanted: &'static str,
     ) -> Result<(), Failure> {
-        let bytes = bytes.map_err(|error| Failure::ReadQueries { file: file.to_owned(), error, wanted })?;
+        let bytes =
+            bytes.map_err(|error| Failure::ReadQueries { file: file.to_owned(), error, wanted })?;
         let Rows { rows, lines, broken } = csv::parse(file, &bytes, wanted);
         self.origins.push((self.rows.len(), Origin::Text { file: file.to_owned(), lines }));
         self.rows.extend(rows);
@@ -117,12 +123,17 @@ impl<const N: usize> Queries<N> {
     }
 
     fn raw(&mut self, file: &Path) -> Result<(), Failure> {
-        let bytes = std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
+        let bytes =
+            std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
         let (words, rest) = bytes.as_chunks::<4>();
         let numbers: Vec<f32> = words.iter().map(|&word| f32::from_le_bytes(word)).collect();
         let (rows, partial) = numbers.as_chunks::<N>();
         if !(rest.is_empty() && partial.is_empty()) {
-            return Err(Failure::RawLength { file: file.to_owned(), bytes: bytes.len(), record: 4 * N });
+            return Err(Failure::RawLength {
+                file: file.to_owned(),
+                bytes: bytes.len(),
+                record: 4 * N,
+            });
         }
         let first = self.rows.len();
         self.origins.push((first, Origin::Raw { file: file.to_owned() }));
@@ -147,7 +158,8 @@ impl<const N: usize> Queries<N> {
         Ok(())
     }
 
-    /// Why the answers end before their time: a query was refused, or the next one could not be read.
+    /// Why the answers end before their time: a query was refused, or the next one could not be
+    /// read.
     pub fn stopped(&mut self, refused: Option<(usize, QueryError)>) -> Option<Failure> {
         let broken = self.broken.take();
         refused.map(|(index, error)| self.refused(index, error)).or(broken)

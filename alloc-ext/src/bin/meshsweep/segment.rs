@@ -25,11 +25,14 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
         refuse_same_file(output, &args.files())?;
     }
     let usage = |what: &str| Err(Failure::Usage { what: what.to_owned() });
-    let limits_tree = || usage("--steps is for the cover tree; leave it out, or add --engine cover");
+    let limits_tree =
+        || usage("--steps is for the cover tree; leave it out, or add --engine cover");
     let by_hull = args.engine == Some(SegmentEngine::Hull);
     let is_limited = args.all || args.search.steps.is_some() || args.search.queue.is_some();
     if by_hull && is_limited {
-        return usage("--engine hull finds first hits to their end; leave out --all, --steps and --queue");
+        return usage(
+            "--engine hull finds first hits to their end; leave out --all, --steps and --queue",
+        );
     }
     if args.engine == Some(SegmentEngine::Tree) && args.search.steps.is_some() {
         return limits_tree();
@@ -60,13 +63,18 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
             None => Caster::cover(&model, &args.search),
         };
         move |index, segment, rows: &mut Vec<Row>| {
-            if args.all { caster.all(index, segment, rows) } else { caster.first(index, segment, rows) }
+            if args.all {
+                caster.all(index, segment, rows)
+            } else {
+                caster.first(index, segment, rows)
+            }
         }
     });
     let stopped = match asked.refused {
-        Some((index, QueryError::OutOfDomain)) => {
-            Some(Failure::TooFar { place: segments.place(index), limit: limit(&model, tree.as_ref()) })
-        }
+        Some((index, QueryError::OutOfDomain)) => Some(Failure::TooFar {
+            place: segments.place(index),
+            limit: limit(&model, tree.as_ref()),
+        }),
         refused => segments.stopped(refused),
     };
     output.finish_until(stopped, |out| {
@@ -133,6 +141,7 @@ fn write_place(
 }
 
 fn point_at(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {
-    let along = |from: f32, to: f32| f64::from(from) + (f64::from(to) - f64::from(from)) * f64::from(t);
+    let along =
+        |from: f32, to: f32| f64::from(from) + (f64::from(to) - f64::from(from)) * f64::from(t);
     core::array::from_fn(|k| along(a[k], b[k]) as f32)
 }

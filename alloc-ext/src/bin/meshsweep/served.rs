@@ -101,7 +101,8 @@ fn finest_tight<'a>(model: &Model<'a>) -> Option<TightHull<'a>> {
     model.tight_hulls()?.finest()
 }
 
-/// The finest tight hull of at most so many faces. Where nothing is said of faces, the finest of all if nothing else in the blob knows distances.
+/// The finest tight hull of at most so many faces. Where nothing is said of faces, the finest of
+/// all if nothing else in the blob knows distances.
 pub fn tight_hull<'a>(
     file: &Path,
     model: &Model<'a>,
@@ -115,7 +116,11 @@ pub fn tight_hull<'a>(
     require_tight(file, model, faces).and_then(|hull| for_distances(file, model, hull)).map(Some)
 }
 
-fn for_distances<'a>(file: &Path, model: &Model<'_>, hull: TightHull<'a>) -> Result<TightHull<'a>, Failure> {
+fn for_distances<'a>(
+    file: &Path,
+    model: &Model<'_>,
+    hull: TightHull<'a>,
+) -> Result<TightHull<'a>, Failure> {
     if hull.tree().serves_distances() {
         Ok(hull)
     } else {
@@ -124,7 +129,11 @@ fn for_distances<'a>(file: &Path, model: &Model<'_>, hull: TightHull<'a>) -> Res
 }
 
 /// The finest tight hull of at most so many faces.
-pub fn require_tight<'a>(file: &Path, model: &Model<'a>, faces: u32) -> Result<TightHull<'a>, Failure> {
+pub fn require_tight<'a>(
+    file: &Path,
+    model: &Model<'a>,
+    faces: u32,
+) -> Result<TightHull<'a>, Failure> {
     let refuse = || not_served(file, model, Need::Tight, None);
     let hulls = model.tight_hulls().ok_or_else(refuse)?;
     let count = hulls.records().take_while(|record| record.faces <= faces).count();
@@ -140,7 +149,8 @@ pub fn require_hull(file: &Path, model: &Model<'_>) -> Result<(), Failure> {
     if model.has_hull() { Ok(()) } else { Err(not_served(file, model, Need::Hull, None)) }
 }
 
-/// The tree, or `None` for the hull hierarchy: what `--engine` chooses, else the tree where the blob has one.
+/// The tree, or `None` for the hull hierarchy: what `--engine` chooses, else the tree where the
+/// blob has one.
 pub fn choose<'a>(
     file: &Path,
     model: &Model<'a>,

@@ -30,7 +30,8 @@ impl SearchArgs {
         vec![QueueEntry::EMPTY; entries]
     }
 
-    /// Says on the standard error how queries ended if any ended early, and what they took if asked. `by_hull`: of a mesh that is known by a tight hull alone.
+    /// Says on the standard error how queries ended if any ended early, and what they took if
+    /// asked. `by_hull`: of a mesh that is known by a tight hull alone.
     pub fn note<A>(&self, asked: &Asked<A>, by_hull: bool) {
         let Asked { tally, time, threads, .. } = asked;
         // A standard error that is closed is no reason to withhold the answers.
@@ -119,11 +120,15 @@ impl Tally {
 
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.write(f, "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching")
+        self.write(
+            f,
+            "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching",
+        )
     }
 }
 
-/// The same of a mesh that is known by a tight hull alone: that a query is left open is the rule then.
+/// The same of a mesh that is known by a tight hull alone: that a query is left open is the rule
+/// then.
 struct ByHull<'a>(&'a Tally);
 
 impl fmt::Display for ByHull<'_> {

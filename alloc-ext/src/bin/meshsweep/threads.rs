@@ -22,13 +22,15 @@ pub struct Asked<A> {
     pub threads: usize,
 }
 
-/// As many as wanted; unless told otherwise as many as the machine has processors for. No more than there are `parts` of work.
+/// As many as wanted; unless told otherwise as many as the machine has processors for. No more than
+/// there are `parts` of work.
 pub fn count(wanted: Option<NonZeroUsize>, parts: usize) -> usize {
     let all = || std::thread::available_parallelism().ok();
     wanted.or_else(all).map_or(1, NonZeroUsize::get).min(parts).max(1)
 }
 
-/// Asks every query. `worker` makes what a thread works with: it appends the answers to one query, and says how the search went.
+/// Asks every query. `worker` makes what a thread works with: it appends the answers to one query,
+/// and says how the search went.
 pub fn ask<const N: usize, A: Send, W>(
     queries: &Queries<N>,
     threads: Option<NonZeroUsize>,
@@ -49,8 +51,10 @@ where
     })
 }
 
-/// Asks every query, so many `at_once`. `worker` makes what a thread works with: of queries that stand together, the first of them with the given number, it
-/// appends the answers and counts how they ended; or it says which one is refused, the least number, and appends the answers before it at most.
+/// Asks every query, so many `at_once`. `worker` makes what a thread works with: of queries that
+/// stand together, the first of them with the given number, it appends the answers and counts how
+/// they ended; or it says which one is refused, the least number, and appends the answers before it
+/// at most.
 pub fn ask_batches<const N: usize, A: Send, W>(
     queries: &Queries<N>,
     threads: Option<NonZeroUsize>,
@@ -86,7 +90,8 @@ where
         };
         std::iter::once(mine).chain(others.into_iter().map(join)).collect()
     });
-    // Chunks are taken in order, so the first query that is refused is among those that were asked, and all before it are.
+    // Chunks are taken in order, so the first query that is refused is among those that were asked,
+    // and all before it are.
     let refused = all.iter().filter_map(|(_, refused)| *refused).min_by_key(|(index, _)| *index);
     let time = started.elapsed();
     let mut done: Vec<_> = all.into_iter().flat_map(|(done, _)| done).collect();

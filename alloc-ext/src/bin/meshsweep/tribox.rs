@@ -1,4 +1,5 @@
-//! `meshsweep tribox`: a mesh as unions of 1, 2, 4, … triboxes, what each misses, and the finest as binary PLY.
+//! `meshsweep tribox`: a mesh as unions of 1, 2, 4, … triboxes, what each misses, and the finest as
+//! binary PLY.
 
 use super::args::TriboxArgs;
 use super::counted::Counted;
@@ -8,7 +9,9 @@ use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
 use meshsweep_alloc::mesh::{Mesh, write_ply};
 use meshsweep_alloc::tree;
-use meshsweep_alloc::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
+use meshsweep_alloc::tribox::{
+    Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume,
+};
 use meshsweep_core::Tree;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -126,7 +129,8 @@ impl Report<'_> {
             "triboxes   faces compression      volume    void %  hull error  largest distance to the mesh"
         )?;
         for level in self.levels {
-            let void = self.void(level).map_or("-".to_owned(), |void| Percent(void * 100.0).to_string());
+            let void =
+                self.void(level).map_or("-".to_owned(), |void| Percent(void * 100.0).to_string());
             writeln!(
                 out,
                 "{:>8} {:>7} {:>11.2} {:>11} {:>9} {:>11}  {} to {}",

@@ -7,7 +7,9 @@ use super::failure::Failure;
 use super::points::{self, Question};
 use super::served::{self, Need};
 use meshsweep_core::query::tight;
-use meshsweep_core::query::tree::{AllWithin, Near, TreeEntry, Verdict, Within, all_within, is_within};
+use meshsweep_core::query::tree::{
+    AllWithin, Near, TreeEntry, Verdict, Within, all_within, is_within,
+};
 use meshsweep_core::query::{Ended, QueryError, Stop, Work};
 use meshsweep_core::{TightHull, Tree};
 use std::io::{self, Write};
@@ -72,7 +74,13 @@ impl Question for Any<'_> {
         (answer.ended, answer.work)
     }
 
-    fn write(&self, out: &mut dyn Write, _: usize, [x, y, z]: &[f32; 3], answer: &Within) -> io::Result<()> {
+    fn write(
+        &self,
+        out: &mut dyn Write,
+        _: usize,
+        [x, y, z]: &[f32; 3],
+        answer: &Within,
+    ) -> io::Result<()> {
         write!(out, "{},{},{},", Short(*x), Short(*y), Short(*z))?;
         match answer.verdict {
             Verdict::Yes { triangle: Some(triangle) } => write!(out, "yes,{triangle}")?,

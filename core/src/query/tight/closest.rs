@@ -6,18 +6,26 @@ use crate::num::{sum_down, sum_up};
 use crate::query::tree::TreeEntry;
 use crate::query::{ClosestPoint, Ended, QueryError, Stop};
 
-/// An interval of the distance from `point` (input units, the mesh's frame) to the mesh that the hull encloses, and the closest point of the hull.
+/// An interval of the distance from `point` (input units, the mesh's frame) to the mesh that the
+/// hull encloses, and the closest point of the hull.
 ///
-/// `upper` is never above the hull's distance and the slack of its closest face. Outside of the hull `lower` is the hull's distance, so that the interval is as wide as the slack there; inside, or where rounding
-/// leaves the side open, it is less by the hull's depth, and at least 0. [`point`](ClosestPoint::point) lies on the hull; there is no triangle.
+/// `upper` is never above the hull's distance and the slack of its closest face. Outside of the
+/// hull `lower` is the hull's distance, so that the interval is as wide as the slack there; inside,
+/// or where rounding leaves the side open, it is less by the hull's depth, and at least 0.
+/// [`point`](ClosestPoint::point) lies on the hull; there is no triangle.
 ///
-/// `stack` as for [`tree::closest_point`](crate::query::tree::closest_point), for the hull's [`tree`](TightHull::tree). The tolerances of `stop` shorten nothing: a hull that is as
-/// tight as asked for ends with [`Ended::Tolerance`], any other with [`Ended::Level`]; [`Ended::Steps`] and [`Ended::Capacity`] as there, with a lower end of 0 where the side was not found.
+/// `stack` as for [`tree::closest_point`](crate::query::tree::closest_point), for the hull's
+/// [`tree`](TightHull::tree). The tolerances of `stop` shorten nothing: a hull that is as
+/// tight as asked for ends with [`Ended::Tolerance`], any other with [`Ended::Level`];
+/// [`Ended::Steps`] and [`Ended::Capacity`] as there, with a lower end of 0 where the side was not
+/// found.
 ///
-/// Cost: that of the tree's closest point outside of the hull's box, of its [`signed_distance`](crate::query::tree::signed_distance) within.
+/// Cost: that of the tree's closest point outside of the hull's box, of its
+/// [`signed_distance`](crate::query::tree::signed_distance) within.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`]; [`QueryError::NotServed`] if the hull's tree was not built for distances.
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`];
+/// [`QueryError::NotServed`] if the hull's tree was not built for distances.
 pub fn closest_point(
     hull: &TightHull<'_>,
     point: [f32; 3],
@@ -26,7 +34,11 @@ pub fn closest_point(
 ) -> Result<ClosestPoint, QueryError> {
     stop.check()?;
     let (near, is_outside) = seen_from(hull.tree(), point, stop.steps, stack)?;
-    let lower = if is_outside { near.lower } else { above_zero(sum_down(near.lower, -hull.record().depth)) };
+    let lower = if is_outside {
+        near.lower
+    } else {
+        above_zero(sum_down(near.lower, -hull.record().depth))
+    };
     let upper = upper_end(hull, &near);
     let is_cut = matches!(near.ended, Ended::Steps | Ended::Capacity);
     let is_met = upper <= lower * (1.0 + stop.relative) || upper - lower <= stop.absolute;

@@ -1,12 +1,15 @@
-//! Questions about a part of which only a tight hull is known: its surface is inside of the hull, and no farther from a face than the face's slack.
+//! Questions about a part of which only a tight hull is known: its surface is inside of the hull,
+//! and no farther from a face than the face's slack.
 //!
-//! *The interval.* Let H be the hull, P the mesh, p the point. If p is outside of H, every way from p to P crosses H: |p P| ≥ |p H|. Wherever p is, a way to P may be
-//! continued to H: |p P| ≥ |p H| − depth. With q the point of face f that is closest to p, |p P| ≤ |p q| + |q P| ≤ |p H| + slack of f. All three take
-//! the box tree's interval of |p H|, which holds for the hull as it was proved to enclose the mesh, and round outward
-//! (`core/docs/rounding.md` §12).
+//! *The interval.* Let H be the hull, P the mesh, p the point. If p is outside of H, every way from
+//! p to P crosses H: |p P| ≥ |p H|. Wherever p is, a way to P may be continued to H: |p P| ≥ |p H|
+//! − depth. With q the point of face f that is closest to p, |p P| ≤ |p q| + |q P| ≤ |p H| + slack
+//! of f. All three take the box tree's interval of |p H|, which holds for the hull as it was proved
+//! to enclose the mesh, and round outward (`core/docs/rounding.md` §12).
 //!
-//! *The side.* A point outside of the hull tree's box, and farther from the hull than it was moved when it was stored, is outside. Else
-//! [`signed_distance`](super::tree::signed_distance) proves it; what it leaves open counts as inside.
+//! *The side.* A point outside of the hull tree's box, and farther from the hull than it was moved
+//! when it was stored, is outside. Else [`signed_distance`](super::tree::signed_distance) proves
+//! it; what it leaves open counts as inside.
 //!
 //! ```
 //! use meshsweep_core::{TightHulls, query::{Stop, tight::is_within, tree::TreeEntry}};

@@ -4,8 +4,9 @@ use crate::blob::Tree;
 use crate::query::tree::{Side, TreeEntry, closest_point, signed_distance};
 use crate::query::{ClosestPoint, QueryError, Stop};
 
-/// Whether a point, given in input units, is outside of the box of all stored vertices. Exact but for points that f32 cannot tell from the box's planes in grid units: those
-/// are too near for a distance above 0.
+/// Whether a point, given in input units, is outside of the box of all stored vertices. Exact but
+/// for points that f32 cannot tell from the box's planes in grid units: those are too near for a
+/// distance above 0.
 pub(super) fn is_outside_box(tree: &Tree<'_>, point: [f32; 3]) -> bool {
     let scale = tree.scale();
     let [inward, rest] = scale.inward;
@@ -26,7 +27,8 @@ pub(super) fn seen_from(
     let stop = Stop { steps, ..Stop::EXACT };
     if is_outside_box(tree, point) {
         let near = closest_point(tree, point, &stop, stack)?;
-        // What was moved to be stored is no farther from where it was than a distance of 0 allows for.
+        // What was moved to be stored is no farther from where it was than a distance of 0 allows
+        // for.
         return Ok((near, near.lower > 0.0));
     }
     let signed = signed_distance(tree, point, &stop, stack)?;

@@ -8,15 +8,17 @@ use crate::query::{Ended, QueryError, Stop};
 
 /// Is the part that the hull encloses at most `distance` (input units) from `point`?
 ///
-/// `No` is said outside of the hull only, so that it holds for a solid part with its inside; within the hull, and as far from it as its slack, the answer is `Yes` or `Unknown`. Who has to stay clear takes
-/// `Unknown` for `Yes`, which names no triangle. `stack` and `stop` as for [`tree::is_within`](crate::query::tree::is_within).
+/// `No` is said outside of the hull only, so that it holds for a solid part with its inside; within
+/// the hull, and as far from it as its slack, the answer is `Yes` or `Unknown`. Who has to stay
+/// clear takes `Unknown` for `Yes`, which names no triangle. `stack` and `stop` as for
+/// [`tree::is_within`](crate::query::tree::is_within).
 ///
-/// Cost: where the hull is farther, that of its tree's `is_within`, and within its box that of its [`signed_distance`]; else
-/// that of the tree's [`closest_point`](tree::closest_point) as well.
+/// Cost: where the hull is farther, that of its tree's `is_within`, and within its box that of its
+/// [`signed_distance`]; else that of the tree's [`closest_point`](tree::closest_point) as well.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative, NaN or infinite; [`QueryError::NoQueue`];
-/// [`QueryError::NotServed`].
+/// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative, NaN
+/// or infinite; [`QueryError::NoQueue`]; [`QueryError::NotServed`].
 pub fn is_within(
     hull: &TightHull<'_>,
     point: [f32; 3],

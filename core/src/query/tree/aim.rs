@@ -9,12 +9,14 @@ use crate::query::{Hit, QueryError};
 use crate::tree::Slabs;
 use glam::Vec3;
 
-/// Rounding of the parameter at which a segment enters a box, in units of [`U32`] times the way to the farthest corner along that axis.
-/// Proved: 28 (`core/docs/rounding.md` §9). Larger visits more.
+/// Rounding of the parameter at which a segment enters a box, in units of [`U32`] times the way to
+/// the farthest corner along that axis. Proved: 28 (`core/docs/rounding.md` §9). Larger visits
+/// more.
 const SLAB: f32 = 32.0;
 
-/// How many extents of the model its farthest corner may be away from a segment's start before the start is moved nearer. There the strip along
-/// edges in which nothing is decided is 2^-17 of the model.
+/// How many extents of the model its farthest corner may be away from a segment's start before the
+/// start is moved nearer. There the strip along edges in which nothing is decided is 2^-17 of the
+/// model.
 const NEAR: f32 = 8.0;
 
 /// A segment, and how its parameters go back to the caller's.
@@ -35,13 +37,18 @@ pub(super) struct Aim {
 impl Aim {
     /// `None`: the segment is proved clear of all.
     #[inline(always)]
-    pub(super) fn new(tree: &Tree<'_>, a: [f32; 3], b: [f32; 3]) -> Result<Option<Aim>, QueryError> {
+    pub(super) fn new(
+        tree: &Tree<'_>,
+        a: [f32; 3],
+        b: [f32; 3],
+    ) -> Result<Option<Aim>, QueryError> {
         let finite = |[x, y, z]: [f32; 3]| x.is_finite() & y.is_finite() & z.is_finite();
         if !(finite(a) & finite(b)) {
             return Err(QueryError::NotFinite);
         }
         let units = Units::of(tree);
-        let inward = |[x, y, z]: [f32; 3]| Vec3::new(units.inward(x), units.inward(y), units.inward(z));
+        let inward =
+            |[x, y, z]: [f32; 3]| Vec3::new(units.inward(x), units.inward(y), units.inward(z));
         let (a, b) = (inward(a), inward(b));
         let (low, high) = bounds(tree);
         let far = farthest(a, low, high);
@@ -60,13 +67,15 @@ impl Aim {
         Ok(Some(Aim::at(units, a, b - a, far, 0.0, 0.0)))
     }
 
-    /// The line from `origin`, whose farthest corner is `far` away, with what the origin may be off the segment by.
+    /// The line from `origin`, whose farthest corner is `far` away, with what the origin may be off
+    /// the segment by.
     #[inline(always)]
     fn at(units: Units, origin: Vec3, direction: Vec3, far: Vec3, start: f32, off: f32) -> Aim {
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
-        // The way and a unit more: a node that is flat, or thinner than a grid unit, has an origin that is an integer.
+        // The way and a unit more: a node that is flat, or thinner than a grid unit, has an origin
+        // that is an integer.
         let margin = |far: f32| surface + (SLAB * U32 * far + SLAB * U32);
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
@@ -126,9 +135,10 @@ fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     Vec3::new(far(l.x, h.x), far(l.y, h.y), far(l.z, h.z))
 }
 
-/// Whether a segment is proved clear of the model's box: the six separating axes that are theirs, all lengths doubled (Ericson, *Real-Time
-/// Collision Detection*, 2005, 5.3.3). Most segments that miss the model end here, without a division. `size` is what both ends' farthest corners are away,
-/// `core/docs/rounding.md` §9 has the margin.
+/// Whether a segment is proved clear of the model's box: the six separating axes that are theirs,
+/// all lengths doubled (Ericson, *Real-Time Collision Detection*, 2005, 5.3.3). Most segments that
+/// miss the model end here, without a division. `size` is what both ends' farthest corners are
+/// away, `core/docs/rounding.md` §9 has the margin.
 #[inline(always)]
 fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f32) -> bool {
     let margin = 2.0 * surface_error + size * (32.0 * U32) + TREE_TINY;
@@ -146,8 +156,9 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
         | across([m.z, m.x], [d.z, d.x], [half.z, half.x])
 }
 
-/// Moves a far start along the segment to where it enters the model's box, generously enlarged, in numbers of twice f32's precision: so the strip along edges in
-/// which nothing is decided stays as narrow as the model allows. See `core/docs/rounding.md` §9.
+/// Moves a far start along the segment to where it enters the model's box, generously enlarged, in
+/// numbers of twice f32's precision: so the strip along edges in which nothing is decided stays as
+/// narrow as the model allows. See `core/docs/rounding.md` §9.
 #[cold]
 #[inline(never)]
 fn approach(units: Units, [a, b]: [Vec3; 2], [low, high]: [Vec3; 2], size: f32) -> Option<Aim> {
@@ -178,7 +189,8 @@ fn approach(units: Units, [a, b]: [Vec3; 2], [low, high]: [Vec3; 2], size: f32) 
     Some(Aim::at(units, origin, direction, far, start, off))
 }
 
-/// `a + t·(b − a)`, rounded once and to twice f32's precision before (Dekker 1971; Knuth, TAOCP 4.2.2).
+/// `a + t·(b − a)`, rounded once and to twice f32's precision before (Dekker 1971; Knuth, TAOCP
+/// 4.2.2).
 fn along(a: f32, b: f32, t: f32) -> f32 {
     let (d, d_rest) = two_sum(b, -a);
     let (p, p_rest) = two_product(t, d);

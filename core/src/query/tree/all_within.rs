@@ -15,8 +15,8 @@ use crate::query::{Ended, QueryError, Stop, Work};
 pub struct AllWithin {
     /// Triangles in the slice.
     pub stored: usize,
-    /// The first so many are certainly within the distance (`upper ≤ distance`); of the others the stored surface and rounding leave it open
-    /// (`lower ≤ distance < upper`).
+    /// The first so many are certainly within the distance (`upper ≤ distance`); of the others the
+    /// stored surface and rounding leave it open (`lower ≤ distance < upper`).
     pub certain: usize,
     /// Triangles, certain or not, that did not fit; those kept are the closest.
     pub dropped: u32,
@@ -26,13 +26,14 @@ pub struct AllWithin {
     pub ended: Ended,
 }
 
-/// All triangles of the input mesh that are, or may be, at most `distance` (input units) from `point`, into `out`, by rising distance.
+/// All triangles of the input mesh that are, or may be, at most `distance` (input units) from
+/// `point`, into `out`, by rising distance.
 ///
-/// Order, ties, triangles without area and far points as for [`nearest`](super::nearest). An empty `out` counts. `stack` as for [`closest_point`]; of
-/// [`Stop`] only `steps` matters.
+/// Order, ties, triangles without area and far points as for [`nearest`](super::nearest). An empty
+/// `out` counts. `stack` as for [`closest_point`]; of [`Stop`] only `steps` matters.
 ///
-/// Cost: linear in what lies within the distance, also in what is dropped; log n for each triangle stored. After an error what `out`
-/// holds is undefined.
+/// Cost: linear in what lies within the distance, also in what is dropped; log n for each triangle
+/// stored. After an error what `out` holds is undefined.
 ///
 /// # Errors
 /// Those of [`is_within`](super::is_within).
@@ -81,7 +82,8 @@ fn from_afar(
     stack: &mut [TreeEntry],
 ) -> Result<AllWithin, QueryError> {
     let closest = closest_point(tree, point, &Stop::EXACT, stack)?;
-    let none = AllWithin { stored: 0, certain: 0, dropped: 0, work: closest.work, ended: Ended::Exact };
+    let none =
+        AllWithin { stored: 0, certain: 0, dropped: 0, work: closest.work, ended: Ended::Exact };
     if closest.lower > distance {
         return Ok(none);
     }
@@ -129,7 +131,10 @@ impl Collect<'_> {
             let within = self.probe.upper(root(distance_sq)) <= self.distance
                 || self.probe.lower(lower()) <= self.distance;
             if within
-                && self.ranked.offer(Candidate::new(visit, first, lane, distance_sq, certified_sq)).is_some()
+                && self
+                    .ranked
+                    .offer(Candidate::new(visit, first, lane, distance_sq, certified_sq))
+                    .is_some()
             {
                 self.dropped = self.dropped.saturating_add(1);
             }

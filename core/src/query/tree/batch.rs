@@ -1,7 +1,8 @@
-//! Closest points of many queries at once: in an order in which each begins where the one before ended.
+//! Closest points of many queries at once: in an order in which each begins where the one before
+//! ended.
 //!
-//! Neighbours in Morton order need the same nodes and leaves, which the cache then holds, and the last answer's leaf bounds the next distance before
-//! the descent begins.
+//! Neighbours in Morton order need the same nodes and leaves, which the cache then holds, and the
+//! last answer's leaf bounds the next distance before the descent begins.
 
 use super::closest::{Hint, closest_point, closest_point_from};
 use super::walk::TreeEntry;
@@ -30,7 +31,9 @@ pub enum BatchError {
 impl core::fmt::Display for BatchError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            BatchError::Length { points, answers } => write!(f, "{points} queries, but {answers} answers"),
+            BatchError::Length { points, answers } => {
+                write!(f, "{points} queries, but {answers} answers")
+            }
             BatchError::Query { index, error } => write!(f, "query {index}: {error}"),
         }
     }
@@ -38,16 +41,20 @@ impl core::fmt::Display for BatchError {
 
 impl core::error::Error for BatchError {}
 
-/// [`closest_point`] of each of `points`, into the place of `answers` with the same index; the same bits but for `work`.
+/// [`closest_point`] of each of `points`, into the place of `answers` with the same index; the same
+/// bits but for `work`.
 ///
-/// `order` is working memory for sorting: with two entries a query all are asked in Morton order, with fewer they are sorted in pieces of half as many
-/// queries as there are entries, with less than two (`&mut []`) they are asked as they come, which is best if they are a path or a grid row by row. `hint`
-/// is where the first query begins, and is left where the last one ended.
+/// `order` is working memory for sorting: with two entries a query all are asked in Morton order,
+/// with fewer they are sorted in pieces of half as many queries as there are entries, with less
+/// than two (`&mut []`) they are asked as they come, which is best if they are a path or a grid row
+/// by row. `hint` is where the first query begins, and is left where the last one ended.
 ///
-/// A query with a tolerance or a step budget, or a stack on which not everything fits, is answered on its own: where it stops depends on where it begins.
+/// A query with a tolerance or a step budget, or a stack on which not everything fits, is answered
+/// on its own: where it stops depends on where it begins.
 ///
-/// Cost: that of the queries. Measured, sorting included: random ones around a model of 270,000 triangles take a fifth less than one at a time, next to
-/// its surface a tenth less; where the tree fits the cache sorting gains nothing. A grid row by row, as it comes, takes a tenth less.
+/// Cost: that of the queries. Measured, sorting included: random ones around a model of 270,000
+/// triangles take a fifth less than one at a time, next to its surface a tenth less; where the tree
+/// fits the cache sorting gains nothing. A grid row by row, as it comes, takes a tenth less.
 ///
 /// # Errors
 /// [`BatchError`].
@@ -107,13 +114,20 @@ pub fn closest_points(
     Ok(())
 }
 
-/// Cells along an axis of the box of all points, as a power of two: finer ones cost a pass of sorting and gain nothing.
+/// Cells along an axis of the box of all points, as a power of two: finer ones cost a pass of
+/// sorting and gain nothing.
 const CELL_BITS: u32 = 8;
 
 /// The indices of points in the low half of each entry, along a Morton curve through their box.
-fn in_morton_order<'o>(points: &[[f32; 3]], codes: &'o mut [u64], spare: &'o mut [u64]) -> &'o [u64] {
+fn in_morton_order<'o>(
+    points: &[[f32; 3]],
+    codes: &'o mut [u64],
+    spare: &'o mut [u64],
+) -> &'o [u64] {
     let count = points.len();
-    let (Some(codes), Some(spare)) = (codes.get_mut(..count), spare.get_mut(..count)) else { return &[] };
+    let (Some(codes), Some(spare)) = (codes.get_mut(..count), spare.get_mut(..count)) else {
+        return &[];
+    };
     let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
     for point in points {
         for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(point) {

@@ -11,7 +11,8 @@ use crate::num::tolerance::{TREE_RELATIVE, U32};
 use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
 use glam::Vec3;
 
-/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe; a bad one costs a leaf.
+/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe; a
+/// bad one costs a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hint(u32);
 
@@ -20,16 +21,20 @@ impl Hint {
     pub const NONE: Hint = Hint(u32::MAX);
 }
 
-/// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that contains the distance to the input mesh.
+/// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that
+/// contains the distance to the input mesh.
 ///
-/// `stack` is working memory; [`TreeHeader::stack_entries`](crate::blob::TreeHeader) entries make overflow impossible. With fewer the interval still
-/// holds, and [`Ended::Capacity`] says so. Equidistant triangles: the least in blob order. All arithmetic is f32.
+/// `stack` is working memory; [`TreeHeader::stack_entries`](crate::blob::TreeHeader) entries make
+/// overflow impossible. With fewer the interval still holds, and [`Ended::Capacity`] says so.
+/// Equidistant triangles: the least in blob order. All arithmetic is f32.
 ///
-/// Cost: five to fifteen nodes and three to twelve leaves on scanned parts. The worst case is the whole tree, at the centre of a sphere: where
-/// time is bounded, set [`Stop::steps`]. Farther than a million model sizes the interval is that of the model's box.
+/// Cost: five to fifteen nodes and three to twelve leaves on scanned parts. The worst case is the
+/// whole tree, at the centre of a sphere: where time is bounded, set [`Stop::steps`]. Farther than
+/// a million model sizes the interval is that of the model's box.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`]; [`QueryError::NotServed`] if the blob was not built for distances.
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`];
+/// [`QueryError::NotServed`] if the blob was not built for distances.
 pub fn closest_point(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -39,7 +44,8 @@ pub fn closest_point(
     closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())
 }
 
-/// [`closest_point`], which looks at `hint`'s leaf first and leaves its own there. An exact answer has the same bits whatever the hint.
+/// [`closest_point`], which looks at `hint`'s leaf first and leaves its own there. An exact answer
+/// has the same bits whatever the hint.
 ///
 /// # Errors
 /// Those of [`closest_point`].
@@ -123,7 +129,8 @@ impl<'a> Closest<'a> {
         let near = nearest_triangle(patch, self.probe.p)?;
         self.beyond = self.probe.limit(near.distance_sq);
         self.limit = self.beyond;
-        // Farther leaves do not count, on whichever target they are told to be beyond the limit before they are computed.
+        // Farther leaves do not count, on whichever target they are told to be beyond the limit
+        // before they are computed.
         self.best.distance_sq = near.distance_sq;
         self.weak = self.probe.weak(near.distance_sq);
         Some(())
@@ -161,8 +168,9 @@ impl<'a> Closest<'a> {
         first(visit.node, visit.lane) > first(self.best.node, self.best.child)
     }
 
-    /// Triangles whose supporting plane is worse than the best distance by more than rounding: slivers, and points next to the surface.
-    /// Each is looked at again. A triangle that is weak beside the final best is weak beside every one before it, so the order of visits does
+    /// Triangles whose supporting plane is worse than the best distance by more than rounding:
+    /// slivers, and points next to the surface. Each is looked at again. A triangle that is
+    /// weak beside the final best is weak beside every one before it, so the order of visits does
     /// not decide what is found.
     #[cold]
     #[inline(never)]
@@ -182,8 +190,11 @@ impl<'a> Closest<'a> {
             let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
             if better.distance_sq < near.distance_sq && nearer {
                 let lanes = Lanes::one(lane, &better);
-                let near =
-                    NearestOf { distance_sq: better.distance_sq, certified_sq: near.certified_sq, lanes };
+                let near = NearestOf {
+                    distance_sq: better.distance_sq,
+                    certified_sq: near.certified_sq,
+                    lanes,
+                };
                 self.improve(&near, visit);
             }
             let [s, e, g] = seen;
@@ -199,7 +210,12 @@ impl<'a> Closest<'a> {
     }
 
     #[inline(always)]
-    fn answer(&self, descent: Descent, work: Work, hint: &mut Hint) -> Result<ClosestPoint, QueryError> {
+    fn answer(
+        &self,
+        descent: Descent,
+        work: Work,
+        hint: &mut Hint,
+    ) -> Result<ClosestPoint, QueryError> {
         let Best { distance_sq, node, child, lanes } = self.best;
         // What is not weak is certified to this part of the best square, and no more.
         let mut least_sq = match self.weak {
@@ -263,8 +279,9 @@ impl Seek for Closest<'_> {
     }
 }
 
-/// The interval of the model's box, and a point of the surface: from far enough away every point is the closest, within a rounding of f32. In input
-/// units, scaled by a power of two so that no square leaves f32's range.
+/// The interval of the model's box, and a point of the surface: from far enough away every point is
+/// the closest, within a rounding of f32. In input units, scaled by a power of two so that no
+/// square leaves f32's range.
 #[cold]
 #[inline(never)]
 fn from_afar(tree: &Tree<'_>, point: [f32; 3], probe: &Probe) -> Result<ClosestPoint, QueryError> {

@@ -12,7 +12,8 @@ use glam::Vec3;
 pub enum Sight {
     /// From a viewpoint, input units.
     From([f32; 3]),
-    /// Along parallel lines, from the eye into the scene; any length but 0, with which nothing is left out.
+    /// Along parallel lines, from the eye into the scene; any length but 0, with which nothing is
+    /// left out.
     Along([f32; 3]),
 }
 
@@ -31,12 +32,14 @@ pub struct FrontFacing {
     pub culled: u32,
 }
 
-/// Triangles that may face the eye, as numbers in the input file, in blob order: all but those of leaves whose cone of normals proves that they show
-/// their back (Galin & Akkouche 2005, 6.4). A triangle faces a viewpoint if its corners run counter-clockwise seen from there; edge-on and
+/// Triangles that may face the eye, as numbers in the input file, in blob order: all but those of
+/// leaves whose cone of normals proves that they show their back (Galin & Akkouche 2005, 6.4). A
+/// triangle faces a viewpoint if its corners run counter-clockwise seen from there; edge-on and
 /// degenerate ones do not.
 ///
-/// What is left out certainly shows its back: as stored, which with vertices on the grid may differ from the input for triangles seen nearly edge-on.
-/// What is stored may face the eye or not: on scans a leaf with its eight triangles spans an angle.
+/// What is left out certainly shows its back: as stored, which with vertices on the grid may differ
+/// from the input for triangles seen nearly edge-on. What is stored may face the eye or not: on
+/// scans a leaf with its eight triangles spans an angle.
 ///
 /// Cost: linear in the leaves, some fifteen operations for each fan; no memory.
 ///

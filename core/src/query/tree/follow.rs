@@ -32,14 +32,21 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    const NONE: Nearest =
-        Nearest { distance_sq: f32::INFINITY, child: Child::NONE, lane: 0, v: 0.0, w: 0.0, at: usize::MAX };
+    const NONE: Nearest = Nearest {
+        distance_sq: f32::INFINITY,
+        child: Child::NONE,
+        lane: 0,
+        v: 0.0,
+        w: 0.0,
+        at: usize::MAX,
+    };
 }
 
 /// Why a front has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Gap {
-    /// A sliver decides the interval, or the step budget is used up: that is the plain query's affair.
+    /// A sliver decides the interval, or the step budget is used up: that is the plain query's
+    /// affair.
     Undecided,
     /// The front does not reach so far, or the search takes too long.
     Lost,
@@ -107,7 +114,8 @@ impl<'a, 't> Follow<'a, 't> {
         }
     }
 
-    /// The nearest triangle, from the root. There is one within `reach`, as far as an answer's interval can tell.
+    /// The nearest triangle, from the root. There is one within `reach`, as far as an answer's
+    /// interval can tell.
     #[cold]
     #[inline(never)]
     pub(super) fn begin(&mut self, reach: f32, budget: u32) -> Result<Nearest, Gap> {
@@ -121,7 +129,8 @@ impl<'a, 't> Follow<'a, 't> {
         if self.bound <= bound { Ok(nearest) } else { Err(Gap::Lost) }
     }
 
-    /// The nearest triangle, first of all among those of the first entry if `first`. At most `budget` nodes and leaves.
+    /// The nearest triangle, first of all among those of the first entry if `first`. At most
+    /// `budget` nodes and leaves.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(super) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, Gap> {
@@ -185,8 +194,11 @@ impl<'a, 't> Follow<'a, 't> {
             if found.is_leaf() {
                 let patch = self.tree.patch(found.at, found.tag).ok_or(Gap::Model)?;
                 self.looks += 1;
-                let known =
-                    if is_sound(&patch).ok_or(Gap::Model)? { Known::Triangles } else { Known::Sliver };
+                let known = if is_sound(&patch).ok_or(Gap::Model)? {
+                    Known::Triangles
+                } else {
+                    Known::Sliver
+                };
                 return self.look(i, child.with(known));
             }
             self.open(found.at, Some(i))?;
@@ -281,7 +293,8 @@ impl<'a, 't> Follow<'a, 't> {
         Ok(())
     }
 
-    /// Ties go to the least number in the tree; the leaf that is the best already counts as coming first.
+    /// Ties go to the least number in the tree; the leaf that is the best already counts as coming
+    /// first.
     #[cold]
     fn comes_first(&self, child: Child) -> bool {
         let first = |child: Child| Some(self.tree.links(child.node())?.triangle(child.lane()));
@@ -329,7 +342,8 @@ impl<'a, 't> Follow<'a, 't> {
         least(others, self.key_of_triangles(certified_sq))
     }
 
-    /// The triangle `lane` of the first entry's leaf, if it is certain that nothing with a key from `second` on comes as near.
+    /// The triangle `lane` of the first entry's leaf, if it is certain that nothing with a key from
+    /// `second` on comes as near.
     #[inline(always)]
     pub(super) fn same(&mut self, lane: usize, second: f32) -> Option<Nearest> {
         let (_, child) = self.front.get(0)?;
@@ -339,7 +353,8 @@ impl<'a, 't> Follow<'a, 't> {
         let (e, g) = (fan.spoke(patch.spoke(lane, which)), fan.spoke(patch.spoke(lane + 1, which)));
         let Nearness { distance_sq, certified_sq, v, w } = fan.triangle(&e, &g);
         self.work.triangles += 1;
-        let certain = self.horizon(distance_sq) < second && certified_sq >= self.probe.weak(distance_sq);
+        let certain =
+            self.horizon(distance_sq) < second && certified_sq >= self.probe.weak(distance_sq);
         if certain { Some(Nearest { distance_sq, child, lane, v, w, at: 0 }) } else { None }
     }
 }

@@ -1,11 +1,14 @@
-//! The front of a session: lower bounds of everything that the tree holds, kept from query to query.
+//! The front of a session: lower bounds of everything that the tree holds, kept from query to
+//! query.
 //!
-//! An entry's key is its bound plus the path length at the time when it was found. A query that has moved on since can have come nearer
-//! by no more than the path that it has travelled since, so that *key − path* stays a lower bound and nothing needs to be touched or sorted
-//! (Guéziec 2000, 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the others the least key is known,
-//! so that most queries never look at them.
+//! An entry's key is its bound plus the path length at the time when it was found. A query that has
+//! moved on since can have come nearer by no more than the path that it has travelled since, so
+//! that *key − path* stays a lower bound and nothing needs to be touched or sorted (Guéziec 2000,
+//! 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the
+//! others the least key is known, so that most queries never look at them.
 
-/// A child of a node, and what is known of it, in 32 bits: 24 of node (a blob has no more), 5 of which two say what is known, 3 of lane.
+/// A child of a node, and what is known of it, in 32 bits: 24 of node (a blob has no more), 5 of
+/// which two say what is known, 3 of lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Child(u32);
 
@@ -108,7 +111,8 @@ impl Front<'_> {
         let Extent { count, rest, dropped, path, .. } = *self.extent;
         let less = |key: f32| if key > path { (key - path) * (1.0 - ROUNDING) } else { 0.0 };
         self.keys.iter_mut().take(count).for_each(|key| *key = less(*key));
-        (self.extent.rest, self.extent.dropped, self.extent.path) = (less(rest), less(dropped), 0.0);
+        (self.extent.rest, self.extent.dropped, self.extent.path) =
+            (less(rest), less(dropped), 0.0);
     }
 
     /// Key of a bound at the present place; a negative one counts as 0.
@@ -150,7 +154,8 @@ impl Front<'_> {
         self.extent.count + more <= self.keys.len().min(self.children.len())
     }
 
-    /// Adds an entry, to the active ones if its key is within `horizon`. What does not fit is dropped.
+    /// Adds an entry, to the active ones if its key is within `horizon`. What does not fit is
+    /// dropped.
     #[inline(always)]
     pub(super) fn insert(&mut self, key: f32, child: Child, horizon: f32) {
         let last = self.extent.count;
@@ -199,7 +204,8 @@ impl Front<'_> {
         (self.extent.active, self.extent.rest) = (active, rest);
     }
 
-    /// Makes room: of what is not active, or from entry `from` on beyond `horizon`, drops what is beyond the mean of the keys.
+    /// Makes room: of what is not active, or from entry `from` on beyond `horizon`, drops what is
+    /// beyond the mean of the keys.
     #[cold]
     #[inline(never)]
     pub(super) fn thin_out(&mut self, from: usize, horizon: f32) {
@@ -230,7 +236,9 @@ impl Front<'_> {
     #[inline(always)]
     pub(super) fn second(&self) -> f32 {
         let active = self.keys.get(1..self.extent.active).unwrap_or(&[]);
-        active.iter().fold(least(self.extent.rest, self.extent.dropped), |second, &key| least(second, key))
+        active
+            .iter()
+            .fold(least(self.extent.rest, self.extent.dropped), |second, &key| least(second, key))
     }
 }
 

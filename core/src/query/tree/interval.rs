@@ -1,4 +1,5 @@
-//! Bounds of single triangles of a leaf, for the questions that ask about more than the nearest one.
+//! Bounds of single triangles of a leaf, for the questions that ask about more than the nearest
+//! one.
 
 use super::probe::Probe;
 use crate::blob::Patch;
@@ -13,8 +14,8 @@ pub(super) const EVERYTHING: f32 = f32::from_bits(0x7E80_0000);
 /// Least distance, grid units, that a limit is made for: its square is far above underflow.
 const LEAST: f32 = 1.0 / (1u64 << 40) as f32;
 
-/// What is known of a triangle: as computed, or, where its certificate says that this may be far off and it is, refined. Depends on the triangle alone,
-/// so that all questions agree.
+/// What is known of a triangle: as computed, or, where its certificate says that this may be far
+/// off and it is, refined. Depends on the triangle alone, so that all questions agree.
 #[inline(always)]
 pub(super) fn settled(probe: &Probe, seen: &[Vec3; 3], near: Nearness) -> Nearness {
     if near.certified_sq >= probe.weak(near.distance_sq) {
@@ -40,7 +41,11 @@ pub(super) fn nearness(seen: &[Vec3; 3]) -> Nearness {
 
 /// All triangles of a patch, in order: lane, squared distance and its supporting plane's bound.
 #[inline]
-pub(super) fn each_triangle(probe: &Probe, patch: &Patch<'_>, mut each: impl FnMut(usize, f32, f32)) {
+pub(super) fn each_triangle(
+    probe: &Probe,
+    patch: &Patch<'_>,
+    mut each: impl FnMut(usize, f32, f32),
+) {
     for lane in 0..patch.tag().triangles() {
         let seen = seen_from(patch, lane, probe.p);
         let near = settled(probe, &seen, nearness(&seen));
@@ -55,10 +60,21 @@ pub(super) fn witness(probe: &Probe, patch: &Patch<'_>, lane: usize) -> Vec3 {
     patch.point(lane, near.v, near.w)
 }
 
-/// Distance, grid units, that a triangle is not nearer than, but for the rounding that [`Probe::lower`] takes off.
+/// Distance, grid units, that a triangle is not nearer than, but for the rounding that
+/// [`Probe::lower`] takes off.
 #[inline]
-pub(super) fn lower_of(patch: &Patch<'_>, lane: usize, p: Vec3, distance_sq: f32, certified_sq: f32) -> f32 {
-    if certified_sq >= distance_sq * TREE_WEAK { root(certified_sq) } else { certified(patch, lane, p) }
+pub(super) fn lower_of(
+    patch: &Patch<'_>,
+    lane: usize,
+    p: Vec3,
+    distance_sq: f32,
+    certified_sq: f32,
+) -> f32 {
+    if certified_sq >= distance_sq * TREE_WEAK {
+        root(certified_sq)
+    } else {
+        certified(patch, lane, p)
+    }
 }
 
 #[cold]
@@ -81,8 +97,9 @@ pub(super) fn limit_of(probe: &Probe, distance: f32) -> f32 {
     if limit < EVERYTHING { limit } else { EVERYTHING }
 }
 
-/// Distance, grid units, that a box's squared bound stands for, but for the rounding that [`Probe::lower`] takes off. Unlike a triangle's it carries the
-/// rounding of boxes, whose 2100-fold square is the limit's allowance.
+/// Distance, grid units, that a box's squared bound stands for, but for the rounding that
+/// [`Probe::lower`] takes off. Unlike a triangle's it carries the rounding of boxes, whose
+/// 2100-fold square is the limit's allowance.
 pub(super) fn distance_of_box(probe: &Probe, key: f32) -> f32 {
     let distance = root(key) - root(probe.limit(0.0)) * (1.0 / 45.0);
     if distance > 0.0 { distance } else { 0.0 }

@@ -1,4 +1,5 @@
-//! The nearest triangle of a leaf, eight at once where the target has vectors, else one after the other. Same bits.
+//! The nearest triangle of a leaf, eight at once where the target has vectors, else one after the
+//! other. Same bits.
 
 use crate::blob::Patch;
 use crate::fan::Edges8;
@@ -15,10 +16,12 @@ pub(super) fn nearest_triangle(patch: &Patch<'_>, p: Vec3) -> Option<NearestOf> 
     nearest_within(patch, p, f32::INFINITY)
 }
 
-/// The nearest triangle of a patch, and its triangles as seen from the query where all are read at once.
+/// The nearest triangle of a patch, and its triangles as seen from the query where all are read at
+/// once.
 pub(super) type Seen = (NearestOf, Option<Edges8>);
 
-/// The nearest triangle of a patch. One that is proved to be beyond a squared limit may be left out of it.
+/// The nearest triangle of a patch. One that is proved to be beyond a squared limit may be left out
+/// of it.
 #[derive(Clone, Copy)]
 pub(super) struct NearestOf {
     /// Its squared distance.
@@ -30,7 +33,8 @@ pub(super) struct NearestOf {
 }
 
 impl NearestOf {
-    /// The least lane that is so near, and where on its triangle the closest point lies (see [`Patch::point`]).
+    /// The least lane that is so near, and where on its triangle the closest point lies (see
+    /// [`Patch::point`]).
     #[inline(always)]
     pub(super) fn lane(&self) -> (usize, f32, f32) {
         self.lanes.at(self.distance_sq)
@@ -42,7 +46,8 @@ mod wide {
     use super::{Edges8, NearestOf, Patch, Seen, Vec3};
     use crate::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_patch8};
 
-    /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch can guess it.
+    /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch
+    /// can guess it.
     #[derive(Clone, Copy)]
     pub(in crate::query::tree) struct Lanes(Nearness8);
 
@@ -92,14 +97,16 @@ mod wide {
 
     #[inline(always)]
     pub(in crate::query::tree) fn seen(patch: &Patch<'_>, p: Vec3) -> Option<Seen> {
-        let edges = if patch.is_single() { single_edges(patch, p)? } else { patch.grid_edges8(p)? };
+        let edges =
+            if patch.is_single() { single_edges(patch, p)? } else { patch.grid_edges8(p)? };
         let near = point_patch8(&edges, LANES_BELOW.get(patch.tag().triangles())?);
         Some((nearest_of(near), Some(edges)))
     }
 
     #[inline(always)]
     fn nearest_of(near: Nearness8) -> NearestOf {
-        let (distance_sq, certified_sq) = (least_of(&near.distance_sq), least_of(&near.certified_sq));
+        let (distance_sq, certified_sq) =
+            (least_of(&near.distance_sq), least_of(&near.certified_sq));
         NearestOf { distance_sq, certified_sq, lanes: Lanes(near) }
     }
 
@@ -155,8 +162,11 @@ mod narrow {
         p: Vec3,
         limit: f32,
     ) -> Option<NearestOf> {
-        let mut nearest =
-            NearestOf { distance_sq: f32::INFINITY, certified_sq: f32::INFINITY, lanes: Lanes::NONE };
+        let mut nearest = NearestOf {
+            distance_sq: f32::INFINITY,
+            certified_sq: f32::INFINITY,
+            lanes: Lanes::NONE,
+        };
         if patch.is_single() {
             single(patch, p, &mut nearest);
         } else {
@@ -191,7 +201,11 @@ mod narrow {
         let mut centre = ring.centres[0];
         let mut fan = PointFan::new(p - patch.centre(0));
         let less = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
-            Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
+            Vec3::new(
+                x.wrapping_sub(cx) as f32,
+                y.wrapping_sub(cy) as f32,
+                z.wrapping_sub(cz) as f32,
+            )
         };
         let mut before = [0i32; 3];
         let mut a: Option<SpokeTerms> = None;
@@ -220,6 +234,12 @@ mod narrow {
     fn single(patch: &Patch<'_>, p: Vec3, nearest: &mut NearestOf) {
         let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
         let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
-        point_patch(count, turn, s, |i, which| patch.spoke(i, which), |lane, near| nearest.take(lane, &near));
+        point_patch(
+            count,
+            turn,
+            s,
+            |i, which| patch.spoke(i, which),
+            |lane, near| nearest.take(lane, &near),
+        );
     }
 }

@@ -15,26 +15,31 @@ use crate::query::{Ended, QueryError, Stop, Work};
 pub struct Nearest {
     /// Triangles in the slice.
     pub stored: usize,
-    /// No other triangle of the input mesh is nearer than this, input units; infinite if there is no other.
+    /// No other triangle of the input mesh is nearer than this, input units; infinite if there is
+    /// no other.
     pub rest_lower: f32,
     /// What it cost.
     pub work: Work,
-    /// [`Ended::Exact`] if every leaf that matters was looked at. Else those stored may not be the closest; `rest_lower` still holds.
+    /// [`Ended::Exact`] if every leaf that matters was looked at. Else those stored may not be the
+    /// closest; `rest_lower` still holds.
     pub ended: Ended,
 }
 
 /// The `out.len()` triangles closest to `point` (input units), by rising distance, into `out`.
 ///
-/// Distances are compared as computed; those that are equal go by number in the blob. So two that f32 or the stored surface cannot tell apart may
-/// stand in either order, always the same: each has its own interval. Triangles without area count like others. If `out` is longer than the mesh, all
-/// triangles are stored; if it is empty, nothing is looked at. Farther than a million model sizes all triangles are alike: the first of the
-/// blob, each with the interval of the model's box. `stack` as for [`closest_point`]; of [`Stop`] only `steps` matters.
+/// Distances are compared as computed; those that are equal go by number in the blob. So two that
+/// f32 or the stored surface cannot tell apart may stand in either order, always the same: each has
+/// its own interval. Triangles without area count like others. If `out` is longer than the mesh,
+/// all triangles are stored; if it is empty, nothing is looked at. Farther than a million model
+/// sizes all triangles are alike: the first of the blob, each with the interval of the model's box.
+/// `stack` as for [`closest_point`]; of [`Stop`] only `steps` matters.
 ///
-/// Cost: for few triangles that of the closest point and a scalar kernel for each leaf near the end; a heap in `out`, log n for each that enters.
-/// After an error what `out` holds is undefined.
+/// Cost: for few triangles that of the closest point and a scalar kernel for each leaf near the
+/// end; a heap in `out`, log n for each that enters. After an error what `out` holds is undefined.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`], [`QueryError::NotServed`].
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`],
+/// [`QueryError::NotServed`].
 pub fn nearest(
     tree: &Tree<'_>,
     point: [f32; 3],

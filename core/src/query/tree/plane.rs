@@ -1,8 +1,9 @@
 //! Planes between a moving query and the leaves around it.
 //!
-//! That a leaf lies beyond a plane does not depend on where the query is. So a plane across the way to a leaf bounds the leaf's distance
-//! wherever the query goes, and as the query moves by a step it loses only a part of the order of the step's square, where path length
-//! (Guéziec 2000, 5.1) loses the whole step. One plane costs as much as half a leaf, asking it six products.
+//! That a leaf lies beyond a plane does not depend on where the query is. So a plane across the way
+//! to a leaf bounds the leaf's distance wherever the query goes, and as the query moves by a step
+//! it loses only a part of the order of the step's square, where path length (Guéziec 2000, 5.1)
+//! loses the whole step. One plane costs as much as half a leaf, asking it six products.
 
 use super::front::Child;
 use super::shape::SHORTFALL;
@@ -19,7 +20,8 @@ const PLANES: usize = 32;
 /// More than what the length of a scaled normal may be rounded by.
 const ROUNDING: f32 = 1.0 / 262_144.0;
 
-/// A leaf's distance is at least `normal·(p − middle) − offset`, up to what a box's bound may be off by.
+/// A leaf's distance is at least `normal·(p − middle) − offset`, up to what a box's bound may be
+/// off by.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     normal: Vec3,
@@ -36,7 +38,8 @@ impl Planes {
     pub(super) const EMPTY: Planes =
         Planes([Plane { normal: Vec3::ZERO, offset: 0.0, of: u32::MAX }; PLANES]);
 
-    /// A lower bound, grid units, of the distance of a leaf; negative if nothing is known. `way` leads to the query from the model's middle.
+    /// A lower bound, grid units, of the distance of a leaf; negative if nothing is known. `way`
+    /// leads to the query from the model's middle.
     #[inline(always)]
     pub(super) fn bound(&self, child: Child, way: Vec3) -> f32 {
         match self.0.get(place(child)) {
@@ -45,10 +48,18 @@ impl Planes {
         }
     }
 
-    /// Puts a plane between a leaf without slivers and the query: across the way from its closest point, on triangle `lane`. `way` as above;
-    /// `margin` is what triangles' bounds may be off by, beside [`SHORTFALL`] of themselves.
+    /// Puts a plane between a leaf without slivers and the query: across the way from its closest
+    /// point, on triangle `lane`. `way` as above; `margin` is what triangles' bounds may be off
+    /// by, beside [`SHORTFALL`] of themselves.
     #[inline(always)]
-    pub(super) fn put(&mut self, child: Child, leaf: &Looked<'_>, way: Vec3, near: At, margin: f32) {
+    pub(super) fn put(
+        &mut self,
+        child: Child,
+        leaf: &Looked<'_>,
+        way: Vec3,
+        near: At,
+        margin: f32,
+    ) {
         let found = match leaf.edges {
             Some(edges) => separate_wide(edges, leaf.patch.tag().triangles(), near),
             None => separate_narrow(leaf.patch, leaf.p, near),
@@ -56,7 +67,8 @@ impl Planes {
         if let Some((normal, distance)) = found
             && let Some(plane) = self.0.get_mut(place(child))
         {
-            *plane = Plane { normal, offset: dot(normal, way) - distance + margin, of: child.leaf() };
+            *plane =
+                Plane { normal, offset: dot(normal, way) - distance + margin, of: child.leaf() };
         }
     }
 }
@@ -71,7 +83,8 @@ pub(super) struct Looked<'a> {
 /// A point of a triangle of a leaf: its lane, and coordinates along its spokes.
 pub(super) type At = (usize, f32, f32);
 
-/// A direction a little shorter than 1, so that what is measured along it is less than the distance, also of a sliver's certificate.
+/// A direction a little shorter than 1, so that what is measured along it is less than the
+/// distance, also of a sliver's certificate.
 #[inline(always)]
 fn normal(residual: Vec3) -> Option<Vec3> {
     let length = root(dot(residual, residual));
@@ -99,7 +112,8 @@ fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(
         let beyond = if first > 0.0 { first } else { 0.0 };
         let beyond = if second > beyond { second } else { beyond };
         // An unused lane may hold anything: large.
-        along[i] = f32::from_bits((centre - beyond).to_bits() & used[i] | f32::MAX.to_bits() & !used[i]);
+        along[i] =
+            f32::from_bits((centre - beyond).to_bits() & used[i] | f32::MAX.to_bits() & !used[i]);
     }
     let [a, b, c, d, e, f, g, h] = in_memory(along);
     Some((n, less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))))
@@ -118,7 +132,8 @@ fn separate_narrow(patch: &Patch<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3
     Some((n, less(along + nearest, dot(n, other))))
 }
 
-/// The middle of the model's box, from which planes are measured: rounding counts in model sizes, wherever the origin is.
+/// The middle of the model's box, from which planes are measured: rounding counts in model sizes,
+/// wherever the origin is.
 #[inline(always)]
 pub(super) fn middle(tree: &Tree<'_>) -> Vec3 {
     (tree.scale().low + tree.scale().high) * 0.5

@@ -1,7 +1,10 @@
-//! A query point in the tree's grid units, and everything that rounding may do to an answer about it.
+//! A query point in the tree's grid units, and everything that rounding may do to an answer about
+//! it.
 
 use crate::blob::Tree;
-use crate::num::tolerance::{TREE_BOX, TREE_FAN, TREE_FAR, TREE_RELATIVE, TREE_SHORT, TREE_WEAK, U32};
+use crate::num::tolerance::{
+    TREE_BOX, TREE_FAN, TREE_FAR, TREE_RELATIVE, TREE_SHORT, TREE_WEAK, U32,
+};
 use crate::query::QueryError;
 use glam::Vec3;
 
@@ -72,7 +75,8 @@ pub(crate) struct Probe {
     /// Grid units.
     pub(crate) p: Vec3,
     pub(crate) units: Units,
-    /// What a distance in grid units may be off by: this, and [`TREE_RELATIVE`] roundings of itself.
+    /// What a distance in grid units may be off by: this, and [`TREE_RELATIVE`] roundings of
+    /// itself.
     margin: f32,
     /// What is added to a squared limit, so that no rounding hides a candidate.
     allowance: f32,
@@ -102,24 +106,29 @@ impl Probe {
         Ok(Probe { p, units, short, margin: fan, allowance: 2100.0 * off * off, far: !near })
     }
 
-    /// The squared bound above which a node cannot hold anything at the squared distance `distance_sq` as computed. (√B·(1 + 16u) + b)² ≤
-    /// B·(1 + 2^-10) + 2100·b²: no root is needed.
+    /// The squared bound above which a node cannot hold anything at the squared distance
+    /// `distance_sq` as computed. (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + 2100·b²: no root is
+    /// needed.
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
         distance_sq * (1.0 + 1.0 / 1024.0) + self.allowance
     }
 
-    /// What a certified square has to reach beside the best computed one; below it is looked at again.
+    /// What a certified square has to reach beside the best computed one; below it is looked at
+    /// again.
     #[inline(always)]
     pub(crate) fn weak(&self, distance_sq: f32) -> f32 {
         distance_sq * TREE_WEAK - self.short
     }
 
-    /// A computed distance to the stored surface as an upper bound of the true one to the input's, input units.
+    /// A computed distance to the stored surface as an upper bound of the true one to the input's,
+    /// input units.
     #[inline(always)]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
-        self.units
-            .upper(distance + (distance * (TREE_RELATIVE * U32) + (self.margin + self.units.surface_error)))
+        self.units.upper(
+            distance
+                + (distance * (TREE_RELATIVE * U32) + (self.margin + self.units.surface_error)),
+        )
     }
 
     /// What a distance in grid units may be off by whatever its size.
@@ -130,8 +139,10 @@ impl Probe {
     /// A computed distance as a lower bound.
     #[inline(always)]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
-        self.units
-            .lower(distance - (distance * (TREE_RELATIVE * U32) + (self.margin + self.units.surface_error)))
+        self.units.lower(
+            distance
+                - (distance * (TREE_RELATIVE * U32) + (self.margin + self.units.surface_error)),
+        )
     }
 }
 

@@ -1,11 +1,14 @@
-//! Angle-weighted pseudonormals where no mesh connectivity is stored: what meets at a feature is found by a descent, by equal coordinates.
+//! Angle-weighted pseudonormals where no mesh connectivity is stored: what meets at a feature is
+//! found by a descent, by equal coordinates.
 //!
-//! The sum of [`signed`](super::signed) is taken about a vertex (or edge) that all triangles share which may be the closest. That it is the closest feature itself
-//! is not certain, only nearly so. Let u be the direction from it to the query, and let no triangle about it reach a direction x with x·u > η.
-//! Then the winding number is the same, w₀, wherever x·u > η. What is left of the sum over 0 < x·u ≤ η is 2·∫x·u ≤ 2πη² about a vertex
-//! and, by the same argument in the plane across it, η² about an edge. Nothing crosses the way from the feature to the query: triangles about the feature
-//! do not contain the direction u, and any other one would be nearer than the feature and so among those considered. So a product with u beyond that
-//! and rounding has the right sign.
+//! The sum of [`signed`](super::signed) is taken about a vertex (or edge) that all triangles share
+//! which may be the closest. That it is the closest feature itself is not certain, only nearly so.
+//! Let u be the direction from it to the query, and let no triangle about it reach a direction x
+//! with x·u > η. Then the winding number is the same, w₀, wherever x·u > η. What is left of the sum
+//! over 0 < x·u ≤ η is 2·∫x·u ≤ 2πη² about a vertex and, by the same argument in the plane across
+//! it, η² about an edge. Nothing crosses the way from the feature to the query: triangles about the
+//! feature do not contain the direction u, and any other one would be nearer than the feature and
+//! so among those considered. So a product with u beyond that and rounding has the right sign.
 
 use super::interval::{each_triangle, limit_of, lower_of};
 use super::probe::Probe;
@@ -17,8 +20,8 @@ use crate::num::tolerance::{TRUSTED_DIRECTION_SQ, U32};
 use crate::query::QueryError;
 use glam::Vec3;
 
-/// Rounding of a triple product in f32, in units of [`U32`] times the sum of the absolute values of its products. Proved: eight, second order apart, for three
-/// factors that carry one rounding each.
+/// Rounding of a triple product in f32, in units of [`U32`] times the sum of the absolute values of
+/// its products. Proved: eight, second order apart, for three factors that carry one rounding each.
 const TRIPLE_PRODUCT: f32 = 16.0;
 
 /// Largest sum of absolute products of integers below which every one of them is exact in f32.
@@ -75,7 +78,8 @@ pub(super) fn facing(patch: &Patch<'_>, lane: usize, p: Vec3) -> Facing {
     }
 }
 
-/// Whether a triangle whose normal came out as zero has no area: a repeated corner, or integers so small that the normal is exact.
+/// Whether a triangle whose normal came out as zero has no area: a repeated corner, or integers so
+/// small that the normal is exact.
 #[cold]
 fn is_flat(patch: &Patch<'_>, lane: usize, size: f32) -> bool {
     let [a, b, c] = patch.corners(lane);
@@ -86,7 +90,8 @@ fn is_flat(patch: &Patch<'_>, lane: usize, size: f32) -> bool {
 /// The triangles that may be the closest one.
 pub(super) struct Candidates<'p> {
     probe: &'p Probe,
-    /// Lower bound, grid units, up to which a triangle is one of them: twice and more what rounding asks for.
+    /// Lower bound, grid units, up to which a triangle is one of them: twice and more what
+    /// rounding asks for.
     pub(super) band: f32,
     /// Distance, grid units, up to which a feature has all nearer triangles among them.
     reach: f32,
@@ -183,8 +188,9 @@ impl Sum {
         self.eta = if eta > self.eta { eta } else { self.eta };
     }
 
-    /// The side that the product with `to_query` says; `open` is the product's part that a feature not quite the closest may be wrong by,
-    /// in units of η², `inexact` the sum of absolute values whose roundings `to_query` carries.
+    /// The side that the product with `to_query` says; `open` is the product's part that a feature
+    /// not quite the closest may be wrong by, in units of η², `inexact` the sum of absolute
+    /// values whose roundings `to_query` carries.
     fn side(&self, to_query: Vec3, open: f32, inexact: f32) -> Side {
         let product = self.normal.dot(to_query);
         let count = self.count;
@@ -222,7 +228,8 @@ impl<F: FnMut(&Patch<'_>, usize)> Seek for Star<F> {
     }
 }
 
-/// Whether a normal's components are large enough for none of its products' underflow to count, and are numbers.
+/// Whether a normal's components are large enough for none of its products' underflow to count, and
+/// are numbers.
 fn is_sound(normal: Vec3, size: Vec3) -> bool {
     norm_1(size) > TRUSTED_DIRECTION_SQ && normal.abs().max_element() > 64.0 * U32 * norm_1(size)
 }
@@ -262,7 +269,8 @@ fn about_vertex(
         let unit = |v: Vec3| v * (1.0 / root(v.dot(v)));
         let (e, g) = (unit(e), unit(g));
         let reached = e.dot(u).max(g.dot(u));
-        // Directions between the two: (λe + μg) / |λe + μg|, whose length is at least (λ + μ)·cos(α/2).
+        // Directions between the two: (λe + μg) / |λe + μg|, whose length is at least (λ +
+        // μ)·cos(α/2).
         let eta = if reached <= -COSINE * U32 {
             0.0
         } else {

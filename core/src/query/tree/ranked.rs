@@ -1,4 +1,5 @@
-//! The nearest triangles so far, in the caller's slice: a heap with the farthest on top (Williams 1964), sorted in place at the end.
+//! The nearest triangles so far, in the caller's slice: a heap with the farthest on top (Williams
+//! 1964), sorted in place at the end.
 
 use super::interval::{lower_of, witness};
 use super::probe::Probe;
@@ -7,7 +8,8 @@ use crate::blob::{Patch, Tree};
 use crate::num::root;
 use crate::query::QueryError;
 
-/// A triangle near a point: `lower ≤ distance to the triangle of the input mesh ≤ upper`, in real arithmetic.
+/// A triangle near a point: `lower ≤ distance to the triangle of the input mesh ≤ upper`, in real
+/// arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Near {
     /// Not above the distance, input units.
@@ -22,7 +24,8 @@ pub struct Near {
 
 impl Near {
     /// Any value, for filling arrays.
-    pub const EMPTY: Near = Near { lower: 0.0, upper: f32::INFINITY, point: [0.0; 3], triangle: u32::MAX };
+    pub const EMPTY: Near =
+        Near { lower: 0.0, upper: f32::INFINITY, point: [0.0; 3], triangle: u32::MAX };
 }
 
 /// A triangle that a descent has come to.
@@ -50,10 +53,16 @@ impl Candidate {
         Candidate { distance_sq, certified_sq, number: first.wrapping_add(lane), node, child, lane }
     }
 
-    /// While the search runs a slot of the caller holds this instead of an answer; node numbers are below 2^24, so that f32 holds them.
+    /// While the search runs a slot of the caller holds this instead of an answer; node numbers are
+    /// below 2^24, so that f32 holds them.
     fn held(self) -> Near {
         let place = [self.node as f32, (self.child * 8 + self.lane) as f32, 0.0];
-        Near { lower: self.distance_sq, upper: self.certified_sq, point: place, triangle: self.number }
+        Near {
+            lower: self.distance_sq,
+            upper: self.certified_sq,
+            point: place,
+            triangle: self.number,
+        }
     }
 
     fn of(held: &Near) -> Candidate {
@@ -201,7 +210,8 @@ impl<'a> Ranked<'a> {
     }
 }
 
-/// The first triangles of the blob, each with the interval of the whole model; how many. For points from which all are alike.
+/// The first triangles of the blob, each with the interval of the whole model; how many. For points
+/// from which all are alike.
 pub(super) fn first_triangles(
     tree: &Tree<'_>,
     probe: &Probe,
@@ -219,7 +229,8 @@ pub(super) fn first_triangles(
             for lane in 0..patch.tag().triangles() {
                 let Some(slot) = slots.next() else { return Ok(stored) };
                 let [corner, ..] = patch.corners(lane);
-                let triangle = tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Model)?;
+                let triangle =
+                    tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Model)?;
                 *slot = Near { lower, upper, point: probe.units.point(corner), triangle };
                 stored += 1;
             }

@@ -1,7 +1,8 @@
 //! Segments on the box tree: first hit, any hit, all hits.
 //!
-//! A segment visits two nodes and less than one leaf on scanned parts, so what is done once for each segment decides. The fan kernels flag the
-//! triangles that may be met; only these are settled one by one, with the interval of parameters in which the *input's* triangle can be met.
+//! A segment visits two nodes and less than one leaf on scanned parts, so what is done once for
+//! each segment decides. The fan kernels flag the triangles that may be met; only these are settled
+//! one by one, with the interval of parameters in which the *input's* triangle can be met.
 
 use super::aim::Aim;
 use super::walk::{TreeEntry, wait};
@@ -12,7 +13,8 @@ use crate::query::segment::insert;
 use crate::query::{AllHits, Ended, Hit, QueryError, SegmentHit, Work};
 use crate::tree::{LANE_MASK, WIDE, box_entries, nearest_lane};
 
-/// Which sides of triangles a segment meets: the front is where corners run counter-clockwise, in the input's winding.
+/// Which sides of triangles a segment meets: the front is where corners run counter-clockwise, in
+/// the input's winding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Facing {
     /// Both.
@@ -31,26 +33,32 @@ pub enum AnyHit {
     Hit,
     /// Proved: no point of it lies on the input mesh (on a triangle of the wanted facing).
     Clear,
-    /// It passes so near an edge or ends so near the surface that rounding and the blob's surface error leave it open, or the stack was too short.
+    /// It passes so near an edge or ends so near the surface that rounding and the blob's surface
+    /// error leave it open, or the stack was too short.
     Unknown,
 }
 
 /// First common point of the closed segment `a b` (input units) and the surface.
 ///
-/// Never a wrong "clear": if [`SegmentHit::is_clear`], no point of the segment lies on the input mesh. With [`Ended::Exact`] and a hit the segment is
-/// proved to meet the input mesh, and the first common parameter lies in `lower ..= upper`, whatever the grid did to the vertices.
-/// [`Ended::Level`]: it passes an outer edge of a fan, or ends, so near the surface that rounding and the surface error leave open whether it meets it. `hit` is the
-/// first triangle of the *stored* surface that is met, in f32, without a gap along edges and at vertices; it may be one that the input's surface
-/// only comes near, or missing with [`Ended::Level`]. Equal parameters: the least triangle in blob order.
+/// Never a wrong "clear": if [`SegmentHit::is_clear`], no point of the segment lies on the input
+/// mesh. With [`Ended::Exact`] and a hit the segment is proved to meet the input mesh, and the
+/// first common parameter lies in `lower ..= upper`, whatever the grid did to the vertices. [`Ended::Level`]: it passes an outer edge of a fan, or ends, so near the surface that rounding and the surface error leave open whether it meets it. `hit` is the
+/// first triangle of the *stored* surface that is met, in f32, without a gap along edges and at
+/// vertices; it may be one that the input's surface only comes near, or missing with
+/// [`Ended::Level`]. Equal parameters: the least triangle in blob order.
 ///
-/// A segment in a triangle's plane hits, as computed, where it enters the triangle, one of zero length or a triangle without area likewise; none of
-/// these is proved. `stack` as for [`closest_point`](super::closest_point).
+/// A segment in a triangle's plane hits, as computed, where it enters the triangle, one of zero
+/// length or a triangle without area likewise; none of these is proved. `stack` as for
+/// [`closest_point`](super::closest_point).
 ///
-/// Cost: two nodes and half a leaf on scanned parts. A segment that runs along the surface visits all boxes that it touches.
+/// Cost: two nodes and half a leaf on scanned parts. A segment that runs along the surface visits
+/// all boxes that it touches.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::NoQueue`], [`QueryError::NotServed`]; [`QueryError::OutOfDomain`] if an end is farther than 2^38 grid units
-/// away, a million model sizes or more unless the model lies as far from its own origin. Far starts are clipped without loss.
+/// [`QueryError::NotFinite`], [`QueryError::NoQueue`], [`QueryError::NotServed`];
+/// [`QueryError::OutOfDomain`] if an end is farther than 2^38 grid units away, a million model
+/// sizes or more unless the model lies as far from its own origin. Far starts are clipped without
+/// loss.
 #[inline]
 pub fn first_hit(
     tree: &Tree<'_>,
@@ -82,7 +90,8 @@ pub fn first_hit(
 
 /// Whether the closed segment `a b` (input units) meets the surface: ends at the first proof.
 ///
-/// What [`first_hit`] says of its arguments, errors and degenerate cases holds here. Cost: less than that of [`first_hit`].
+/// What [`first_hit`] says of its arguments, errors and degenerate cases holds here. Cost: less
+/// than that of [`first_hit`].
 ///
 /// # Errors
 /// Those of [`first_hit`].
@@ -104,11 +113,14 @@ pub fn any_hit(
     })
 }
 
-/// All common points of the closed segment `a b` (input units) and the stored surface, by rising parameter, into `hits`.
+/// All common points of the closed segment `a b` (input units) and the stored surface, by rising
+/// parameter, into `hits`.
 ///
-/// Each triangle gives one hit at most, so that a segment through an edge or a vertex may give one for each triangle there. What does not fit is
-/// counted in [`AllHits::dropped`]; the first ones are kept. [`Ended::Exact`]: these are exactly the input's triangles that the segment meets, and
-/// it meets them for certain; [`Ended::Level`]: of some triangles rounding or the surface error leaves it open.
+/// Each triangle gives one hit at most, so that a segment through an edge or a vertex may give one
+/// for each triangle there. What does not fit is counted in [`AllHits::dropped`]; the first ones
+/// are kept. [`Ended::Exact`]: these are exactly the input's triangles that the segment meets, and
+/// it meets them for certain; [`Ended::Level`]: of some triangles rounding or the surface error
+/// leaves it open.
 ///
 /// # Errors
 /// Those of [`first_hit`].
@@ -139,7 +151,12 @@ pub fn all_hits(
 
 /// What has to be so before a descent; `None` if the segment is far from the model.
 #[inline(always)]
-fn begin(tree: &Tree<'_>, a: [f32; 3], b: [f32; 3], stack: &[TreeEntry]) -> Result<Option<Aim>, QueryError> {
+fn begin(
+    tree: &Tree<'_>,
+    a: [f32; 3],
+    b: [f32; 3],
+    stack: &[TreeEntry],
+) -> Result<Option<Aim>, QueryError> {
     if !tree.serves_segments() {
         return Err(QueryError::NotServed);
     }
@@ -337,7 +354,8 @@ fn flagged(patch: &Patch<'_>, aim: &Aim) -> Option<u32> {
     let centres = ring.centres.map(|centre| shadow(ray.in_order(centre)));
     let [x, y, z] = ray.in_order([ring.x, ring.y, ring.z]);
     let vertices = x.iter().zip(y).zip(z);
-    let vertices = vertices.map(|((x, y), z)| [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))));
+    let vertices =
+        vertices.map(|((x, y), z)| [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))));
     Some(ray_patch(ray, tag.turn(), centres, vertices.map(shadow)))
 }
 
@@ -379,14 +397,16 @@ fn settle<C: Collect>(
         let corners = [patch.centre(fan), patch.ring(lane as usize), patch.ring(lane as usize + 1)];
         let found = ray.crossing(corners.map(|v| ray.shadow(v)), wanted(second));
         let Some(mut crossing) = found else { continue };
-        // All of the leaf lies in its box; and so the answer does not depend on which leaves beyond it were looked at.
+        // All of the leaf lies in its box; and so the answer does not depend on which leaves beyond
+        // it were looked at.
         if crossing.lower < bound {
             crossing.lower = bound;
         }
         if crossing.t < bound {
             crossing.t = bound;
         }
-        // Only in a tree whose boxes do not hold their triangles, which `open` cannot see: the interval stays one.
+        // Only in a tree whose boxes do not hold their triangles, which `open` cannot see: the
+        // interval stays one.
         if crossing.upper < bound {
             crossing.upper = bound;
         }
@@ -411,7 +431,8 @@ fn settle<C: Collect>(
             let to = if to < tag.triangles() { to } else { tag.triangles() };
             let centre = ray.shadow(patch.centre(fan));
             let turns = ray.cover(centre, |i| ray.shadow(patch.ring(i)), open[fan], from, to);
-            let met = turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
+            let met =
+                turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
             if met {
                 collect.certain(upper[fan]);
             }
@@ -419,7 +440,8 @@ fn settle<C: Collect>(
     }
 }
 
-/// Visits what the segment enters before the limit; gives the least parameter of what did not fit the stack, infinity if all did.
+/// Visits what the segment enters before the limit; gives the least parameter of what did not fit
+/// the stack, infinity if all did.
 #[inline(always)]
 fn descend<C: Collect>(
     tree: &Tree<'_>,
@@ -445,7 +467,8 @@ fn descend<C: Collect>(
         if found {
             wait(stack, &mut waiting, &mut dropped, node, &keys, links.count, nearest, limit);
         }
-        // The nearest child's links are at hand; what comes off the stack has to look its parent's up.
+        // The nearest child's links are at hand; what comes off the stack has to look its parent's
+        // up.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);
         let mut entry = TreeEntry { key: nearest, node };
         loop {
@@ -475,7 +498,8 @@ fn descend<C: Collect>(
                     break;
                 }
             }
-            child = tree.child(entry.node, entry.key.to_bits() & LANE_MASK).ok_or(QueryError::Model)?;
+            child =
+                tree.child(entry.node, entry.key.to_bits() & LANE_MASK).ok_or(QueryError::Model)?;
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Closest points of a query that moves little from one time to the next.
 //!
-//! After Guéziec, *"Meshsweeper": From Closest Point to Hausdorff Distances Between Meshes* (2000), sections 3.3 and 5.1, on the box tree.
+//! After Guéziec, *"Meshsweeper": From Closest Point to Hausdorff Distances Between Meshes* (2000),
+//! sections 3.3 and 5.1, on the box tree.
 
 use super::closest::{Hint, closest_point_from};
 use super::follow::{Follow, Gap, Nearest};
@@ -18,22 +19,29 @@ use glam::Vec3;
 /// What a session answers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Followed {
-    /// What [`closest_point`](super::closest_point) answers, with the same bits; `work` is what the session did.
+    /// What [`closest_point`](super::closest_point) answers, with the same bits; `work` is what
+    /// the session did.
     pub closest: ClosestPoint,
-    /// While the query is no farther than this from where it is now, input units, [`ClosestPoint::triangle`] remains the closest triangle of
-    /// the input mesh. Rounded down. 0 if that is not known: on edges and vertices, after a jump, and where it would be less than the last step.
+    /// While the query is no farther than this from where it is now, input units,
+    /// [`ClosestPoint::triangle`] remains the closest triangle of the input mesh. Rounded
+    /// down. 0 if that is not known: on edges and vertices, after a jump, and where it would be
+    /// less than the last step.
     pub safe_radius: f32,
 }
 
 /// A query that moves: it remembers what the last answers ruled out.
 ///
-/// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface, each with a lower bound of its distance. A bound
-/// stays true after a motion if the path length is taken off it. So a query looks only at what may have come near enough since. `N`
-/// = 128 is enough for steps of a thousandth of the model; RAM is 8·`N` bytes and about 800: 32 planes that part it from the leaves around.
+/// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface,
+/// each with a lower bound of its distance. A bound stays true after a motion if the path length is
+/// taken off it. So a query looks only at what may have come near enough since. `N` = 128 is enough
+/// for steps of a thousandth of the model; RAM is 8·`N` bytes and about 800: 32 planes that part it
+/// from the leaves around.
 ///
-/// Where steps are so long that nothing is won, the session notices and asks [`closest_point_from`] for a while.
+/// Where steps are so long that nothing is won, the session notices and asks [`closest_point_from`]
+/// for a while.
 ///
-/// A session is about one tree at a time; asked about another it begins anew. Its lifetime makes sure that bytes do not change behind its back.
+/// A session is about one tree at a time; asked about another it begins anew. Its lifetime makes
+/// sure that bytes do not change behind its back.
 #[derive(Clone, Debug)]
 pub struct Session<'t, const N: usize = 128> {
     memory: Memory,
@@ -51,7 +59,12 @@ impl<const N: usize> Default for Session<'_, N> {
 impl<'t, const N: usize> Session<'t, N> {
     /// A session that knows nothing yet. May initialise a `static`.
     pub const fn new() -> Self {
-        Session { memory: Memory::EMPTY, keys: [0.0; N], children: [Child::NONE; N], bytes: PhantomData }
+        Session {
+            memory: Memory::EMPTY,
+            keys: [0.0; N],
+            children: [Child::NONE; N],
+            bytes: PhantomData,
+        }
     }
 
     /// Forgets everything. No answer depends on it.
@@ -59,13 +72,16 @@ impl<'t, const N: usize> Session<'t, N> {
         self.memory = Memory::EMPTY;
     }
 
-    /// As [`closest_point`](super::closest_point), with the same bits in `lower`, `upper`, `point` and `triangle`, and the less work the less the query moved.
+    /// As [`closest_point`](super::closest_point), with the same bits in `lower`, `upper`, `point`
+    /// and `triangle`, and the less work the less the query moved.
     ///
-    /// With a tolerance in `stop` it is that function. A step budget bounds what the session does and, where that was not
-    /// enough, the plain query after it: at most twice as many nodes. The session's answer then may be exact where the plain query's is not.
+    /// With a tolerance in `stop` it is that function. A step budget bounds what the session does
+    /// and, where that was not enough, the plain query after it: at most twice as many nodes.
+    /// The session's answer then may be exact where the plain query's is not.
     ///
-    /// Cost: within [`Followed::safe_radius`] of the last answer one triangle; for steps of 3e-4 of the model's diagonal one to three leaves and now and
-    /// then a node; for jumps that of [`closest_point_from`].
+    /// Cost: within [`Followed::safe_radius`] of the last answer one triangle; for steps of 3e-4 of
+    /// the model's diagonal one to three leaves and now and then a node; for jumps that of
+    /// [`closest_point_from`].
     ///
     /// # Errors
     /// Those of [`closest_point`](super::closest_point); the session stays as it was.
@@ -80,7 +96,8 @@ impl<'t, const N: usize> Session<'t, N> {
     }
 }
 
-/// Entries stay active while their keys are within so many steps of the answer: so often the rest of the front is looked through.
+/// Entries stay active while their keys are within so many steps of the answer: so often the rest
+/// of the front is looked through.
 const AHEAD: f32 = 8.0;
 /// Cost of any query, beside nodes and leaves.
 const BASE: u32 = 4;
@@ -88,9 +105,11 @@ const BASE: u32 = 4;
 const CREDIT: u32 = 4;
 /// Plain queries that it then asks, the first time and at most.
 const REST: (u32, u32) = (8, 256);
-/// A path so many times as long as what a box's bound may be off by is counted from new: keys, which are as long, are rounded by no more than that.
+/// A path so many times as long as what a box's bound may be off by is counted from new: keys,
+/// which are as long, are rounded by no more than that.
 const LONG_PATH: f32 = 2_097_152.0;
-/// A rest ends early after this many steps in a row, each this many times shorter than the one at which it began.
+/// A rest ends early after this many steps in a row, each this many times shorter than the one at
+/// which it began.
 const WAKE: u32 = 3;
 /// See [`WAKE`].
 const SHORTER: f32 = 8.0;
@@ -99,9 +118,10 @@ const RELIABLE: u32 = 64;
 /// More than what a root and a few products may be rounded by.
 const ROUNDING: f32 = 1.0 / 1_048_576.0;
 
-/// Whether the front pays. Cost is counted in half leaves: about 250 instructions without vectors, 30 ns with them. A session's count half as much
-/// again, for with vectors they take as long: what it does next hangs on the leaf before, where a descent guesses. The rule is the same on every target, so that
-/// what is answered is.
+/// Whether the front pays. Cost is counted in half leaves: about 250 instructions without vectors,
+/// 30 ns with them. A session's count half as much again, for with vectors they take as long: what
+/// it does next hangs on the leaf before, where a descent guesses. The rule is the same on every
+/// target, so that what is answered is.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
     /// What a plain query costs here; 0 if none was asked yet.
@@ -112,7 +132,8 @@ struct Pace {
     resting: u32,
     /// How many the next time.
     rest: u32,
-    /// Length of the step at which following was given up, and how many much shorter ones have come one after the other since.
+    /// Length of the step at which following was given up, and how many much shorter ones have
+    /// come one after the other since.
     too_long: f32,
     short: u32,
     /// Queries that were followed without debt since.
@@ -273,10 +294,15 @@ impl Memory {
         let mut follow = Follow::new(tree, probe, front, planes, AHEAD * step, steps);
         let path = follow.front.extent.path;
         if path > follow.off * LONG_PATH {
-            last.second = if last.second > path { (last.second - path) * (1.0 - ROUNDING) } else { 0.0 };
+            last.second =
+                if last.second > path { (last.second - path) * (1.0 - ROUNDING) } else { 0.0 };
             follow.front.rebase();
         }
-        let same = if last.second > follow.horizon(0.0) { follow.same(last.lane, last.second) } else { None };
+        let same = if last.second > follow.horizon(0.0) {
+            follow.same(last.lane, last.second)
+        } else {
+            None
+        };
         let nearest = match same {
             Some(nearest) => nearest,
             None => {
@@ -290,7 +316,9 @@ impl Memory {
                 (last.known, last.second) = (false, 0.0);
                 let nearest = found?;
                 last.known = true;
-                if (last.child, last.lane) != (nearest.child, nearest.lane) || last.triangle.is_none() {
+                if (last.child, last.lane) != (nearest.child, nearest.lane)
+                    || last.triangle.is_none()
+                {
                     (last.child, last.lane) = (nearest.child, nearest.lane);
                     last.triangle = number(tree, &nearest);
                 }
@@ -301,8 +329,9 @@ impl Memory {
         let weak = probe.weak(nearest.distance_sq);
         let error = tree.header().reach * (TREE_FAN * U32) + probe.units.surface_error;
         let path = follow.front.extent.path;
-        let safe =
-            |second: f32| 0.5 * ((second - path) * (1.0 - ROUNDING) - distance * (1.0 + ROUNDING)) - error;
+        let safe = |second: f32| {
+            0.5 * ((second - path) * (1.0 - ROUNDING) - distance * (1.0 + ROUNDING)) - error
+        };
         if same.is_none() && nearest.child.known() == Known::Triangles {
             let others = follow.front.second();
             if safe(others) > step {

@@ -5,14 +5,16 @@ use crate::fan::{Edges8, LANES_BELOW, WIDTH};
 use crate::tree::{WIDE, in_memory};
 use glam::Vec3;
 
-/// Squared sine of the angle between the spokes of a triangle below which it counts as a sliver here: 2^-16, a quarter of a degree.
+/// Squared sine of the angle between the spokes of a triangle below which it counts as a sliver
+/// here: 2^-16, a quarter of a degree.
 pub(super) const SLIVER: f32 = 1.0 / 65_536.0;
 
-/// What `certified_distance` of any other triangle lacks of the true distance is below this part of (distance + `reach`): 2^-14. It grows with
-/// 1/sine; measured at the limit: 2^-15.
+/// What `certified_distance` of any other triangle lacks of the true distance is below this part of
+/// (distance + `reach`): 2^-14. It grows with 1/sine; measured at the limit: 2^-15.
 pub(super) const SHORTFALL: f32 = 1.0 / 16_384.0;
 
-/// Whether no triangle of a leaf is a sliver. Triangles without area are. `None`: the leaf is not one of a tree that was opened.
+/// Whether no triangle of a leaf is a sliver. Triangles without area are. `None`: the leaf is not
+/// one of a tree that was opened.
 pub(super) fn is_sound(patch: &Patch<'_>) -> Option<bool> {
     if !WIDE {
         let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
@@ -23,8 +25,11 @@ pub(super) fn is_sound(patch: &Patch<'_>) -> Option<bool> {
             SLIVER * (square(e) * square(g)) - square(normal) <= 0.0 && square(normal) > 0.0
         }));
     }
-    let edges =
-        if patch.is_single() { patch.single_edges8(Vec3::ZERO)? } else { patch.grid_edges8(Vec3::ZERO)? };
+    let edges = if patch.is_single() {
+        patch.single_edges8(Vec3::ZERO)?
+    } else {
+        patch.grid_edges8(Vec3::ZERO)?
+    };
     let Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], .. } = &edges;
     let used = LANES_BELOW.get(patch.tag().triangles())?;
     let mut excess = [0f32; WIDTH];

@@ -1,28 +1,37 @@
 //! Signed distance.
 //!
-//! *What the sign means.* A closed mesh, whose every edge is run through as often in one direction as in the other, has a winding number at every point off the
-//! surface, which rises by one where a triangle is crossed from its front to its back. `Inside` says that the surface next to the point has its back to
-//! it, `Outside` its front. For a mesh that bounds a solid (winding number 1 in it, 0 elsewhere) that is what it sounds like. For an
-//! inverted one the sides are exchanged: the solid is all the rest of space. Parts that *overlap* are not united: a point within one part whose nearest surface
-//! is that of another, which it is not in, is outside of that other. Parts within parts (cavities) are as their winding says.
+//! *What the sign means.* A closed mesh, whose every edge is run through as often in one direction
+//! as in the other, has a winding number at every point off the surface, which rises by one where a
+//! triangle is crossed from its front to its back. `Inside` says that the surface next to the point
+//! has its back to it, `Outside` its front. For a mesh that bounds a solid (winding number 1 in it,
+//! 0 elsewhere) that is what it sounds like. For an inverted one the sides are exchanged: the solid
+//! is all the rest of space. Parts that *overlap* are not united: a point within one part whose
+//! nearest surface is that of another, which it is not in, is outside of that other. Parts within
+//! parts (cavities) are as their winding says.
 //!
-//! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from where it was to where it is stored. Every point of every
-//! triangle moves by `surface_error` at most, so a point farther than that from the stored surface is never touched, and its winding number
+//! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from where
+//! it was to where it is stored. Every point of every triangle moves by `surface_error` at most, so
+//! a point farther than that from the stored surface is never touched, and its winding number
 //! cannot change. At a lesser distance the side is undefined.
 //!
-//! *How it is found.* Let q be the closest point, and w₀ the winding number where the query p is: no surface is nearer than q, so
-//! it is the same all over a half-space's worth of directions about q. Let triangles i about q have unit normals nᵢ and angles αᵢ at q
-//! (π where q lies on an edge, 2π within a face). The divergence theorem on a small ball about q gives Σ αᵢ·nᵢ = −2·∫(w(x) − w₀)·x over the directions x, for
-//! any arrangement of triangles, manifold or not; and only directions with x·(p − q) ≤ 0 contribute. So (p − q)·Σ αᵢ·nᵢ is positive
-//! if the winding number is greater behind q than at p: outside. (Bærentzen & Aanæs, *Signed Distance Computation Using the Angle Weighted Pseudonormal*, 2005,
-//! prove it for manifolds.)
+//! *How it is found.* Let q be the closest point, and w₀ the winding number where the query p is:
+//! no surface is nearer than q, so it is the same all over a half-space's worth of directions about
+//! q. Let triangles i about q have unit normals nᵢ and angles αᵢ at q (π where q lies on an edge,
+//! 2π within a face). The divergence theorem on a small ball about q gives Σ αᵢ·nᵢ = −2·∫(w(x) −
+//! w₀)·x over the directions x, for any arrangement of triangles, manifold or not; and only
+//! directions with x·(p − q) ≤ 0 contribute. So (p − q)·Σ αᵢ·nᵢ is positive if the winding number
+//! is greater behind q than at p: outside. (Bærentzen & Aanæs, *Signed Distance Computation Using
+//! the Angle Weighted Pseudonormal*, 2005, prove it for manifolds.)
 //!
-//! *Rounding.* Which triangle is the closest is not certain in f32. So all are considered that may be: if every one of them clearly has its front to
-//! p, all terms of the sum at the true q are positive, wherever it is; likewise for backs. That decides faces, smooth edges and vertices, and ties. Else
-//! [`pseudonormal`](super::pseudonormal) sums about the feature that they all share. Where rounding leaves that open, too, the question is asked from a place nearer
-//! the surface, within the ball about p that it does not enter: far above a face and next to its edge the face beyond the edge is as near as rounding can tell,
-//! and from a sixteenth of the distance it is not. If that does not help either, the side is undefined.
-//! A point outside of the model's box is asked about from a place nearer by: all points outside of the box are on one side.
+//! *Rounding.* Which triangle is the closest is not certain in f32. So all are considered that may
+//! be: if every one of them clearly has its front to p, all terms of the sum at the true q are
+//! positive, wherever it is; likewise for backs. That decides faces, smooth edges and vertices, and
+//! ties. Else [`pseudonormal`](super::pseudonormal) sums about the feature that they all share.
+//! Where rounding leaves that open, too, the question is asked from a place nearer the surface,
+//! within the ball about p that it does not enter: far above a face and next to its edge the face
+//! beyond the edge is as near as rounding can tell, and from a sixteenth of the distance it is not.
+//! If that does not help either, the side is undefined. A point outside of the model's box is asked
+//! about from a place nearer by: all points outside of the box are on one side.
 
 use super::closest::closest_point;
 use super::interval::{EVERYTHING, each_triangle, limit_of, lower_of, lower_of_box, witness};
@@ -50,14 +59,16 @@ pub enum Side {
 /// Signed distance: positive outside, negative inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedDistance {
-    /// Not above the signed distance to the input mesh, input units. If the side is undefined: `-upper` of the closest point.
+    /// Not above the signed distance to the input mesh, input units. If the side is undefined:
+    /// `-upper` of the closest point.
     pub lower: f32,
     /// Not below it. If the side is undefined: `upper` of the closest point.
     pub upper: f32,
     /// The side, proved, or undefined.
     pub side: Side,
-    /// The closest point and the interval of the distance without sign. `work` and `ended` are of all that was done: [`Ended::Level`] if the mesh is
-    /// closed and the stored surface or rounding leaves the side open.
+    /// The closest point and the interval of the distance without sign. `work` and `ended` are of
+    /// all that was done: [`Ended::Level`] if the mesh is closed and the stored surface or
+    /// rounding leaves the side open.
     pub closest: ClosestPoint,
 }
 
@@ -72,23 +83,31 @@ impl SignedDistance {
     }
 }
 
-/// Signed distance of `point` (input units), negative inside: where the nearest surface has its back to the point.
+/// Signed distance of `point` (input units), negative inside: where the nearest surface has its
+/// back to the point.
 ///
-/// Of a mesh that bounds a solid that is what it sounds like; of an inverted one the sides are exchanged. Parts that overlap are not united: the nearest
-/// surface decides, and where surfaces of several are equally near up to rounding and the surface error, one of these. Cavities are as their winding says.
+/// Of a mesh that bounds a solid that is what it sounds like; of an inverted one the sides are
+/// exchanged. Parts that overlap are not united: the nearest surface decides, and where surfaces of
+/// several are equally near up to rounding and the surface error, one of these. Cavities are as
+/// their winding says.
 ///
-/// The side is undefined if the mesh is not closed and consistently wound ([`TreeHeader::is_closed`](crate::blob::TreeHeader::is_closed)), if the distance is not
-/// clear of the stored surface's error and of rounding, next to walls and gaps thinner than these, next to slivers so flat that they have no certain
-/// normal, and where triangles without area alone are near. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps` too
-/// few, the side is undefined, too. The tolerances of [`Stop`] do not apply: a side needs the closest point itself.
+/// The side is undefined if the mesh is not closed and consistently wound
+/// ([`TreeHeader::is_closed`](crate::blob::TreeHeader::is_closed)), if the distance is not clear of
+/// the stored surface's error and of rounding, next to walls and gaps thinner than these, next to
+/// slivers so flat that they have no certain normal, and where triangles without area alone are
+/// near. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps`
+/// too few, the side is undefined, too. The tolerances of [`Stop`] do not apply: a side needs the
+/// closest point itself.
 ///
 /// Triangle and point are those of [`closest_point`]; equidistant ones: the least in blob order.
 ///
-/// Cost: about that of the closest point; twice to three times that next to sharp edges and vertices, and for points far outside; up to four
-/// times more where the side has to be found from nearer by, above a face and next to its edge.
+/// Cost: about that of the closest point; twice to three times that next to sharp edges and
+/// vertices, and for points far outside; up to four times more where the side has to be found from
+/// nearer by, above a face and next to its edge.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`], [`QueryError::NotServed`].
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`],
+/// [`QueryError::NotServed`].
 pub fn signed_distance(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -105,7 +124,12 @@ pub fn signed_distance(
     let survey = if probe.far { None } else { Some(search.survey(&probe)?) };
     let mut closest = match &survey {
         Some(survey) => survey.closest(&search, point)?,
-        None => closest_point(tree, point, &Stop { relative: 0.0, absolute: 0.0, ..*stop }, search.stack)?,
+        None => closest_point(
+            tree,
+            point,
+            &Stop { relative: 0.0, absolute: 0.0, ..*stop },
+            search.stack,
+        )?,
     };
     let clear = closed && closest.lower > 0.0;
     let mut side = match &survey {
@@ -208,9 +232,11 @@ impl Search<'_, '_> {
         Ok(Survey { probe, margin, best, solid, seen, least, missed })
     }
 
-    /// The side that points on the ways to the surface have: there is none of it in the ball about the surveyed point that touches it, so the winding number is the
-    /// same in all of the ball. What two features' distances differ by grows as the inverse of the distance. Where parts overlap, surfaces
-    /// that are equally near may have different sides of it: the ways to the closest triangles of either facing have to agree.
+    /// The side that points on the ways to the surface have: there is none of it in the ball about
+    /// the surveyed point that touches it, so the winding number is the same in all of the
+    /// ball. What two features' distances differ by grows as the inverse of the distance. Where
+    /// parts overlap, surfaces that are equally near may have different sides of it: the ways
+    /// to the closest triangles of either facing have to agree.
     fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
         let band = Candidates::new(survey.probe, survey.margin, survey.solid.distance_sq).band;
         let mut agreed = None;
@@ -227,7 +253,8 @@ impl Search<'_, '_> {
         Ok(agreed.unwrap_or(Side::Undefined))
     }
 
-    /// The side of the first point on the way to a triangle, and from there to what is closest, that has one.
+    /// The side of the first point on the way to a triangle, and from there to what is closest,
+    /// that has one.
     fn side_on_the_way(&mut self, survey: &Survey<'_>, place: Place) -> Result<Side, QueryError> {
         let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
@@ -307,10 +334,13 @@ impl Survey<'_> {
     /// Not above the distance to the input mesh, input units; what was missed is not counted.
     fn lower(&self) -> f32 {
         let distance = root(self.best.distance_sq);
-        self.probe.lower(self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }))
+        self.probe.lower(
+            self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }),
+        )
     }
 
-    /// A point on the way to a triangle, a sixteenth of the distance off it and within the ball about this one that is proved to be empty.
+    /// A point on the way to a triangle, a sixteenth of the distance off it and within the ball
+    /// about this one that is proved to be empty.
     fn nearer(&self, tree: &Tree<'_>, to: Place) -> Option<Probe> {
         let probe = self.probe;
         let patch = tree.leaf(to.node, to.child)?;
@@ -321,7 +351,11 @@ impl Survey<'_> {
         (way.dot(way) < empty * empty * (1.0 - 64.0 * U32)).then_some(nearer)
     }
 
-    fn closest(&self, search: &Search<'_, '_>, point: [f32; 3]) -> Result<ClosestPoint, QueryError> {
+    fn closest(
+        &self,
+        search: &Search<'_, '_>,
+        point: [f32; 3],
+    ) -> Result<ClosestPoint, QueryError> {
         let Survey { probe, best, .. } = *self;
         let tree = search.tree;
         let ended = search.cut.unwrap_or(Ended::Exact);

@@ -1,8 +1,10 @@
-//! The descent that all distance questions share: nearest child first, the others on the caller's stack, unsorted.
+//! The descent that all distance questions share: nearest child first, the others on the caller's
+//! stack, unsorted.
 //!
-//! Sorting them, or a heap, visits fewer nodes and takes longer: what decides is how often a branch is guessed wrong. So every lane is
-//! stored and the stack's end moves on if the lane is wanted; the nearest is followed at once. Keys never fall from parent to child, so that the set
-//! of leaves that a question depends on does not depend on the order of visits.
+//! Sorting them, or a heap, visits fewer nodes and takes longer: what decides is how often a branch
+//! is guessed wrong. So every lane is stored and the stack's end moves on if the lane is wanted;
+//! the nearest is followed at once. Keys never fall from parent to child, so that the set of leaves
+//! that a question depends on does not depend on the order of visits.
 
 use crate::blob::layout::WIDTH;
 use crate::blob::{Patch, Tree};
@@ -13,7 +15,8 @@ use glam::Vec3;
 /// A child that waits: 8 bytes of the caller's stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TreeEntry {
-    /// Squared lower bound of its distance, or the parameter at which a segment enters it; the lane in the low bits.
+    /// Squared lower bound of its distance, or the parameter at which a segment enters it; the
+    /// lane in the low bits.
     pub(super) key: f32,
     /// Its parent.
     pub(super) node: u32,
@@ -38,7 +41,8 @@ pub(super) trait Seek {
     /// Squared bound above which nothing is wanted.
     fn limit(&self) -> f32;
 
-    /// Looks at a leaf; `Some(false)` ends the descent, `None` says that the tree is not one that was opened.
+    /// Looks at a leaf; `Some(false)` ends the descent, `None` says that the tree is not one that
+    /// was opened.
     fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool>;
 }
 
@@ -49,7 +53,8 @@ pub(super) enum Descent {
     Done,
     /// The question was answered early.
     Answered,
-    /// The budget is used up, or something did not fit the stack: nothing below this squared bound was missed.
+    /// The budget is used up, or something did not fit the stack: nothing below this squared bound
+    /// was missed.
     Short { least: f32, steps: bool },
 }
 
@@ -107,8 +112,10 @@ pub(super) fn descend(
     let mut bound = 0f32;
     loop {
         if work.splits >= steps {
-            let rest =
-                stack.iter().take(waiting).fold(bound.min(dropped), |least, entry| least.min(entry.key));
+            let rest = stack
+                .iter()
+                .take(waiting)
+                .fold(bound.min(dropped), |least, entry| least.min(entry.key));
             return Ok(Descent::Short { least: rest, steps: true });
         }
         let links = tree.links(node).ok_or(QueryError::Model)?;
@@ -123,7 +130,8 @@ pub(super) fn descend(
         if found {
             wait(stack, &mut waiting, &mut dropped, node, &keys, links.count, nearest, limit);
         }
-        // The nearest child's links are at hand; what comes off the stack has to look its parent's up.
+        // The nearest child's links are at hand; what comes off the stack has to look its parent's
+        // up.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);
         let mut entry = TreeEntry { key: nearest, node };
         loop {
@@ -156,7 +164,8 @@ pub(super) fn descend(
                     break;
                 }
             }
-            child = tree.child(entry.node, entry.key.to_bits() & LANE_MASK).ok_or(QueryError::Model)?;
+            child =
+                tree.child(entry.node, entry.key.to_bits() & LANE_MASK).ok_or(QueryError::Model)?;
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Is the mesh within a distance? Cheaper than the distance itself: it ends as soon as one triangle is certainly near enough, and looks
-//! at nothing that is certainly too far.
+//! Is the mesh within a distance? Cheaper than the distance itself: it ends as soon as one triangle
+//! is certainly near enough, and looks at nothing that is certainly too far.
 
 use super::closest::closest_point;
 use super::interval::{each_triangle, limit_within, lower_of, nearness, seen_from};
@@ -10,13 +10,15 @@ use crate::blob::Tree;
 use crate::num::root;
 use crate::query::{Ended, QueryError, Stop, Work};
 
-/// Whether the mesh is within a distance, about the input mesh in real arithmetic. Said by [`is_within`], and by [`tight::is_within`](crate::query::tight::is_within) of a mesh that is
+/// Whether the mesh is within a distance, about the input mesh in real arithmetic. Said by
+/// [`is_within`], and by [`tight::is_within`](crate::query::tight::is_within) of a mesh that is
 /// known by its hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Proved: a point of the mesh is not farther.
     Yes {
-        /// A triangle that is not farther, by its number in the input file. Not always the closest one; `None` of a tight hull, which knows no triangles.
+        /// A triangle that is not farther, by its number in the input file. Not always the closest
+        /// one; `None` of a tight hull, which knows no triangles.
         triangle: Option<u32>,
     },
     /// Proved: the whole mesh is farther; of a tight hull, all that the mesh encloses too.
@@ -32,8 +34,10 @@ pub struct Within {
     pub verdict: Verdict,
     /// What it cost.
     pub work: Work,
-    /// [`Ended::Exact`] with `Yes` and `No`. With `Unknown`: [`Ended::Level`] if the distance is so near to the one asked about that the
-    /// stored surface or rounding leaves it open, or if a tighter hull may tell; [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut short.
+    /// [`Ended::Exact`] with `Yes` and `No`. With `Unknown`: [`Ended::Level`] if the distance is
+    /// so near to the one asked about that the stored surface or rounding leaves it open, or
+    /// if a tighter hull may tell; [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut
+    /// short.
     pub ended: Ended,
 }
 
@@ -46,16 +50,19 @@ impl Within {
 
 /// Is the input mesh at most `distance` (input units) from `point`?
 ///
-/// Distance 0 asks whether the point touches the surface: `No` or, as f32 cannot prove that it does, `Unknown`. `Unknown` for want
-/// of precision needs a distance within [`TreeHeader::surface_error`](crate::blob::TreeHeader) and rounding of the one asked about. Farther than a
-/// million model sizes the model's box answers. `stack` as for [`closest_point`]; a shorter one may turn an answer into `Unknown`, never into
-/// a wrong one. Of [`Stop`] only `steps` matters.
+/// Distance 0 asks whether the point touches the surface: `No` or, as f32 cannot prove that it
+/// does, `Unknown`. `Unknown` for want of precision needs a distance within
+/// [`TreeHeader::surface_error`](crate::blob::TreeHeader) and rounding of the one asked about.
+/// Farther than a million model sizes the model's box answers. `stack` as for [`closest_point`]; a
+/// shorter one may turn an answer into `Unknown`, never into a wrong one. Of [`Stop`] only `steps`
+/// matters.
 ///
-/// Cost: one node if the model's box is out of reach; else what lies within `distance`, and no more than a few leaves where the answer is yes.
+/// Cost: one node if the model's box is out of reach; else what lies within `distance`, and no more
+/// than a few leaves where the answer is yes.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative, NaN or infinite; [`QueryError::NoQueue`];
-/// [`QueryError::NotServed`].
+/// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative, NaN
+/// or infinite; [`QueryError::NoQueue`]; [`QueryError::NotServed`].
 pub fn is_within(
     tree: &Tree<'_>,
     point: [f32; 3],
@@ -80,7 +87,8 @@ pub fn is_within(
     let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
     let (verdict, ended) = match descent {
         _ if seek.near.is_some() => {
-            let triangle = seek.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
+            let triangle =
+                seek.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
             (Verdict::Yes { triangle: Some(triangle) }, Ended::Exact)
         }
         Descent::Short { steps: true, .. } => (Verdict::Unknown, Ended::Steps),
@@ -130,7 +138,9 @@ impl Seek for Threshold<'_> {
     #[inline(always)]
     fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
         let near = nearest_triangle(&visit.patch, self.probe.p)?;
-        if near.distance_sq <= self.limit && self.probe.upper(root(near.distance_sq)) <= self.distance {
+        if near.distance_sq <= self.limit
+            && self.probe.upper(root(near.distance_sq)) <= self.distance
+        {
             self.near = Some(self.number(visit, near.distance_sq)?);
             return Some(false);
         }
@@ -147,13 +157,15 @@ impl Threshold<'_> {
     #[inline(never)]
     fn number(&self, visit: &Visit<'_>, distance_sq: f32) -> Option<u32> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        let here =
-            |lane: &usize| nearness(&seen_from(&visit.patch, *lane, self.probe.p)).distance_sq == distance_sq;
+        let here = |lane: &usize| {
+            nearness(&seen_from(&visit.patch, *lane, self.probe.p)).distance_sq == distance_sq
+        };
         let lane = (0..visit.patch.tag().triangles()).find(here)?;
         Some(first.wrapping_add(lane as u32))
     }
 
-    /// A leaf near the limit: is one of its triangles not certainly beyond the distance? It may be a sliver that is certainly within.
+    /// A leaf near the limit: is one of its triangles not certainly beyond the distance? It may be
+    /// a sliver that is certainly within.
     #[cold]
     #[inline(never)]
     fn doubt(&mut self, visit: &Visit<'_>) -> Option<()> {
@@ -173,7 +185,8 @@ impl Threshold<'_> {
         });
         self.doubtful = doubtful;
         if let Some(lane) = within {
-            self.near = Some(self.tree.links(visit.node)?.triangle(visit.lane).wrapping_add(lane as u32));
+            self.near =
+                Some(self.tree.links(visit.node)?.triangle(visit.lane).wrapping_add(lane as u32));
         }
         Some(())
     }

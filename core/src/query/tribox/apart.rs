@@ -1,4 +1,5 @@
-//! Two hierarchies of triboxes, one of them moved: a proof that the models are apart, or where they may meet.
+//! Two hierarchies of triboxes, one of them moved: a proof that the models are apart, or where they
+//! may meet.
 
 use super::axes::{Axes, Body};
 use crate::blob::Triboxes;
@@ -23,7 +24,8 @@ impl NodePair {
 /// Whether two models are apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reject {
-    /// A pair of nodes that may meet: the first one found, of two leaves unless `ended` says [`Ended::Capacity`]. `None` is a proof that the meshes have no common point, and
+    /// A pair of nodes that may meet: the first one found, of two leaves unless `ended` says
+    /// [`Ended::Capacity`]. `None` is a proof that the meshes have no common point, and
     /// that where both are solids no point is in both.
     pub may_meet: Option<NodePair>,
     /// What it cost: pairs tested, pairs opened.
@@ -39,7 +41,8 @@ impl Reject {
     }
 }
 
-/// Where two models may meet; the pairs are in the caller's slice. Without any the models are proved to be apart.
+/// Where two models may meet; the pairs are in the caller's slice. Without any the models are
+/// proved to be apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Candidates {
     /// Pairs in the slice.
@@ -48,7 +51,8 @@ pub struct Candidates {
     pub dropped: u32,
     /// What it cost: pairs tested, pairs opened.
     pub work: Work,
-    /// [`Ended::Capacity`] if the stack was too short: then some pairs are not of leaves. Between any others there is no common point all the same.
+    /// [`Ended::Capacity`] if the stack was too short: then some pairs are not of leaves. Between
+    /// any others there is no common point all the same.
     pub ended: Ended,
 }
 
@@ -59,22 +63,28 @@ impl Candidates {
     }
 }
 
-/// Stack entries with which neither [`apart`] nor [`candidates`] ends for want of them: one more than both depths together.
+/// Stack entries with which neither [`apart`] nor [`candidates`] ends for want of them: one more
+/// than both depths together.
 pub fn stack_entries(a: &Triboxes<'_>, b: &Triboxes<'_>) -> usize {
     (a.depth() + b.depth()) as usize + 1
 }
 
-/// Whether two models are apart, the second one moved by `pose`, from its frame to the first one's; both in input units.
+/// Whether two models are apart, the second one moved by `pose`, from its frame to the first one's;
+/// both in input units.
 ///
-/// Descends both hierarchies from the larger of two nodes to its children. Two nodes are apart if one of the eighteen directions of both shows a gap, to which the other one's reach along that
-/// direction is computed exactly, up to rounding (`core/src/tribox/support.rs`), and not, as in the paper, that of a tribox around its moved vertices, which is a third to a half larger.
+/// Descends both hierarchies from the larger of two nodes to its children. Two nodes are apart if
+/// one of the eighteen directions of both shows a gap, to which the other one's reach along that
+/// direction is computed exactly, up to rounding (`core/src/tribox/support.rs`), and not, as in the
+/// paper, that of a tribox around its moved vertices, which is a third to a half larger.
 /// Ends with the first pair of leaves that may meet.
 ///
-/// The matrix is taken as it is: if it is a rotation up to rounding only, so is the motion; if it is none, less is told apart.
-/// Below f32's normal range everything may meet. Cost: some 2,000 instructions of a Cortex-M4F once, 1,500 a pair on average; 2 KiB of stack.
+/// The matrix is taken as it is: if it is a rotation up to rounding only, so is the motion; if it
+/// is none, less is told apart. Below f32's normal range everything may meet. Cost: some 2,000
+/// instructions of a Cortex-M4F once, 1,500 a pair on average; 2 KiB of stack.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`] and [`QueryError::PoseOutOfDomain`] of a pose with such numbers (see [`Pose::bound`]); [`QueryError::NoQueue`] without a stack.
+/// [`QueryError::NotFinite`] and [`QueryError::PoseOutOfDomain`] of a pose with such numbers (see
+/// [`Pose::bound`]); [`QueryError::NoQueue`] without a stack.
 pub fn apart(
     a: &Triboxes<'_>,
     b: &Triboxes<'_>,

@@ -7,7 +7,8 @@ use crate::tribox::{DIRECTIONS, FACES, Pose, SLABS, Support, TriboxError};
 
 /// A direction of one tribox's own slabs, as the other one, which was moved, sees it.
 ///
-/// For a point p of the other one its value along the slab is `towards` · p + `offset`, up to `margin`, which is more than all that rounding does to a comparison.
+/// For a point p of the other one its value along the slab is `towards` · p + `offset`, up to
+/// `margin`, which is more than all that rounding does to a comparison.
 #[derive(Clone, Copy)]
 struct Axis {
     /// Along `towards`; prepared when it is first wanted.
@@ -39,7 +40,10 @@ fn size(v: [f32; 3]) -> f32 {
 /// Largest coordinate of what a hierarchy holds.
 fn reach(triboxes: &Triboxes<'_>) -> Result<f32, QueryError> {
     let planes = triboxes.planes(0).ok_or(QueryError::Model)?;
-    Ok(planes.iter().take(6).fold(0f32, |most, plane| if plane.abs() > most { plane.abs() } else { most }))
+    Ok(planes
+        .iter()
+        .take(6)
+        .fold(0f32, |most, plane| if plane.abs() > most { plane.abs() } else { most }))
 }
 
 /// A tribox as the tests want it.
@@ -76,9 +80,12 @@ impl Axes {
 
     /// For a motion of `b`.
     ///
-    /// Let w be a direction, M and t the motion. The value of a moved point is w·(Mp + t) = (Mᵀw)·p + w·t. Along the slabs of `a`, w is a direction of small integers and e = Mᵀw is computed; along
-    /// those of `b` w = Mf is computed from a direction f, and Mᵀw is f up to the rounding of M. That and e's rounding count with the largest coordinate of `b`. No gap
-    /// is rounded by more than [`TRIBOX_AXIS`] units of what is summed (`core/docs/rounding.md` has the count).
+    /// Let w be a direction, M and t the motion. The value of a moved point is w·(Mp + t) = (Mᵀw)·p
+    /// + w·t. Along the slabs of `a`, w is a direction of small integers and e = Mᵀw is computed;
+    /// along those of `b` w = Mf is computed from a direction f, and Mᵀw is f up to the
+    /// rounding of M. That and e's rounding count with the largest coordinate of `b`. No gap is
+    /// rounded by more than [`TRIBOX_AXIS`] units of what is summed (`core/docs/rounding.md` has
+    /// the count).
     pub(super) fn prepare(
         &mut self,
         a: &Triboxes<'_>,
@@ -110,7 +117,8 @@ impl Axes {
         for ((of_a, of_b), direction) in first.iter_mut().zip(second.iter_mut()).zip(DIRECTIONS) {
             let f = direction.map(f32::from);
             let margin = |w: [f32; 3]| {
-                TRIBOX_AXIS * U32 * (back_sizes(w) * reach_b + size(w) * (reach_a + largest)) + UNDERFLOW
+                TRIBOX_AXIS * U32 * (back_sizes(w) * reach_b + size(w) * (reach_a + largest))
+                    + UNDERFLOW
             };
             let e = back(f);
             (of_a.towards, of_a.offset, of_a.margin) = (e, dot(f, pose.translation), margin(f));
@@ -119,12 +127,14 @@ impl Axes {
             let [fx, fy, fz] = f;
             // What the matrix lacks of a rotation.
             let rest = size([x - fx, y - fy, z - fz]) * reach_b;
-            (of_b.towards, of_b.offset, of_b.margin) = (w, -dot(w, pose.translation), margin(w) + rest);
+            (of_b.towards, of_b.offset, of_b.margin) =
+                (w, -dot(w, pose.translation), margin(w) + rest);
         }
         Ok(())
     }
 
-    /// Whether one of the directions proves that two nodes have no common point. It looks first at the direction `*hint`, of which side and slab, and leaves there which one it was.
+    /// Whether one of the directions proves that two nodes have no common point. It looks first at
+    /// the direction `*hint`, of which side and slab, and leaves there which one it was.
     #[inline]
     pub(super) fn separate(&mut self, a: &Body, b: &Body, hint: &mut (usize, usize)) -> bool {
         let [of_a, of_b] = &mut self.sides;
@@ -146,7 +156,8 @@ impl Axes {
 }
 
 impl Axis {
-    /// Whether there is a gap between the slab of `own` and what the other one takes of the direction.
+    /// Whether there is a gap between the slab of `own` and what the other one takes of the
+    /// direction.
     #[inline(always)]
     fn separates(&mut self, own: &Body, other: &Body, slab: usize) -> bool {
         let plane = |plane: usize| own.planes.get(plane).copied().unwrap_or(f32::INFINITY);

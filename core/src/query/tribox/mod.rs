@@ -7,8 +7,9 @@
 //! | a lower bound of the distance to a point | [`distance`] |
 //! | before where is a segment clear of the model? | [`clip`] |
 //!
-//! Whatever they prove is true of the input mesh in real arithmetic, and where [`Triboxes::is_solid`](crate::Triboxes::is_solid) says so of its inside. A coarser
-//! answer for less work comes of [`Triboxes::coarser`](crate::Triboxes::coarser).
+//! Whatever they prove is true of the input mesh in real arithmetic, and where
+//! [`Triboxes::is_solid`](crate::Triboxes::is_solid) says so of its inside. A coarser answer for
+//! less work comes of [`Triboxes::coarser`](crate::Triboxes::coarser).
 //!
 //! ```
 //! use meshsweep_core::{Triboxes, tribox::Pose, query::tribox::{BoundEntry, NodePair, apart, distance}};

@@ -1,4 +1,5 @@
-//! Lower bounds from triboxes: of a point's distance, and of where a segment may first meet a model.
+//! Lower bounds from triboxes: of a point's distance, and of where a segment may first meet a
+//! model.
 
 use crate::blob::Triboxes;
 use crate::query::{Ended, QueryError, Work};
@@ -19,23 +20,28 @@ impl BoundEntry {
 /// A lower bound that a union of triboxes gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    /// Nothing of the mesh, or of its inside where that counts, is nearer (of a distance, input units), or at a lesser parameter of the segment. Infinity if there is
-    /// nothing of it on the segment at all.
+    /// Nothing of the mesh, or of its inside where that counts, is nearer (of a distance, input
+    /// units), or at a lesser parameter of the segment. Infinity if there is nothing of it on
+    /// the segment at all.
     pub lower: f32,
     /// The node that decided; `None` if `lower` is infinite.
     pub node: Option<u32>,
     /// What it cost: triboxes tested, nodes opened.
     pub work: Work,
-    /// [`Ended::Capacity`] if the stack was too short: then the bound may be lower than it need be.
+    /// [`Ended::Capacity`] if the stack was too short: then the bound may be lower than it need
+    /// be.
     pub ended: Ended,
 }
 
-/// A lower bound of the distance of a point and the mesh: the distance to the leaf that is nearest by [`Tribox::distance`]. 0 in a leaf.
+/// A lower bound of the distance of a point and the mesh: the distance to the leaf that is nearest
+/// by [`Tribox::distance`]. 0 in a leaf.
 ///
-/// A stack of [`depth`](Triboxes::depth) + 2 entries suffices. Cost: about a thousand instructions of a Cortex-M4F a tribox tested.
+/// A stack of [`depth`](Triboxes::depth) + 2 entries suffices. Cost: about a thousand instructions
+/// of a Cortex-M4F a tribox tested.
 ///
 /// # Errors
-/// [`QueryError::NotFinite`] and [`QueryError::OutOfDomain`] (beyond [`Tribox::DOMAIN`]) of the point; [`QueryError::NoQueue`] without a stack.
+/// [`QueryError::NotFinite`] and [`QueryError::OutOfDomain`] (beyond [`Tribox::DOMAIN`]) of the
+/// point; [`QueryError::NoQueue`] without a stack.
 pub fn distance(
     triboxes: &Triboxes<'_>,
     point: [f32; 3],
@@ -45,9 +51,11 @@ pub fn distance(
     least(triboxes, stack, |tribox| Some(tribox.distance(point)))
 }
 
-/// Parameter before which the segment from `a` (0) to `b` (1) is clear of the mesh: where it first enters a leaf, by [`Tribox::clip`].
+/// Parameter before which the segment from `a` (0) to `b` (1) is clear of the mesh: where it first
+/// enters a leaf, by [`Tribox::clip`].
 ///
-/// Stack, cost and errors are those of [`distance`]; both ends have to be in the domain. A segment of no length is at 0 or nowhere.
+/// Stack, cost and errors are those of [`distance`]; both ends have to be in the domain. A segment
+/// of no length is at 0 or nowhere.
 ///
 /// # Errors
 /// Those of [`distance`].
@@ -77,13 +85,17 @@ fn least(
     stack: &mut [BoundEntry],
     bound: impl Fn(&Tribox) -> Option<f32>,
 ) -> Result<Bound, QueryError> {
-    let mut answer = Bound { lower: f32::INFINITY, node: None, work: Work::default(), ended: Ended::Exact };
+    let mut answer =
+        Bound { lower: f32::INFINITY, node: None, work: Work::default(), ended: Ended::Exact };
     let enter = |node: u32, above: f32, work: &mut Work| {
         work.nodes += 1;
         let tribox = triboxes.node(node).ok_or(QueryError::Model)?;
         let here = bound(&tribox).unwrap_or(f32::INFINITY);
         // Rounding may have given the parent more, and the child is a part of it.
-        Ok::<BoundEntry, QueryError>(BoundEntry { lower: if here > above { here } else { above }, node })
+        Ok::<BoundEntry, QueryError>(BoundEntry {
+            lower: if here > above { here } else { above },
+            node,
+        })
     };
     let root = enter(0, 0.0, &mut answer.work)?;
     *stack.first_mut().ok_or(QueryError::NoQueue)? = root;

@@ -1,4 +1,5 @@
-//! The no-panic proof: every entry of the core on opaque inputs. It links, or a panic is left in the core.
+//! The no-panic proof: every entry of the core on opaque inputs. It links, or a panic is left in
+//! the core.
 #![no_std]
 #![no_main]
 
@@ -62,7 +63,11 @@ extern "C" fn ask_hull_outer_hits(input: &Input<'_>, scratch: &mut hull::Scratch
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_closest(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_closest(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::closest(&tree, input.a, scratch, &mut (), fold);
     }
@@ -76,28 +81,44 @@ extern "C" fn ask_tree_follow(input: &Input<'_>, scratch: &mut tree::Scratch<'_>
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_stopped(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_stopped(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::stopped(&tree, input.a, input.b[0], scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_is_within(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_is_within(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::is_within(&tree, input.a, input.b[0], scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_nearest(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_nearest(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::nearest(&tree, input.a, scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_all_within(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_all_within(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::all_within(&tree, input.a, input.b[0], scratch, &mut (), fold);
     }
@@ -111,7 +132,11 @@ extern "C" fn ask_tree_signed(input: &Input<'_>, scratch: &mut tree::Scratch<'_>
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_first_hit(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_first_hit(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::first_hit(&tree, [input.a, input.b], scratch, &mut (), fold);
     }
@@ -125,28 +150,44 @@ extern "C" fn ask_tree_facing(input: &Input<'_>, scratch: &mut tree::Scratch<'_>
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_any_hit(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_any_hit(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::any_hit(&tree, [input.a, input.b], scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_all_hits(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_all_hits(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::all_hits(&tree, [input.a, input.b], scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_session<'t>(input: &Input<'t>, scratch: &mut tree::Scratch<'t>, fold: &mut Fold) {
+extern "C" fn ask_tree_session<'t>(
+    input: &Input<'t>,
+    scratch: &mut tree::Scratch<'t>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         tree::session(&tree, input.a, scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_batch<'t>(input: &Input<'t>, scratch: &mut tree::Scratch<'t>, fold: &mut Fold) {
+extern "C" fn ask_tree_batch<'t>(
+    input: &Input<'t>,
+    scratch: &mut tree::Scratch<'t>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         let [a, b] = [input.a, input.b];
         tree::batch(&tree, &[a, b, a, b, a, b, a, b], scratch, &mut (), fold);
@@ -174,7 +215,11 @@ extern "C" fn ask_tribox_rest(points: &tribox::Points, input: &Input<'_>, fold: 
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_overlap(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_overlap(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         let pose = tree::pose(([input.a, input.b, input.a], input.b));
         tree::overlap(&tree, &pose, scratch, &mut (), fold);
@@ -182,7 +227,11 @@ extern "C" fn ask_tree_overlap(input: &Input<'_>, scratch: &mut tree::Scratch<'_
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tree_all_overlaps(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_tree_all_overlaps(
+    input: &Input<'_>,
+    scratch: &mut tree::Scratch<'_>,
+    fold: &mut Fold,
+) {
     if let Ok(tree) = tree::open(input.blob) {
         let pose = tree::pose(([input.a, input.b, input.a], input.b));
         tree::all_overlaps(&tree, &pose, scratch, &mut (), fold);
@@ -208,28 +257,50 @@ extern "C" fn ask_triboxes_open(input: &Input<'_>, fold: &mut Fold) {
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_apart(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+extern "C" fn ask_triboxes_apart(
+    input: &Input<'_>,
+    scratch: &mut triboxes::Scratch,
+    fold: &mut Fold,
+) {
     if let Ok(opened) = triboxes::open(input.blob) {
         triboxes::reject(&opened, &([input.a, input.b, input.a], input.b), scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_candidates(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+extern "C" fn ask_triboxes_candidates(
+    input: &Input<'_>,
+    scratch: &mut triboxes::Scratch,
+    fold: &mut Fold,
+) {
     if let Ok(opened) = triboxes::open(input.blob) {
-        triboxes::candidates(&opened, &([input.a, input.b, input.a], input.b), scratch, &mut (), fold);
+        triboxes::candidates(
+            &opened,
+            &([input.a, input.b, input.a], input.b),
+            scratch,
+            &mut (),
+            fold,
+        );
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_distance(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+extern "C" fn ask_triboxes_distance(
+    input: &Input<'_>,
+    scratch: &mut triboxes::Scratch,
+    fold: &mut Fold,
+) {
     if let Ok(opened) = triboxes::open(input.blob) {
         triboxes::nearest(&opened, input.a, scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_clip(input: &Input<'_>, scratch: &mut triboxes::Scratch, fold: &mut Fold) {
+extern "C" fn ask_triboxes_clip(
+    input: &Input<'_>,
+    scratch: &mut triboxes::Scratch,
+    fold: &mut Fold,
+) {
     if let Ok(opened) = triboxes::open(input.blob) {
         triboxes::first(&opened, [input.a, input.b], scratch, &mut (), fold);
     }
@@ -255,7 +326,11 @@ extern "C" fn ask_tight_closest(input: &Input<'_>, scratch: &mut tight::Scratch,
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_tight_is_within(input: &Input<'_>, scratch: &mut tight::Scratch, fold: &mut Fold) {
+extern "C" fn ask_tight_is_within(
+    input: &Input<'_>,
+    scratch: &mut tight::Scratch,
+    fold: &mut Fold,
+) {
     if let Ok(opened) = tight::open(input.blob) {
         tight::is_within(&opened, input.a, input.b[0], scratch, &mut (), fold);
     }

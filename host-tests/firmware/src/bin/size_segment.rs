@@ -1,4 +1,5 @@
-//! The size of an image that asks a split hierarchy for the first hit of a segment and nothing else.
+//! The size of an image that asks a split hierarchy for the first hit of a segment and nothing
+//! else.
 #![no_std]
 #![no_main]
 

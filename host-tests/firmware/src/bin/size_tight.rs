@@ -1,4 +1,5 @@
-//! The size of an image that opens tight hulls and asks whether the mesh within is nearer than a distance, and nothing else.
+//! The size of an image that opens tight hulls and asks whether the mesh within is nearer than a
+//! distance, and nothing else.
 #![no_std]
 #![no_main]
 

@@ -10,6 +10,11 @@ use meshsweep_suite::ask::tree::{self, Scratch, Tree};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_closest(tree: &Tree<'_>, input: &Input<'_>, scratch: &mut Scratch<'_>, fold: &mut Fold) {
+extern "C" fn ask_closest(
+    tree: &Tree<'_>,
+    input: &Input<'_>,
+    scratch: &mut Scratch<'_>,
+    fold: &mut Fold,
+) {
     tree::closest(tree, input.a, scratch, &mut (), fold);
 }

@@ -1,4 +1,5 @@
-//! The size of an image that opens a box tree and asks it for the first hit of a segment and nothing else.
+//! The size of an image that opens a box tree and asks it for the first hit of a segment and
+//! nothing else.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,5 @@
-//! The size of an image that opens a box tree and asks it for closest points by a session and nothing else.
+//! The size of an image that opens a box tree and asks it for closest points by a session and
+//! nothing else.
 #![no_std]
 #![no_main]
 

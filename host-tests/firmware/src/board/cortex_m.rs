@@ -1,4 +1,5 @@
-//! Cortex-M: SysTick, the only counter that all of them have. It counts the processor's clock down over 24 bits.
+//! Cortex-M: SysTick, the only counter that all of them have. It counts the processor's clock down
+//! over 24 bits.
 
 use super::CALIBRATION_ROUNDS;
 
@@ -37,7 +38,9 @@ pub const fn elapsed(from: u32, to: u32) -> u32 {
 pub fn stack_pointer() -> usize {
     let pointer: usize;
     // SAFETY: reads a register.
-    unsafe { core::arch::asm!("mov {}, sp", out(reg) pointer, options(nomem, nostack, preserves_flags)) };
+    unsafe {
+        core::arch::asm!("mov {}, sp", out(reg) pointer, options(nomem, nostack, preserves_flags))
+    };
     pointer
 }
 

@@ -1,4 +1,5 @@
-//! The size of an image that builds parry3d's mesh and asks for the first hit of a segment and nothing else.
+//! The size of an image that builds parry3d's mesh and asks for the first hit of a segment and
+//! nothing else.
 #![no_std]
 #![no_main]
 

@@ -17,6 +17,10 @@ extern "C" fn ask_open(input: &Input<'static>, tree: &mut Option<BoxTree>) {
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_closest(input: &Input<'_>, tree: &mut BoxTree, closest: &mut Option<ClosestPoint>) {
+extern "C" fn ask_closest(
+    input: &Input<'_>,
+    tree: &mut BoxTree,
+    closest: &mut Option<ClosestPoint>,
+) {
     *closest = tree.closest(input.a);
 }

@@ -1,4 +1,5 @@
-//! The blobs that the images carry: split hierarchies in every coordinate format, whole and cut, and box trees.
+//! The blobs that the images carry: split hierarchies in every coordinate format, whole and cut,
+//! and box trees.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,7 +36,8 @@ pub enum Blob {
     BracketTree,
     /// The torus's box tree, vertices as f32.
     SingleTree,
-    /// The box tree of a torus with holes, beside needles and triangles without area, with normal cones.
+    /// The box tree of a torus with holes, beside needles and triangles without area, with normal
+    /// cones.
     SoupTree,
     /// 64 triboxes of a finer torus.
     Triboxes,
@@ -44,7 +46,8 @@ pub enum Blob {
 }
 
 impl Blob {
-    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box tree of one mesh, triboxes, and tight hulls.
+    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box
+    /// tree of one mesh, triboxes, and tight hulls.
     pub const fn standard(flash: Flash) -> [Self; 4] {
         match flash {
             Flash::Small => [Self::Torus, Self::TorusTree, Self::Triboxes, Self::Tight],
@@ -53,7 +56,8 @@ impl Blob {
     }
 
     /// Blobs whose bits are compared beside the standard ones.
-    pub const VARIANTS: [Self; 5] = [Self::Grid16, Self::Grid24, Self::Cut, Self::SingleTree, Self::SoupTree];
+    pub const VARIANTS: [Self; 5] =
+        [Self::Grid16, Self::Grid24, Self::Cut, Self::SingleTree, Self::SoupTree];
 
     pub const fn name(self) -> &'static str {
         match self {
@@ -81,13 +85,14 @@ impl Blob {
         }
     }
 
-    /// How the image that asks it is optimised for a part with so much flash: all questions to a box tree, the fastest way, are
-    /// more than 256 KiB.
+    /// How the image that asks it is optimised for a part with so much flash: all questions to a
+    /// box tree, the fastest way, are more than 256 KiB.
     pub const fn profile(self, flash: Flash) -> Profile {
         match (self, flash) {
-            (Self::TorusTree | Self::BracketTree | Self::SingleTree | Self::SoupTree, Flash::Small) => {
-                Profile::Small
-            }
+            (
+                Self::TorusTree | Self::BracketTree | Self::SingleTree | Self::SoupTree,
+                Flash::Small,
+            ) => Profile::Small,
             _ => Profile::Release,
         }
     }
@@ -113,7 +118,8 @@ impl Blob {
             }
             Self::TorusTree => Ok(box_tree(small_torus(), &default)),
             Self::BracketTree => Ok(box_tree(bracket(), &default)),
-            // Fewer triangles: with f32 vertices and all questions the image just fits into the flash of the smallest board.
+            // Fewer triangles: with f32 vertices and all questions the image just fits into the
+            // flash of the smallest board.
             Self::SingleTree => {
                 Ok(box_tree(torus(2.0, 0.75, 16, 10), &TreeOptions { single: true, ..default }))
             }
@@ -150,15 +156,16 @@ fn whole(
 ) -> Result<Vec<u8>, String> {
     let mesh = Mesh::new(positions, triangles);
     let options = BuildOptions { base_faces, vertex_bits, ..BuildOptions::default() };
-    let built =
-        build(&mesh, 0.0, mesh.triangles.len(), &options, |_| {}).map_err(|error| error.to_string())?;
+    let built = build(&mesh, 0.0, mesh.triangles.len(), &options, |_| {})
+        .map_err(|error| error.to_string())?;
     Ok(built.bytes)
 }
 
 /// Writes a blob for an image to carry; its path.
 pub fn write(name: &str, bytes: &[u8]) -> Result<PathBuf, String> {
     let folder = workspace::target().join("blobs");
-    fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+    fs::create_dir_all(&folder)
+        .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     let path = folder.join(name).with_extension("msw");
     write_if_changed(&path, bytes)?;
     Ok(path)
@@ -201,7 +208,8 @@ mod tests {
 
     #[test]
     fn blobs_differ_in_format_and_in_what_they_hold() {
-        let header = |blob: Blob| *Model::open(&blob.bytes().expect("a blob")).expect("opens").header();
+        let header =
+            |blob: Blob| *Model::open(&blob.bytes().expect("a blob")).expect("opens").header();
         assert_eq!(header(Blob::Torus).vertex_format, VertexFormat::F32);
         assert_eq!(header(Blob::Grid16).vertex_format, VertexFormat::Grid16);
         assert_eq!(header(Blob::Grid24).vertex_format, VertexFormat::Grid24);

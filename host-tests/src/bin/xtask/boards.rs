@@ -11,7 +11,8 @@ pub struct Board {
     pub target: &'static str,
     /// The emulated machine.
     pub machine: Machine,
-    /// Instructions a tick of the image's counter: the emulator takes 1 ns an instruction, SysTick runs at the board's clock.
+    /// Instructions a tick of the image's counter: the emulator takes 1 ns an instruction, SysTick
+    /// runs at the board's clock.
     pub instructions_per_tick: f64,
     /// How big a blob it can hold.
     pub flash: Flash,

@@ -27,7 +27,8 @@ pub fn run(steps: &mut Steps) {
     steps.run("tests", || process::run(&mut cargo(&["test", "--workspace", "--no-fail-fast"])));
     steps.run("documentation", || {
         process::run(
-            cargo(&["doc", "--quiet", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"),
+            cargo(&["doc", "--quiet", "--workspace", "--no-deps"])
+                .env("RUSTDOCFLAGS", "-D warnings"),
         )
     });
 }
@@ -35,7 +36,8 @@ pub fn run(steps: &mut Steps) {
 fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(workspace::root());
-    // What is kept for the next build costs time and a gigabyte in this one, of which most are the first.
+    // What is kept for the next build costs time and a gigabyte in this one, of which most are the
+    // first.
     if env::var_os("CARGO_INCREMENTAL").is_none() {
         command.env("CARGO_INCREMENTAL", "0");
     }

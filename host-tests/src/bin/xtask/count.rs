@@ -1,7 +1,7 @@
 //! `cargo xtask count`: instructions a query on this machine, counted by callgrind.
 //!
-//! Times on a busy machine are noise; instructions are not. The program runs itself in the simulator twice, with different numbers
-//! of queries: the difference is the queries' alone.
+//! Times on a busy machine are noise; instructions are not. The program runs itself in the
+//! simulator twice, with different numbers of queries: the difference is the queries' alone.
 
 mod tree;
 mod triboxes;
@@ -34,13 +34,19 @@ const QUERIES: [usize; 2] = [500, 2500];
 pub fn run(steps: &mut Steps) {
     let Some(valgrind) = Valgrind::find() else { return };
     let columns = ["question", "instructions"];
-    let mut table =
-        Table::new("instructions", "Instructions a query, fixtures/bracket, this machine", &columns);
+    let mut table = Table::new(
+        "instructions",
+        "Instructions a query, fixtures/bracket, this machine",
+        &columns,
+    );
     for question in QUESTIONS.into_iter().chain(tree::QUESTIONS).chain(triboxes::QUESTIONS) {
         let counted = steps.run(&format!("count {question}"), || each(&valgrind, question));
-        table.push(vec![Cell::from(question), counted.map_or(Cell::Empty, |count| fixed(count, 0))]);
+        table
+            .push(vec![Cell::from(question), counted.map_or(Cell::Empty, |count| fixed(count, 0))]);
     }
-    table.note("far, near, path: closest point; all with the memory that the model's capacities name");
+    table.note(
+        "far, near, path: closest point; all with the memory that the model's capacities name",
+    );
     table.note("tree: to the box tree, triboxes: to 64 of them, the others to the hull hierarchy");
     table.note(
         "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
@@ -79,7 +85,8 @@ pub fn ask(question: &str, queries: usize) -> Result<(), String> {
         }
         return Ok(());
     }
-    let (mut performed, mut swept) = (vec![0; capacities.front_words], vec![0; capacities.front_words]);
+    let (mut performed, mut swept) =
+        (vec![0; capacities.front_words], vec![0; capacities.front_words]);
     let mut candidates = vec![Face::EMPTY; 64];
     let mut hits = [meshsweep_core::query::Hit::EMPTY; 16];
     let mut front = Front::new(&mut performed, &mut swept, &mut candidates);

@@ -1,7 +1,8 @@
 //! cargo for targets that have no operating system.
 //!
-//! rustup's ready-made std where it can be had, else Debian's compiler, which builds `core` from the sources it is packaged
-//! with. Both compile the same arithmetic: the hashes that the images print do not depend on the choice.
+//! rustup's ready-made std where it can be had, else Debian's compiler, which builds `core` from
+//! the sources it is packaged with. Both compile the same arithmetic: the hashes that the images
+//! print do not depend on the choice.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -14,8 +15,8 @@ use crate::toolbox::{Toolbox, Wanted};
 
 const RUST: Wanted = Wanted {
     name: "rust",
-    // `rustc-web` is the recent compiler that Debian keeps for its browsers; the plain one may be older than our MSRV.
-    // The linker of the same LLVM where there is one.
+    // `rustc-web` is the recent compiler that Debian keeps for its browsers; the plain one may be
+    // older than our MSRV. The linker of the same LLVM where there is one.
     alternatives: &[
         &["rustc-web", "cargo-web", "rust-web-src", "lld-22"],
         &["rustc-web", "cargo-web", "rust-web-src", "lld"],
@@ -56,12 +57,16 @@ impl Cross {
 
     fn installed() -> Result<Self, String> {
         let sysroot = sysroot()?;
-        let missing: Vec<_> = targets().into_iter().filter(|target| !has_std(&sysroot, target)).collect();
+        let missing: Vec<_> =
+            targets().into_iter().filter(|target| !has_std(&sysroot, target)).collect();
         if !missing.is_empty() {
             if !process::on_path("rustup") {
                 return Err(format!("no std for {} and no rustup", missing.join(", ")));
             }
-            process::capture_within(Command::new("rustup").args(["target", "add"]).args(&missing), LIMIT)?;
+            process::capture_within(
+                Command::new("rustup").args(["target", "add"]).args(&missing),
+                LIMIT,
+            )?;
         }
         match targets().into_iter().find(|target| !has_std(&sysroot, target)) {
             Some(target) => Err(format!("rustup added no std for {target}")),
@@ -114,7 +119,8 @@ impl Cross {
         matches!(self, Self::Installed)
     }
 
-    /// Where the images of this compiler go: two compilers in one folder would rebuild each other's work.
+    /// Where the images of this compiler go: two compilers in one folder would rebuild each other's
+    /// work.
     pub const fn folder(&self) -> &'static str {
         match self {
             Self::Installed => "firmware",
@@ -141,6 +147,8 @@ fn linker(rust: &Toolbox) -> Result<PathBuf, String> {
     let programs = std::fs::read_dir(rust.path("usr/bin")).into_iter().flatten().flatten();
     programs
         .map(|entry| entry.path())
-        .find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("ld.lld")))
+        .find(|path| {
+            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("ld.lld"))
+        })
         .ok_or_else(|| "Debian's lld came without ld.lld".to_owned())
 }

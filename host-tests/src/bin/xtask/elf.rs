@@ -56,10 +56,13 @@ pub fn size(image: &Path) -> Result<Size, String> {
 
 /// Whether an image defines a function of this name.
 pub fn defines(image: &Path, function: &str) -> Result<bool, String> {
-    with(image, |file| file.symbols().any(|symbol| symbol.is_definition() && symbol.name() == Ok(function)))
+    with(image, |file| {
+        file.symbols().any(|symbol| symbol.is_definition() && symbol.name() == Ok(function))
+    })
 }
 
-/// The source places of an image's panics: every `core::panic::Location` in its constants, as `file:line:column`.
+/// The source places of an image's panics: every `core::panic::Location` in its constants, as
+/// `file:line:column`.
 pub fn panic_places(image: &Path) -> Result<Vec<String>, String> {
     with(image, |file| {
         let sections = file.sections().filter(|section| !is_code(section.flags()));
@@ -69,7 +72,9 @@ pub fn panic_places(image: &Path) -> Result<Vec<String>, String> {
             .collect();
         let mut places: Vec<String> = constants
             .iter()
-            .flat_map(|(_, bytes)| bytes.chunks_exact(4).enumerate().map(move |(i, _)| &bytes[4 * i..]))
+            .flat_map(|(_, bytes)| {
+                bytes.chunks_exact(4).enumerate().map(move |(i, _)| &bytes[4 * i..])
+            })
             .filter_map(|bytes| location(bytes, &constants))
             .collect();
         places.sort();
@@ -82,7 +87,8 @@ pub fn panic_places(image: &Path) -> Result<Vec<String>, String> {
 fn location(bytes: &[u8], constants: &[(u64, &[u8])]) -> Option<String> {
     let mut words =
         bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
-    let (address, length, line, column) = (words.next()?, words.next()?, words.next()?, words.next()?);
+    let (address, length, line, column) =
+        (words.next()?, words.next()?, words.next()?, words.next()?);
     let length = usize::try_from(length).ok().filter(|length| (4..400).contains(length))?;
     let name = constants.iter().find_map(|(base, content)| {
         let offset = usize::try_from(u64::from(address).checked_sub(*base)?).ok()?;
@@ -97,7 +103,8 @@ fn is_code(flags: SectionFlags) -> bool {
 }
 
 fn with<T>(image: &Path, read: impl FnOnce(&ElfFile32<'_, Endianness>) -> T) -> Result<T, String> {
-    let bytes = fs::read(image).map_err(|error| format!("cannot read {}: {error}", image.display()))?;
+    let bytes =
+        fs::read(image).map_err(|error| format!("cannot read {}: {error}", image.display()))?;
     object::read::elf::ElfFile::<FileHeader32<Endianness>>::parse(bytes.as_slice())
         .map(|file| read(&file))
         .map_err(|error| format!("{}: {error}", image.display()))

@@ -62,7 +62,9 @@ fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
             proof::holds(cross, board.target, profile)
         });
     }
-    steps.run(&step("a panic is noticed"), || proof::notices_a_panic(cross, board.target, Profile::Release));
+    steps.run(&step("a panic is noticed"), || {
+        proof::notices_a_panic(cross, board.target, Profile::Release)
+    });
     let added = steps.run(&step("sizes"), || sizes(cross, board)).unwrap_or_default();
     Row { board: *board, readings, added }
 }
@@ -94,7 +96,8 @@ fn run_image(
     image: &str,
     blob: &Path,
 ) -> Result<Reading, String> {
-    let bytes = fs::read(blob).map_err(|error| format!("cannot read {}: {error}", blob.display()))?;
+    let bytes =
+        fs::read(blob).map_err(|error| format!("cannot read {}: {error}", blob.display()))?;
     let image = images::suite(cross, board.target, profile, image, blob)?;
     let reading = Reading::parse(&qemu.run(board.machine, &image)?, board)?;
     reading.compare(&Reading::of_host(&bytes)?)?;

@@ -4,7 +4,8 @@ use std::fs;
 
 use meshsweep_host_tests::generate::fixtures::write_fixtures;
 use meshsweep_host_tests::golden::{
-    bracket_hulls, groove_tree, hull_answers, tight_answers, torus_triboxes, tree_answers, tribox_answers,
+    bracket_hulls, groove_tree, hull_answers, tight_answers, torus_triboxes, tree_answers,
+    tribox_answers,
 };
 use meshsweep_host_tests::measure::Subject;
 
@@ -21,12 +22,14 @@ pub fn write(steps: &mut Steps) {
         fs::write(&file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
     };
     let meshes = steps.run("mesh fixtures", || {
-        write_fixtures(&folder).map_err(|error| format!("cannot write {}: {error}", folder.display()))
+        write_fixtures(&folder)
+            .map_err(|error| format!("cannot write {}: {error}", folder.display()))
     });
     let hull = meshes.and_then(|()| {
         steps.run("fixtures/bracket.msw", || {
-            let bytes =
-                Subject::load(&folder.join("bracket.stl"))?.build_with(&BuildOptions::default())?.bytes;
+            let bytes = Subject::load(&folder.join("bracket.stl"))?
+                .build_with(&BuildOptions::default())?
+                .bytes;
             put("bracket.msw", &bytes).map(|()| bytes)
         })
     });

@@ -1,4 +1,5 @@
-//! Tight hulls on a Cortex-M4F: bytes, memory, and instructions of a conservative "closer than d?", by the number of faces.
+//! Tight hulls on a Cortex-M4F: bytes, memory, and instructions of a conservative "closer than d?",
+//! by the number of faces.
 
 use std::path::Path;
 
@@ -17,7 +18,8 @@ use crate::reading::Reading;
 /// The table of a mesh. The bits of all answers are the host's, or it is an error.
 pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
-    let options = ChainOptions { faces: FACES.to_vec(), segments: false, ..ChainOptions::default() };
+    let options =
+        ChainOptions { faces: FACES.to_vec(), segments: false, ..ChainOptions::default() };
     let count = subject.mesh.triangles.len();
     let (tables, _) =
         chain(&subject.mesh, 0.0, count, &options, |_| {}).map_err(|error| error.to_string())?;
@@ -47,7 +49,8 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
         let opened = TightHulls::open(&hulls).map_err(|error| error.to_string())?;
         let hull = opened.finest().ok_or("no tight hulls")?;
         let bytes = hull.bytes().len() + 2 * record.faces as usize;
-        let reading = firmware::reading(tools, &board, Profile::Release, "suite_tight", "hulls", &hulls)?;
+        let reading =
+            firmware::reading(tools, &board, Profile::Release, "suite_tight", "hulls", &hulls)?;
         let cost = |kind: &str| {
             let found = reading.costs.iter().find(|cost| cost.kind == kind);
             found.ok_or_else(|| format!("the image did not ask {kind}"))
@@ -55,11 +58,14 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
         let (within, far, near) = (cost("within")?, cost("closest_far")?, cost("closest_near")?);
         let stack = [within, far, near].iter().map(|cost| cost.stack).max().unwrap_or(0);
         let Reading { scratch, .. } = reading;
-        let sizes = [record.faces as usize, bytes, stack as usize, scratch as usize].map(Cell::from);
+        let sizes =
+            [record.faces as usize, bytes, stack as usize, scratch as usize].map(Cell::from);
         let costs = [within, far, near].into_iter().flat_map(|cost| [cost.mean, cost.max]);
         table.push(sizes.into_iter().chain(costs.map(|count| fixed(count, 0))).collect());
     }
-    table.note("bytes: of the hull in the blob, without boxes for segments; stack, scratch: bytes of RAM");
+    table.note(
+        "bytes: of the hull in the blob, without boxes for segments; stack, scratch: bytes of RAM",
+    );
     table.note("closer?: whether the mesh is within a distance of up to a quarter of the box's width, of points in the doubled box; far, near: an interval of its distance, from there and from next to the hull");
     Ok(table)
 }

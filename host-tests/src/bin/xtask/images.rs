@@ -47,7 +47,12 @@ pub fn lint(cross: &Cross, target: &str, blob: &Path) -> Result<(), String> {
 }
 
 /// Builds the images whose size is measured; their paths, in the order of their names.
-pub fn sizes(cross: &Cross, target: &str, profile: Profile, names: &[&str]) -> Result<Vec<PathBuf>, String> {
+pub fn sizes(
+    cross: &Cross,
+    target: &str,
+    profile: Profile,
+    names: &[&str],
+) -> Result<Vec<PathBuf>, String> {
     let mut command = cargo(cross, "build", target, profile);
     // Whether a panic is left is the proof's business: it must not keep the sizes from being known.
     command.args(["--features", "name_panics"]);

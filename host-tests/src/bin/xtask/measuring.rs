@@ -41,7 +41,9 @@ enum Part {
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if that is not what the words are.
+    /// `[--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE]
+    /// [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if
+    /// that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -73,10 +75,13 @@ fn svg(file: &str) -> Option<PathBuf> {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")).then_some(file)
 }
 
-/// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box tree, with `--bounds` only convex
-/// bounds, with `--overlap` the mesh against itself, with `--triboxes` only stored triboxes, with `--tight` only tight hulls, on a board if the firmware is asked for; and the firmware if asked to.
+/// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box
+/// tree, with `--bounds` only convex bounds, with `--overlap` the mesh against itself, with
+/// `--triboxes` only stored triboxes, with `--tight` only tight hulls, on a board if the firmware
+/// is asked for; and the firmware if asked to.
 pub fn run(steps: &mut Steps, options: &Options) {
-    let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
+    let fixtures =
+        ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
     let valgrind = if options.count { Valgrind::find() } else { None };
     let hulls_on_board = options.firmware && options.part == Some(Part::Tight);
@@ -131,7 +136,8 @@ pub fn run(steps: &mut Steps, options: &Options) {
     }
 }
 
-/// Instructions of each bound at one pose. The simulator writes a profile after each move and after each test.
+/// Instructions of each bound at one pose. The simulator writes a profile after each move and after
+/// each test.
 fn count(valgrind: &Valgrind, mesh: &Path) -> Result<Vec<Cost>, String> {
     let functions = [counted::COUNTED, counted::WRITTEN];
     let (printed, totals) =
@@ -170,7 +176,8 @@ mod tests {
 
     #[test]
     fn flags_and_meshes_come_in_any_order() {
-        let options = Options::parse(&["a.ply", "--json", "out.json", "--firmware", "b.stl"]).expect("fine");
+        let options =
+            Options::parse(&["a.ply", "--json", "out.json", "--firmware", "b.stl"]).expect("fine");
         assert_eq!(options.meshes, ["a.ply", "b.stl"].map(PathBuf::from));
         assert_eq!(options.json, Some(PathBuf::from("out.json")));
         assert!(options.firmware);
@@ -183,7 +190,8 @@ mod tests {
 
     #[test]
     fn plots_are_svg_and_only_bounds_are_counted() {
-        let options = Options::parse(&["--count", "--plot", "trade.svg", "--bounds"]).expect("fine");
+        let options =
+            Options::parse(&["--count", "--plot", "trade.svg", "--bounds"]).expect("fine");
         assert_eq!(options.plot, Some(PathBuf::from("trade.svg")));
         assert!(options.count && options.part == Some(super::Part::Bounds));
         assert_eq!(Options::parse(&["--plot", "trade.png"]), None);

@@ -7,8 +7,10 @@ use std::time::{Duration, Instant};
 /// Runs with the terminal's output.
 pub fn run(command: &mut Command) -> Result<(), String> {
     let line = line(command);
-    let status =
-        command.stdin(Stdio::null()).status().map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    let status = command
+        .stdin(Stdio::null())
+        .status()
+        .map_err(|error| format!("cannot start `{line}`: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("`{line}`: {status}")) }
 }
 
@@ -19,7 +21,8 @@ pub fn capture(command: &mut Command) -> Result<String, String> {
     if output.status.success() {
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     } else {
-        let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        let (out, err) =
+            (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         Err(format!("`{line}`: {}\n{out}{err}", output.status))
     }
 }
@@ -30,7 +33,8 @@ pub fn output(command: &mut Command) -> Result<Output, String> {
     command.stdin(Stdio::null()).output().map_err(|error| format!("cannot start `{line}`: {error}"))
 }
 
-/// Runs in silence and gives up after `limit`: for an emulator whose image hangs, or a download on a closed network.
+/// Runs in silence and gives up after `limit`: for an emulator whose image hangs, or a download on
+/// a closed network.
 pub fn capture_within(command: &mut Command, limit: Duration) -> Result<String, String> {
     let line = line(command);
     let mut child = command
@@ -71,8 +75,9 @@ fn end(text: &str) -> String {
 
 /// Whether a program of this name is on the path.
 pub fn on_path(program: &str) -> bool {
-    std::env::var_os("PATH")
-        .is_some_and(|path| std::env::split_paths(&path).any(|folder| folder.join(program).is_file()))
+    std::env::var_os("PATH").is_some_and(|path| {
+        std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
+    })
 }
 
 fn read_aside(mut stream: impl Read + Send + 'static) -> std::thread::JoinHandle<String> {

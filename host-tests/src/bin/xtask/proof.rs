@@ -52,7 +52,11 @@ pub fn holds(cross: &Cross, target: &str, profile: Profile) -> Result<(), String
     let output = process::output(command.args(["--bin", "proof"]))?;
     if !output.status.success() {
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        return Err(if message.contains(UNDEFINED) { places(cross, target, profile) } else { message });
+        return Err(if message.contains(UNDEFINED) {
+            places(cross, target, profile)
+        } else {
+            message
+        });
     }
     let image = images::image(cross, target, profile, "proof");
     for question in QUESTIONS {
@@ -81,7 +85,8 @@ pub fn notices_a_panic(cross: &Cross, target: &str, profile: Profile) -> Result<
 fn places(cross: &Cross, target: &str, profile: Profile) -> String {
     let mut command = images::cargo(cross, "build", target, profile);
     let built = process::capture(command.args(["--bin", "proof", "--features", "name_panics"]));
-    let found = built.and_then(|_| elf::panic_places(&images::image(cross, target, profile, "proof")));
+    let found =
+        built.and_then(|_| elf::panic_places(&images::image(cross, target, profile, "proof")));
     match found {
         Ok(places) if places.is_empty() => {
             "a query can panic, at a place that the image does not name".to_owned()

@@ -32,7 +32,10 @@ impl Machine {
 const WANTED: Wanted = Wanted {
     name: "qemu",
     // Debian 13 has a package for RISC-V; before, it is among the rest.
-    alternatives: &[&["qemu-system-arm", "qemu-system-riscv"], &["qemu-system-arm", "qemu-system-misc"]],
+    alternatives: &[
+        &["qemu-system-arm", "qemu-system-riscv"],
+        &["qemu-system-arm", "qemu-system-misc"],
+    ],
     ignore_installed: &["qemu-"],
 };
 
@@ -64,11 +67,13 @@ impl Qemu {
         Ok(qemu)
     }
 
-    /// Runs an image to its end: what it printed. An image that exits with another status than 0 is an error.
+    /// Runs an image to its end: what it printed. An image that exits with another status than 0 is
+    /// an error.
     pub fn run(&self, machine: Machine, image: &Path) -> Result<String, String> {
         let mut command = self.command(machine);
         command.args(["-M", machine.name(), "-nographic", "-monitor", "none", "-serial", "none"]);
-        // One nanosecond of the board's time an instruction: counters become instruction counts, and runs repeat exactly.
+        // One nanosecond of the board's time an instruction: counters become instruction counts,
+        // and runs repeat exactly.
         command.args(["-icount", "shift=0", "-semihosting-config", "enable=on,target=native"]);
         if matches!(machine, Machine::Riscv32(_)) {
             command.args(["-bios", "none"]);

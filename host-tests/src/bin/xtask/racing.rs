@@ -29,7 +29,8 @@ pub struct Options {
 }
 
 impl Options {
-    /// `[--count] [--quick] [--hull] [--json FILE] [MESH…]`; `None` if that is not what the words are.
+    /// `[--count] [--quick] [--hull] [--json FILE] [MESH…]`; `None` if that is not what the words
+    /// are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -53,9 +54,11 @@ impl Options {
 
 /// Runs the race on each mesh, on the fixtures if none is named.
 pub fn run(steps: &mut Steps, options: &Options) {
-    let fixtures = ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
+    let fixtures =
+        ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
     let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
-    let results = if options.count { count(steps, options, meshes) } else { time(steps, options, meshes) };
+    let results =
+        if options.count { count(steps, options, meshes) } else { time(steps, options, meshes) };
     if let Some(file) = &options.json {
         steps.run("write the tables", || write(file, &results));
     }
@@ -79,18 +82,28 @@ fn time(steps: &mut Steps, options: &Options, meshes: &[PathBuf]) -> Vec<Value> 
 
 fn count(steps: &mut Steps, options: &Options, meshes: &[PathBuf]) -> Vec<Value> {
     let Some(valgrind) = Valgrind::find() else { return Vec::new() };
-    let columns: Vec<&'static str> =
-        ["engine"].into_iter().chain(Workload::ALL.iter().map(|workload| workload.name())).collect();
+    let columns: Vec<&'static str> = ["engine"]
+        .into_iter()
+        .chain(Workload::ALL.iter().map(|workload| workload.name()))
+        .collect();
     let mut results = Vec::new();
     for mesh in meshes {
         let name = mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let mut table = Table::new("instructions", format!("Instructions a query, {name}"), &columns);
+        let mut table =
+            Table::new("instructions", format!("Instructions a query, {name}"), &columns);
         for entrant in ENTRANTS.iter().filter(|entrant| entrant.counted) {
-            let counts = steps.run(&format!("count {} on {}", entrant.name, mesh.display()), || {
-                instructions(&valgrind, entrant.name, mesh, options.hull_triangles(HULL_TRIANGLES_COUNTED))
-            });
+            let counts =
+                steps.run(&format!("count {} on {}", entrant.name, mesh.display()), || {
+                    instructions(
+                        &valgrind,
+                        entrant.name,
+                        mesh,
+                        options.hull_triangles(HULL_TRIANGLES_COUNTED),
+                    )
+                });
             let cell = |workload: &Workload| {
-                let counted = counts.iter().flatten().find(|(counted, _)| counted == workload.name());
+                let counted =
+                    counts.iter().flatten().find(|(counted, _)| counted == workload.name());
                 counted.map_or(Cell::Empty, |(_, each)| fixed(*each, 0))
             };
             let cells = Workload::ALL.iter().map(cell);
@@ -110,7 +123,8 @@ fn instructions(
     hull_triangles: usize,
 ) -> Result<Vec<(String, f64)>, String> {
     let hull_triangles = hull_triangles.to_string();
-    let arguments = ["ask-engine".as_ref(), engine.as_ref(), mesh.as_os_str(), hull_triangles.as_ref()];
+    let arguments =
+        ["ask-engine".as_ref(), engine.as_ref(), mesh.as_os_str(), hull_triangles.as_ref()];
     let (printed, totals) =
         valgrind.stages("race-count", [counted::COUNTED, counted::WRITTEN], &arguments)?;
     let asked = printed.lines().filter_map(|line| line.strip_prefix("asked "));
@@ -143,7 +157,8 @@ fn shown(mesh: &str, tables: &[Table]) -> Value {
 
 fn write(file: &Path, results: &[Value]) -> Result<(), String> {
     let text = serde_json::to_string_pretty(results).map_err(|error| error.to_string())?;
-    fs::write(file, text + "\n").map_err(|error| format!("cannot write {}: {error}", file.display()))
+    fs::write(file, text + "\n")
+        .map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 #[cfg(test)]
@@ -153,7 +168,8 @@ mod tests {
 
     #[test]
     fn flags_and_meshes_come_in_any_order() {
-        let options = Options::parse(&["a.ply", "--quick", "--json", "out.json", "b.stl"]).expect("fine");
+        let options =
+            Options::parse(&["a.ply", "--quick", "--json", "out.json", "b.stl"]).expect("fine");
         assert_eq!(options.meshes, ["a.ply", "b.stl"].map(PathBuf::from));
         assert!(options.quick && !options.count && !options.hull);
         assert_eq!(Options::parse(&["--json"]), None);

@@ -57,8 +57,9 @@ impl Reading {
                     hash: (*hash).to_owned(),
                 }),
                 ["ticks", kind, queries, min, sum, max] => {
-                    let instructions =
-                        |ticks: &str| Ok::<_, String>(number::<f64>(ticks)? * board.instructions_per_tick);
+                    let instructions = |ticks: &str| {
+                        Ok::<_, String>(number::<f64>(ticks)? * board.instructions_per_tick)
+                    };
                     let count: u32 = number(queries)?;
                     reading.costs.push(Cost {
                         kind: (*kind).to_owned(),
@@ -71,23 +72,32 @@ impl Reading {
                 }
                 ["stack", kind, bytes] => {
                     let cost = reading.costs.iter_mut().find(|cost| cost.kind == *kind);
-                    cost.ok_or_else(|| format!("`{line}` before its ticks"))?.stack = number(bytes)?;
+                    cost.ok_or_else(|| format!("`{line}` before its ticks"))?.stack =
+                        number(bytes)?;
                 }
-                ["refused", error] => return Err(format!("the core refuses the blob: error {error}")),
+                ["refused", error] => {
+                    return Err(format!("the core refuses the blob: error {error}"));
+                }
                 ["done"] => done = true,
                 _ => return Err(format!("the image printed `{line}`")),
             }
         }
-        if done { Ok(reading) } else { Err(format!("the image stopped before it was done:\n{printed}")) }
+        if done {
+            Ok(reading)
+        } else {
+            Err(format!("the image stopped before it was done:\n{printed}"))
+        }
     }
 
-    /// Runs the suite here: on the blob's box tree if it has one, its triboxes, or its tight hulls, else on its split hierarchy.
+    /// Runs the suite here: on the blob's box tree if it has one, its triboxes, or its tight hulls,
+    /// else on its split hierarchy.
     pub fn of_host(blob: &[u8]) -> Result<Self, String> {
         let mut here = Here { blocks: Vec::new() };
         let plan = Plan::STANDARD;
         let mut ran = run::<tree::Tree<'_>>(blob, plan, &mut tree::Scratch::new(), &mut here);
         if ran == Err(Refused::NO_SECTION) {
-            ran = run::<triboxes::Triboxes<'_>>(blob, plan, &mut triboxes::Scratch::new(), &mut here);
+            ran =
+                run::<triboxes::Triboxes<'_>>(blob, plan, &mut triboxes::Scratch::new(), &mut here);
         }
         if ran == Err(Refused::NO_SECTION) {
             ran = run::<tight::Hulls<'_>>(blob, plan, &mut tight::Scratch::new(), &mut here);
@@ -103,10 +113,17 @@ impl Reading {
     /// Compares the bits of all answers with another run's.
     pub fn compare(&self, reference: &Self) -> Result<(), String> {
         if self.blob != reference.blob {
-            return Err(format!("the image carries blob {}, the host read {}", self.blob, reference.blob));
+            return Err(format!(
+                "the image carries blob {}, the host read {}",
+                self.blob, reference.blob
+            ));
         }
         if self.blocks.len() != reference.blocks.len() {
-            return Err(format!("{} blocks, {} on the host", self.blocks.len(), reference.blocks.len()));
+            return Err(format!(
+                "{} blocks, {} on the host",
+                self.blocks.len(),
+                reference.blocks.len()
+            ));
         }
         let pairs = self.blocks.iter().zip(&reference.blocks).filter(|(here, there)| here != there);
         let differences: Vec<_> = pairs
@@ -133,7 +150,11 @@ impl Clock for Here {}
 
 impl Recorder for Here {
     fn block(&mut self, kind: Kind, index: u32, hash: u64) {
-        self.blocks.push(Block { kind: kind.name().to_owned(), index, hash: format!("{hash:016x}") });
+        self.blocks.push(Block {
+            kind: kind.name().to_owned(),
+            index,
+            hash: format!("{hash:016x}"),
+        });
     }
 }
 

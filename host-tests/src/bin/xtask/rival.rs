@@ -1,8 +1,10 @@
-//! `cargo xtask rival`: what the box tree and parry3d take of a Cortex-M4F, on the same meshes and for the same questions.
+//! `cargo xtask rival`: what the box tree and parry3d take of a Cortex-M4F, on the same meshes and
+//! for the same questions.
 //!
-//! A mesh is reduced to so many triangles, questions are drawn, and both go into one image an engine. `target/rival/NAME-FACES/`
-//! keeps what the images carry, and the mesh as `mesh.ply`. An engine more is a `race_NAME.rs` and
-//! its `size_` images in `host-tests/rival-firmware/src/bin`, and a line in [`ENGINES`].
+//! A mesh is reduced to so many triangles, questions are drawn, and both go into one image an
+//! engine. `target/rival/NAME-FACES/` keeps what the images carry, and the mesh as `mesh.ply`. An
+//! engine more is a `race_NAME.rs` and its `size_` images in `host-tests/rival-firmware/src/bin`,
+//! and a line in [`ENGINES`].
 
 mod answers;
 mod questions;
@@ -74,7 +76,8 @@ pub fn run(steps: &mut Steps, options: &Options) {
     let mut lints = cross.has_clippy();
     for &faces in &options.faces {
         let what = format!("{} at {faces} triangles", mesh.name);
-        let course = steps.run(&format!("{what}: questions"), || Course::lay(&mesh, faces, options.seed));
+        let course =
+            steps.run(&format!("{what}: questions"), || Course::lay(&mesh, faces, options.seed));
         let Some(course) = course else { continue };
         if std::mem::take(&mut lints) {
             steps.run("lints of the images", || lint(&cross, &course));
@@ -108,7 +111,8 @@ fn grid(course: &Course) -> f64 {
 
 fn table(engine: &str, course: &Course, answers: &Answers) -> Table {
     let triangles = course.subject.mesh.triangles.len();
-    let title = format!("{engine} on {}, {triangles} triangles, {}", course.subject.name, BOARD.cpu);
+    let title =
+        format!("{engine} on {}, {triangles} triangles, {}", course.subject.name, BOARD.cpu);
     let columns = ["question", "count", "mean instructions", "max", "stack", "heap", "RAM"];
     let built = &answers.built;
     let mut table = Table::new("rival", title, &columns);
@@ -160,7 +164,12 @@ fn sizes(cross: &Cross) -> Result<Table, String> {
         for name in &names[1..] {
             let size = elf::size(&image(cross, profile, name))?.beyond(empty);
             let name = name.trim_start_matches("size_");
-            table.push(vec![name.into(), profile.name().into(), size.text.into(), size.rodata.into()]);
+            table.push(vec![
+                name.into(),
+                profile.name().into(),
+                size.text.into(),
+                size.rodata.into(),
+            ]);
         }
     }
     table.note("with the heap's code where there is one, without the text of panics");
@@ -209,8 +218,12 @@ mod tests {
 
     #[test]
     fn words_come_in_any_order_and_have_defaults() {
-        let options = Options::parse(&["--faces", "100,200", "a.ply", "--seed", "7"]).expect("fine");
-        assert_eq!(options, Options { mesh: Some(PathBuf::from("a.ply")), faces: vec![100, 200], seed: 7 });
+        let options =
+            Options::parse(&["--faces", "100,200", "a.ply", "--seed", "7"]).expect("fine");
+        assert_eq!(
+            options,
+            Options { mesh: Some(PathBuf::from("a.ply")), faces: vec![100, 200], seed: 7 }
+        );
         assert_eq!(Options::parse(&[]).expect("fine").faces, [2_500, 10_000]);
         assert_eq!(Options::parse(&["a.ply", "b.ply"]), None);
         assert_eq!(Options::parse(&["--faces", "many"]), None);

@@ -1,4 +1,5 @@
-//! What the program prints. Whoever reads it may stop doing so, as `head` does: the work, the files that it writes and its exit status are wanted all the same.
+//! What the program prints. Whoever reads it may stop doing so, as `head` does: the work, the files
+//! that it writes and its exit status are wanted all the same.
 
 use std::fmt;
 use std::io::{self, Write};

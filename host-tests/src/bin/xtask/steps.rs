@@ -15,7 +15,8 @@ impl Steps {
         Self::default()
     }
 
-    /// Runs a step and says how it went. A failed step yields `None`; the steps that need its result are the caller's to skip.
+    /// Runs a step and says how it went. A failed step yields `None`; the steps that need its
+    /// result are the caller's to skip.
     pub fn run<T>(&mut self, name: &str, step: impl FnOnce() -> Result<T, String>) -> Option<T> {
         say!("── {name}");
         let begun = Instant::now();

@@ -37,7 +37,8 @@ pub struct Row {
 
 /// The table for people.
 pub fn text(rows: &[Row]) -> String {
-    let mut table = String::from("\nflash and static RAM in bytes, beyond an image that asks nothing\n");
+    let mut table =
+        String::from("\nflash and static RAM in bytes, beyond an image that asks nothing\n");
     let _ = writeln!(
         table,
         "{:<12}{:<14}{:<9}{:>8}{:>8}{:>8}",
@@ -79,7 +80,8 @@ pub fn text(rows: &[Row]) -> String {
 pub fn write_json(rows: &[Row], file: &Path) -> Result<(), String> {
     let value: Vec<Value> = rows.iter().map(row).collect();
     let text = serde_json::to_string_pretty(&value).map_err(|error| error.to_string())?;
-    fs::write(file, text + "\n").map_err(|error| format!("cannot write {}: {error}", file.display()))
+    fs::write(file, text + "\n")
+        .map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 fn row(row: &Row) -> Value {

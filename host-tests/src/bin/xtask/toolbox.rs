@@ -1,8 +1,9 @@
 //! Debian packages, fetched by apt and unpacked into a folder of their own.
 //!
-//! Not installed: that would need root, and it would remove or downgrade what a machine has (a `qemu-utils` from backports
-//! breaks the `qemu-system-*` of the release; `rustc-web` conflicts with `rustc` and `rustup`). apt resolves, downloads and
-//! verifies against the machine's own sources; `dpkg -x` unpacks. Neither needs root.
+//! Not installed: that would need root, and it would remove or downgrade what a machine has (a
+//! `qemu-utils` from backports breaks the `qemu-system-*` of the release; `rustc-web` conflicts
+//! with `rustc` and `rustup`). apt resolves, downloads and verifies against the machine's own
+//! sources; `dpkg -x` unpacks. Neither needs root.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -19,7 +20,8 @@ pub struct Wanted {
     pub name: &'static str,
     /// Alternatives in the order of preference; releases of Debian cut their packages differently.
     pub alternatives: &'static [&'static [&'static str]],
-    /// Installed packages of these beginnings are treated as not installed. Whatever they conflict with, they are unpacked.
+    /// Installed packages of these beginnings are treated as not installed. Whatever they conflict
+    /// with, they are unpacked.
     pub ignore_installed: &'static [&'static str],
 }
 
@@ -77,7 +79,8 @@ fn fill(wanted: &Wanted, folder: &Path) -> Result<(), String> {
         }
     }
     let apt = Apt::new(wanted, folder)?;
-    // The machine's package lists may be missing or stale, and only root may renew them: then private ones are fetched.
+    // The machine's package lists may be missing or stale, and only root may renew them: then
+    // private ones are fetched.
     let first = apt.fetch(wanted);
     if let Err(reason) = first {
         say!(
@@ -108,7 +111,8 @@ impl Apt {
         let _ = fs::remove_dir_all(folder);
         for inside in ["archives", "lists/partial", "root"] {
             let path = folder.join(inside);
-            fs::create_dir_all(&path).map_err(|error| format!("cannot make {}: {error}", path.display()))?;
+            fs::create_dir_all(&path)
+                .map_err(|error| format!("cannot make {}: {error}", path.display()))?;
         }
         let status = folder.join("status");
         let installed = fs::read_to_string("/var/lib/dpkg/status")
@@ -128,7 +132,8 @@ impl Apt {
 
     fn with_own_lists(mut self) -> Result<Self, String> {
         self.options.push(format!("Dir::State::lists={}", self.folder.join("lists").display()));
-        // One unreachable source among several is not decisive: what counts is whether the packages resolve.
+        // One unreachable source among several is not decisive: what counts is whether the packages
+        // resolve.
         let update = process::capture(self.command().arg("update"));
         if let Err(reason) = update {
             say!("   apt-get update: {reason}");
@@ -151,8 +156,10 @@ impl Apt {
             match self.resolve(packages) {
                 Ok(versions) => {
                     say!("   fetching {} ({} packages)", packages.join(", "), versions.len());
-                    let pinned = versions.iter().map(|(package, version)| format!("{package}={version}"));
-                    return process::capture(self.command().args(["-q", "download"]).args(pinned)).map(drop);
+                    let pinned =
+                        versions.iter().map(|(package, version)| format!("{package}={version}"));
+                    return process::capture(self.command().args(["-q", "download"]).args(pinned))
+                        .map(drop);
                 }
                 Err(reason) => reasons.push(reason),
             }
@@ -160,7 +167,8 @@ impl Apt {
         Err(reasons.join("\n"))
     }
 
-    /// The packages to unpack and their versions: the wanted ones and what they depend on that is not installed.
+    /// The packages to unpack and their versions: the wanted ones and what they depend on that is
+    /// not installed.
     fn resolve(&self, packages: &[&str]) -> Result<BTreeMap<String, String>, String> {
         let plan = process::capture(
             self.command().args(["-s", "-y", "--no-install-recommends", "install"]).args(packages),
@@ -181,17 +189,21 @@ fn planned(plan: &str) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// dpkg's list of installed packages without those of some beginnings, and with what they are and provide but not with what they
-/// want: apt then has nothing to keep intact, and resolves only what is asked for.
+/// dpkg's list of installed packages without those of some beginnings, and with what they are and
+/// provide but not with what they want: apt then has nothing to keep intact, and resolves only what
+/// is asked for.
 fn without(status: &str, beginnings: &[&str]) -> String {
-    const KEPT: [&str; 6] = ["Package:", "Status:", "Architecture:", "Multi-Arch:", "Version:", "Provides:"];
+    const KEPT: [&str; 6] =
+        ["Package:", "Status:", "Architecture:", "Multi-Arch:", "Version:", "Provides:"];
     let mut kept = String::new();
     for paragraph in status.split("\n\n") {
         let name = paragraph.trim_start().strip_prefix("Package: ").unwrap_or_default();
         if name.is_empty() || beginnings.iter().any(|beginning| name.starts_with(beginning)) {
             continue;
         }
-        for line in paragraph.lines().filter(|line| KEPT.iter().any(|field| line.starts_with(field))) {
+        for line in
+            paragraph.lines().filter(|line| KEPT.iter().any(|field| line.starts_with(field)))
+        {
             kept.push_str(line);
             kept.push('\n');
         }
@@ -201,8 +213,8 @@ fn without(status: &str, beginnings: &[&str]) -> String {
 }
 
 fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let entries =
-        fs::read_dir(folder).map_err(|error| format!("cannot list {}: {error}", folder.display()))?;
+    let entries = fs::read_dir(folder)
+        .map_err(|error| format!("cannot list {}: {error}", folder.display()))?;
     Ok(entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect())
 }
 
@@ -221,7 +233,8 @@ mod tests {
 
     #[test]
     fn ignored_packages_leave_the_status() {
-        let status = "Package: qemu-utils\nVersion: 10\n\nPackage: gcc\nDepends: libc6\nVersion: 12\n";
+        let status =
+            "Package: qemu-utils\nVersion: 10\n\nPackage: gcc\nDepends: libc6\nVersion: 12\n";
         assert_eq!(without(status, &["qemu-"]), "Package: gcc\nVersion: 12\n\n");
     }
 }

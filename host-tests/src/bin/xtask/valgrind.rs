@@ -9,8 +9,11 @@ use crate::process;
 use crate::toolbox::{Toolbox, Wanted};
 use crate::workspace;
 
-const VALGRIND: Wanted =
-    Wanted { name: "valgrind", alternatives: &[&["valgrind"]], ignore_installed: &["valgrind", "libc6-dbg"] };
+const VALGRIND: Wanted = Wanted {
+    name: "valgrind",
+    alternatives: &[&["valgrind"]],
+    ignore_installed: &["valgrind", "libc6-dbg"],
+};
 
 /// Where valgrind is.
 pub enum Valgrind {
@@ -19,7 +22,8 @@ pub enum Valgrind {
 }
 
 impl Valgrind {
-    /// valgrind, or a line that says why it is skipped: counts are worth having, but no machine has to have them.
+    /// valgrind, or a line that says why it is skipped: counts are worth having, but no machine has
+    /// to have them.
     pub fn find() -> Option<Self> {
         if process::on_path("valgrind") {
             return Some(Self::Installed);
@@ -47,8 +51,9 @@ impl Valgrind {
         }
     }
 
-    /// Runs this program in callgrind, which collects inside of the function `counted` only and writes its counters each time
-    /// `written` returns. What the program printed, and the instructions of each time. `name` is of a folder for the profiles.
+    /// Runs this program in callgrind, which collects inside of the function `counted` only and
+    /// writes its counters each time `written` returns. What the program printed, and the
+    /// instructions of each time. `name` is of a folder for the profiles.
     pub fn stages(
         &self,
         name: &str,
@@ -67,9 +72,12 @@ impl Valgrind {
         command.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", profile.display()));
         command.arg(format!("--toggle-collect={counted}")).arg(format!("--dump-after={written}"));
         let printed = process::capture(command.arg(own).args(arguments))?;
-        let profiles = (1..)
-            .map_while(|index: usize| fs::read_to_string(profile.with_extension(index.to_string())).ok());
-        let total = |text: String| text.lines().find_map(|line| line.strip_prefix("totals: ")?.parse().ok());
+        let profiles = (1..).map_while(|index: usize| {
+            fs::read_to_string(profile.with_extension(index.to_string())).ok()
+        });
+        let total = |text: String| {
+            text.lines().find_map(|line| line.strip_prefix("totals: ")?.parse().ok())
+        };
         let totals: Option<Vec<f64>> = profiles.map(total).collect();
         Ok((printed, totals.ok_or("callgrind counted nothing")?))
     }

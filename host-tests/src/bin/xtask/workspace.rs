@@ -17,7 +17,8 @@ pub fn firmware() -> PathBuf {
 
 /// Where builds go.
 pub fn target() -> PathBuf {
-    env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
+    env::var_os("CARGO_TARGET_DIR")
+        .map_or_else(|| root().join("target"), |folder| root().join(folder))
 }
 
 /// Where tools are kept that are fetched once for all checkouts.

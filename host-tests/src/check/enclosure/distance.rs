@@ -1,8 +1,11 @@
-//! Whether a face and a triangle that have no point in common are farther apart than a margin, in exact arithmetic.
+//! Whether a face and a triangle that have no point in common are farther apart than a margin, in
+//! exact arithmetic.
 //!
-//! Two triangles apart are nearest to each other at a corner of one and a point inside the other, or at points of two edges. So the distance is more than
-//! `d` if it is for each corner above the other triangle's inside, and for each pair of edges. All numbers are multiples of one power of two, in integers;
-//! lengths are compared by their squares, and divisors are moved to the other side.
+//! Two triangles apart are nearest to each other at a corner of one and a point inside the other,
+//! or at points of two edges. So the distance is more than `d` if it is for each corner above the
+//! other triangle's inside, and for each pair of edges. All numbers are multiples of one power of
+//! two, in integers; lengths are compared by their squares, and divisors are moved to the other
+//! side.
 
 use super::Corners;
 use num_bigint::BigInt;
@@ -25,8 +28,14 @@ impl Margin {
 
     /// Whether the triangles, which are apart, are farther apart.
     pub(super) fn is_kept(&self, s: &Corners, t: &Corners) -> bool {
-        let exponent =
-            s.iter().chain(t).flatten().chain([&self.length]).map(|&x| last_bit(x)).min().unwrap_or(LEAST);
+        let exponent = s
+            .iter()
+            .chain(t)
+            .flatten()
+            .chain([&self.length])
+            .map(|&x| last_bit(x))
+            .min()
+            .unwrap_or(LEAST);
         let integers = |t: &Corners| t.map(|p| p.map(|x| integer(x, exponent)));
         let (s, t) = (integers(s), integers(t));
         let length = integer(self.length, exponent);
@@ -35,13 +44,15 @@ impl Margin {
         above(&s, &t)
             && above(&t, &s)
             && (0..3).all(|i| {
-                (0..3).all(|k| edges_are_far([&s[i], &s[(i + 1) % 3]], [&t[k], &t[(k + 1) % 3]], &most))
+                (0..3).all(|k| {
+                    edges_are_far([&s[i], &s[(i + 1) % 3]], [&t[k], &t[(k + 1) % 3]], &most)
+                })
             })
     }
 }
 
-/// Whether a plane parallel to the face has the face in front of it and the triangle farther behind than the margin: most pairs need no more.
-/// In intervals: `true` is a proof, `false` says nothing.
+/// Whether a plane parallel to the face has the face in front of it and the triangle farther behind
+/// than the margin: most pairs need no more. In intervals: `true` is a proof, `false` says nothing.
 pub(super) fn is_beyond(triangle: &Corners, face: &Corners, margin: f64) -> bool {
     let [a, b, c] = *face;
     let edge = |p: [f64; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
@@ -91,9 +102,11 @@ fn integer(x: f64, exponent: i32) -> BigInt {
     }
     let bits = x.to_bits();
     let (field, fraction) = ((bits >> 52 & 0x7FF) as i32, bits & ((1 << 52) - 1));
-    let (mantissa, of) = if field == 0 { (fraction, LEAST) } else { (fraction | 1 << 52, field - 1075) };
+    let (mantissa, of) =
+        if field == 0 { (fraction, LEAST) } else { (fraction | 1 << 52, field - 1075) };
     let zeros = mantissa.trailing_zeros();
-    let odd = BigInt::from(mantissa >> zeros) << (of + zeros.cast_signed() - exponent).unsigned_abs();
+    let odd =
+        BigInt::from(mantissa >> zeros) << (of + zeros.cast_signed() - exponent).unsigned_abs();
     if x < 0.0 { -odd } else { odd }
 }
 
@@ -109,7 +122,8 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
     [[1, 2], [2, 0], [0, 1]].map(|[i, j]| &a[i] * &b[j] - &a[j] * &b[i])
 }
 
-/// Whether a corner is farther from a triangle's plane, if its foot is inside; true if it is not, or there is no plane.
+/// Whether a corner is farther from a triangle's plane, if its foot is inside; true if it is not,
+/// or there is no plane.
 fn corner_is_far(p: &Vector, [a, b, c]: &[Vector; 3], most: &BigInt) -> bool {
     let normal = cross(&minus(b, a), &minus(c, a));
     let square = dot(&normal, &normal);

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-/// Triangles by vertex number. Coordinates are the single-precision numbers nearest to what the file has.
+/// Triangles by vertex number. Coordinates are the single-precision numbers nearest to what the
+/// file has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
     /// Vertices.
@@ -52,7 +53,8 @@ struct Element {
 fn ply(bytes: &[u8]) -> Result<Surface, String> {
     let end = b"end_header";
     let at = bytes.windows(end.len()).position(|w| w == end).ok_or("no end_header")?;
-    let body = at + bytes[at..].iter().position(|&b| b == b'\n').ok_or("nothing after the header")? + 1;
+    let body =
+        at + bytes[at..].iter().position(|&b| b == b'\n').ok_or("nothing after the header")? + 1;
     let header = std::str::from_utf8(&bytes[..at]).map_err(|e| e.to_string())?;
     let mut elements: Vec<Element> = Vec::new();
     let mut binary = false;
@@ -101,7 +103,8 @@ fn ply(bytes: &[u8]) -> Result<Surface, String> {
                     ("vertex", "z", [z]) => position[2] = *z,
                     ("face", "vertex_indices" | "vertex_index", [first, rest @ ..]) => {
                         // A polygon is its triangles about the first corner.
-                        let fan = rest.windows(2).map(|w| [*first as u32, w[0] as u32, w[1] as u32]);
+                        let fan =
+                            rest.windows(2).map(|w| [*first as u32, w[0] as u32, w[1] as u32]);
                         surface.triangles.extend(fan);
                     }
                     _ => {}
@@ -156,7 +159,8 @@ impl Numbers<'_> {
 
 /// Vertices at the same place are one.
 fn stl(bytes: &[u8]) -> Result<Surface, String> {
-    let count = bytes.get(80..84).and_then(|b| b.try_into().ok()).map(|b| u32::from_le_bytes(b) as usize);
+    let count =
+        bytes.get(80..84).and_then(|b| b.try_into().ok()).map(|b| u32::from_le_bytes(b) as usize);
     let corners: Vec<[f32; 3]> = match count {
         Some(count) if bytes.len() == 84 + 50 * count => {
             let single = |b: &[u8]| b.try_into().map(f32::from_le_bytes).unwrap_or(f32::NAN);
@@ -171,7 +175,8 @@ fn stl(bytes: &[u8]) -> Result<Surface, String> {
             for line in text.lines() {
                 let words: Vec<&str> = line.split_whitespace().collect();
                 if let ["vertex", x, y, z] = words[..] {
-                    let [x, y, z] = [x, y, z].map(|w| w.parse::<f32>().map_err(|_| format!("number {w}")));
+                    let [x, y, z] =
+                        [x, y, z].map(|w| w.parse::<f32>().map_err(|_| format!("number {w}")));
                     corners.push([x?, y?, z?]);
                 }
             }

@@ -21,7 +21,8 @@ impl Winding {
     pub(super) fn new(hull: &Surface) -> Self {
         let faces: Vec<Corners> = hull.triangles.iter().map(|&t| hull.corners(t)).collect();
         let ys = || faces.iter().flatten().map(|p| p[1]);
-        let (low, high) = (ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max));
+        let (low, high) =
+            (ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max));
         let mut winding = Self { faces, low, high, strips: vec![Vec::new(); STRIPS] };
         for (number, face) in winding.faces.iter().enumerate() {
             let from = winding.strip(face.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min));
@@ -36,8 +37,9 @@ impl Winding {
         ((((y - self.low) / (self.high - self.low)) * STRIPS as f64) as usize).min(STRIPS - 1)
     }
 
-    /// Crossings of the ray along +x from `p`, which is thought to be moved by an infinitesimal step along y and one infinitely smaller along z, so
-    /// that it meets no edge: outwards count 1, inwards −1.
+    /// Crossings of the ray along +x from `p`, which is thought to be moved by an infinitesimal
+    /// step along y and one infinitely smaller along z, so that it meets no edge: outwards
+    /// count 1, inwards −1.
     pub(super) fn around(&self, p: [f64; 3]) -> Result<i64, String> {
         if !(self.low <= p[1] && p[1] <= self.high) {
             return Ok(0);

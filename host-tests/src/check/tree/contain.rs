@@ -21,7 +21,8 @@ pub(super) fn parents(tree: &TreeBlob) -> Result<Vec<Option<(usize, usize)>>, St
     }
 }
 
-/// A descent leaves at most all children but one of every node on its way behind, and writes eight at a time.
+/// A descent leaves at most all children but one of every node on its way behind, and writes eight
+/// at a time.
 pub(super) fn stack(tree: &TreeBlob) -> Result<(), String> {
     let mut waiting = vec![0; tree.nodes.len()];
     let mut most = 0;
@@ -34,11 +35,15 @@ pub(super) fn stack(tree: &TreeBlob) -> Result<(), String> {
     if tree.stack_entries >= needed {
         Ok(())
     } else {
-        Err(format!("a descent needs {needed} stack entries, the header says {}", tree.stack_entries))
+        Err(format!(
+            "a descent needs {needed} stack entries, the header says {}",
+            tree.stack_entries
+        ))
     }
 }
 
-/// The scaled matrix of every frame is nowhere longer than the identity, so that no distance to a box comes out too great.
+/// The scaled matrix of every frame is nowhere longer than the identity, so that no distance to a
+/// box comes out too great.
 pub(super) fn frames(tree: &TreeBlob, proof: &mut TreeProof) -> Result<(), String> {
     for (index, frame) in tree.frames.iter().enumerate() {
         let exact = |x: f32| Dyadic::from(f64::from(x));
@@ -89,8 +94,9 @@ fn ends(bounds: [u8; 2]) -> [f64; 2] {
 
 impl Contains for Boxes {
     fn about(&self, lane: usize, axis: usize, point: [f64; 3]) -> Option<bool> {
-        let terms: [f64; 3] =
-            std::array::from_fn(|k| f64::from(self.rows[axis][k]) * (point[k] - f64::from(self.origin[k])));
+        let terms: [f64; 3] = std::array::from_fn(|k| {
+            f64::from(self.rows[axis][k]) * (point[k] - f64::from(self.origin[k]))
+        });
         let doubt = ROUNDING * terms.iter().map(|term| term.abs()).sum::<f64>();
         between(terms.iter().sum(), doubt, ends(self.bounds[lane][axis]))
     }
@@ -133,7 +139,8 @@ fn contains(boxes: &impl Contains, lane: usize, leaf: &Leaf, proof: &mut TreePro
     })
 }
 
-/// Every box contains the vertices, and so the triangles, of all leaves below it; and the header's box all of them.
+/// Every box contains the vertices, and so the triangles, of all leaves below it; and the header's
+/// box all of them.
 pub(super) fn boxes(
     tree: &TreeBlob,
     parents: &[Option<(usize, usize)>],

@@ -24,7 +24,8 @@ impl Leaf {
         self.vertices.len() - self.centres - 1
     }
 
-    /// Corners of a triangle by their places in `vertices`: the centre first, in the input's winding.
+    /// Corners of a triangle by their places in `vertices`: the centre first, in the input's
+    /// winding.
     pub(super) fn corners(&self, triangle: usize) -> [usize; 3] {
         let second = self.turn.is_some_and(|turn| triangle >= turn);
         let (here, next) = (self.centres + triangle, self.centres + triangle + 1);
@@ -93,9 +94,12 @@ pub(super) struct TreeBlob {
 
 /// Bytes of a section; none if it is not there.
 fn section<'a>(bytes: &'a [u8], kind: u32, name: &str) -> Result<&'a [u8], String> {
-    let Some(entry) = entries(bytes).into_iter().find(|entry| entry.kind == kind) else { return Ok(&[]) };
+    let Some(entry) = entries(bytes).into_iter().find(|entry| entry.kind == kind) else {
+        return Ok(&[]);
+    };
     let start = entry.offset as usize;
-    let body = bytes.get(start..start + entry.bytes as usize).ok_or(format!("{name} leaves the blob"))?;
+    let body =
+        bytes.get(start..start + entry.bytes as usize).ok_or(format!("{name} leaves the blob"))?;
     if Some(crc32(body)) == word(bytes, entry.at + 12) {
         Ok(body)
     } else {
@@ -119,7 +123,12 @@ fn bounds(record: &[u8]) -> [[[u8; 2]; 3]; 8] {
 }
 
 /// Records of a section that has one for each node, or none.
-fn records<'a>(body: &'a [u8], bytes: usize, nodes: usize, name: &str) -> Result<Vec<&'a [u8]>, String> {
+fn records<'a>(
+    body: &'a [u8],
+    bytes: usize,
+    nodes: usize,
+    name: &str,
+) -> Result<Vec<&'a [u8]>, String> {
     if body.is_empty() || body.len() == bytes * nodes {
         Ok(body.chunks_exact(bytes).collect())
     } else {
@@ -128,7 +137,8 @@ fn records<'a>(body: &'a [u8], bytes: usize, nodes: usize, name: &str) -> Result
 }
 
 impl TreeBlob {
-    /// Reads all sections. Leaves are found through the links, so that vertices and triangles that no node names are an error.
+    /// Reads all sections. Leaves are found through the links, so that vertices and triangles that
+    /// no node names are an error.
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, String> {
         if bytes.get(..10) != Some(b"meshswep\x01\x00".as_slice())
             || word(bytes, 16) != u32::try_from(bytes.len()).ok()
@@ -146,7 +156,8 @@ impl TreeBlob {
         }
         let count = |offset: usize| word(head, offset).unwrap_or(0) as usize;
         let short = |offset: usize| u16::from_le_bytes([head[offset], head[offset + 1]]);
-        let origin = [8, 12, 16].map(|offset| f64::from(word(head, offset).unwrap_or(0).cast_signed()));
+        let origin =
+            [8, 12, 16].map(|offset| f64::from(word(head, offset).unwrap_or(0).cast_signed()));
         let corner = |from: usize| [0, 1, 2].map(|k| f64::from(short(from + 2 * k)) + origin[k]);
         let [nodes, leaf_count, vertices, triangles] = [20, 24, 28, 32].map(count);
         let links = section(bytes, 13, "links")?;
@@ -164,7 +175,10 @@ impl TreeBlob {
         for (index, record) in links.chunks_exact(20).enumerate() {
             let (head, first_vertex) = (word(record, 0).unwrap_or(0), word(record, 4));
             let [inner, all] = [head >> 24 & 15, head >> 28].map(|count| count as usize);
-            if !(1..=8).contains(&all) || inner > all || record[12..12 + inner].iter().any(|&tag| tag != 0) {
+            if !(1..=8).contains(&all)
+                || inner > all
+                || record[12..12 + inner].iter().any(|&tag| tag != 0)
+            {
                 return Err(format!("node {index}: {inner} nodes of {all} children"));
             }
             if inner < all && (first_vertex, word(record, 8)) != (Some(found.0), Some(found.1)) {
@@ -172,7 +186,9 @@ impl TreeBlob {
             }
             let from = leaves.len();
             for &tag in &record[12 + inner..12 + all] {
-                let leaf = fans.leaf(tag, found).ok_or(format!("node {index}: a leaf of shape {tag:#x}"))?;
+                let leaf = fans
+                    .leaf(tag, found)
+                    .ok_or(format!("node {index}: a leaf of shape {tag:#x}"))?;
                 found.0 += leaf.vertices.len() as u32;
                 found.1 += leaf.triangles() as u32;
                 leaves.push(leaf);
@@ -219,8 +235,10 @@ impl TreeBlob {
     }
 
     fn finite(self) -> Result<Self, String> {
-        let frames =
-            self.frames.iter().flat_map(|f| f.rows.as_flattened().iter().chain(&f.origin).chain(&f.weight));
+        let frames = self
+            .frames
+            .iter()
+            .flat_map(|f| f.rows.as_flattened().iter().chain(&f.origin).chain(&f.weight));
         let slabs = self.slabs.iter().flat_map(|s| s.origin.iter().chain(&s.step));
         let vertices = self.leaves.iter().flat_map(|leaf| leaf.vertices.as_flattened());
         let bounds = [self.surface_error, self.reach];
@@ -252,14 +270,17 @@ impl Fans<'_> {
         Some(f64::from(u16::from_le_bytes(*stored)) + self.origin[axis])
     }
 
-    /// The leaf of a shape: vertices in bits 0–3, start of the second fan in 4–6, its winding in 7. Centres are stored one after the other,
-    /// the ring axis by axis.
+    /// The leaf of a shape: vertices in bits 0–3, start of the second fan in 4–6, its winding in 7.
+    /// Centres are stored one after the other, the ring axis by axis.
     fn leaf(&self, tag: u8, (vertex, triangle): (u32, u32)) -> Option<Leaf> {
         let (count, turn) = (usize::from(tag & 15), usize::from(tag >> 4 & 7));
         let centres = if turn == 0 { 1 } else { 2 };
         let ring = count.checked_sub(centres)?;
         let triangles = ring.checked_sub(1)?;
-        if !(1..=8).contains(&triangles) || turn >= triangles.max(1) || (turn == 0 && tag & 0x80 != 0) {
+        if !(1..=8).contains(&triangles)
+            || turn >= triangles.max(1)
+            || (turn == 0 && tag & 0x80 != 0)
+        {
             return None;
         }
         let from = 3 * vertex as usize;
@@ -271,11 +292,18 @@ impl Fans<'_> {
         let ring = (0..ring).map(|i| [0, 1, 2].map(|axis| 3 * centres + ring * axis + i));
         let vertices = centre.chain(ring).map(vertex).collect::<Option<_>>()?;
         let turn = (turn > 0).then_some(turn);
-        Some(Leaf { vertices, centres, turn, reversed: tag & 0x80 != 0, first_triangle: triangle as usize })
+        Some(Leaf {
+            vertices,
+            centres,
+            turn,
+            reversed: tag & 0x80 != 0,
+            first_triangle: triangle as usize,
+        })
     }
 }
 
-/// Blocks of 64 numbers: for each a least one, and 27 bits of place and 5 bits of width of the differences; then these, least bit first.
+/// Blocks of 64 numbers: for each a least one, and 27 bits of place and 5 bits of width of the
+/// differences; then these, least bit first.
 fn source(body: &[u8], triangles: usize) -> Result<Vec<u32>, String> {
     let numbers = (0..triangles).map(|triangle| {
         let (block, place) = (triangle / 64, triangle % 64);

@@ -1,4 +1,5 @@
-//! Whether the leaves hold the input's triangles, and as near to where they were as the header says.
+//! Whether the leaves hold the input's triangles, and as near to where they were as the header
+//! says.
 
 use meshsweep_alloc::mesh::Mesh;
 
@@ -6,7 +7,8 @@ use super::TreeProof;
 use super::parse::TreeBlob;
 use crate::oracle::dyadic::Dyadic;
 
-/// Every triangle of the mesh is stored exactly once, with its number, its winding, and its corners within the surface error.
+/// Every triangle of the mesh is stored exactly once, with its number, its winding, and its corners
+/// within the surface error.
 ///
 /// Triangles that share a number, which a repaired mesh may have, are told apart by their corners.
 pub(super) fn triangles(tree: &TreeBlob, mesh: &Mesh, proof: &mut TreeProof) -> Result<(), String> {
@@ -25,8 +27,11 @@ pub(super) fn triangles(tree: &TreeBlob, mesh: &Mesh, proof: &mut TreeProof) -> 
             let number = tree.source[leaf.first_triangle + triangle];
             let stored = leaf.corners(triangle).map(|corner| leaf.vertices[corner]);
             let from = wanted.partition_point(|&(source, _)| source < number);
-            let candidates =
-                wanted.iter().enumerate().skip(from).take_while(|(_, (source, _))| *source == number);
+            let candidates = wanted
+                .iter()
+                .enumerate()
+                .skip(from)
+                .take_while(|(_, (source, _))| *source == number);
             let free = candidates.filter(|&(place, _)| !used[place]);
             let mut found = None;
             for (place, &(_, input)) in free {
@@ -35,7 +40,8 @@ pub(super) fn triangles(tree: &TreeBlob, mesh: &Mesh, proof: &mut TreeProof) -> 
                     break;
                 }
             }
-            used[found.ok_or(format!("the triangle stored as {number} is not the input's"))?] = true;
+            used[found.ok_or(format!("the triangle stored as {number} is not the input's"))?] =
+                true;
             proof.triangles += 1;
         }
     }
@@ -66,7 +72,8 @@ impl<'a> Near<'a> {
         }
     }
 
-    /// Whether stored corners, grid units, are those of an input triangle, beginning with any of them.
+    /// Whether stored corners, grid units, are those of an input triangle, beginning with any of
+    /// them.
     fn matches(&self, stored: [[f64; 3]; 3], input: [u32; 3], proof: &mut TreeProof) -> bool {
         let there = input.map(|v| self.mesh.positions[v as usize].map(f64::from));
         (0..3).any(|turn| (0..3).all(|k| self.is_near(stored[k], there[(k + turn) % 3], proof)))
@@ -94,7 +101,8 @@ impl<'a> Near<'a> {
     }
 }
 
-/// The header's reach is no less than any triangle's two spokes, by their 1-norms, and its flag says whether the mesh is closed.
+/// The header's reach is no less than any triangle's two spokes, by their 1-norms, and its flag
+/// says whether the mesh is closed.
 pub(super) fn claims(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
     let norm = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
     for leaf in &tree.leaves {
@@ -103,7 +111,10 @@ pub(super) fn claims(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
             // Differences of coordinates below 2^25, and sums of six of them.
             let reach = norm(centre, a) + norm(centre, b);
             if reach > tree.reach {
-                return Err(format!("a triangle of reach {reach:e}, the header says {:e}", tree.reach));
+                return Err(format!(
+                    "a triangle of reach {reach:e}, the header says {:e}",
+                    tree.reach
+                ));
             }
         }
     }

@@ -1,14 +1,17 @@
 //! The solid that planes leave over, in f64.
 //!
-//! Each plane's face is a large square cut by all other planes. No face knows another, so rounding cannot tear the solid:
-//! the worst that it does is a sliver, and what is closer than `MERGED` becomes one vertex.
+//! Each plane's face is a large square cut by all other planes. No face knows another, so rounding
+//! cannot tear the solid: the worst that it does is a sliver, and what is closer than `MERGED`
+//! becomes one vertex.
 
 use glam::DVec3;
 
-/// Vertices closer than this become one, of the reach: far above rounding, far below what a table shows.
+/// Vertices closer than this become one, of the reach: far above rounding, far below what a table
+/// shows.
 const MERGED: f64 = 1e-9;
 
-/// A point that is no further outside counts as inside, of the reach: what is flat keeps its two faces. Some hundred roundings.
+/// A point that is no further outside counts as inside, of the reach: what is flat keeps its two
+/// faces. Some hundred roundings.
 const OUTSIDE: f64 = 1e-13;
 
 /// The points x with `normal`·x ≤ `offset`.
@@ -30,11 +33,14 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// What is on the inner side of all planes, if it lies within `reach` of `centre` along each axis. No plane may be there twice.
+    /// What is on the inner side of all planes, if it lies within `reach` of `centre` along each
+    /// axis. No plane may be there twice.
     #[must_use]
     pub fn new(planes: &[Plane], centre: DVec3, reach: f64) -> Self {
-        // About the centre, so that far from the origin nothing is lost but what the offsets have lost.
-        let about = |plane: &Plane| Plane { offset: plane.offset - plane.normal.dot(centre), ..*plane };
+        // About the centre, so that far from the origin nothing is lost but what the offsets have
+        // lost.
+        let about =
+            |plane: &Plane| Plane { offset: plane.offset - plane.normal.dot(centre), ..*plane };
         let planes: Vec<Plane> = planes.iter().map(about).collect();
         let mut solid = Self::default();
         for (index, plane) in planes.iter().enumerate() {
@@ -71,7 +77,10 @@ impl Solid {
     #[must_use]
     pub fn volume(&self) -> f64 {
         let Some(&origin) = self.vertices.first() else { return 0.0 };
-        self.triangles().map(|[a, b, c]| (a - origin).dot((b - origin).cross(c - origin))).sum::<f64>() / 6.0
+        self.triangles()
+            .map(|[a, b, c]| (a - origin).dot((b - origin).cross(c - origin)))
+            .sum::<f64>()
+            / 6.0
     }
 
     /// Its surface's area.
@@ -82,7 +91,10 @@ impl Solid {
 
     fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
         let fan = |face: &'_ [usize]| -> Vec<[DVec3; 3]> {
-            face[1..].windows(2).map(|pair| [face[0], pair[0], pair[1]].map(|v| self.vertices[v])).collect()
+            face[1..]
+                .windows(2)
+                .map(|pair| [face[0], pair[0], pair[1]].map(|v| self.vertices[v]))
+                .collect()
         };
         self.faces.iter().flat_map(move |face| fan(face))
     }
@@ -131,7 +143,8 @@ mod tests {
         (Solid::new(&floating, DVec3::new(0.5, -1.0, 2.0), reach), Polytope::new(planes))
     }
 
-    /// Slabs of ranges about zero: solids, and many planes that touch in an edge or a vertex, or not at all.
+    /// Slabs of ranges about zero: solids, and many planes that touch in an edge or a vertex, or
+    /// not at all.
     fn random_planes(slabs: &Slabs, reach: usize, rng: &mut Rng) -> Vec<HalfSpace> {
         let mut offset = || 1 + rng.below(reach).cast_signed() as i64;
         let mut planes = Vec::new();
@@ -155,8 +168,14 @@ mod tests {
                     assert_eq!(solid.vertices.len(), exact.vertices().len(), "{planes:?}");
                     assert_eq!(solid.faces.len(), exact.distinct_faces().count(), "{planes:?}");
                     let size = reach as f64;
-                    assert!((solid.volume() - exact.volume()).abs() < 1e-10 * size.powi(3), "{planes:?}");
-                    assert!((solid.area() - exact.area()).abs() < 1e-10 * size.powi(2), "{planes:?}");
+                    assert!(
+                        (solid.volume() - exact.volume()).abs() < 1e-10 * size.powi(3),
+                        "{planes:?}"
+                    );
+                    assert!(
+                        (solid.area() - exact.area()).abs() < 1e-10 * size.powi(2),
+                        "{planes:?}"
+                    );
                 }
             }
         }
@@ -171,7 +190,9 @@ mod tests {
         };
         let faces = |top: i64| {
             let sides = (0..3).flat_map(|k| [(k, 1), (k, -1)]);
-            sides.map(move |(k, sign)| HalfSpace::new(axis(k, sign), if k == 2 { sign * top } else { 2 }))
+            sides.map(move |(k, sign)| {
+                HalfSpace::new(axis(k, sign), if k == 2 { sign * top } else { 2 })
+            })
         };
         let flat: Vec<HalfSpace> = faces(1).collect();
         let (solid, exact) = both_ways(&flat, 5.0);

@@ -1,8 +1,9 @@
 //! Whether a mesh, or its hull, meets its moved copy: what bounds are judged by.
 //!
-//! parry3d's own test of two triangle meshes is not taken: of 2,000 pairs it says of 7 (rocker arm), 9 (bunny), 12 (horse) that
-//! they meet although they do not, of one of them although a plane parts the hulls with 0.4 % of the diagonal to spare. It missed
-//! none. Here its trees only tell which triangles to look at.
+//! parry3d's own test of two triangle meshes is not taken: of 2,000 pairs it says of 7 (rocker
+//! arm), 9 (bunny), 12 (horse) that they meet although they do not, of one of them although a plane
+//! parts the hulls with 0.4 % of the diagonal to spare. It missed none. Here its trees only tell
+//! which triangles to look at.
 
 use meshsweep_core::tribox::Pose as CorePose;
 use parry3d::math::{Pose as ParryPose, Vector};
@@ -17,7 +18,8 @@ use crate::oracle::moved::{self, Place};
 use super::convex_hull::ConvexHull;
 use super::pose::Pose;
 
-/// Boxes of parry3d's trees are grown by this much of the mesh's diagonal and distance from the origin: some ten roundings to f32.
+/// Boxes of parry3d's trees are grown by this much of the mesh's diagonal and distance from the
+/// origin: some ten roundings to f32.
 const GROWN: f32 = 1e-6;
 
 /// A mesh and trees of its triangles.
@@ -33,22 +35,25 @@ impl<'a> Surface<'a> {
     /// # Errors
     /// parry3d's refusal.
     pub fn new(subject: &'a Subject) -> Result<Self, String> {
-        let vertices: Vec<Vector> = subject.mesh.positions.iter().map(|p| Vector::from_array(*p)).collect();
+        let vertices: Vec<Vector> =
+            subject.mesh.positions.iter().map(|p| Vector::from_array(*p)).collect();
         let reach = vertices.iter().map(|p| p.length()).fold(subject.diagonal() as f32, f32::max);
-        let tree =
-            TriMesh::new(vertices, subject.mesh.triangles.clone()).map_err(|error| error.to_string())?;
+        let tree = TriMesh::new(vertices, subject.mesh.triangles.clone())
+            .map_err(|error| error.to_string())?;
         Ok(Self { subject, tree, reach })
     }
 
-    /// Whether a triangle meets a triangle of the moved copy, whose vertices are rounded to f32. Exact of those. A part that is
-    /// wholly inside a part of the copy does not meet it.
+    /// Whether a triangle meets a triangle of the moved copy, whose vertices are rounded to f32.
+    /// Exact of those. A part that is wholly inside a part of the copy does not meet it.
     #[must_use]
     pub fn meets_moved(&self, pose: &Pose) -> bool {
-        self.candidates(&pose.parry)
-            .any(|(a, b)| triangles_meet(self.corners(a), self.corners(b).map(|p| pose.apply_rounded(p))))
+        self.candidates(&pose.parry).any(|(a, b)| {
+            triangles_meet(self.corners(a), self.corners(b).map(|p| pose.apply_rounded(p)))
+        })
     }
 
-    /// The same without rounding: every number of `core` is what it is. `parry` is the same motion up to rounding.
+    /// The same without rounding: every number of `core` is what it is. `parry` is the same motion
+    /// up to rounding.
     #[must_use]
     pub fn meets_exactly(&self, core: &CorePose, parry: &ParryPose) -> bool {
         self.candidates(parry).any(|(a, b)| {
@@ -74,13 +79,15 @@ impl<'a> Surface<'a> {
     }
 
     fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
-        self.subject.mesh.triangles[triangle as usize].map(|v| self.subject.mesh.positions[v as usize])
+        self.subject.mesh.triangles[triangle as usize]
+            .map(|v| self.subject.mesh.positions[v as usize])
     }
 }
 
 /// Two triangles meet exactly if an edge of one meets the other.
 fn triangles_meet(a: [[f32; 3]; 3], b: [[f32; 3]; 3]) -> bool {
-    let edge_meets = |t: [[f32; 3]; 3], other| (0..3).any(|k| meets(t[k], t[(k + 1) % 3], other).is_some());
+    let edge_meets =
+        |t: [[f32; 3]; 3], other| (0..3).any(|k| meets(t[k], t[(k + 1) % 3], other).is_some());
     edge_meets(a, b) || edge_meets(b, a)
 }
 
@@ -91,7 +98,12 @@ impl Supports {
     /// The hull's vertices.
     #[must_use]
     pub fn new(hull: &ConvexHull) -> Self {
-        Self(hull.points.iter().map(|p| Vector::from_array(p.to_array().map(|x| x as f32))).collect())
+        Self(
+            hull.points
+                .iter()
+                .map(|p| Vector::from_array(p.to_array().map(|x| x as f32)))
+                .collect(),
+        )
     }
 
     /// Whether the hull meets its moved copy, by GJK in f32.
@@ -120,7 +132,8 @@ mod tests {
 
     #[test]
     fn triangles_meet_through_either_or_in_a_plane() {
-        let shifted = |by: [f32; 3], t: [[f32; 3]; 3]| t.map(|p| [p[0] + by[0], p[1] + by[1], p[2] + by[2]]);
+        let shifted =
+            |by: [f32; 3], t: [[f32; 3]; 3]| t.map(|p| [p[0] + by[0], p[1] + by[1], p[2] + by[2]]);
         let spike = [[0.5, 0.5, -1.0], [1.0, 0.5, -1.0], [1.0, 1.0, 1.0]];
         assert!(triangles_meet(FLAT, spike) && triangles_meet(spike, FLAT));
         assert!(!triangles_meet(FLAT, shifted([0.0, 0.0, 1.5], spike)));
@@ -145,7 +158,8 @@ mod tests {
             let pose = Pose::random(&mut rng, &sphere, 2.2);
             let moved: Vec<[[f32; 3]; 3]> =
                 (0..120).map(|t| surface.corners(t).map(|p| pose.apply_rounded(p))).collect();
-            let meets = (0..120).any(|a| moved.iter().any(|b| triangles_meet(surface.corners(a), *b)));
+            let meets =
+                (0..120).any(|a| moved.iter().any(|b| triangles_meet(surface.corners(a), *b)));
             assert_eq!(surface.meets_moved(&pose), meets);
             met += usize::from(meets);
         }

@@ -62,14 +62,18 @@ pub struct Contender<'a> {
 /// Coordinates between which f32 squares neither overflow nor vanish.
 const SIZES: std::ops::Range<f64> = 1e-15..1e15;
 
-/// All of them; each slab bound that is taken about its own vertices right after the one about the hull's.
+/// All of them; each slab bound that is taken about its own vertices right after the one about the
+/// hull's.
 ///
 /// # Errors
 /// The mesh is too large or too small for f32.
 pub fn contenders(bounds: &Bounds) -> Result<Vec<Contender<'_>>, String> {
     let Bounds { hull, sphere, .. } = bounds;
     if !SIZES.contains(&sphere.radius) || sphere.centre.length() > SIZES.end {
-        return Err(format!("of a mesh of radius {:e} squares are beyond f32's range", sphere.radius));
+        return Err(format!(
+            "of a mesh of radius {:e} squares are beyond f32's range",
+            sphere.radius
+        ));
     }
     let mut all = Vec::new();
     for (slabs, rest, solid) in &bounds.slabs {
@@ -95,7 +99,8 @@ pub fn contenders(bounds: &Bounds) -> Result<Vec<Contender<'_>>, String> {
         }
     }
     let volume = sphere.volume() / hull.volume();
-    let meets = |pose: &Pose| pose.apply(sphere.centre).distance(sphere.centre) <= 2.0 * sphere.radius;
+    let meets =
+        |pose: &Pose| pose.apply(sphere.centre).distance(sphere.centre) <= 2.0 * sphere.radius;
     all.push(Contender {
         name: "sphere",
         about: About::Rigid,
@@ -115,7 +120,8 @@ pub fn contenders(bounds: &Bounds) -> Result<Vec<Contender<'_>>, String> {
             vertices: 1,
             most: Some(15),
             judge: Box::new(move |pose| {
-                let (meets, comparisons) = oriented.meets(&oriented.moved(pose.rotation, pose.shift));
+                let (meets, comparisons) =
+                    oriented.meets(&oriented.moved(pose.rotation, pose.shift));
                 Judged { meets, comparisons, volume }
             }),
             rig: rigid::oriented(oriented),
@@ -139,7 +145,8 @@ pub fn contenders(bounds: &Bounds) -> Result<Vec<Contender<'_>>, String> {
 
 fn judged(bounds: &Bounds, slabs: &Slabs, rest: &Dop, moved: &Dop, pose: &Pose) -> Judged {
     let (meets, comparisons) = rest.meets(moved);
-    // The corners of what a ball encloses are within √3 of its radius, so the corners of what these enclose within 3.
+    // The corners of what a ball encloses are within √3 of its radius, so the corners of what these
+    // enclose within 3.
     let solid = moved.solid(slabs, pose.apply(bounds.sphere.centre), 2.0 * bounds.sphere.radius);
     Judged { meets, comparisons, volume: solid.volume() / bounds.hull.volume() }
 }
@@ -161,11 +168,17 @@ fn outward<'a>(bounds: &'a Bounds, slabs: &'a Slabs) -> Result<[Contender<'a>; 2
     };
     let own = rest.boundary().vertices.len();
     let hull: &[DVec3] = &bounds.hull.points;
-    let about_hull =
-        move |pose: &Pose| pose.motion().matrix.bound(points.iter().copied()).unwrap_or(Tribox::EMPTY);
+    let about_hull = move |pose: &Pose| {
+        pose.motion().matrix.bound(points.iter().copied()).unwrap_or(Tribox::EMPTY)
+    };
     let about_own = move |pose: &Pose| rest.moved(&pose.motion().matrix).unwrap_or(Tribox::EMPTY);
     Ok([
-        contender(About::Hull, hull.len(), slabs::outward_about_hull(rest, hull), Box::new(about_hull)),
+        contender(
+            About::Hull,
+            hull.len(),
+            slabs::outward_about_hull(rest, hull),
+            Box::new(about_hull),
+        ),
         contender(About::Own, own, slabs::outward_about_own(rest), Box::new(about_own)),
     ])
 }

@@ -1,6 +1,8 @@
-//! Convex hulls of points, every side of a plane decided exactly (Barber, Dobkin & Huhdanpaa 1996: quickhull).
+//! Convex hulls of points, every side of a plane decided exactly (Barber, Dobkin & Huhdanpaa 1996:
+//! quickhull).
 //!
-//! parry3d's hull is f32 throughout and may leave points outside; a reference has to hold what it is the reference of.
+//! parry3d's hull is f32 throughout and may leave points outside; a reference has to hold what it
+//! is the reference of.
 
 use std::collections::HashMap;
 
@@ -17,8 +19,8 @@ pub struct ConvexHull {
 }
 
 impl ConvexHull {
-    /// The hull, or `None` of points that all lie in a plane. No point is outside. Coordinates below 1e-50 of the others may be
-    /// lost to underflow.
+    /// The hull, or `None` of points that all lie in a plane. No point is outside. Coordinates
+    /// below 1e-50 of the others may be lost to underflow.
     #[must_use]
     pub fn new(points: &[DVec3]) -> Option<Self> {
         let mut growing = Growing::new(points)?;
@@ -59,7 +61,8 @@ impl ConvexHull {
 
 struct Face {
     corners: [usize; 3],
-    /// Points in front of it that no other face has: each point that is still outside is in one list.
+    /// Points in front of it that no other face has: each point that is still outside is in one
+    /// list.
     outside: Vec<usize>,
     is_alive: bool,
 }
@@ -84,7 +87,8 @@ impl<'a> Growing<'a> {
         let c = farthest(&|p| (p - points[a]).cross(points[b] - points[a]).length_squared())?;
         let normal = (points[b] - points[a]).cross(points[c] - points[a]);
         let d = farthest(&|p| (p - points[a]).dot(normal).abs())?;
-        let mut growing = Self { points, faces: Vec::new(), left: HashMap::new(), pending: Vec::new() };
+        let mut growing =
+            Self { points, faces: Vec::new(), left: HashMap::new(), pending: Vec::new() };
         let side = growing.height([a, b, c], d);
         if side == 0.0 {
             return None;
@@ -118,8 +122,8 @@ impl<'a> Growing<'a> {
     /// Gives each point to a face from `first` on that it is in front of; the others are inside.
     fn share(&mut self, points: Vec<usize>, first: usize) {
         for point in points {
-            let seen =
-                (first..self.faces.len()).find(|face| self.height(self.faces[*face].corners, point) > 0.0);
+            let seen = (first..self.faces.len())
+                .find(|face| self.height(self.faces[*face].corners, point) > 0.0);
             if let Some(face) = seen {
                 self.faces[face].outside.push(point);
             }
@@ -130,7 +134,9 @@ impl<'a> Growing<'a> {
     fn extend(&mut self, face: usize) {
         let Face { corners, outside, is_alive } = &self.faces[face];
         // The height is the determinant, which grows with the distance.
-        let far = |a: &&usize, b: &&usize| self.height(*corners, **a).total_cmp(&self.height(*corners, **b));
+        let far = |a: &&usize, b: &&usize| {
+            self.height(*corners, **a).total_cmp(&self.height(*corners, **b))
+        };
         let Some(&apex) = outside.iter().max_by(far).filter(|_| *is_alive) else { return };
         let mut seen = vec![face];
         self.faces[face].is_alive = false;
@@ -157,7 +163,8 @@ impl<'a> Growing<'a> {
         for [a, b] in horizon {
             self.push([a, b, apex]);
         }
-        // In front of a face that is gone and of no new one: inside, for the way to the lost face enters through a new one.
+        // In front of a face that is gone and of no new one: inside, for the way to the lost face
+        // enters through a new one.
         self.share(orphans, first);
     }
 }

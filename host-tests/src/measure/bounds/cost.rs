@@ -9,7 +9,8 @@ use super::contenders::Contender;
 use super::false_positives::{Cases, Tally};
 use super::pose::Motion;
 
-/// Rounds, in each of which every bound has its turn; the fastest counts: others on the machine can only slow a bound down.
+/// Rounds, in each of which every bound has its turn; the fastest counts: others on the machine can
+/// only slow a bound down.
 const ROUNDS_OF_UPDATES: usize = 5;
 /// The same of tests, which take no time but are sooner disturbed.
 const ROUNDS_OF_TESTS: usize = 25;
@@ -32,7 +33,11 @@ impl Cost {
 }
 
 /// Nanoseconds, and verdicts that differ from the f64 ones.
-fn timed(cases: &Cases, contenders: &mut [Contender<'_>], tallies: &[Tally]) -> (Vec<Cost>, Vec<usize>) {
+fn timed(
+    cases: &Cases,
+    contenders: &mut [Contender<'_>],
+    tallies: &[Tally],
+) -> (Vec<Cost>, Vec<usize>) {
     let motions: Vec<Motion> = cases.poses.iter().map(|pose| pose.motion()).collect();
     let mut costs = vec![Cost::MOST; contenders.len()];
     for _ in 0..ROUNDS_OF_UPDATES {
@@ -57,7 +62,8 @@ fn timed(cases: &Cases, contenders: &mut [Contender<'_>], tallies: &[Tally]) -> 
 }
 
 /// Columns of one unit.
-const TIMES: [&str; 5] = ["update ns", "test ns", "both ns", "test, of the box's", "both, of the box's"];
+const TIMES: [&str; 5] =
+    ["update ns", "test ns", "both ns", "test, of the box's", "both, of the box's"];
 const COUNTS: [&str; 5] = [
     "update instructions",
     "test instructions",
@@ -74,8 +80,11 @@ pub(super) fn tables(
     counts: Option<&[Cost]>,
 ) -> Vec<Table> {
     let (times, differ) = timed(cases, contenders, tallies);
-    let mut tables =
-        vec![Table::new("bounds_time", "Moving a bound and testing it once, time", &columns(TIMES))];
+    let mut tables = vec![Table::new(
+        "bounds_time",
+        "Moving a bound and testing it once, time",
+        &columns(TIMES),
+    )];
     fill(&mut tables[0], contenders, tallies, &times, &differ, 1);
     tables[0].note(format!(
         "f32, one thread, a pose each; fastest of {ROUNDS_OF_UPDATES} rounds of updates and {ROUNDS_OF_TESTS} of tests in which all take turns: noise, take ratios"
@@ -113,7 +122,9 @@ fn fill(
     digits: usize,
 ) {
     let (Some(&reference), Some(hull)) = (costs.first(), costs.last()) else { return };
-    for (((contender, tally), cost), differ) in contenders.iter().zip(tallies).zip(costs).zip(differ) {
+    for (((contender, tally), cost), differ) in
+        contenders.iter().zip(tallies).zip(costs).zip(differ)
+    {
         table.push(crate::measure::table::row![
             contender.name,
             contender.about.name(),

@@ -1,4 +1,5 @@
-//! Discrete oriented polytopes: intersections of slabs along fixed directions (Klosowski et al. 1998), the tribox among them.
+//! Discrete oriented polytopes: intersections of slabs along fixed directions (Klosowski et al.
+//! 1998), the tribox among them.
 
 use glam::DVec3;
 
@@ -32,18 +33,24 @@ const CORNERS: [DVec3; 4] = [
 ];
 
 impl Slabs {
-    /// All that are compared, planes two a direction, least first; all but the 20-DOP have the box's planes. The 24-DOP is that of
-    /// FCL (`fcl::KDOP`, `kDOP-inl.h`; hpp-fcl's too): three of the four corners, so not symmetric. Paper 001 cites one of 24 planes
+    /// All that are compared, planes two a direction, least first; all but the 20-DOP have the
+    /// box's planes. The 24-DOP is that of FCL (`fcl::KDOP`, `kDOP-inl.h`; hpp-fcl's too):
+    /// three of the four corners, so not symmetric. Paper 001 cites one of 24 planes
     /// and does not say which.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let slabs = |label, name, groups: &[&[DVec3]]| Self { name, label, directions: groups.concat() };
+        let slabs =
+            |label, name, groups: &[&[DVec3]]| Self { name, label, directions: groups.concat() };
         vec![
             slabs("box", "box (axes)", &[&AXES]),
             slabs("14-DOP", "14-DOP (axes, corners)", &[&AXES, &CORNERS]),
             slabs("tribox", "tribox = 18-DOP (axes, edges)", &[&AXES, &EDGES]),
             slabs("20-DOP", "20-DOP (corners, edges)", &[&CORNERS, &EDGES]),
-            slabs("24-DOP", "24-DOP (axes, edges, corners but x+y+z)", &[&AXES, &EDGES, &CORNERS[1..]]),
+            slabs(
+                "24-DOP",
+                "24-DOP (axes, edges, corners but x+y+z)",
+                &[&AXES, &EDGES, &CORNERS[1..]],
+            ),
             slabs("26-DOP", "26-DOP (axes, corners, edges)", &[&AXES, &CORNERS, &EDGES]),
         ]
     }
@@ -82,12 +89,14 @@ impl Dop {
                 [Plane { normal, offset: high }, Plane { normal: -normal, offset: -low }]
             })
             .collect();
-        // Slabs that touch the ball leave corners outside of it, of these directions none further than the cube's √3.
+        // Slabs that touch the ball leave corners outside of it, of these directions none further
+        // than the cube's √3.
         Solid::new(&planes, centre, 2.0 * radius)
     }
 
-    /// Whether no direction parts the two, and how many comparisons it took to see that. This is the usual test, exact of boxes
-    /// only: two others may be apart although their ranges overlap along every direction.
+    /// Whether no direction parts the two, and how many comparisons it took to see that. This is
+    /// the usual test, exact of boxes only: two others may be apart although their ranges
+    /// overlap along every direction.
     #[must_use]
     pub fn meets(&self, other: &Self) -> (bool, usize) {
         let mut comparisons = 0;
@@ -122,7 +131,8 @@ mod tests {
     #[test]
     fn solids_touch_every_slab_and_stay_about_the_points_when_turned() {
         let (positions, _) = rough_sphere(2, 0.4, 1999);
-        let points: Vec<DVec3> = positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
+        let points: Vec<DVec3> =
+            positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
         let mut rng = Rng::new(1998);
         for slabs in Slabs::all() {
             let dop = Dop::of(&slabs, points.iter().copied());
@@ -165,14 +175,20 @@ mod tests {
                 let dop = Dop::of(slabs, points.iter().copied());
                 for p in &points {
                     let mut along = slabs.directions.iter().map(|d| d.dot(*p)).zip(&dop.ranges);
-                    assert!(along.all(|(x, [low, high])| *low <= x && x <= *high), "{}", slabs.name);
+                    assert!(
+                        along.all(|(x, [low, high])| *low <= x && x <= *high),
+                        "{}",
+                        slabs.name
+                    );
                 }
                 dop.solid(slabs, DVec3::ZERO, 1.6).volume()
             });
             let volumes: Vec<f64> = solids.collect();
             for (fewer, outer) in all.iter().zip(&volumes) {
                 assert!(*outer >= hull * (1.0 - 1e-12), "{}", fewer.name);
-                for (more, inner) in all.iter().zip(&volumes).filter(|(more, _)| is_among(fewer, more)) {
+                for (more, inner) in
+                    all.iter().zip(&volumes).filter(|(more, _)| is_among(fewer, more))
+                {
                     assert!(*inner <= outer * (1.0 + 1e-12), "{} in {}", more.name, fewer.name);
                 }
             }

@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use crate::generate::Rng;
 
-/// A point that is no further out is taken for enclosed, of the radius: keeps points that lie on the sphere from replacing each other.
+/// A point that is no further out is taken for enclosed, of the radius: keeps points that lie on
+/// the sphere from replacing each other.
 const ON_SPHERE: f64 = 1e-12;
 
 /// A sphere.
@@ -17,7 +18,8 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The smallest about all points; encloses them up to the rounding of one distance. Expected O(n).
+    /// The smallest about all points; encloses them up to the rounding of one distance. Expected
+    /// O(n).
     #[must_use]
     pub fn enclosing(points: &[DVec3]) -> Self {
         let mut shuffled = points.to_vec();
@@ -95,7 +97,8 @@ mod tests {
 
     #[test]
     fn known_points_have_known_spheres() {
-        let corners = (0..8).map(|k| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64));
+        let corners =
+            (0..8).map(|k| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64));
         let cube = Sphere::enclosing(&corners.collect::<Vec<_>>());
         assert!((cube.centre - DVec3::splat(0.5)).length() < 1e-12);
         assert!((cube.radius - 0.75f64.sqrt()).abs() < 1e-12);
@@ -109,12 +112,17 @@ mod tests {
         let mut rng = Rng::new(1991);
         for _ in 0..100 {
             let points: Vec<DVec3> = (0..60)
-                .map(|_| DVec3::from_array(rng.point_in([-3.0, -2.0, 5.0], [3.0, 2.0, 6.0]).map(f64::from)))
+                .map(|_| {
+                    DVec3::from_array(
+                        rng.point_in([-3.0, -2.0, 5.0], [3.0, 2.0, 6.0]).map(f64::from),
+                    )
+                })
                 .collect();
             let sphere = Sphere::enclosing(&points);
             for _ in 0..50 {
                 let step = DVec3::from_array(rng.direction().map(f64::from)) * 1e-4;
-                let reach = points.iter().map(|p| p.distance(sphere.centre + step)).fold(0.0, f64::max);
+                let reach =
+                    points.iter().map(|p| p.distance(sphere.centre + step)).fold(0.0, f64::max);
                 assert!(reach > sphere.radius);
             }
         }

@@ -1,4 +1,5 @@
-//! How often bounds meet although the meshes do not: a mesh against itself, turned and moved at random.
+//! How often bounds meet although the meshes do not: a mesh against itself, turned and moved at
+//! random.
 
 use crate::generate::Rng;
 use crate::measure::Subject;
@@ -12,8 +13,8 @@ use super::pose::Pose;
 /// Poses of the moved mesh.
 const POSES: usize = 2_000;
 
-/// Greatest distance of the two spheres' centres, of the radius: a little further than spheres reach, so that there is something
-/// for them to tell apart.
+/// Greatest distance of the two spheres' centres, of the radius: a little further than spheres
+/// reach, so that there is something for them to tell apart.
 const FARTHEST: f64 = 2.2;
 
 /// The poses, seeded.
@@ -34,7 +35,8 @@ impl Cases {
         let surface = Surface::new(subject)?;
         let hull = Supports::new(&bounds.hull);
         let poses = poses(bounds);
-        // The surfaces whatever the hulls say: those are a bound like others, to be caught if they are wrong.
+        // The surfaces whatever the hulls say: those are a bound like others, to be caught if they
+        // are wrong.
         let meshes_meet = poses.iter().map(|pose| surface.meets_moved(pose)).collect();
         let hulls_meet = poses.iter().filter(|pose| hull.meets_moved(&pose.parry)).count();
         Ok(Self { poses, hulls_meet, meshes_meet })
@@ -68,7 +70,8 @@ impl Tally {
             meets: judged.iter().map(|bound| bound.meets).collect(),
             wrong: 100.0 * wrong as f64 / (POSES - cases.meet()).max(1) as f64,
             missed: pairs().filter(|(bound, mesh)| !bound.meets && **mesh).count(),
-            comparisons: judged.iter().map(|bound| bound.comparisons).sum::<usize>() as f64 / POSES as f64,
+            comparisons: judged.iter().map(|bound| bound.comparisons).sum::<usize>() as f64
+                / POSES as f64,
             volumes: judged.iter().map(|bound| bound.volume).collect(),
         }
     }
@@ -115,7 +118,9 @@ pub(super) fn table(cases: &Cases, contenders: &[Contender<'_>], tallies: &[Tall
         ]);
     }
     let (meet, hulls) = (cases.meet(), cases.hulls_meet);
-    table.note(format!("{POSES} poses, seeded; {hulls} pairs of hulls meet, {meet} pairs of meshes"));
+    table.note(format!(
+        "{POSES} poses, seeded; {hulls} pairs of hulls meet, {meet} pairs of meshes"
+    ));
     table
         .note("meshes: surface against surface, by exact predicates; a part inside another does not meet it");
     table.note(

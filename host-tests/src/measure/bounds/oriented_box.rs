@@ -25,15 +25,18 @@ impl OrientedBox {
     /// The tightest along given axes.
     fn along(axes: DMat3, points: &[DVec3]) -> Self {
         let local = points.iter().map(|p| axes.transpose() * *p);
-        let (low, high) =
-            local.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) = local.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+            (low.min(p), high.max(p))
+        });
         Self { axes, centre: axes * ((low + high) / 2.0), half: (high - low) / 2.0 }
     }
 
-    /// The tightest along the axes that parry3d takes: those of the covariance of all vertices of the mesh.
+    /// The tightest along the axes that parry3d takes: those of the covariance of all vertices of
+    /// the mesh.
     #[must_use]
     pub fn principal(subject: &Subject, points: &[DVec3]) -> Self {
-        let vertices: Vec<Vector> = subject.mesh.positions.iter().map(|p| Vector::from_array(*p)).collect();
+        let vertices: Vec<Vector> =
+            subject.mesh.positions.iter().map(|p| Vector::from_array(*p)).collect();
         let (pose, _) = parry3d::utils::obb(&vertices);
         let axis = |v: Vector| DVec3::from_array((pose.rotation * v).to_array().map(f64::from));
         let x = axis(Vector::X).normalize();
@@ -41,8 +44,9 @@ impl OrientedBox {
         Self::along(DMat3::from_cols(x, z.cross(x), z), points)
     }
 
-    /// The least volume of those with one side on a face of the hull, and another on an edge of its shadow there. The least box of
-    /// all may do without a face (O'Rourke 1985), though by little.
+    /// The least volume of those with one side on a face of the hull, and another on an edge of its
+    /// shadow there. The least box of all may do without a face (O'Rourke 1985), though by
+    /// little.
     #[must_use]
     pub fn on_a_face(hull: &ConvexHull) -> Self {
         let mut best: Option<(f64, DMat3)> = None;
@@ -52,9 +56,12 @@ impl OrientedBox {
             let (u, v) = z.any_orthonormal_pair();
             let heights = hull.points.iter().map(|p| z.dot(*p - a));
             let height = -heights.fold(0.0, f64::min);
-            let shadow = outline(hull.points.iter().map(|p| DVec2::new(u.dot(*p), v.dot(*p))).collect());
+            let shadow =
+                outline(hull.points.iter().map(|p| DVec2::new(u.dot(*p), v.dot(*p))).collect());
             for (k, from) in shadow.iter().enumerate() {
-                let Some(x) = (shadow[(k + 1) % shadow.len()] - *from).try_normalize() else { continue };
+                let Some(x) = (shadow[(k + 1) % shadow.len()] - *from).try_normalize() else {
+                    continue;
+                };
                 let volume = height * extent(&shadow, x) * extent(&shadow, x.perp());
                 if best.is_none_or(|(least, _)| volume < least) {
                     let x = u * x.x + v * x.y;
@@ -83,7 +90,8 @@ impl OrientedBox {
         Self { axes: rotation * self.axes, centre: rotation * self.centre + shift, half: self.half }
     }
 
-    /// Whether the two share a point, and how many of the 15 separating axes were looked at (Gottschalk et al. 1996).
+    /// Whether the two share a point, and how many of the 15 separating axes were looked at
+    /// (Gottschalk et al. 1996).
     #[must_use]
     pub fn meets(&self, other: &Self) -> (bool, usize) {
         let columns = |b: &Self| [b.axes.x_axis, b.axes.y_axis, b.axes.z_axis];
@@ -109,7 +117,8 @@ fn extent(points: &[DVec2], direction: DVec2) -> f64 {
     high - low
 }
 
-/// The convex hull of points in a plane, counter-clockwise (Andrew 1979). Roundings only move a box's axes.
+/// The convex hull of points in a plane, counter-clockwise (Andrew 1979). Roundings only move a
+/// box's axes.
 fn outline(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = &DVec2>| {
@@ -149,7 +158,8 @@ mod tests {
     #[test]
     fn a_turned_brick_is_its_own_box() {
         let turn = DMat3::from_quat(DQuat::from_xyzw(0.1, -0.5, 0.7, 0.4).normalize());
-        let points: Vec<DVec3> = brick().iter().map(|p| turn * *p + DVec3::new(3.0, 1.0, -8.0)).collect();
+        let points: Vec<DVec3> =
+            brick().iter().map(|p| turn * *p + DVec3::new(3.0, 1.0, -8.0)).collect();
         let tight = OrientedBox::on_a_face(&ConvexHull::new(&points).expect("not flat"));
         assert!((tight.volume() - 80.0).abs() < 1e-9 && (tight.area() - 136.0).abs() < 1e-9);
         assert!((tight.centre - DVec3::new(3.0, 1.0, -8.0)).length() < 1e-9);
@@ -160,8 +170,13 @@ mod tests {
         let long = OrientedBox::along(DMat3::IDENTITY, &brick());
         assert_eq!(long.meets(&long), (true, 15));
         assert_eq!(long.meets(&long.moved(DMat3::IDENTITY, DVec3::X * 2.1)), (false, 1));
-        // Two square bars, one along x turned about x, one along y turned about y: only edges can touch.
-        let bar = OrientedBox { axes: DMat3::IDENTITY, centre: DVec3::ZERO, half: DVec3::new(9.0, 1.0, 1.0) };
+        // Two square bars, one along x turned about x, one along y turned about y: only edges can
+        // touch.
+        let bar = OrientedBox {
+            axes: DMat3::IDENTITY,
+            centre: DVec3::ZERO,
+            half: DVec3::new(9.0, 1.0, 1.0),
+        };
         let eighth = std::f64::consts::FRAC_PI_4;
         let lower = bar.moved(DMat3::from_rotation_x(eighth), DVec3::ZERO);
         let quarter = DMat3::from_rotation_z(2.0 * eighth);
@@ -179,7 +194,11 @@ mod tests {
         let (mut met, mut apart) = (0, 0);
         for _ in 0..2_000 {
             let half = DVec3::from_array(rng.point_in([0.2; 3], [2.5; 3]).map(f64::from));
-            let sized = |by: f64| OrientedBox { axes: DMat3::IDENTITY, centre: DVec3::ZERO, half: half * by };
+            let sized = |by: f64| OrientedBox {
+                axes: DMat3::IDENTITY,
+                centre: DVec3::ZERO,
+                half: half * by,
+            };
             let pose = Pose::random(&mut rng, &sphere, 2.2);
             let meets = |by: f64| sized(by).meets(&sized(by).moved(pose.rotation, pose.shift)).0;
             if meets(0.9999) != meets(1.0001) {

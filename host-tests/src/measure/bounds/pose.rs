@@ -46,7 +46,8 @@ impl Motion {
 }
 
 impl Pose {
-    /// A uniform rotation about the sphere's centre, then a uniform direction and a distance uniform in 0..`farthest` radii.
+    /// A uniform rotation about the sphere's centre, then a uniform direction and a distance
+    /// uniform in 0..`farthest` radii.
     pub fn random(rng: &mut Rng, sphere: &Sphere, farthest: f64) -> Self {
         let turn = loop {
             let part = [(); 4].map(|()| 2.0 * rng.unit_f64() - 1.0);

@@ -1,4 +1,5 @@
-//! Bounds as a program would have them, in f32: moved with each pose, then tested against the resting one.
+//! Bounds as a program would have them, in f32: moved with each pose, then tested against the
+//! resting one.
 //!
 //! What is timed is here, what is true is not: verdicts of these are compared with those in f64.
 

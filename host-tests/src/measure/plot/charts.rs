@@ -75,7 +75,11 @@ const fn bounds(table: &'static str, x: [&'static str; 2], is_volume: bool) -> V
             "volume, of the hull's",
         )
     } else {
-        ("false positives of bounds against their cost", "pairs reported that do not meet, %", "false %")
+        (
+            "false positives of bounds against their cost",
+            "pairs reported that do not meet, %",
+            "false %",
+        )
     };
     let split = Split::Names("bounded about", column);
     View {
@@ -119,8 +123,18 @@ const VIEWS: [View; 10] = [
     bounds(INSTRUCTIONS, WORK, true),
     bounds("bounds_time", TIME, false),
     bounds("bounds_time", TIME, true),
-    closest("tolerance", "hull hierarchy, closest point within a tolerance", "mean error", ["tolerance", ""]),
-    closest("steps", "hull hierarchy, closest point after so many nodes", "mean error", ["steps", ""]),
+    closest(
+        "tolerance",
+        "hull hierarchy, closest point within a tolerance",
+        "mean error",
+        ["tolerance", ""],
+    ),
+    closest(
+        "steps",
+        "hull hierarchy, closest point after so many nodes",
+        "mean error",
+        ["steps", ""],
+    ),
     View {
         table: "cuts",
         title: "hull hierarchy, closest point on blobs cut after a level",
@@ -132,7 +146,12 @@ const VIEWS: [View; 10] = [
         split: Split::Columns(&[("far", "far of diagonal"), ("near", "near of diagonal")]),
         label: ["level", ""],
     },
-    closest("tree_tolerance", "box tree, closest point within a tolerance", "found", ["tolerance %", " %"]),
+    closest(
+        "tree_tolerance",
+        "box tree, closest point within a tolerance",
+        "found",
+        ["tolerance %", " %"],
+    ),
     closest("tree_steps", "box tree, closest point after so many nodes", "found", ["steps", ""]),
     View {
         table: "tight_trade",
@@ -147,14 +166,16 @@ const VIEWS: [View; 10] = [
     },
 ];
 
-/// The charts of a mesh's tables. Where instructions were counted, times are left out: those are noise.
+/// The charts of a mesh's tables. Where instructions were counted, times are left out: those are
+/// noise.
 ///
 /// # Errors
 /// A table lacks a column that its chart needs.
 pub fn of(mesh: &str, tables: &[Table]) -> Result<Vec<Chart>, String> {
     let is_counted = tables.iter().any(|table| table.key == INSTRUCTIONS);
     let shown = VIEWS.iter().filter(|view| !(is_counted && view.table == "bounds_time"));
-    let found = shown.filter_map(|view| Some((view, tables.iter().find(|table| table.key == view.table)?)));
+    let found =
+        shown.filter_map(|view| Some((view, tables.iter().find(|table| table.key == view.table)?)));
     let mut charts = Vec::new();
     for (view, table) in found {
         let series = view.series(table)?;
@@ -168,7 +189,8 @@ pub fn of(mesh: &str, tables: &[Table]) -> Result<Vec<Chart>, String> {
 }
 
 impl View {
-    /// Rows in which a number is missing are no points; nor is what costs nothing, which no logarithmic axis has.
+    /// Rows in which a number is missing are no points; nor is what costs nothing, which no
+    /// logarithmic axis has.
     fn series(&self, table: &Table) -> Result<Vec<Series>, String> {
         let column = |name: &str| {
             let at = table.columns.iter().position(|column| *column == name);
@@ -225,7 +247,8 @@ mod tests {
         let [chart] = &charts[..] else { panic!("{charts:?}") };
         assert_eq!(chart.title, "torus: box tree, closest point after so many nodes");
         let point = |x, y, label: &str| Point { x, y, label: label.to_owned() };
-        let series: Vec<_> = chart.series.iter().map(|s| (s.name.as_str(), s.points.clone())).collect();
+        let series: Vec<_> =
+            chart.series.iter().map(|s| (s.name.as_str(), s.points.clone())).collect();
         let far = vec![point(100.0, 0.5, "1"), point(150.0, 0.0, "2")];
         assert_eq!(series, [("far", far), ("near", vec![point(80.0, 0.25, "1")])]);
         assert_eq!(of("torus", &[other]), Ok(Vec::new()));

@@ -35,7 +35,8 @@ pub fn svg(rows: &[Vec<Chart>]) -> Result<String, String> {
         let size = (PANEL[0] * columns as u32, PANEL[1] * lines.len() as u32);
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
         root.fill(&WHITE).map_err(|error| error.to_string())?;
-        for (panels, line) in root.split_evenly((lines.len(), columns)).chunks(columns).zip(&lines) {
+        for (panels, line) in root.split_evenly((lines.len(), columns)).chunks(columns).zip(&lines)
+        {
             for (panel, chart) in panels.iter().zip(*line) {
                 self::panel(panel, chart).map_err(|error| format!("{}: {error}", chart.title))?;
             }
@@ -68,14 +69,18 @@ fn panel(panel: &Area<'_>, chart: &Chart) -> Result<(), Failed> {
 
 /// A range on a logarithmic axis with `margin` times as much on either side.
 fn wide(values: impl Iterator<Item = f64>, margin: f64) -> std::ops::Range<f64> {
-    let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(low, high), x| (low.min(x), high.max(x)));
+    let (low, high) =
+        values.fold((f64::INFINITY, 0.0f64), |(low, high), x| (low.min(x), high.max(x)));
     if low < f64::INFINITY { low / margin..high * margin } else { 0.1..1.0 }
 }
 
 fn legend(panel: &Area<'_>, chart: &Chart) -> Result<(), Failed> {
     let mut left = 80;
     let plain = || {
-        ("sans-serif", LABEL + 1.0).into_font().color(&BLACK.mix(0.7)).pos(Pos::new(HPos::Left, VPos::Center))
+        ("sans-serif", LABEL + 1.0)
+            .into_font()
+            .color(&BLACK.mix(0.7))
+            .pos(Pos::new(HPos::Left, VPos::Center))
     };
     if !chart.legend.is_empty() {
         panel.draw(&Text::new(chart.legend, (left - 4, 48), plain()))?;
@@ -110,7 +115,12 @@ fn colour(index: usize) -> RGBColor {
 }
 
 /// Another shape for each series, for those who print in black.
-fn marker(panel: &Area<'_>, index: usize, (x, y): (i32, i32), is_hollow: bool) -> Result<(), Failed> {
+fn marker(
+    panel: &Area<'_>,
+    index: usize,
+    (x, y): (i32, i32),
+    is_hollow: bool,
+) -> Result<(), Failed> {
     let style = if is_hollow { colour(index).stroke_width(1) } else { colour(index).filled() };
     let r = MARKER;
     match index % 3 {
@@ -170,8 +180,11 @@ where
         low: [across.start - offset_x, down.start - offset_y].map(f64::from),
         high: [across.end - offset_x, down.end - offset_y].map(f64::from),
     };
-    let spots: Vec<Vec<(i32, i32)>> =
-        chart.series.iter().map(|series| series.points.iter().map(|p| pixel(p.x, p.y)).collect()).collect();
+    let spots: Vec<Vec<(i32, i32)>> = chart
+        .series
+        .iter()
+        .map(|series| series.points.iter().map(|p| pixel(p.x, p.y)).collect())
+        .collect();
     if chart.is_line {
         for (index, line) in spots.iter().enumerate() {
             area.draw(&PathElement::new(line.clone(), colour(index).mix(0.5)))?;
@@ -187,19 +200,31 @@ where
 }
 
 /// The labels, with lines to those that found no room beside their points.
-fn named(area: &Area<'_>, chart: &Chart, frame: &Rect, spots: &[Vec<(i32, i32)>]) -> Result<(), Failed> {
+fn named(
+    area: &Area<'_>,
+    chart: &Chart,
+    frame: &Rect,
+    spots: &[Vec<(i32, i32)>],
+) -> Result<(), Failed> {
     let exact = |&(x, y): &(i32, i32)| [f64::from(x), f64::from(y)];
     let points: Vec<[f64; 2]> = spots.iter().flatten().map(exact).collect();
     let labels: Vec<(usize, &str)> = chart
         .series
         .iter()
         .enumerate()
-        .flat_map(|(index, Series { points, .. })| points.iter().map(move |p| (index, p.label.as_str())))
+        .flat_map(|(index, Series { points, .. })| {
+            points.iter().map(move |p| (index, p.label.as_str()))
+        })
         .collect();
-    let sizes: Vec<[f64; 2]> =
-        labels.iter().map(|(_, text)| [text.chars().count() as f64 * LETTER * LABEL, LABEL]).collect();
+    let sizes: Vec<[f64; 2]> = labels
+        .iter()
+        .map(|(_, text)| [text.chars().count() as f64 * LETTER * LABEL, LABEL])
+        .collect();
     let lines: Vec<[[f64; 2]; 2]> = if chart.is_line {
-        spots.iter().flat_map(|line| line.windows(2).map(|pair| [exact(&pair[0]), exact(&pair[1])])).collect()
+        spots
+            .iter()
+            .flat_map(|line| line.windows(2).map(|pair| [exact(&pair[0]), exact(&pair[1])]))
+            .collect()
     } else {
         Vec::new()
     };
@@ -218,13 +243,21 @@ fn named(area: &Area<'_>, chart: &Chart, frame: &Rect, spots: &[Vec<(i32, i32)>]
         } else {
             (HPos::Center, 0.5 * (rect.low[0] + rect.high[0]))
         };
-        let style = ("sans-serif", LABEL).into_font().color(&colour(index)).pos(Pos::new(side, VPos::Center));
-        area.draw(&Text::new(text.to_owned(), whole([x, 0.5 * (rect.low[1] + rect.high[1])]), style))?;
+        let style = ("sans-serif", LABEL)
+            .into_font()
+            .color(&colour(index))
+            .pos(Pos::new(side, VPos::Center));
+        area.draw(&Text::new(
+            text.to_owned(),
+            whole([x, 0.5 * (rect.low[1] + rect.high[1])]),
+            style,
+        ))?;
     }
     Ok(())
 }
 
-/// Numbers on a logarithmic axis: decades, or so many of each that there are some, but never so many that they touch.
+/// Numbers on a logarithmic axis: decades, or so many of each that there are some, but never so
+/// many that they touch.
 fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
     let [first, last] = [range.start, range.end].map(|x| x.log10().floor() as i32);
     let of = |digits: &[f64], every: i32| -> Vec<f64> {

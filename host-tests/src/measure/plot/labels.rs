@@ -17,7 +17,8 @@ impl Rect {
 
     /// The area that both have.
     pub fn shared(&self, other: &Self) -> f64 {
-        let along = |k: usize| (self.high[k].min(other.high[k]) - self.low[k].max(other.low[k])).max(0.0);
+        let along =
+            |k: usize| (self.high[k].min(other.high[k]) - self.low[k].max(other.low[k])).max(0.0);
         along(0) * along(1)
     }
 
@@ -70,8 +71,8 @@ const HARDLY: f64 = 5.0;
 /// How often labels choose again, knowing where the others are.
 const ROUNDS: usize = 8;
 
-/// A place for each label, `sizes` of which belong to `points`: within `frame`, off points, other labels and, if it can be, lines, as
-/// near as that allows. Earlier points choose first.
+/// A place for each label, `sizes` of which belong to `points`: within `frame`, off points, other
+/// labels and, if it can be, lines, as near as that allows. Earlier points choose first.
 pub fn place(
     frame: &Rect,
     points: &[[f64; 2]],
@@ -86,22 +87,28 @@ pub fn place(
         for (own, (&point, &size)) in points.iter().zip(sizes).enumerate() {
             let others = || (0..points.len()).filter(|other| *other != own);
             let labels: Vec<Rect> = others().filter_map(|other| placed[other]).collect();
-            let leaders = others()
-                .filter_map(|other| Some(beads(points[other], placed[other]?.nearest(points[other]))));
+            let leaders = others().filter_map(|other| {
+                Some(beads(points[other], placed[other]?.nearest(points[other])))
+            });
             let leaders: Vec<Rect> = leaders.flatten().collect();
             let price = |place: &Rect, far: f64| {
-                let wide = Rect { low: place.low.map(|x| x - GAP), high: place.high.map(|x| x + GAP) };
+                let wide =
+                    Rect { low: place.low.map(|x| x - GAP), high: place.high.map(|x| x + GAP) };
                 let leader = beads(point, place.nearest(point));
                 let on = |all: &[Rect]| all.iter().map(|other| wide.shared(other)).sum::<f64>();
                 let crossed = |all: &Rect| leader.iter().map(|bead| bead.shared(all)).sum::<f64>();
                 let outside = wide.area() - wide.shared(frame);
                 let misread = others()
-                    .filter(|other| place.distance(points[*other]) <= place.distance(point) + HARDLY)
+                    .filter(|other| {
+                        place.distance(points[*other]) <= place.distance(point) + HARDLY
+                    })
                     .count();
                 // However little it is.
-                let touched = labels.iter().chain(&markers).filter(|other| wide.shared(other) > 0.0).count();
-                let on_points =
-                    on(&markers) + outside + others().map(|other| crossed(&markers[other])).sum::<f64>();
+                let touched =
+                    labels.iter().chain(&markers).filter(|other| wide.shared(other) > 0.0).count();
+                let on_points = on(&markers)
+                    + outside
+                    + others().map(|other| crossed(&markers[other])).sum::<f64>();
                 ON_LABEL * (on(&labels) + labels.iter().map(crossed).sum::<f64>())
                     + ON_POINT * on_points
                     + ON_LINE * (on(&on_lines) + on(&leaders))
@@ -112,13 +119,19 @@ pub fn place(
             };
             let choices = DISTANCES.iter().flat_map(|&far| {
                 let ways = DIRECTIONS.iter().enumerate();
-                ways.map(move |(rank, &way)| (beside(point, size, way, far), far + 0.1 * rank as f64))
+                ways.map(move |(rank, &way)| {
+                    (beside(point, size, way, far), far + 0.1 * rank as f64)
+                })
             });
             let priced = choices.map(|(place, far)| (price(&place, far), place));
             placed[own] = priced.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, place)| place);
         }
     }
-    placed.into_iter().zip(points).map(|(place, point)| place.unwrap_or(Rect::about(*point, 0.0))).collect()
+    placed
+        .into_iter()
+        .zip(points)
+        .map(|(place, point)| place.unwrap_or(Rect::about(*point, 0.0)))
+        .collect()
 }
 
 /// A label whose edge or corner is `far` from the point in that direction.
@@ -136,10 +149,15 @@ fn beside(point: [f64; 2], size: [f64; 2], way: [f64; 2], far: f64) -> Rect {
                     0.0
                 }
     };
-    // Beside a point to the right or left, the text's middle is level with it however steep the way is.
+    // Beside a point to the right or left, the text's middle is level with it however steep the way
+    // is.
     let low = [
         start(0),
-        if way[0].abs() > way[1].abs() { point[1] + way[1] * far - 0.5 * size[1] } else { start(1) },
+        if way[0].abs() > way[1].abs() {
+            point[1] + way[1] * far - 0.5 * size[1]
+        } else {
+            start(1)
+        },
     ];
     Rect { low, high: [low[0] + size[0], low[1] + size[1]] }
 }
@@ -166,7 +184,8 @@ mod tests {
                 let points: Vec<[f64; 2]> = (0..crowd)
                     .map(|_| [150.0 + 300.0 * rng.unit_f64(), 100.0 + 150.0 * rng.unit_f64()])
                     .collect();
-                let sizes: Vec<[f64; 2]> = (0..crowd).map(|_| [30.0 + 80.0 * rng.unit_f64(), 12.0]).collect();
+                let sizes: Vec<[f64; 2]> =
+                    (0..crowd).map(|_| [30.0 + 80.0 * rng.unit_f64(), 12.0]).collect();
                 let labels = place(&frame, &points, &sizes, 4.0, &[]);
                 for (k, label) in labels.iter().enumerate() {
                     assert!((frame.shared(label) - label.area()).abs() < 1e-6);

@@ -7,7 +7,8 @@ use meshsweep_alloc::tree::{TreeOptions, build};
 use meshsweep_alloc::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
 use meshsweep_core::Tree;
 use meshsweep_core::blob::layout::{
-    TIGHT_BYTES, TIGHT_HULL_BYTES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
+    TIGHT_BYTES, TIGHT_HULL_BYTES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
+    TRIBOXES_BYTES,
 };
 use meshsweep_core::num::Radius16;
 use meshsweep_core::tribox::FACES;
@@ -22,7 +23,8 @@ use super::Measured;
 /// Triboxes from which on a hierarchy takes minutes.
 const MOST_TRIBOXES: usize = 256;
 
-/// Bytes of a blob's section that holds this hull alone, for distances, with coordinates of 16 bits: where these are does not change how many bytes they take.
+/// Bytes of a blob's section that holds this hull alone, for distances, with coordinates of 16
+/// bits: where these are does not change how many bytes they take.
 fn hull_bytes(hull: &Mesh) -> usize {
     let faces = hull.triangles.len();
     let options = TreeOptions { closest: true, segments: false, ..TreeOptions::default() };
@@ -97,8 +99,11 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
                 (0..FACES).filter(|&face| !boundary.face(face).is_empty()).count()
             })
             .sum();
-        let name =
-            if leaves.len() == 1 { "1 tribox".to_owned() } else { format!("{} triboxes", leaves.len()) };
+        let name = if leaves.len() == 1 {
+            "1 tribox".to_owned()
+        } else {
+            format!("{} triboxes", leaves.len())
+        };
         table.push(row![
             "triboxes",
             name,
@@ -116,12 +121,18 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
 
 /// All of it as one trade of faces for void, for the plot.
 pub fn trade(tight: &Table, beside: &Table) -> Table {
-    let mut table = Table::new("tight_trade", "Void against faces", &["bound", "faces", "void %", "label"]);
+    let mut table =
+        Table::new("tight_trade", "Void against faces", &["bound", "faces", "void %", "label"]);
     let column = |of: &Table, name: &str| of.columns.iter().position(|column| *column == name);
-    let series =
-        [("void %", "tight"), ("void %, lp", "progressive, lp"), ("void %, span", "progressive, span")];
+    let series = [
+        ("void %", "tight"),
+        ("void %, lp", "progressive, lp"),
+        ("void %, span", "progressive, span"),
+    ];
     for (void, name) in series {
-        let (Some(faces), Some(void)) = (column(tight, "faces"), column(tight, void)) else { continue };
+        let (Some(faces), Some(void)) = (column(tight, "faces"), column(tight, void)) else {
+            continue;
+        };
         for row in &tight.rows {
             table.push(row![name, row[faces].clone(), row[void].clone(), row[void].text()]);
         }
@@ -129,7 +140,12 @@ pub fn trade(tight: &Table, beside: &Table) -> Table {
     let columns = ["kind", "faces", "void %", "bound"].map(|name| column(beside, name));
     if let [Some(kind), Some(faces), Some(void), Some(bound)] = columns {
         for row in &beside.rows {
-            table.push(row![row[kind].text(), row[faces].clone(), row[void].clone(), row[bound].text()]);
+            table.push(row![
+                row[kind].text(),
+                row[faces].clone(),
+                row[void].clone(),
+                row[bound].text()
+            ]);
         }
     }
     table

@@ -1,4 +1,5 @@
-//! A mesh with few enough triangles to be drawn. After Rossignac & Borrel 1993: the vertices in a cube of a grid become one.
+//! A mesh with few enough triangles to be drawn. After Rossignac & Borrel 1993: the vertices in a
+//! cube of a grid become one.
 
 use std::collections::BTreeMap;
 
@@ -26,7 +27,8 @@ pub fn cluster(mesh: &Mesh, most: usize) -> Vec<[DVec3; 3]> {
             let (sum, count) = sums.entry(cube(p)).or_insert((DVec3::ZERO, 0.0));
             (*sum, *count) = (*sum + p, *count + 1.0);
         }
-        let mean = |cube: [i32; 3]| sums.get(&cube).map_or(DVec3::ZERO, |(sum, count)| *sum / *count);
+        let mean =
+            |cube: [i32; 3]| sums.get(&cube).map_or(DVec3::ZERO, |(sum, count)| *sum / *count);
         // One of each set of corners, with the first one's winding.
         let mut kept: BTreeMap<[[i32; 3]; 3], [[i32; 3]; 3]> = BTreeMap::new();
         for &t in &mesh.triangles {
@@ -52,12 +54,16 @@ mod tests {
     #[test]
     fn a_fine_grid_of_triangles_becomes_coarse_and_stays_where_it_was() {
         let count = 120u32;
-        let positions = (0..=count)
-            .flat_map(|i| (0..=count).map(move |j| [i as f32 / count as f32, j as f32 / count as f32, 0.0]));
+        let positions = (0..=count).flat_map(|i| {
+            (0..=count).map(move |j| [i as f32 / count as f32, j as f32 / count as f32, 0.0])
+        });
         let at = |i: u32, j: u32| i * (count + 1) + j;
         let triangles = (0..count).flat_map(|i| {
             (0..count).flat_map(move |j| {
-                [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]]
+                [
+                    [at(i, j), at(i + 1, j), at(i, j + 1)],
+                    [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)],
+                ]
             })
         });
         let mesh = Mesh::new(positions.collect(), triangles.collect());

@@ -25,7 +25,8 @@ const MOST: usize = 3_000;
 const PANEL: i32 = 560;
 const MARGIN: f64 = 36.0;
 
-/// Turns of the view about the horizontal and about the longest axis, in degrees: three sides of a box show.
+/// Turns of the view about the horizontal and about the longest axis, in degrees: three sides of a
+/// box show.
 const TILT: [f64; 2] = [-24.0, 32.0];
 
 impl Gallery {
@@ -94,10 +95,13 @@ struct View {
 }
 
 impl View {
-    /// The shortest side of the mesh's box towards the eye, the longest to the right, and then a bit turned.
+    /// The shortest side of the mesh's box towards the eye, the longest to the right, and then a
+    /// bit turned.
     fn new(gallery: &Gallery) -> Self {
         let bounds = |of: &mut dyn Iterator<Item = DVec3>| {
-            of.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+            of.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+                (low.min(p), high.max(p))
+            })
         };
         let (low, high) = bounds(&mut gallery.mesh.iter().flatten().copied());
         let extent = (high - low).to_array();
@@ -108,7 +112,8 @@ impl View {
         let [tilt, turn] = TILT.map(f64::to_radians);
         let rotation = DMat3::from_rotation_x(-tilt) * DMat3::from_rotation_y(turn) * straight;
         let hulls = gallery.hulls.iter().flat_map(|(_, hull)| hull.iter().flatten());
-        let (low, high) = bounds(&mut gallery.mesh.iter().flatten().chain(hulls).map(|&p| rotation * p));
+        let (low, high) =
+            bounds(&mut gallery.mesh.iter().flatten().chain(hulls).map(|&p| rotation * p));
         let side = (high - low).truncate().max_element();
         Self {
             rotation,
@@ -150,7 +155,9 @@ impl View {
     /// Its front, as glass with edges.
     fn hull(&self, root: &Area<'_>, corner: (i32, i32), triangles: &[[DVec3; 3]]) -> Drawn {
         let glass = RGBColor(0, 114, 178);
-        for (_, corners) in self.seen(triangles, corner).into_iter().filter(|(facing, _)| *facing > 0.0) {
+        for (_, corners) in
+            self.seen(triangles, corner).into_iter().filter(|(facing, _)| *facing > 0.0)
+        {
             let outline: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
             root.draw(&Polygon::new(corners, glass.mix(0.22).filled()))?;
             root.draw(&PathElement::new(outline, glass.mix(0.7)))?;

@@ -33,7 +33,8 @@ pub fn table(subject: &Subject, grid: &Built, single: &Built) -> Result<Table, S
         "mean",
         "quantisation",
     ];
-    let mut table = Table::new("tree_accuracy", "Box tree, closest point against f64 brute force", &columns);
+    let mut table =
+        Table::new("tree_accuracy", "Box tree, closest point against f64 brute force", &columns);
     let input = Brute::new(subject);
     let count = (PAIRS / subject.mesh.triangles.len()).clamp(100, COUNT);
     let diagonal = subject.diagonal();
@@ -78,13 +79,18 @@ pub fn table(subject: &Subject, grid: &Built, single: &Built) -> Result<Table, S
                 scientific(quantisation / diagonal),
             ]);
             if outside > 0 {
-                return Err(format!("{name}, {}: {outside} intervals without the distance", kind.name()));
+                return Err(format!(
+                    "{name}, {}: {outside} intervals without the distance",
+                    kind.name()
+                ));
             }
         }
     }
     table.note("outside: intervals that do not contain the distance to the input mesh, must be 0");
     table.note("distance: relative error of the interval's middle, where its lower end is above 0, against the stored surface; 99.9 %: of the answers");
-    table.note("witness: of the distance to the answer's point, rounded to f32, relative and in diagonals");
+    table.note(
+        "witness: of the distance to the answer's point, rounded to f32, relative and in diagonals",
+    );
     table.note(
         "interval: upper - lower less quantisation, in diagonals; quantisation: twice the surface error",
     );

@@ -28,7 +28,8 @@ pub fn integer(value: f64) -> Integer {
     Integer::from_f64(scaled).expect("finite, for the fraction of infinity is no number")
 }
 
-/// `numerator / denominator` to within two units of the last place, also where neither fits an `f64`.
+/// `numerator / denominator` to within two units of the last place, also where neither fits an
+/// `f64`.
 #[must_use]
 pub fn ratio(numerator: &Integer, denominator: &Integer) -> f64 {
     let bits = |n: &Integer| i64::try_from(n.bits()).expect("fits the memory");

@@ -38,7 +38,8 @@ pub enum Family {
     Unbounded,
     /// The objective is a normal, or a combination of two: the optimum is a face or an edge.
     Face,
-    /// Faces of a box and its cut edges, in whole and half numbers: many planes through every vertex.
+    /// Faces of a box and its cut edges, in whole and half numbers: many planes through every
+    /// vertex.
     Box,
 }
 
@@ -112,8 +113,10 @@ fn combination(random: &mut Random, constraints: &[HalfSpace]) -> DVec3 {
 
 fn anything(random: &mut Random) -> Program {
     let count = 1 + random.below(12);
-    let half_space =
-        |random: &mut Random| HalfSpace { normal: random.direction(), offset: random.within(-1.0, 0.3) };
+    let half_space = |random: &mut Random| HalfSpace {
+        normal: random.direction(),
+        offset: random.within(-1.0, 0.3),
+    };
     let constraints = (0..count).map(|_| half_space(random)).collect();
     Program { objective: random.direction(), constraints }
 }
@@ -208,7 +211,8 @@ fn unbounded(random: &mut Random) -> Program {
 
 fn face(random: &mut Random) -> Program {
     let mut program = around(random, 0.4);
-    let (a, b) = (random.pick(&program.constraints).normal, random.pick(&program.constraints).normal);
+    let (a, b) =
+        (random.pick(&program.constraints).normal, random.pick(&program.constraints).normal);
     program.objective = if random.below(2) == 0 { a } else { a + b };
     program
 }
@@ -218,7 +222,9 @@ fn cut_box(random: &mut Random) -> Program {
     let centre = DVec3::new(random.pick(&half), random.pick(&half), random.pick(&half));
     let (mut constraints, mut objective) = (Vec::new(), DVec3::ZERO);
     for _ in 0..3 + random.below(8) {
-        let whole = DVec3::new(random.below(3) as f64, random.below(3) as f64, random.below(3) as f64) - 1.0;
+        let whole =
+            DVec3::new(random.below(3) as f64, random.below(3) as f64, random.below(3) as f64)
+                - 1.0;
         let normal = whole.normalize_or_zero();
         constraints.push(HalfSpace { normal, offset: normal.dot(centre) - 0.5 * whole.length() });
         objective += whole * random.below(3) as f64;

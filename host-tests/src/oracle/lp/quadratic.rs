@@ -7,13 +7,14 @@ use num_traits::Zero;
 use super::exact::{self, Integer, Vector, integer, shifted};
 use super::{Program, subsets};
 
-/// The one optimum of `program` with `eps = 2^-exponent`, each coordinate rounded to `f64`; `None` if infeasible.
+/// The one optimum of `program` with `eps = 2^-exponent`, each coordinate rounded to `f64`; `None`
+/// if infeasible.
 ///
-/// For a large exponent (300, say) and inputs of few digits this is the linear program's optimum nearest to the
-/// origin: below some positive `eps` the regularised optimum no longer moves.
+/// For a large exponent (300, say) and inputs of few digits this is the linear program's optimum
+/// nearest to the origin: below some positive `eps` the regularised optimum no longer moves.
 ///
-/// A set of independent constraints, taken as tight, gives one point `x` with `eps·x + objective = Σ λᵢ·nᵢ`. If it is
-/// feasible and no `λ` is negative then it is the optimum; some set gives it.
+/// A set of independent constraints, taken as tight, gives one point `x` with `eps·x + objective =
+/// Σ λᵢ·nᵢ`. If it is feasible and no `λ` is negative then it is the optimum; some set gives it.
 ///
 /// # Panics
 /// As [`super::solve`].
@@ -25,15 +26,19 @@ pub fn optimum(program: &Program, exponent: u32) -> Option<DVec3> {
     let pull = shifted(-program.objective).times(&(Integer::from(1) << exponent));
     for size in 0..=3usize.min(normals.len()) {
         for set in subsets(normals.len(), size) {
-            let Some((multipliers, determinant)) = multipliers(&set, &normals, &offsets, &pull) else {
+            let Some((multipliers, determinant)) = multipliers(&set, &normals, &offsets, &pull)
+            else {
                 continue;
             };
             if multipliers.iter().any(|m| m.sign() == Sign::Minus) {
                 continue;
             }
-            // x = pull + Σ λ n, all times the determinant. Normals, offsets and x are all in units of 2^-SHIFT.
-            let point =
-                set.iter().zip(&multipliers).fold(pull.times(&determinant), |sum, (&idx, multiplier)| {
+            // x = pull + Σ λ n, all times the determinant. Normals, offsets and x are all in units
+            // of 2^-SHIFT.
+            let point = set
+                .iter()
+                .zip(&multipliers)
+                .fold(pull.times(&determinant), |sum, (&idx, multiplier)| {
                     sum.plus(&normals[idx].times(multiplier))
                 });
             let unit = Integer::from(1) << exact::SHIFT.unsigned_abs();
@@ -46,8 +51,9 @@ pub fn optimum(program: &Program, exponent: u32) -> Option<DVec3> {
     None
 }
 
-/// Multipliers times their common denominator, and that denominator, which is positive; `None` if the normals of
-/// `set` are dependent. They solve `G λ = d − N·pull` with the Gram matrix `G` of the normals, by Cramer's rule.
+/// Multipliers times their common denominator, and that denominator, which is positive; `None` if
+/// the normals of `set` are dependent. They solve `G λ = d − N·pull` with the Gram matrix `G` of
+/// the normals, by Cramer's rule.
 fn multipliers(
     set: &[usize],
     normals: &[Vector],
@@ -65,7 +71,8 @@ fn multipliers(
     };
     let column = |c: usize| Vector([gram(0, c), gram(1, c), gram(2, c)]);
     let right = |row: usize| {
-        set.get(row).map_or_else(Integer::zero, |&idx| &offsets[idx] * &unit - normals[idx].dot(pull))
+        set.get(row)
+            .map_or_else(Integer::zero, |&idx| &offsets[idx] * &unit - normals[idx].dot(pull))
     };
     let (a, b, c) = (column(0), column(1), column(2));
     let r = Vector([right(0), right(1), right(2)]);

@@ -28,7 +28,8 @@ impl Random {
     /// A direction, uniform on the sphere.
     pub fn direction(&mut self) -> DVec3 {
         loop {
-            let v = DVec3::new(self.within(-1.0, 1.0), self.within(-1.0, 1.0), self.within(-1.0, 1.0));
+            let v =
+                DVec3::new(self.within(-1.0, 1.0), self.within(-1.0, 1.0), self.within(-1.0, 1.0));
             let length = v.length();
             if (0.1..1.0).contains(&length) {
                 return v / length;

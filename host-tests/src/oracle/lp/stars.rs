@@ -27,10 +27,18 @@ pub enum Star {
 
 impl Star {
     /// Every kind.
-    pub const ALL: [Self; 7] =
-        [Self::Noisy, Self::Smooth, Self::Flat, Self::Aligned, Self::Crease, Self::Ridge, Self::Corner];
+    pub const ALL: [Self; 7] = [
+        Self::Noisy,
+        Self::Smooth,
+        Self::Flat,
+        Self::Aligned,
+        Self::Crease,
+        Self::Ridge,
+        Self::Corner,
+    ];
 
-    /// The program of one random star of this kind; the objective is the sum of its area vectors, scaled to length 1.
+    /// The program of one random star of this kind; the objective is the sum of its area vectors,
+    /// scaled to length 1.
     #[must_use]
     pub fn program(self, random: &mut Random) -> Program {
         let left = 3 + random.below(3);
@@ -67,7 +75,8 @@ impl Star {
         }
     }
 
-    /// Turns the star, moves it off the origin and rounds it to single precision, as a mesh file would hold it.
+    /// Turns the star, moves it off the origin and rounds it to single precision, as a mesh file
+    /// would hold it.
     fn place(self, random: &mut Random, points: &mut [DVec3]) {
         if self == Self::Aligned {
             return;
@@ -81,12 +90,14 @@ impl Star {
     }
 }
 
-/// The edge's vertices, then the ring around them in order: `left` points about the first, `right` about the second.
+/// The edge's vertices, then the ring around them in order: `left` points about the first, `right`
+/// about the second.
 fn ring(random: &mut Random, left: usize, right: usize) -> Vec<DVec3> {
     let count = left + right;
     let mut points = vec![DVec3::new(-0.5, 0.0, 0.0), DVec3::new(0.5, 0.0, 0.0)];
     for step in 0..count {
-        let (part, whole, start) = if step < left { (step, left, 0.25) } else { (step - left, right, 0.75) };
+        let (part, whole, start) =
+            if step < left { (step, left, 0.25) } else { (step - left, right, 0.75) };
         let turn = start + 0.5 * (part as f64 + random.within(-0.2, 0.2)) / whole as f64;
         let (sin, cos) = (turn * core::f64::consts::TAU).sin_cos();
         points.push(DVec3::new(1.3 * cos, random.within(0.8, 1.0) * sin, 0.0));

@@ -57,7 +57,8 @@ fn an_octahedron_has_four_planes_through_each_vertex() {
 fn a_chamfered_cube_has_four_vertices_a_corner() {
     let tribox = both(slabs(&AXES, 2), slabs(&EDGES, 3));
     assert_eq!(counts(&tribox), [32, 48, 18]);
-    // An eighth of the cube, 8, loses 3 · 1 to three chamfers, of which pairs share 1/3 and all three 1/4.
+    // An eighth of the cube, 8, loses 3 · 1 to three chamfers, of which pairs share 1/3 and all
+    // three 1/4.
     near(tribox.volume(), 8.0 * (8.0 - 3.0 + 1.0 - 0.25));
     assert!((0..18).all(|plane| tribox.is_tight(plane) && !tribox.is_degenerate(plane)));
     let halves = tribox.vertices().iter().filter(|v| v.denominator == 2);
@@ -144,13 +145,18 @@ fn random_slabs_are_polyhedra_that_shrink_with_every_plane() {
     let mut rng = Rng::new(1999);
     let mut solids = 0;
     for round in 0..3_000 {
-        let normals =
-            if round % 2 == 0 { [&AXES[..], &EDGES].concat() } else { [&AXES[..], &CORNERS].concat() };
+        let normals = if round % 2 == 0 {
+            [&AXES[..], &EDGES].concat()
+        } else {
+            [&AXES[..], &CORNERS].concat()
+        };
         // Small offsets, so that planes meet by chance and many inputs are flat or empty.
         let reach: i64 = [3, 20, 1 << 20][round % 3];
         let mut offset = || rng.below(reach as usize).cast_signed() as i64 - reach / 8;
-        let planes: Vec<HalfSpace> =
-            slabs(&normals, 0).into_iter().map(|plane| HalfSpace::new(plane.normal, offset())).collect();
+        let planes: Vec<HalfSpace> = slabs(&normals, 0)
+            .into_iter()
+            .map(|plane| HalfSpace::new(plane.normal, offset()))
+            .collect();
         let polytope = Polytope::new(&planes);
         polytope.check_graph().unwrap_or_else(|error| panic!("{planes:?}: {error}"));
         let fewer = Polytope::new(&planes[..planes.len() - 1]);

@@ -98,7 +98,8 @@ impl<'t> Subject<'t> for Model<'t> {
                 closest(self, place.far(), scratch, clock, fold);
             }
             Kind::ClosestNear => {
-                // The base is an answer: a wrong one shows in this block already, so its consequences mislead nobody.
+                // The base is an answer: a wrong one shows in this block already, so its
+                // consequences mislead nobody.
                 let base = closest(self, place.far(), scratch, &mut (), fold);
                 closest(self, place.near(base), scratch, clock, fold);
             }
@@ -125,9 +126,11 @@ pub fn open(bytes: &[u8]) -> Result<Model<'_>, Refused> {
 #[must_use]
 pub fn bounds(model: &Model<'_>) -> Bounds {
     let Header { surface_box, .. } = *model.header();
-    // A power of two: exact unless the box leaves f32's normal range, and then rounded alike everywhere.
+    // A power of two: exact unless the box leaves f32's normal range, and then rounded alike
+    // everywhere.
     let scale = model.scale();
-    [surface_box.min, surface_box.max].map(|corner| corner.as_dvec3().to_array().map(|x| (x * scale) as f32))
+    [surface_box.min, surface_box.max]
+        .map(|corner| corner.as_dvec3().to_array().map(|x| (x * scale) as f32))
 }
 
 /// Sections, levels and the faces of every hull.

@@ -1,6 +1,8 @@
-//! The core's entry points as the suite asks them. The only module of the suite and the firmware that names the core's API.
+//! The core's entry points as the suite asks them. The only module of the suite and the firmware
+//! that names the core's API.
 //!
-//! Each question is a call, so that the stack that is measured is its own. It folds *all* the bits of its answer, its work counters and its refusal among them. Nothing here formats or
+//! Each question is a call, so that the stack that is measured is its own. It folds *all* the bits
+//! of its answer, its work counters and its refusal among them. Nothing here formats or
 //! indexes: the proof image links these functions, and they may not bring a panic of their own.
 
 pub mod hull;
@@ -16,9 +18,11 @@ use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
 
-/// What is asked: a blob's split hierarchy or its box tree. A trait and not an enum, so that an image links only what it asks.
+/// What is asked: a blob's split hierarchy or its box tree. A trait and not an enum, so that an
+/// image links only what it asks.
 pub trait Subject<'t>: Sized {
-    /// What the queries need beside the blob: it must fit in the smallest part's RAM beside the stack.
+    /// What the queries need beside the blob: it must fit in the smallest part's RAM beside the
+    /// stack.
     type Scratch;
 
     /// Opens the blob.
@@ -30,7 +34,8 @@ pub trait Subject<'t>: Sized {
     /// The surface's box in input units, which the queries are placed around.
     fn bounds(&self) -> Bounds;
 
-    /// Whether no query can end early for want of scratch: else blocks of such answers would prove little.
+    /// Whether no query can end early for want of scratch: else blocks of such answers would prove
+    /// little.
     fn memory_suffices(&self) -> bool;
 
     /// Bytes of RAM that queries need beside the stack.

@@ -125,7 +125,9 @@ pub fn contents(hulls: &Hulls<'_>, fold: &mut Fold) {
     for index in 0..hulls.all.count() {
         let Some(hull) = hulls.all.get(index) else { continue };
         tree::contents(hull.tree(), fold);
-        (0..hull.record().faces).filter_map(|face| hull.slack(face)).for_each(|slack| fold.f32(slack));
+        (0..hull.record().faces)
+            .filter_map(|face| hull.slack(face))
+            .for_each(|slack| fold.f32(slack));
     }
 }
 
@@ -150,7 +152,8 @@ pub fn closest(
     }
 }
 
-/// The same of the coarsest hull with a tolerance of `distance`, and of the finest with two nodes to open and with a stack of four.
+/// The same of the coarsest hull with a tolerance of `distance`, and of the finest with two nodes
+/// to open and with a stack of four.
 #[inline(never)]
 pub fn stopped(
     hulls: &Hulls<'_>,
@@ -163,9 +166,11 @@ pub fn stopped(
     let coarsest = hulls.all.get(0).unwrap_or(hulls.finest);
     let tolerant = Stop { absolute: distance, ..Stop::EXACT };
     let brief = Stop { steps: 2, ..Stop::EXACT };
-    for (hull, stop, entries) in
-        [(&coarsest, tolerant, STACK), (&hulls.finest, brief, STACK), (&hulls.finest, Stop::EXACT, 4)]
-    {
+    for (hull, stop, entries) in [
+        (&coarsest, tolerant, STACK),
+        (&hulls.finest, brief, STACK),
+        (&hulls.finest, Stop::EXACT, 4),
+    ] {
         let stack = scratch.stack.get_mut(..entries).unwrap_or_default();
         match timed(clock, || closest_point(hull, point, &stop, stack)) {
             Ok(answer) => fold_answer(fold, &answer),
@@ -184,7 +189,9 @@ pub fn is_within(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_is_within(&hulls.finest, point, distance, &Stop::EXACT, &mut scratch.stack)) {
+    match timed(clock, || {
+        core_is_within(&hulls.finest, point, distance, &Stop::EXACT, &mut scratch.stack)
+    }) {
         Ok(answer) => {
             fold.word(match answer.verdict {
                 Verdict::Yes { .. } => 1,

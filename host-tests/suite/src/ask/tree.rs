@@ -13,7 +13,9 @@ use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
 
-pub use distance::{all_within, batch, closest, follow, is_within, nearest, session, signed, stopped};
+pub use distance::{
+    all_within, batch, closest, follow, is_within, nearest, session, signed, stopped,
+};
 pub use meeting::{all_overlaps, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
@@ -106,7 +108,8 @@ impl<'t> Subject<'t> for Tree<'t> {
                 closest(self, place.far(), scratch, clock, fold);
             }
             Kind::ClosestNear => {
-                // The base is an answer: a wrong one shows in this block already, so its consequences mislead nobody.
+                // The base is an answer: a wrong one shows in this block already, so its
+                // consequences mislead nobody.
                 let base = closest(self, place.far(), scratch, &mut (), fold);
                 closest(self, place.near(base), scratch, clock, fold);
             }
@@ -114,14 +117,18 @@ impl<'t> Subject<'t> for Tree<'t> {
             Kind::Session => session(self, place.step_or_jump(), scratch, clock, fold),
             Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, clock, fold),
             Kind::Within => is_within(self, place.far(), place.distance(), scratch, clock, fold),
-            Kind::AllWithin => all_within(self, place.far(), place.distance(), scratch, clock, fold),
+            Kind::AllWithin => {
+                all_within(self, place.far(), place.distance(), scratch, clock, fold)
+            }
             Kind::Nearest => nearest(self, place.far(), scratch, clock, fold),
             Kind::Signed => signed(self, place.far(), scratch, clock, fold),
             Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
             Kind::Facing => facing(self, place.segment(), scratch, clock, fold),
             Kind::AnyHit => any_hit(self, place.segment(), scratch, clock, fold),
             Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
-            Kind::Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, clock, fold),
+            Kind::Batch => {
+                batch(self, &core::array::from_fn(|_| place.far()), scratch, clock, fold)
+            }
             Kind::Cull => cull(self, place.far(), scratch, clock, fold),
             Kind::Overlap => overlap(self, &pose(place.motion()), scratch, clock, fold),
             Kind::AllOverlaps => all_overlaps(self, &pose(place.motion()), scratch, clock, fold),
@@ -137,14 +144,16 @@ pub fn open(bytes: &[u8]) -> Result<Tree<'_>, Refused> {
     Tree::open(bytes).map_err(Refused::of)
 }
 
-/// The surface's box in input units: products of a small integer and a power of two, the same everywhere.
+/// The surface's box in input units: products of a small integer and a power of two, the same
+/// everywhere.
 #[must_use]
 pub fn bounds(tree: &Tree<'_>) -> Bounds {
     let header = tree.header();
     let unit = power_of_two(tree.scale_exponent() + header.grid_exponent);
     [header.low, header.high].map(|[x, y, z]| {
         let [ox, oy, oz] = header.grid_origin;
-        [(x, ox), (y, oy), (z, oz)].map(|(x, origin)| (i32::from(x).wrapping_add(origin)) as f32 * unit)
+        [(x, ox), (y, oy), (z, oz)]
+            .map(|(x, origin)| (i32::from(x).wrapping_add(origin)) as f32 * unit)
     })
 }
 
@@ -155,7 +164,9 @@ fn power_of_two(exponent: i32) -> f32 {
 /// Nodes with their boxes, leaves with their triangles.
 pub fn contents(tree: &Tree<'_>, fold: &mut Fold) {
     let header = tree.header();
-    for word in [header.nodes, header.leaves, header.vertices, header.triangles, header.stack_entries] {
+    for word in
+        [header.nodes, header.leaves, header.vertices, header.triangles, header.stack_entries]
+    {
         fold.word(word);
     }
     fold.f32(header.surface_error);

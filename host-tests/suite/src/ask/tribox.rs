@@ -11,7 +11,8 @@ use crate::{Clock, Kind};
 /// Points of a tribox.
 pub type Points = [[f32; 3]; 8];
 
-/// Asks one question of a kind about triboxes; nothing of any other kind. A call, so that the other questions' stacks do not hold its boundaries.
+/// Asks one question of a kind about triboxes; nothing of any other kind. A call, so that the other
+/// questions' stacks do not hold its boundaries.
 #[inline(never)]
 pub fn ask(kind: Kind, place: &mut Placer, clock: &mut impl Clock, fold: &mut Fold) {
     let points = [[0.0; 3]; 8].map(|_: [f32; 3]| place.far());
@@ -100,9 +101,9 @@ pub fn box_overlap(
     let (first, second) = (bounds(a, b), bounds(c, d));
     let apart = timed(clock, || {
         let slabs = first.0.iter().zip(&first.1).zip(second.0.iter().zip(&second.1));
-        slabs
-            .into_iter()
-            .any(|((low, high), (other_low, other_high))| !((low <= other_high) & (other_low <= high)))
+        slabs.into_iter().any(|((low, high), (other_low, other_high))| {
+            !((low <= other_high) & (other_low <= high))
+        })
     });
     fold.word(u32::from(!apart));
 }
@@ -123,7 +124,10 @@ pub fn rest(points: &Points, distance: f32, snap: bool, clock: &mut impl Clock, 
         fold.f32(enter);
         fold.f32(leave);
     }
-    let pose = Pose { rotation: [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]], translation: h };
+    let pose = Pose {
+        rotation: [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]],
+        translation: h,
+    };
     parameters(&known(first.moved(&pose), fold), fold);
     parameters(&known(pose.bound([a, b, c]), fold), fold);
     if snap {

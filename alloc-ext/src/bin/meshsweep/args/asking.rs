@@ -55,11 +55,12 @@ pub struct ClosestArgs {
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
     #[arg(long, value_name = "ABS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
     pub abs: f32,
-    /// tree, the box tree; or cover (hull does as well), the hull hierarchy's cover tree [default: tree if the blob has one]
+    /// tree, the box tree; or cover (hull does as well), the hull hierarchy's cover tree [default:
+    /// tree if the blob has one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<ClosestEngine>,
-    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh within [default: the finest of all, if
-    /// the blob knows distances by nothing else]
+    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
+    /// within [default: the finest of all, if the blob knows distances by nothing else]
     #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "engine")]
     pub tight: Option<u32>,
     #[command(flatten)]
@@ -80,12 +81,12 @@ pub struct WithinArgs {
     /// The distance, in the mesh's unit
     #[arg(short, long, value_name = "D", allow_negative_numbers = true, value_parser = tolerance)]
     pub distance: f32,
-    /// All triangles that are within the distance or may be, nearest first, one on a line, with the number of the query
-    /// (from 0) in front
+    /// All triangles that are within the distance or may be, nearest first, one on a line, with
+    /// the number of the query (from 0) in front
     #[arg(long)]
     pub all: bool,
-    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh within [default: the finest of all, if
-    /// the blob knows distances by nothing else]
+    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
+    /// within [default: the finest of all, if the blob knows distances by nothing else]
     #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "all")]
     pub tight: Option<u32>,
     #[command(flatten)]
@@ -121,7 +122,8 @@ pub struct FieldArgs {
     /// Samples along each axis: one number for all, or NX,NY,NZ
     #[arg(long, value_name = "SIZE", default_value = "64", allow_negative_numbers = true, value_parser = size)]
     pub size: Size,
-    /// How far the grid reaches beyond the mesh's box: a length, or a percentage of the box's longest edge
+    /// How far the grid reaches beyond the mesh's box: a length, or a percentage of the box's
+    /// longest edge
     #[arg(long, value_name = "MARGIN", default_value = "10%", allow_negative_numbers = true, value_parser = margin)]
     pub margin: Margin,
     /// Negative values inside, NaN where the side is not proved; the mesh must be closed
@@ -148,13 +150,14 @@ pub struct SegmentArgs {
     /// All hits, one on a line, with the number of the query (from 0) in front
     #[arg(long, conflicts_with = "steps")]
     pub all: bool,
-    /// Only hits of fronts or of backs, on the box tree; the front of a triangle is where its corners run counter-clockwise
-    /// [default: both]
+    /// Only hits of fronts or of backs, on the box tree; the front of a triangle is where its
+    /// corners run counter-clockwise [default: both]
     #[arg(long, value_enum)]
     pub facing: Option<FacingName>,
-    /// tree, the box tree; cover, the hull hierarchy's cover tree; or hull, the selectively refined hull, for first hits of
-    /// segments that start outside (others use the cover tree), without --all, --steps and --queue [default: tree if the
-    /// blob has one, else cover]
+    /// tree, the box tree; cover, the hull hierarchy's cover tree; or hull, the selectively
+    /// refined hull, for first hits of segments that start outside (others use the cover
+    /// tree), without --all, --steps and --queue [default: tree if the blob has one, else
+    /// cover]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<SegmentEngine>,
     #[command(flatten)]
@@ -198,10 +201,12 @@ pub struct OverlapArgs {
     pub first: PathBuf,
     /// Blob file of the mesh that is moved
     pub second: PathBuf,
-    /// Where the second mesh is: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was built]
+    /// Where the second mesh is: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was
+    /// built]
     #[arg(long, value_name = "POSE", num_args = 1.., allow_negative_numbers = true, value_parser = given::poses())]
     pub pose: Vec<Given<7>>,
-    /// The same as three rows of a matrix, each with its translation: m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z each, or files
+    /// The same as three rows of a matrix, each with its translation:
+    /// m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z each, or files
     #[arg(
         long,
         value_name = "MATRIX",
@@ -223,7 +228,11 @@ impl OverlapArgs {
     pub fn files(&self) -> Vec<&Path> {
         let poses = self.pose.iter().filter_map(Given::file);
         let matrices = self.matrix.iter().filter_map(Given::file);
-        [self.first.as_path(), self.second.as_path()].into_iter().chain(poses).chain(matrices).collect()
+        [self.first.as_path(), self.second.as_path()]
+            .into_iter()
+            .chain(poses)
+            .chain(matrices)
+            .collect()
     }
 }
 
@@ -234,7 +243,8 @@ pub struct CullArgs {
     /// Where the eye is: x,y,z
     #[arg(required_unless_present = "along", conflicts_with = "along", value_parser = point)]
     pub viewpoint: Option<[f32; 3]>,
-    /// Instead of a viewpoint the direction of parallel lines of sight, from the eye into the scene: x,y,z
+    /// Instead of a viewpoint the direction of parallel lines of sight, from the eye into the
+    /// scene: x,y,z
     #[arg(long, value_name = "DIRECTION", value_parser = direction)]
     pub along: Option<[f32; 3]>,
     /// CSV file to write instead of the standard output

@@ -18,13 +18,16 @@ pub struct TriboxArgs {
     /// How far planes may move outward so that small faces vanish, in the mesh's unit
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance, hide_default_value = true)]
     pub simplify: f32,
-    /// What splits make little of: volume, or area [default: volume if the mesh is closed, else area]
+    /// What splits make little of: volume, or area [default: volume if the mesh is closed, else
+    /// area]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub measure: Option<MeasureName>,
-    /// Planes that splits are chosen from: nine, some of each direction; thickest, the one that bisects the thickest slab
+    /// Planes that splits are chosen from: nine, some of each direction; thickest, the one that
+    /// bisects the thickest slab
     #[arg(long, value_enum, default_value_t = PlanesName::Nine, hide_possible_values = true)]
     pub planes: PlanesName,
-    /// Split a tribox only if that saves more than this part of its measure; negative: although the total grows [default: 0.0001]
+    /// Split a tribox only if that saves more than this part of its measure; negative: although
+    /// the total grows [default: 0.0001]
     #[arg(long, value_name = "RATIO", value_parser = gain, allow_hyphen_values = true)]
     pub least_gain: Option<f64>,
     /// Print one JSON object

@@ -35,23 +35,34 @@ pub struct BuildArgs {
     /// Faces of each tight hull, with --for tight [default: 200]
     #[arg(long, value_name = "FACES", value_delimiter = ',', allow_negative_numbers = true, value_parser = whole::<4, MAX_TIGHT>)]
     pub tight: Vec<u32>,
-    /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point is farther than this from the mesh, in its unit
+    /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point
+    /// is farther than this from the mesh, in its unit
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["tight", "nested"])]
     pub slack: Option<f64>,
-    /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most this void space, in percent of the mesh's volume
+    /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most
+    /// this void space, in percent of the mesh's volume
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["tight", "nested", "slack"])]
     pub void: Option<f64>,
-    /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther are inside [default: 0]
+    /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther
+    /// are inside [default: 0]
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length)]
     pub margin: Option<f64>,
     /// Each tight hull encloses all finer ones
     #[arg(long)]
     pub nested: bool,
-    /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default: 1]
+    /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default:
+    /// 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor)]
     pub effort: Option<f64>,
-    /// Questions to tight hulls: closest; segment, which no command asks, only the library [default: closest,segment]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "QUESTIONS", hide_possible_values = true)]
+    /// Questions to tight hulls: closest; segment, which no command asks, only the library
+    /// [default: closest,segment]
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "QUESTIONS",
+        hide_possible_values = true
+    )]
     pub tight_for: Vec<HullServes>,
     #[command(flatten)]
     pub collapse: CollapseArgs,
@@ -137,7 +148,8 @@ impl BuildArgs {
 /// Order and conditions of edge collapses.
 #[derive(Debug, Args)]
 pub struct CollapseArgs {
-    /// Order of the hull's collapses: lp, by the volume that each adds (tighter); span, by a cheaper estimate of it [default: lp]
+    /// Order of the hull's collapses: lp, by the volume that each adds (tighter); span, by a
+    /// cheaper estimate of it [default: lp]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub priority: Option<PriorityName>,
     /// Largest valence of a hull vertex [default: 12]
@@ -174,7 +186,8 @@ impl CollapseArgs {
 
     pub fn conditions(&self) -> Conditions {
         let default = Conditions::default();
-        // The library's cosine of 45° and this one may differ in the last bit, and the blob's bytes with them.
+        // The library's cosine of 45° and this one may differ in the last bit, and the blob's bytes
+        // with them.
         let cosine = |degrees: f64| {
             if degrees == 45.0 { default.min_normal_cosine } else { degrees.to_radians().cos() }
         };
@@ -246,7 +259,8 @@ pub struct HullArgs {
     /// Fewest faces found of which no point is farther than this from the mesh, in its unit
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["faces", "void", "progressive"])]
     pub slack: Option<f64>,
-    /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are inside [default: 0]
+    /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are
+    /// inside [default: 0]
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length, conflicts_with = "progressive")]
     pub margin: Option<f64>,
     /// One hull for each part of the mesh, all in one file
@@ -255,7 +269,8 @@ pub struct HullArgs {
     /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
-    /// Stop each hull after about so many seconds: with more faces than asked for, if they are not gone by then
+    /// Stop each hull after about so many seconds: with more faces than asked for, if they are not
+    /// gone by then
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
     /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so
@@ -284,8 +299,9 @@ pub struct HullArgs {
         ]
     )]
     pub tight: Option<u32>,
-    /// Bits of a coordinate of the hull of a mesh: auto, single precision, or with --progressive the fewest that hold the mesh exactly; 16 or 24, on a grid, to
-    /// which the mesh moves; 32, single precision
+    /// Bits of a coordinate of the hull of a mesh: auto, single precision, or with --progressive
+    /// the fewest that hold the mesh exactly; 16 or 24, on a grid, to which the mesh moves;
+    /// 32, single precision
     #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
     pub vertex_bits: StoredBits,
     #[command(flatten)]

@@ -6,7 +6,8 @@ pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is n
 pub const QUEUE: &str = "Stack or queue entries to search with [default: what the blob needs; on the cover tree no less than 4096]";
 
 /// Of `--steps` for segments.
-pub const STEPS: &str = "Stop a query after opening so many nodes, on the cover tree only (--engine cover)";
+pub const STEPS: &str =
+    "Stop a query after opening so many nodes, on the cover tree only (--engine cover)";
 
 /// Of `--queue` for pairs of nodes.
 pub const PAIRS: &str = "Stack entries to search with [default: 128, which are always enough]";

@@ -38,7 +38,8 @@ pub fn poses() -> impl TypedValueParser<Value = Given<7>> {
 
 /// Motions as three rows of a matrix, each with its coordinate's translation, or files of them.
 pub fn matrices() -> impl TypedValueParser<Value = Given<12>> {
-    OsStringValueParser::new().try_map(|text| given(text, "m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z"))
+    OsStringValueParser::new()
+        .try_map(|text| given(text, "m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z"))
 }
 
 /// Numbers alone are a query: a file of such a name has to be given with its directory.
@@ -60,7 +61,8 @@ fn are_numbers(text: &str) -> bool {
     text.contains(',') && text.split(',').all(|field| field.trim().parse::<f64>().is_ok())
 }
 
-/// An argument that may begin with a negative number, so that it is not taken for an option: numbers are read without the blank.
+/// An argument that may begin with a negative number, so that it is not taken for an option:
+/// numbers are read without the blank.
 pub fn shielded(argument: OsString) -> OsString {
     match argument.to_str() {
         Some(text) if text.starts_with('-') && are_numbers(text) => format!(" {text}").into(),
@@ -75,7 +77,11 @@ pub fn number(field: &str) -> Result<f32, &'static str> {
         return Err("is not finite; remove the query");
     }
     // From the text, not from the f64: rounding twice could miss the nearest.
-    field.parse::<f32>().ok().filter(|x| x.is_finite()).ok_or("is beyond f32 (3.4e38); choose a larger unit")
+    field
+        .parse::<f32>()
+        .ok()
+        .filter(|x| x.is_finite())
+        .ok_or("is beyond f32 (3.4e38); choose a larger unit")
 }
 
 #[cfg(test)]

@@ -12,10 +12,10 @@ pub enum Margin {
 }
 
 pub fn margin(text: &str) -> Result<Margin, String> {
-    let wanted =
-        "a length in the mesh's unit or a percentage of the box's longest edge is wanted, as 2.5 or 10%";
+    let wanted = "a length in the mesh's unit or a percentage of the box's longest edge is wanted, as 2.5 or 10%";
     let number = |digits: &str| {
-        let parsed = digits.trim().parse().ok().filter(|x: &f64| (0.0..=f64::from(f32::MAX)).contains(x));
+        let parsed =
+            digits.trim().parse().ok().filter(|x: &f64| (0.0..=f64::from(f32::MAX)).contains(x));
         parsed.ok_or_else(|| wanted.to_owned())
     };
     match text.strip_suffix('%') {
@@ -140,9 +140,15 @@ mod tests {
     fn counts_say_their_range() {
         assert_eq!(whole::<3, 255>("12"), Ok(12));
         for wrong in ["", "2", "256", "-3", "1.5"] {
-            assert_eq!(whole::<3, 255>(wrong).unwrap_err(), "a whole number from 3 to 255 is wanted");
+            assert_eq!(
+                whole::<3, 255>(wrong).unwrap_err(),
+                "a whole number from 3 to 255 is wanted"
+            );
         }
-        assert_eq!(whole::<4, { u32::MAX }>("-3").unwrap_err(), "a whole number is wanted, at least 4");
+        assert_eq!(
+            whole::<4, { u32::MAX }>("-3").unwrap_err(),
+            "a whole number is wanted, at least 4"
+        );
         assert!(threads("0").unwrap_err().contains("at least 1") && threads("2").is_ok());
     }
 
@@ -162,10 +168,16 @@ mod tests {
 
     #[test]
     fn lengths_are_finite_and_not_negative() {
-        assert_eq!((length("0"), length("2.5e-30"), length("1e39")), (Ok(0.0), Ok(2.5e-30), Ok(1e39)));
+        assert_eq!(
+            (length("0"), length("2.5e-30"), length("1e39")),
+            (Ok(0.0), Ok(2.5e-30), Ok(1e39))
+        );
         for wrong in ["", "-1", "-1e-300", "nan", "inf", "1e999", "2%"] {
             for error in [length(wrong).unwrap_err(), distance(wrong).unwrap_err()] {
-                assert!(error.contains("finite") && error.contains("the mesh's unit"), "{wrong}: {error}");
+                assert!(
+                    error.contains("finite") && error.contains("the mesh's unit"),
+                    "{wrong}: {error}"
+                );
             }
         }
         assert!(distance("0").is_err() && distance("1e-30") == Ok(1e-30));

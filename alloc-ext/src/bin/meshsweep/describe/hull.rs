@@ -31,7 +31,10 @@ pub fn distances(header: &Header, level: &Level) -> LevelDistances {
         let sum = (f64::from(local) + f64::from(header.surface_error)) * (1.0 + f64::EPSILON);
         up_to_f32(sum * exp2(header.scale_exponent))
     };
-    LevelDistances { cover_to_mesh: up(level.hull_to_surface), mesh_to_cover: up(level.surface_to_hull) }
+    LevelDistances {
+        cover_to_mesh: up(level.hull_to_surface),
+        mesh_to_cover: up(level.surface_to_hull),
+    }
 }
 
 /// Bytes of a queue with which no query overflows.
@@ -91,7 +94,10 @@ fn write_memory(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
 /// The level table.
 fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     writeln!(out, "  levels, with certified distances of their covering triangles")?;
-    writeln!(out, "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover")?;
+    writeln!(
+        out,
+        "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover"
+    )?;
     for (index, level) in model.levels().enumerate() {
         let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(model.header(), &level);
         writeln!(

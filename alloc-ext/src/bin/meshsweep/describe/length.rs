@@ -17,7 +17,8 @@ pub struct About<T>(pub T);
 /// A percentage: three decimals where they tell it, else few digits that are not below it.
 pub struct Percent<T>(pub T);
 
-/// Percentages that three decimals tell: smaller ones would read as nothing, larger ones be all digits.
+/// Percentages that three decimals tell: smaller ones would read as nothing, larger ones be all
+/// digits.
 const THREE_DECIMALS: std::ops::Range<f64> = 1e-3..1e6;
 
 /// A number that somebody gave: as many digits as it has.
@@ -67,7 +68,8 @@ fn is_everyday(x: f64) -> bool {
     x == 0.0 || !x.is_finite() || (1e-3..1e7).contains(&x.abs())
 }
 
-/// The decimal of few digits that is nearest to `x` among those that are `fine`: that next to it, or a neighbour.
+/// The decimal of few digits that is nearest to `x` among those that are `fine`: that next to it,
+/// or a neighbour.
 fn rounded(x: f64, fine: impl Fn(f64) -> bool) -> String {
     let nearest = format!("{x:.*e}", usize::from(DIGITS));
     let read = |text: &str| text.parse().unwrap_or(x);
@@ -102,13 +104,18 @@ mod tests {
         let mut x = 1e-40f64;
         while x < 1e40 {
             for x in [x, -x] {
-                let [up, down, near] = [AtMost(x).to_string(), AtLeast(x).to_string(), About(x).to_string()];
+                let [up, down, near] =
+                    [AtMost(x).to_string(), AtLeast(x).to_string(), About(x).to_string()];
                 let read = |text: &String| text.parse::<f64>().unwrap();
                 assert!(read(&up) >= x && read(&down) <= x, "{x:e}: {down} {up}");
                 for text in [&up, &down, &near] {
                     assert!((read(text) - x).abs() <= 1.01e-5 * x.abs(), "{x:e}: {text}");
-                    let digits = text.split('e').next().unwrap().trim_matches(['-', '0']).replace('.', "");
-                    assert!(digits.trim_start_matches('0').len() <= 1 + usize::from(DIGITS), "{x:e}: {text}");
+                    let digits =
+                        text.split('e').next().unwrap().trim_matches(['-', '0']).replace('.', "");
+                    assert!(
+                        digits.trim_start_matches('0').len() <= 1 + usize::from(DIGITS),
+                        "{x:e}: {text}"
+                    );
                 }
             }
             x *= 1.037;
@@ -124,7 +131,10 @@ mod tests {
         assert_eq!(AtMost(999_999.2).to_string(), "1000000");
         assert_eq!(AtLeast(1_000_000.7).to_string(), "1000000");
         assert_eq!(AtMost(9.999_999e-8).to_string(), "1e-7");
-        assert_eq!((About(0.0).to_string(), AtMost(2.5f32).to_string()), ("0".into(), "2.5".into()));
+        assert_eq!(
+            (About(0.0).to_string(), AtMost(2.5f32).to_string()),
+            ("0".into(), "2.5".into())
+        );
         assert_eq!(About(1.234_567_8e9).to_string(), "1.23457e9");
         assert_eq!(
             (Given(0.000_123_456_789).to_string(), Given(0.1).to_string()),

@@ -18,7 +18,8 @@ fn bytes(hull: &TightHull<'_>) -> usize {
     hull.bytes().len() + 2 * hull.record().faces as usize
 }
 
-/// Volume beyond that of the mesh as a part of it, if the mesh bounds one: a hull that encloses it leaves some.
+/// Volume beyond that of the mesh as a part of it, if the mesh bounds one: a hull that encloses it
+/// leaves some.
 pub fn void(record: &TightRecord) -> Option<f32> {
     (record.void_ratio != 0.0).then_some(record.void_ratio)
 }
@@ -37,7 +38,8 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     )?;
     for hull in all(hulls) {
         let record = hull.record();
-        let void = void(record).map_or("-".to_owned(), |void| Percent(f64::from(void) * 100.0).to_string());
+        let void = void(record)
+            .map_or("-".to_owned(), |void| Percent(f64::from(void) * 100.0).to_string());
         writeln!(
             out,
             "  {:>8} {void:>9} {:>9} {:>12}  {:<11}  {:>21}  {:>21}",

@@ -19,14 +19,16 @@ pub fn tree_surface_error(tree: &Tree<'_>) -> f32 {
     up_to_f32(f64::from(tree.header().surface_error) * exp2(tree.scale_exponent()))
 }
 
-/// About what an exact answer's half-width is, in the mesh's unit: next to the surface, and one diagonal of the mesh away
-/// (`core/docs/rounding.md` §8). Wider where slivers are near.
+/// About what an exact answer's half-width is, in the mesh's unit: next to the surface, and one
+/// diagonal of the mesh away (`core/docs/rounding.md` §8). Wider where slivers are near.
 pub fn half_widths(tree: &Tree<'_>, diagonal: f64) -> [f64; 2] {
     let h = tree.header();
     let unit = exp2(h.grid_exponent + tree.scale_exponent());
     let u = f64::from(U32);
-    let near = f64::from(tree_surface_error(tree)) + f64::from(TREE_FAN) * u * f64::from(h.reach) * unit;
-    // What is not weak is certified to that part of the square: a half of it of the distance, a quarter at either end.
+    let near =
+        f64::from(tree_surface_error(tree)) + f64::from(TREE_FAN) * u * f64::from(h.reach) * unit;
+    // What is not weak is certified to that part of the square: a half of it of the distance, a
+    // quarter at either end.
     let relative = f64::from(TREE_RELATIVE) * u + (1.0 - f64::from(TREE_WEAK)) / 4.0;
     [near, near + relative * diagonal]
 }

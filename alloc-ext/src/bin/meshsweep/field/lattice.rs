@@ -2,7 +2,8 @@
 
 use crate::args::Margin;
 
-/// Samples at `origin + index · step`, the first and last of each axis on the faces of the enlarged box.
+/// Samples at `origin + index · step`, the first and last of each axis on the faces of the enlarged
+/// box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {
     pub size: [usize; 3],
@@ -11,7 +12,8 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Around a box in the mesh's unit. An axis of one sample has it in the middle. `None` if it leaves f32's range.
+    /// Around a box in the mesh's unit. An axis of one sample has it in the middle. `None` if it
+    /// leaves f32's range.
     pub fn around([low, high]: [[f64; 3]; 2], size: [usize; 3], margin: Margin) -> Option<Lattice> {
         let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
         let margin = match margin {
@@ -19,9 +21,13 @@ impl Lattice {
             Margin::Part(part) => part * longest,
         };
         let extent = |k: usize| high[k] - low[k] + 2.0 * margin;
-        let step = core::array::from_fn(|k| if size[k] > 1 { extent(k) / (size[k] - 1) as f64 } else { 0.0 });
-        let origin =
-            core::array::from_fn(|k| if size[k] > 1 { low[k] - margin } else { (low[k] + high[k]) / 2.0 });
+        let step =
+            core::array::from_fn(
+                |k| if size[k] > 1 { extent(k) / (size[k] - 1) as f64 } else { 0.0 },
+            );
+        let origin = core::array::from_fn(|k| {
+            if size[k] > 1 { low[k] - margin } else { (low[k] + high[k]) / 2.0 }
+        });
         let lattice = Lattice { size, origin, step };
         let last = lattice.point(size.map(|count| count - 1));
         lattice.point([0; 3]).iter().chain(&last).all(|x| x.is_finite()).then_some(lattice)
@@ -51,7 +57,10 @@ mod tests {
     fn one_sample_is_in_the_middle_and_a_grid_beyond_f32_is_none() {
         let lattice = Lattice::around(BOX, [1; 3], Margin::Length(3.0)).unwrap();
         assert_eq!(lattice.point([0; 3]), [5.0, 2.5, 0.0]);
-        assert_eq!(Lattice::around(BOX, [2; 3], Margin::Length(3.4e38)).map(|l| l.size), Some([2; 3]));
+        assert_eq!(
+            Lattice::around(BOX, [2; 3], Margin::Length(3.4e38)).map(|l| l.size),
+            Some([2; 3])
+        );
         assert_eq!(Lattice::around([[0.0; 3], [3.4e38; 3]], [2; 3], Margin::Part(0.5)), None);
     }
 }

@@ -7,7 +7,8 @@ const ALIGNMENT: usize = 64;
 pub fn header(shape: &[usize]) -> Vec<u8> {
     // A tuple of one element has a comma too.
     let shape: String = shape.iter().map(|n| format!("{n}, ")).collect();
-    let mut text = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", shape.trim_end());
+    let mut text =
+        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", shape.trim_end());
     let before = 10;
     let whole = (before + text.len() + 1).next_multiple_of(ALIGNMENT);
     text.extend(std::iter::repeat_n(' ', whole - before - text.len() - 1));

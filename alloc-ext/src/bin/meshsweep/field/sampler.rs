@@ -11,7 +11,8 @@ use std::fmt;
 use std::io::{self, Write};
 use std::sync::Mutex;
 
-/// Samples that are computed before they are written: a bound of the memory, and enough for every thread.
+/// Samples that are computed before they are written: a bound of the memory, and enough for every
+/// thread.
 const AT_ONCE: usize = 1 << 22;
 
 /// The value of a sample without a sign: these bits on every machine.
@@ -34,7 +35,8 @@ impl NoSign {
 
 impl fmt::Display for NoSign {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let counts: Vec<String> = self.0.iter().map(|(reason, count)| format!("{count} {reason}")).collect();
+        let counts: Vec<String> =
+            self.0.iter().map(|(reason, count)| format!("{count} {reason}")).collect();
         f.write_str(&counts.join(", "))
     }
 }
@@ -63,7 +65,8 @@ impl Sampler<'_> {
         for first in (0..ny * nz).step_by(rows_at_once) {
             let rows = rows_at_once.min(ny * nz - first);
             let part = &mut values[..rows * row_values];
-            no_sign = no_sign.add(&self.sample(first, part, threads, bar).map_err(io::Error::other)?);
+            no_sign =
+                no_sign.add(&self.sample(first, part, threads, bar).map_err(io::Error::other)?);
             for value in part.iter() {
                 out.write_all(&value.to_le_bytes())?;
             }
@@ -71,7 +74,8 @@ impl Sampler<'_> {
         Ok(no_sign)
     }
 
-    /// Computes the rows from `first` on. Threads take rows as they get done; a row's values do not depend on which thread takes it.
+    /// Computes the rows from `first` on. Threads take rows as they get done; a row's values do not
+    /// depend on which thread takes it.
     fn sample(
         &self,
         first: usize,
@@ -96,8 +100,9 @@ impl Sampler<'_> {
         std::thread::scope(|scope| {
             let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
             let mine = work();
-            let join =
-                |other: std::thread::ScopedJoinHandle<'_, _>| other.join().unwrap_or(Err(QueryError::Model));
+            let join = |other: std::thread::ScopedJoinHandle<'_, _>| {
+                other.join().unwrap_or(Err(QueryError::Model))
+            };
             others.into_iter().map(join).fold(mine, |all, other| Ok(all?.add(&other?)))
         })
     }
@@ -137,7 +142,8 @@ impl Sampler<'_> {
     ) -> Result<([f32; 2], Option<&'static str>), QueryError> {
         if self.signed {
             let answer = signed_distance(self.tree, point, &Stop::EXACT, stack)?;
-            let reason = (answer.side == Side::Undefined).then(|| signed::reason(self.tree, &answer));
+            let reason =
+                (answer.side == Side::Undefined).then(|| signed::reason(self.tree, &answer));
             return Ok(([answer.lower, answer.upper], reason));
         }
         let answer = closest_point_from(self.tree, point, &Stop::EXACT, stack, hint)?;

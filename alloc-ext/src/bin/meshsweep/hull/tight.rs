@@ -32,8 +32,11 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     };
     let (loaded, left_out) = load_all(&args.input, options.vertex_bits)?;
     options.margin = widened(options.margin, &loaded);
-    let meshes =
-        if args.parts { share(parts(&loaded.mesh), &left_out) } else { vec![(loaded.mesh, left_out)] };
+    let meshes = if args.parts {
+        share(parts(&loaded.mesh), &left_out)
+    } else {
+        vec![(loaded.mesh, left_out)]
+    };
     let mut hulls = Vec::new();
     for (mesh, further) in &meshes {
         let mut bars = WrapBars::default();
@@ -48,7 +51,11 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
             writeln!(out, "{}\n  {}", args.input.display(), loaded.report)?;
         }
         if loaded.moved > 0.0 {
-            writeln!(out, "vertices of the mesh moved to the grid by up to {}", AtMost(loaded.moved))?;
+            writeln!(
+                out,
+                "vertices of the mesh moved to the grid by up to {}",
+                AtMost(loaded.moved)
+            )?;
         }
         match &hulls[..] {
             [hull] => {
@@ -58,7 +65,12 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
             _ => {
                 let faces: usize = hulls.iter().map(|hull| hull.report.faces).sum();
                 let count = Counted(hulls.len(), "hull");
-                writeln!(out, "{}: {count}, {} in all", args.output.display(), Counted(faces, "face"))?;
+                writeln!(
+                    out,
+                    "{}: {count}, {} in all",
+                    args.output.display(),
+                    Counted(faces, "face")
+                )?;
                 for (index, hull) in hulls.iter().enumerate() {
                     write!(out, "  part {index}: ")?;
                     describe(out, &hull.report, goal, args.margin, "part")?;
@@ -75,7 +87,8 @@ pub fn widened(margin: f64, loaded: &Loaded) -> f64 {
     if margin > 0.0 { margin + moved } else { margin }
 }
 
-/// `margin` is the one that was typed: the hull keeps what rounding may take from it besides. `of` says what the hull is of.
+/// `margin` is the one that was typed: the hull keeps what rounding may take from it besides. `of`
+/// says what the hull is of.
 fn describe(
     out: &mut dyn Write,
     report: &Report,
@@ -107,9 +120,14 @@ fn describe(
         ),
         (Stop::Stuck, _) => writeln!(out, "  stopped where no edge may collapse any more"),
         // It came within the goal by what was mended last, or it is not written.
-        (Stop::TooLoose, _) => writeln!(out, "  fewer faces were not tried: this is as tight as it gets"),
+        (Stop::TooLoose, _) => {
+            writeln!(out, "  fewer faces were not tried: this is as tight as it gets")
+        }
         (Stop::OutOfTime, Goal::Faces(faces)) if report.faces > faces => {
-            writeln!(out, "  stopped by --seconds before {faces} faces: with more time the hull has fewer")
+            writeln!(
+                out,
+                "  stopped by --seconds before {faces} faces: with more time the hull has fewer"
+            )
         }
         (Stop::OutOfTime, Goal::Faces(_)) => {
             writeln!(out, "  stopped by --seconds: with more time the hull is tighter")
@@ -127,7 +145,8 @@ pub fn write_margin(out: &mut dyn Write, margin: Option<f64>, of: &str) -> io::R
     })
 }
 
-/// What a hull's void is measured against where that is not sure, what it was made from, if not from the mesh's progressive hull, and what it filled.
+/// What a hull's void is measured against where that is not sure, what it was made from, if not
+/// from the mesh's progressive hull, and what it filled.
 pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.crosses {
         writeln!(
@@ -146,7 +165,11 @@ pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(out, "  the hull began as the mesh's box")?;
     }
     if report.filled > 0 {
-        writeln!(out, "  {} filled: a cavity, or a part inside another", Counted(report.filled, "shell"))?;
+        writeln!(
+            out,
+            "  {} filled: a cavity, or a part inside another",
+            Counted(report.filled, "shell")
+        )?;
     }
     Ok(())
 }

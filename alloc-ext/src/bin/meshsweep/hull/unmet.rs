@@ -79,7 +79,11 @@ impl fmt::Display for Unmet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let &Unmet { bound, faces, is_late, by_faces, part } = self;
         part.map_or(Ok(()), |part| write!(f, "part {part}: "))?;
-        f.write_str(if is_late { "the time was up before a hull" } else { "no hull that was tried" })?;
+        f.write_str(if is_late {
+            "the time was up before a hull"
+        } else {
+            "no hull that was tried"
+        })?;
         let option = match bound {
             Bound::Slack { asked, found } => {
                 let (asked, found) = (Given(asked), AtMost(found));

@@ -1,7 +1,8 @@
 //! Casts segments, by whichever engine, and says of each what is known.
 //!
-//! `unknown` means one thing of a first hit, whatever the reason: the segment is proved clear before `t`, and no more is known for
-//! certain. Of all hits, it is a place where the stored surface is met and the mesh's may be.
+//! `unknown` means one thing of a first hit, whatever the reason: the segment is proved clear
+//! before `t`, and no more is known for certain. Of all hits, it is a place where the stored
+//! surface is met and the mesh's may be.
 
 use crate::args::SearchArgs;
 use meshsweep_core::query::tree::{self, Facing, TreeEntry};
@@ -93,10 +94,12 @@ impl<'a> Caster<'a> {
         let answer = match &mut self.engine {
             Engine::Tree { tree, facing, stack } => tree::first_hit(tree, a, b, facing, stack)?,
             Engine::Cover { model, queue } => first_hit(model, a, b, &self.stop, queue)?,
-            Engine::Hull { model, queue, front } => match on_hull(model, a, b, front, &mut self.hits)? {
-                Some(answer) => answer,
-                None => first_hit(model, a, b, &self.stop, queue)?,
-            },
+            Engine::Hull { model, queue, front } => {
+                match on_hull(model, a, b, front, &mut self.hits)? {
+                    Some(answer) => answer,
+                    None => first_hit(model, a, b, &self.stop, queue)?,
+                }
+            }
         };
         let verdict = match answer.hit {
             _ if answer.is_clear() => Verdict::Clear,
@@ -145,7 +148,9 @@ impl<'a> Caster<'a> {
     fn collect(&mut self, segment: [f32; 6]) -> Result<AllHits, QueryError> {
         let [a, b] = ends(segment);
         match &mut self.engine {
-            Engine::Tree { tree, facing, stack } => tree::all_hits(tree, a, b, facing, &mut self.hits, stack),
+            Engine::Tree { tree, facing, stack } => {
+                tree::all_hits(tree, a, b, facing, &mut self.hits, stack)
+            }
             Engine::Cover { model, queue } | Engine::Hull { model, queue, .. } => {
                 all_hits(model, a, b, queue, &mut self.hits)
             }

@@ -1,6 +1,8 @@
-//! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet leaves.
+//! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet
+//! leaves.
 //!
-//! A pair of nodes is settled at once for all pairs of their children, as 64 bits: that is all that has to wait, so memory is 16 bytes for each level.
+//! A pair of nodes is settled at once for all pairs of their children, as 64 bits: that is all that
+//! has to wait, so memory is 16 bytes for each level.
 
 use super::PairEntry;
 use super::leaves::LeafPair;
@@ -81,11 +83,16 @@ pub(super) fn descend(
                 return Ok((missed, work));
             };
             let child = |tree: &Tree<'_>, which: usize| tree.child(parents[which], lanes[which]);
-            let children = [child(a, 0).ok_or(QueryError::Model)?, child(b, 1).ok_or(QueryError::Model)?];
+            let children =
+                [child(a, 0).ok_or(QueryError::Model)?, child(b, 1).ok_or(QueryError::Model)?];
             let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Model)?;
             if opens_a || opens_b {
                 let down = |opens: bool, which: usize| {
-                    if opens { (children[which].at, u32::MAX) } else { (parents[which], 1 << lanes[which]) }
+                    if opens {
+                        (children[which].at, u32::MAX)
+                    } else {
+                        (parents[which], 1 << lanes[which])
+                    }
                 };
                 let ((first, rows), (second, columns)) = (down(opens_a, 0), down(opens_b, 1));
                 nodes = [first, second];
@@ -125,7 +132,12 @@ fn without([low, high]: [u32; 2], [i, j]: [u32; 2]) -> [u32; 2] {
 
 /// Which of two children to open: both, unless one is a leaf or much the smaller.
 #[inline(always)]
-fn opened(a: &Tree<'_>, b: &Tree<'_>, children: &[TreeChild; 2], units: [f32; 2]) -> Option<[bool; 2]> {
+fn opened(
+    a: &Tree<'_>,
+    b: &Tree<'_>,
+    children: &[TreeChild; 2],
+    units: [f32; 2],
+) -> Option<[bool; 2]> {
     let [first, second] = children;
     Some(match (first.is_leaf(), second.is_leaf()) {
         (false, false) => {

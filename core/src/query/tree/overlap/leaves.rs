@@ -1,4 +1,5 @@
-//! Two leaves: which of their triangles may meet, then each such pair, in f32, and where that leaves it open in f64.
+//! Two leaves: which of their triangles may meet, then each such pair, in f32, and where that
+//! leaves it open in f64.
 
 use super::placement::Placement;
 use crate::blob::Patch;
@@ -8,13 +9,15 @@ use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triang
 use crate::query::Work;
 use crate::tree::WIDE;
 
-/// Places for a patch's vertices: two centres and the ring, and some to spare so that eight are read at shift 1.
+/// Places for a patch's vertices: two centres and the ring, and some to spare so that eight are
+/// read at shift 1.
 pub(super) const SLOTS: usize = 12;
 
 /// Slot of the first ring vertex.
 const RING: usize = 2;
 
-/// Vertices of a leaf: both centres, alike if there is one fan, then the ring, then the first centre again.
+/// Vertices of a leaf: both centres, alike if there is one fan, then the ring, then the first
+/// centre again.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corners {
     at: [[f32; SLOTS]; 3],
@@ -78,12 +81,14 @@ struct Facets {
 }
 
 impl Facets {
-    /// Of the triangles `wanted`; others may mean nothing. `far` is the largest 1-norm of a vertex of either leaf, `shift` what a difference of two may be off by.
+    /// Of the triangles `wanted`; others may mean nothing. `far` is the largest 1-norm of a vertex
+    /// of either leaf, `shift` what a difference of two may be off by.
     #[inline(always)]
     fn of(corners: &Corners, wanted: u32, far: f32, shift: f32) -> Option<Facets> {
         let first = LANES_BELOW.get(corners.turn)?;
         let [x, y, z] = &corners.at;
-        let mut facets = Facets { normal: [[0.0; WIDTH]; 3], height: [0.0; WIDTH], margin: [0.0; WIDTH] };
+        let mut facets =
+            Facets { normal: [[0.0; WIDTH]; 3], height: [0.0; WIDTH], margin: [0.0; WIDTH] };
         for i in 0..WIDTH {
             if !WIDE && wanted >> i & 1 == 0 {
                 continue;
@@ -102,7 +107,8 @@ impl Facets {
         Some(facets)
     }
 
-    /// On which sides of these planes, those `wanted`, the other leaf's vertices certainly lie; nothing of other planes.
+    /// On which sides of these planes, those `wanted`, the other leaf's vertices certainly lie;
+    /// nothing of other planes.
     #[inline(always)]
     fn sides(&self, wanted: u32, other: &Corners) -> Sides {
         let [nx, ny, nz] = &self.normal;
@@ -136,7 +142,8 @@ impl Facets {
     }
 }
 
-/// For each vertex of a leaf the planes of the other one's triangles that it is above of, and those that it is below.
+/// For each vertex of a leaf the planes of the other one's triangles that it is above of, and those
+/// that it is below.
 struct Sides {
     above: [u32; SLOTS],
     below: [u32; SLOTS],
@@ -204,7 +211,8 @@ impl Extent {
         axes.into_iter().any(|((from, to), (low, high))| greater(low - to, from - high) > doubt)
     }
 
-    /// Which of the first `count` boxes, of those `wanted`, are not farther than `doubt` along any axis.
+    /// Which of the first `count` boxes, of those `wanted`, are not farther than `doubt` along any
+    /// axis.
     #[inline(always)]
     fn near(&self, boxes: &Boxes, count: usize, wanted: u32, doubt: f32) -> u32 {
         let mut bits = wanted & u32::MAX >> (32 - count.clamp(1, WIDTH));
@@ -282,7 +290,8 @@ impl<'a> LeafPair<'a> {
         LeafPair { place, patches: [*a, *b], a: first, b: second, sides: [none(), none()] }
     }
 
-    /// Pairs that neither a coordinate nor the plane of a triangle parts: for each triangle of the first leaf the other's.
+    /// Pairs that neither a coordinate nor the plane of a triangle parts: for each triangle of the
+    /// first leaf the other's.
     #[inline(always)]
     pub(super) fn candidates(&mut self) -> Option<[u32; WIDTH]> {
         let near = self.side_by_side()?;
@@ -316,7 +325,8 @@ impl<'a> LeafPair<'a> {
     /// Pairs whose boxes along the axes meet.
     #[inline(always)]
     fn side_by_side(&self) -> Option<[u32; WIDTH]> {
-        // As each vertex may be off; differences are compared, not sums, so that no rounding comes in but their own, which is less than the excess of `doubt`.
+        // As each vertex may be off; differences are compared, not sums, so that no rounding comes
+        // in but their own, which is less than the excess of `doubt`.
         let doubt = self.place.doubt + self.place.doubt;
         let (whole, other) = (self.a.extent(), self.b.extent());
         let mut near = [0u32; WIDTH];
@@ -344,7 +354,8 @@ impl<'a> LeafPair<'a> {
         let a = self.a.slots(i).map(|slot| self.a.corner(slot));
         let b = self.b.slots(j).map(|slot| self.b.corner(slot));
         let [to_second, to_first] = &self.sides;
-        let (a_sides, b_sides) = (to_second.of(self.a.slots(i), j), to_first.of(self.b.slots(j), i));
+        let (a_sides, b_sides) =
+            (to_second.of(self.a.slots(i), j), to_first.of(self.b.slots(j), i));
         let doubt = self.place.doubt;
         let contact = if a_sides.iter().chain(&b_sides).all(|&side| side != 0) {
             straddling_triangles_meet(a, b, [a_sides, b_sides], doubt + doubt)

@@ -30,7 +30,8 @@ impl PairEntry {
     /// Any value, for filling arrays.
     pub const EMPTY: PairEntry = PairEntry { nodes: [0; 2], left: [0; 2] };
 
-    /// Entries with which no question can overflow: every entry is deeper in one of the trees, and none of these has more than 64 levels.
+    /// Entries with which no question can overflow: every entry is deeper in one of the trees, and
+    /// none of these has more than 64 levels.
     pub const ENOUGH: usize = 128;
 }
 
@@ -39,12 +40,15 @@ impl PairEntry {
 pub struct Overlap {
     /// The answer, about the input meshes.
     pub contact: Contact,
-    /// With [`Contact::Meets`] two triangles that do, the first mesh's first; with [`Contact::Open`] and [`Ended::Level`] two of which it is open. Numbers in the input files.
+    /// With [`Contact::Meets`] two triangles that do, the first mesh's first; with
+    /// [`Contact::Open`] and [`Ended::Level`] two of which it is open. Numbers in the input files.
     pub triangles: Option<[u32; 2]>,
-    /// What it cost: pairs of boxes as `nodes`, of triangles as `triangles` (in f32) and `exact` (in f64), of nodes opened as `splits`.
+    /// What it cost: pairs of boxes as `nodes`, of triangles as `triangles` (in f32) and `exact`
+    /// (in f64), of nodes opened as `splits`.
     pub work: Work,
-    /// [`Ended::Exact`] with `Apart` and `Meets`. With `Open`: [`Ended::Level`] if surfaces come too near to each other for what is stored,
-    /// [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut short.
+    /// [`Ended::Exact`] with `Apart` and `Meets`. With `Open`: [`Ended::Level`] if surfaces come
+    /// too near to each other for what is stored, [`Ended::Steps`] or [`Ended::Capacity`] if
+    /// the search was cut short.
     pub ended: Ended,
 }
 
@@ -76,17 +80,23 @@ pub struct Overlaps {
     pub ended: Ended,
 }
 
-/// Whether the surface of `b`, moved by `pose` from its frame to that of `a` (both in input units), meets the surface of `a`.
+/// Whether the surface of `b`, moved by `pose` from its frame to that of `a` (both in input units),
+/// meets the surface of `a`.
 ///
-/// Never a wrong "apart", and never a wrong "meets": both are proved of the input meshes as they were after repair, whatever grids did to vertices, with the numbers of the pose
-/// taken as they are, in real arithmetic. Surfaces that touch without passing through each other are [`Contact::Open`], and so are such as come within
-/// rounding and the blobs' surface errors of it. Surfaces alone count: of closed meshes one may lie inside the other, which
-/// [`signed_distance`](super::signed_distance) of a vertex tells. Triangles without area are never proved to meet anything.
+/// Never a wrong "apart", and never a wrong "meets": both are proved of the input meshes as they
+/// were after repair, whatever grids did to vertices, with the numbers of the pose taken as they
+/// are, in real arithmetic. Surfaces that touch without passing through each other are
+/// [`Contact::Open`], and so are such as come within rounding and the blobs' surface errors of it.
+/// Surfaces alone count: of closed meshes one may lie inside the other, which
+/// [`signed_distance`](super::signed_distance) of a vertex tells. Triangles without area are never
+/// proved to meet anything.
 ///
-/// It ends at the first pair that is proved to meet; which one that is does not depend on the target. At most `steps` pairs of nodes are opened.
-/// [`PairEntry::ENOUGH`] entries are always enough; a shorter `stack` may turn an answer into `Open`, never into a wrong one.
+/// It ends at the first pair that is proved to meet; which one that is does not depend on the
+/// target. At most `steps` pairs of nodes are opened. [`PairEntry::ENOUGH`] entries are always
+/// enough; a shorter `stack` may turn an answer into `Open`, never into a wrong one.
 ///
-/// Cost: what lies near the other surface; on scanned parts some dozens of pairs of nodes (`cargo xtask measure --overlap`).
+/// Cost: what lies near the other surface; on scanned parts some dozens of pairs of nodes (`cargo
+/// xtask measure --overlap`).
 ///
 /// ```
 /// use meshsweep_core::{Tree, tribox::Pose, query::tree::{Contact, PairEntry, overlap}};
@@ -104,7 +114,8 @@ pub struct Overlaps {
 /// ```
 ///
 /// # Errors
-/// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid units;
+/// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond
+/// 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid units;
 /// [`QueryError::NotServed`] unless both have boxes for segments; [`QueryError::NoQueue`].
 pub fn overlap(
     a: &Tree<'_>,
@@ -121,14 +132,17 @@ pub fn overlap(
         (None, None, Some(place)) => (Contact::Open, Some(place), Ended::Level),
         (None, None, None) => (Contact::Apart, None, Ended::Exact),
     };
-    let triangles = place.map(|place| numbers(a, b, &place).ok_or(QueryError::Model)).transpose()?;
+    let triangles =
+        place.map(|place| numbers(a, b, &place).ok_or(QueryError::Model)).transpose()?;
     Ok(Overlap { contact, triangles, work, ended })
 }
 
-/// All pairs of triangles of `a` and of `b`, moved by `pose`, that meet or that cannot be told to be apart, into `pairs`.
+/// All pairs of triangles of `a` and of `b`, moved by `pose`, that meet or that cannot be told to
+/// be apart, into `pairs`.
 ///
-/// What [`overlap`] says of its arguments, errors and degenerate cases holds here. Every pair is found once; the order is that of the
-/// search and the same on every target. Cost: what lies along the curves where the surfaces meet.
+/// What [`overlap`] says of its arguments, errors and degenerate cases holds here. Every pair is
+/// found once; the order is that of the search and the same on every target. Cost: what lies along
+/// the curves where the surfaces meet.
 ///
 /// # Errors
 /// Those of [`overlap`].

@@ -1,7 +1,8 @@
 //! Two trees in one frame: how the second one lies to the first.
 //!
-//! Lengths are in *common units*: the larger one's grid units, so that nothing grows when numbers are brought there. The frame is the first one's, its
-//! origin that of the first one's grid, so that a mesh far from its own origin costs no precision. See `core/docs/rounding.md` §11.
+//! Lengths are in *common units*: the larger one's grid units, so that nothing grows when numbers
+//! are brought there. The frame is the first one's, its origin that of the first one's grid, so
+//! that a mesh far from its own origin costs no precision. See `core/docs/rounding.md` §11.
 
 use crate::blob::Tree;
 use crate::num::exp2;
@@ -12,26 +13,33 @@ use crate::tribox::Pose;
 /// Directions along which boxes are compared: the axes of both trees' boxes.
 pub(super) const DIRECTIONS: usize = 6;
 
-/// Rounding of a box's interval, in units of [`U32`] times what both trees reach along the direction. Proved: 76 (§11).
+/// Rounding of a box's interval, in units of [`U32`] times what both trees reach along the
+/// direction. Proved: 76 (§11).
 const INTERVAL: f64 = 96.0;
 
-/// Rounding of a moved vertex, the 2-norm, in units of the roundoff times the longest way along an axis. Proved: 8.7 in f32, 19.1 in f64 (§11).
+/// Rounding of a moved vertex, the 2-norm, in units of the roundoff times the longest way along an
+/// axis. Proved: 8.7 in f32, 19.1 in f64 (§11).
 const VERTEX: f64 = 20.0;
 
-/// Largest ratio of the trees' grid units, 2^40: then the smaller model is a point for all that the larger one can tell.
+/// Largest ratio of the trees' grid units, 2^40: then the smaller model is a point for all that the
+/// larger one can tell.
 const RATIO: i32 = 40;
 
-/// Longest way along an axis in common units, surface errors with it: 2^30. Products of four such lengths, and sums of some of them, stay in f32's range. Trees are within
-/// 2^25 of their origins, so only an absurd surface error gets there.
+/// Longest way along an axis in common units, surface errors with it: 2^30. Products of four such
+/// lengths, and sums of some of them, stay in f32's range. Trees are within 2^25 of their origins,
+/// so only an absurd surface error gets there.
 const FARTHEST: f64 = (1u64 << 30) as f64;
 
-/// More than what underflow takes from an interval's ends, whatever the direction: terms lose 2^-150 each, which are multiplied by less than 2^30 (§11). A direction as short as that parts nothing.
+/// More than what underflow takes from an interval's ends, whatever the direction: terms lose
+/// 2^-150 each, which are multiplied by less than 2^30 (§11). A direction as short as that parts
+/// nothing.
 const UNDERFLOW: f64 = 1.0 / (1u128 << 100) as f64;
 
 /// A tree as the directions see it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
-    /// A place `q` of this tree, in its grid units from `origin`, is at `rows[d]·q + shift[d]` along direction d.
+    /// A place `q` of this tree, in its grid units from `origin`, is at `rows[d]·q + shift[d]`
+    /// along direction d.
     pub(super) rows: [[f32; 3]; DIRECTIONS],
     pub(super) shift: [f32; DIRECTIONS],
     /// Origin of the tree's grid.
@@ -60,7 +68,8 @@ fn origin(tree: &Tree<'_>) -> [f64; 3] {
     if tree.header().is_single() { [0.0; 3] } else { tree.header().grid_origin.map(f64::from) }
 }
 
-/// How far a tree's box reaches from its origin along each axis, grid units, and one more for boxes without extent.
+/// How far a tree's box reaches from its origin along each axis, grid units, and one more for boxes
+/// without extent.
 fn reach(tree: &Tree<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (low, high) = (tree.scale().low, tree.scale().high);
     let along = |low: f32, high: f32, origin: f64| {
@@ -85,7 +94,11 @@ fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
 
 impl Placement {
     /// `None`: the trees are so far from each other that nothing has to be looked at.
-    pub(super) fn new(a: &Tree<'_>, b: &Tree<'_>, pose: &Pose) -> Result<Option<Placement>, QueryError> {
+    pub(super) fn new(
+        a: &Tree<'_>,
+        b: &Tree<'_>,
+        pose: &Pose,
+    ) -> Result<Option<Placement>, QueryError> {
         let entries = || pose.rotation.iter().flatten();
         if !entries().chain(&pose.translation).all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
@@ -93,7 +106,8 @@ impl Placement {
         if entries().any(|x| x.abs() > 2.0) {
             return Err(QueryError::PoseOutOfDomain);
         }
-        let exponent = |tree: &Tree<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
+        let exponent =
+            |tree: &Tree<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
         let (ea, eb) = (exponent(a), exponent(b));
         let common = if ea > eb { ea } else { eb };
         if ea - eb > RATIO || eb - ea > RATIO {
@@ -113,7 +127,8 @@ impl Placement {
             (dot(r1, from) * unit_b - p1 * unit_a) + t1,
             (dot(r2, from) * unit_b - p2 * unit_a) + t2,
         ];
-        let (reach_a, reach_b) = (reach(a, into).map(|x| x * unit_a), reach(b, from).map(|x| x * unit_b));
+        let (reach_a, reach_b) =
+            (reach(a, into).map(|x| x * unit_a), reach(b, from).map(|x| x * unit_b));
         let error_a = f64::from(a.scale().surface_error) * unit_a;
         let error_b = f64::from(b.scale().surface_error) * (unit_b * stretch(&rotation));
         let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
@@ -142,7 +157,8 @@ impl Placement {
             if away.abs() * (1.0 - 64.0 * U64) > both + error {
                 return Ok(None);
             }
-            *grow = ((both + away.abs()) * (INTERVAL * f64::from(U32)) + error) as f32 * (1.0 + 2.0 * U32);
+            *grow = ((both + away.abs()) * (INTERVAL * f64::from(U32)) + error) as f32
+                * (1.0 + 2.0 * U32);
         }
         // What is not a number is not in range either.
         let is_in_range = far + errors <= FARTHEST;
@@ -176,8 +192,8 @@ impl Placement {
     }
 }
 
-/// By how much a matrix makes lengths longer at most: the square of its 2-norm is that of its product with its transpose, which is at most the
-/// largest sum of a row of that; of a rotation 1.
+/// By how much a matrix makes lengths longer at most: the square of its 2-norm is that of its
+/// product with its transpose, which is at most the largest sum of a row of that; of a rotation 1.
 fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
     let mut most = 0f64;
     for a in rows {

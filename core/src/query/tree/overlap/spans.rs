@@ -1,7 +1,9 @@
-//! Boxes of a node as intervals along six directions: the axes of the one tree's boxes, and of the other's.
+//! Boxes of a node as intervals along six directions: the axes of the one tree's boxes, and of the
+//! other's.
 //!
-//! All boxes of a tree have the same axes, so these are the face normals of every pair of boxes. The nine products of edges, which would make the
-//! test exact, part few boxes more (van den Bergen, *Efficient Collision Detection of Complex Deformable Models using AABB Trees*, 1997).
+//! All boxes of a tree have the same axes, so these are the face normals of every pair of boxes.
+//! The nine products of edges, which would make the test exact, part few boxes more (van den
+//! Bergen, *Efficient Collision Detection of Complex Deformable Models using AABB Trees*, 1997).
 
 use super::placement::{DIRECTIONS, Side};
 use crate::blob::layout::{BOXES_BYTES, WIDTH};
@@ -88,7 +90,8 @@ fn along(
 pub(super) struct Pairs {
     /// A byte for each of the first node's, a bit in it for each of the second's.
     pub(super) bits: [u32; 2],
-    /// The pair that overlaps most along the direction of its least overlap: where a search for contact should begin.
+    /// The pair that overlaps most along the direction of its least overlap: where a search for
+    /// contact should begin.
     pub(super) deepest: [u32; 2],
 }
 
@@ -119,7 +122,8 @@ pub(super) fn pairs(a: &Spans, b: &Spans, rows: u32, lanes: u32) -> Pairs {
     pairs
 }
 
-/// By how much child `i` of the first overlaps each child of the second, along the direction where that is least; negative if it is apart.
+/// By how much child `i` of the first overlaps each child of the second, along the direction where
+/// that is least; negative if it is apart.
 #[inline(always)]
 pub(super) fn wide(a: &Spans, b: &Spans, i: usize) -> [f32; WIDTH] {
     let i = i & (WIDTH - 1);
@@ -177,8 +181,11 @@ mod tests {
         let mut met = 0;
         for round in 0..500 {
             let mut spans = || {
-                let mut spans = Spans { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
-                for (low, high) in spans.low.iter_mut().flatten().zip(spans.high.iter_mut().flatten()) {
+                let mut spans =
+                    Spans { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
+                for (low, high) in
+                    spans.low.iter_mut().flatten().zip(spans.high.iter_mut().flatten())
+                {
                     *low = random();
                     *high = *low + if round % 5 == 0 { 0.0 } else { random().abs() * 2.0 };
                 }

@@ -1,4 +1,5 @@
-//! Questions to the box tree of a fixture, and whether its loops over eight lanes are still vector code.
+//! Questions to the box tree of a fixture, and whether its loops over eight lanes are still vector
+//! code.
 
 use std::hint::black_box;
 
@@ -29,9 +30,11 @@ pub const QUESTIONS: [&str; 5] = [
     "tree torus.ply overlap",
 ];
 
-/// Questions by whose instructions vector code is told from scalar code, with the most instructions that a node or a leaf may take: a quarter more
-/// than it took on plain x86-64 when this was written (893, 741, 711, 692, 482, 764). Without vectors (`-C no-vectorize-loops -C no-vectorize-slp`) it
-/// took 2420, 1489, 1802, 1560, 1119, 1284. "Clear" is for nodes, for it opens few leaves; "first hit" has its own loops.
+/// Questions by whose instructions vector code is told from scalar code, with the most instructions
+/// that a node or a leaf may take: a quarter more than it took on plain x86-64 when this was
+/// written (893, 741, 711, 692, 482, 764). Without vectors (`-C no-vectorize-loops -C
+/// no-vectorize-slp`) it took 2420, 1489, 1802, 1560, 1119, 1284. "Clear" is for nodes, for it
+/// opens few leaves; "first hit" has its own loops.
 const LIMITS: [(&str, f64); 6] = [
     ("tree bracket.stl far", 1115.0),
     ("tree bracket.stl first_hit", 925.0),
@@ -41,8 +44,8 @@ const LIMITS: [(&str, f64); 6] = [
     ("tree torus.ply first_hit", 955.0),
 ];
 
-/// Asks the first `queries` of a question, and sums what the answers cost; with the triangles of a leaf. `None` if the question is not one
-/// to the tree.
+/// Asks the first `queries` of a question, and sums what the answers cost; with the triangles of a
+/// leaf. `None` if the question is not one to the tree.
 pub fn ask(question: &str, queries: usize) -> Option<Result<(Work, f64), String>> {
     let (fixture, kind) = question.strip_prefix("tree ")?.split_once(' ')?;
     Some(asked(fixture, kind, queries))
@@ -74,7 +77,9 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
     if let Some(kind) = Points::ALL.into_iter().find(|points| points.name() == kind) {
         let mut stack = vec![TreeEntry::EMPTY; entries];
         for point in points(&subject, kind, QUERIES[1]).into_iter().take(queries) {
-            add(black_box(closest_point(&tree, point, &Stop::EXACT, &mut stack)).map_err(failed)?.work);
+            add(black_box(closest_point(&tree, point, &Stop::EXACT, &mut stack))
+                .map_err(failed)?
+                .work);
         }
     } else if kind == "clear" {
         let mut stack = vec![TreeEntry::EMPTY; entries];
@@ -84,7 +89,9 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
             asked.push((point, 0.9 * near.lower));
         }
         for (point, distance) in asked.into_iter().take(queries) {
-            add(black_box(is_within(&tree, point, distance, &Stop::EXACT, &mut stack)).map_err(failed)?.work);
+            add(black_box(is_within(&tree, point, distance, &Stop::EXACT, &mut stack))
+                .map_err(failed)?
+                .work);
         }
     } else {
         let mut stack = vec![TreeEntry::EMPTY; entries];
@@ -95,7 +102,8 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
     Ok((sum, triangles))
 }
 
-/// That node and leaf take few enough instructions to be vector code. Skipped, with a line that says so, where nothing can be counted.
+/// That node and leaf take few enough instructions to be vector code. Skipped, with a line that
+/// says so, where nothing can be counted.
 pub fn check(steps: &mut Steps) {
     if cfg!(not(target_arch = "x86_64")) {
         say!("── lanes are vectors\n   skipped: the limits are those of x86-64");
@@ -103,7 +111,8 @@ pub fn check(steps: &mut Steps) {
     }
     let Some(valgrind) = Valgrind::find() else { return };
     steps.run("lanes are vectors", || {
-        let columns = ["question", "instructions a query", "nodes", "leaves", "instructions each", "limit"];
+        let columns =
+            ["question", "instructions a query", "nodes", "leaves", "instructions each", "limit"];
         let mut table = Table::new("lanes", "Instructions a node or leaf, this machine", &columns);
         let mut beyond = Vec::new();
         for (question, limit) in LIMITS {
@@ -111,10 +120,17 @@ pub fn check(steps: &mut Steps) {
             let [nodes, leaves] = visits(question)?;
             let cost = instructions / (nodes + leaves);
             if cost > limit {
-                beyond.push(format!("{question}: {cost:.0} instructions a node or leaf, not {limit:.0}"));
+                beyond.push(format!(
+                    "{question}: {cost:.0} instructions a node or leaf, not {limit:.0}"
+                ));
             }
-            let cells =
-                [fixed(instructions, 0), fixed(nodes, 2), fixed(leaves, 2), fixed(cost, 1), fixed(limit, 0)];
+            let cells = [
+                fixed(instructions, 0),
+                fixed(nodes, 2),
+                fixed(leaves, 2),
+                fixed(cost, 1),
+                fixed(limit, 0),
+            ];
             table.push([Cell::from(question)].into_iter().chain(cells).collect());
         }
         say!("{}", table.text());
@@ -124,8 +140,9 @@ pub fn check(steps: &mut Steps) {
 
 /// Nodes and leaves that a query visits, of those that are counted.
 fn visits(question: &str) -> Result<[f64; 2], String> {
-    let work =
-        |queries: usize| ask(question, queries).unwrap_or_else(|| Err(format!("no question `{question}`")));
+    let work = |queries: usize| {
+        ask(question, queries).unwrap_or_else(|| Err(format!("no question `{question}`")))
+    };
     let [(few, _), (many, triangles)] = [work(QUERIES[0])?, work(QUERIES[1])?];
     let each = |more: u32, less: u32| f64::from(more - less) / (QUERIES[1] - QUERIES[0]) as f64;
     Ok([each(many.splits, few.splits), each(many.triangles, few.triangles) / triangles])

@@ -3,7 +3,9 @@
 use std::hint::black_box;
 
 use meshsweep_core::Triboxes;
-use meshsweep_core::query::tribox::{BoundEntry, NodePair, apart, candidates, clip, distance, stack_entries};
+use meshsweep_core::query::tribox::{
+    BoundEntry, NodePair, apart, candidates, clip, distance, stack_entries,
+};
 use meshsweep_core::tribox::Pose;
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::triboxes::{by_vertices, poses, sphere};
@@ -13,8 +15,13 @@ use super::QUERIES;
 use crate::workspace;
 
 /// Questions by their words on the command line.
-pub const QUESTIONS: [&str; 5] =
-    ["triboxes apart", "triboxes by vertices", "triboxes candidates", "triboxes distance", "triboxes clip"];
+pub const QUESTIONS: [&str; 5] = [
+    "triboxes apart",
+    "triboxes by vertices",
+    "triboxes candidates",
+    "triboxes distance",
+    "triboxes clip",
+];
 
 /// Asks the first `queries` of a question; `None` if it is not one to triboxes.
 pub fn ask(question: &str, queries: usize) -> Option<Result<(), String>> {
@@ -24,8 +31,8 @@ pub fn ask(question: &str, queries: usize) -> Option<Result<(), String>> {
 fn asked(question: &str, queries: usize) -> Result<(), String> {
     let folder = workspace::root().join("fixtures");
     let subject = Subject::load(&folder.join("torus.ply"))?;
-    let bytes =
-        std::fs::read(folder.join("torus.msw")).map_err(|error| format!("fixtures/torus.msw: {error}"))?;
+    let bytes = std::fs::read(folder.join("torus.msw"))
+        .map_err(|error| format!("fixtures/torus.msw: {error}"))?;
     let triboxes = Triboxes::open(&bytes).map_err(|error| error.to_string())?;
     let failed = |error: meshsweep_core::QueryError| error.to_string();
     let mut stack = vec![BoundEntry::EMPTY; triboxes.depth() as usize + 2];

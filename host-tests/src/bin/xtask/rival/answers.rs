@@ -53,7 +53,8 @@ impl Answers {
         let mut answers = Self::default();
         let mut reading = 0.0;
         let mut done = false;
-        let instructions = |ticks: &str| Ok::<_, String>(number::<f64>(ticks)? * board.instructions_per_tick);
+        let instructions =
+            |ticks: &str| Ok::<_, String>(number::<f64>(ticks)? * board.instructions_per_tick);
         for line in printed.lines() {
             let words: Vec<&str> = line.split(' ').collect();
             match words.as_slice() {
@@ -66,7 +67,9 @@ impl Answers {
                         ));
                     }
                 }
-                ["reading", rounds, ticks] => reading = instructions(ticks)? / number::<f64>(rounds)?,
+                ["reading", rounds, ticks] => {
+                    reading = instructions(ticks)? / number::<f64>(rounds)?
+                }
                 ["build", ticks, stack, heap, most, memory] => {
                     answers.built = Built {
                         instructions: instructions(ticks)?,
@@ -77,8 +80,8 @@ impl Answers {
                     };
                 }
                 ["asked", name, queries, ticks, max, stack, heap, found, sum] => {
-                    let bits =
-                        u64::from_str_radix(sum, 16).map_err(|_| format!("the image printed `{line}`"))?;
+                    let bits = u64::from_str_radix(sum, 16)
+                        .map_err(|_| format!("the image printed `{line}`"))?;
                     let count: u32 = number(queries)?;
                     answers.sets.push(Set {
                         name: (*name).to_owned(),
@@ -94,7 +97,11 @@ impl Answers {
                 _ => return Err(format!("the image printed `{line}`")),
             }
         }
-        if done { Ok(answers) } else { Err(format!("the image stopped before it was done:\n{printed}")) }
+        if done {
+            Ok(answers)
+        } else {
+            Err(format!("the image stopped before it was done:\n{printed}"))
+        }
     }
 }
 
@@ -102,7 +109,9 @@ impl Answers {
 pub fn of_host(course: &Course) -> Result<Vec<(&'static str, Told)>, String> {
     let rival = Rival::new(&course.subject)?;
     let distance = |&point: &[f32; 3]| {
-        f64::from(glam::Vec3::from_array(point).distance(glam::Vec3::from_array(rival.closest(point))))
+        f64::from(
+            glam::Vec3::from_array(point).distance(glam::Vec3::from_array(rival.closest(point))),
+        )
     };
     let mut told: Vec<_> = course
         .points
@@ -117,9 +126,15 @@ pub fn of_host(course: &Course) -> Result<Vec<(&'static str, Told)>, String> {
     Ok(told)
 }
 
-/// An engine that answers something else would have its instructions counted for nothing. Rounding differs between processors
-/// and between engines, whose vertices may moreover have moved by a unit of a `grid`; and a segment that grazes an edge may pass on one of them, so a hundredth of the answers may be missing.
-pub fn agree(answers: &Answers, expected: &[(&'static str, Told)], grid: f64) -> Result<(), String> {
+/// An engine that answers something else would have its instructions counted for nothing. Rounding
+/// differs between processors and between engines, whose vertices may moreover have moved by a unit
+/// of a `grid`; and a segment that grazes an edge may pass on one of them, so a hundredth of the
+/// answers may be missing.
+pub fn agree(
+    answers: &Answers,
+    expected: &[(&'static str, Told)],
+    grid: f64,
+) -> Result<(), String> {
     for (name, wanted) in expected {
         let set = answers.sets.iter().find(|set| set.name == *name);
         let told = set.ok_or_else(|| format!("the image asked no `{name}`"))?.told;
@@ -149,7 +164,10 @@ mod tests {
     #[test]
     fn answers_hold_what_was_printed() {
         let answers = Answers::parse(PRINTED, &BOARDS[0]).expect("readable");
-        assert_eq!((answers.built.instructions, answers.built.heap, answers.built.most), (400.0, 1000, 1500));
+        assert_eq!(
+            (answers.built.instructions, answers.built.heap, answers.built.most),
+            (400.0, 1000, 1500)
+        );
         let far = &answers.sets[0];
         assert_eq!((far.mean, far.max, far.told), (1990.0, 2390.0, Told { found: 2, sum: 1.0 }));
     }

@@ -20,7 +20,8 @@ use crate::workspace;
 const COUNT: usize = 200;
 /// A step of the path, of the diagonal.
 const STEP: f32 = 3.0e-4;
-/// How far off the surface the path is meant to stay, and by how much it may miss that, of the diagonal.
+/// How far off the surface the path is meant to stay, and by how much it may miss that, of the
+/// diagonal.
 const OFF: f32 = 0.0125;
 const SLACK: f32 = 0.0025;
 
@@ -47,8 +48,8 @@ pub fn load(file: Option<&Path>) -> Result<Subject, String> {
 }
 
 impl Course {
-    /// Reduces a mesh to its outer hull of `faces` triangles, or to as few as it can have, and writes the files. Another `seed`
-    /// is another path; the other questions stay.
+    /// Reduces a mesh to its outer hull of `faces` triangles, or to as few as it can have, and
+    /// writes the files. Another `seed` is another path; the other questions stay.
     pub fn lay(mesh: &Subject, faces: usize, seed: u64) -> Result<Self, String> {
         let hull = hull_of(&mesh.mesh, faces, &BuildOptions::default(), |_| {});
         let (reduced, _, _) = hull.map_err(|error| error.to_string())?;
@@ -70,16 +71,23 @@ impl Course {
     }
 
     fn write(&self) -> Result<(), String> {
-        let failed = |error: std::io::Error| format!("cannot write {}: {error}", self.folder.display());
+        let failed =
+            |error: std::io::Error| format!("cannot write {}: {error}", self.folder.display());
         fs::create_dir_all(&self.folder).map_err(failed)?;
-        let file = |name: &str, bytes: Vec<u8>| fs::write(self.folder.join(name), bytes).map_err(failed);
-        let numbers =
-            |records: &[[f32; 3]]| records.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+        let file =
+            |name: &str, bytes: Vec<u8>| fs::write(self.folder.join(name), bytes).map_err(failed);
+        let numbers = |records: &[[f32; 3]]| {
+            records.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect()
+        };
         let Mesh { positions, triangles, .. } = &self.subject.mesh;
-        let (tables, _) = tree::build(&self.subject.mesh, 0.0, triangles.len(), &TreeOptions::default());
+        let (tables, _) =
+            tree::build(&self.subject.mesh, 0.0, triangles.len(), &TreeOptions::default());
         file("tree.msw", blob(None, Some(&tables)))?;
         file("vertices.f32", numbers(positions))?;
-        file("triangles.u32", triangles.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect())?;
+        file(
+            "triangles.u32",
+            triangles.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect(),
+        )?;
         for (name, points) in &self.points {
             file(&format!("{name}.f32"), numbers(points))?;
         }
@@ -97,8 +105,8 @@ fn subject(name: String, mesh: Mesh) -> Subject {
     Subject { name, triangles_read: mesh.triangles.len(), bounds, mesh }
 }
 
-/// Small steps along the surface, outside of it and off it by about [`OFF`], with a heading that changes slowly: a tool or a
-/// gripper that feels its way.
+/// Small steps along the surface, outside of it and off it by about [`OFF`], with a heading that
+/// changes slowly: a tool or a gripper that feels its way.
 fn path(subject: &Subject, seed: u64) -> Result<Vec<[f32; 3]>, String> {
     let surface = Rival::new(subject)?;
     let diagonal = subject.diagonal() as f32;
@@ -120,8 +128,8 @@ fn path(subject: &Subject, seed: u64) -> Result<Vec<[f32; 3]>, String> {
     Ok(path)
 }
 
-/// A point that is `off` away from the surface, on the way to a point near it, and that sees the outside: the middle of some
-/// side of the box that the segments end on.
+/// A point that is `off` away from the surface, on the way to a point near it, and that sees the
+/// outside: the middle of some side of the box that the segments end on.
 fn start(subject: &Subject, surface: &Rival, off: f32, rng: &mut Rng) -> Option<Vec3> {
     let candidates = points(subject, Points::Near, 1000);
     let outside = segments(subject, 20);
@@ -132,7 +140,8 @@ fn start(subject: &Subject, surface: &Rival, off: f32, rng: &mut Rng) -> Option<
         let place = foot + away * off;
         let distance = place.distance(Vec3::from_array(surface.closest(place.to_array())));
         let sees = |end: [f32; 3]| surface.first_hit([place.to_array(), end]).is_none();
-        ((distance - off).abs() < 0.01 * off && outside.iter().any(|ends| sees(ends[0]))).then_some(place)
+        ((distance - off).abs() < 0.01 * off && outside.iter().any(|ends| sees(ends[0])))
+            .then_some(place)
     })
 }
 

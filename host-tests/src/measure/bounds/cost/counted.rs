@@ -1,6 +1,7 @@
 //! The same moves and tests for a simulator that counts instructions.
 //!
-//! callgrind collects inside of `counted_bounds` only, and writes its counters each time `counted_stage` returns.
+//! callgrind collects inside of `counted_bounds` only, and writes its counters each time
+//! `counted_stage` returns.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -12,9 +13,11 @@ use crate::measure::bounds::false_positives::poses;
 use crate::measure::bounds::pose::Motion;
 use crate::measure::bounds::rig::Rig;
 
-/// The function inside of which instructions are counted; a pattern, for its full name has the compiler's hash in it.
+/// The function inside of which instructions are counted; a pattern, for its full name has the
+/// compiler's hash in it.
 pub const COUNTED: &str = "*counted_bounds*";
-/// The function after which the counters are written. Another one, for callgrind does not do both at the same one.
+/// The function after which the counters are written. Another one, for callgrind does not do both
+/// at the same one.
 pub const WRITTEN: &str = "*counted_stage*";
 
 #[derive(Clone, Copy, PartialEq)]
@@ -23,7 +26,8 @@ enum Stage {
     Test,
 }
 
-/// Moves every bound to all poses, then tests it: the counters are written after either, bound by bound. The numbers of bounds and of poses.
+/// Moves every bound to all poses, then tests it: the counters are written after either, bound by
+/// bound. The numbers of bounds and of poses.
 ///
 /// # Errors
 /// As [`measure_bounds`](crate::measure::measure_bounds).
@@ -50,7 +54,12 @@ fn counted_stage(rig: &mut dyn Rig, stage: Stage, motions: &[Motion], verdicts: 
 }
 
 #[inline(never)]
-fn counted_bounds(rig: &mut dyn Rig, stage: Stage, motions: &[Motion], verdicts: &mut Vec<bool>) -> usize {
+fn counted_bounds(
+    rig: &mut dyn Rig,
+    stage: Stage,
+    motions: &[Motion],
+    verdicts: &mut Vec<bool>,
+) -> usize {
     match stage {
         Stage::Update => rig.update(motions),
         Stage::Test => rig.test(verdicts),

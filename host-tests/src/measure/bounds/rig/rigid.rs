@@ -9,8 +9,9 @@ use crate::measure::bounds::convex_hull::ConvexHull;
 use crate::measure::bounds::enclosing_sphere::Sphere;
 use crate::measure::bounds::oriented_box::OrientedBox;
 
-/// What is added to each cosine of the angle between two axes, which is 1 at most: rounding makes the product of two parallel ones
-/// no direction that parts (Gottschalk et al. 1996). Ten roundings; the test errs towards meeting.
+/// What is added to each cosine of the angle between two axes, which is 1 at most: rounding makes
+/// the product of two parallel ones no direction that parts (Gottschalk et al. 1996). Ten
+/// roundings; the test errs towards meeting.
 const PARALLEL: f32 = 1e-6;
 
 /// A sphere: one point moves, one comparison of squares.
@@ -33,7 +34,8 @@ struct Oriented {
 }
 
 impl Oriented {
-    /// The 15 axes in the frame of the first box, parting ones told at once (Gottschalk et al. 1996).
+    /// The 15 axes in the frame of the first box, parting ones told at once (Gottschalk et al.
+    /// 1996).
     fn meets(&self, other: &Self) -> bool {
         let cosine = self.axes.map(|ours| other.axes.map(|theirs| ours.dot(theirs)));
         let size = cosine.map(|row| row.map(|x| x.abs() + PARALLEL));

@@ -39,7 +39,8 @@ impl<const N: usize> Ranges<N> {
     }
 }
 
-/// Slabs about the moved points: a hull's vertices, or the slabs' own. Directions as in [`Slabs`]; no product, sums are shared.
+/// Slabs about the moved points: a hull's vertices, or the slabs' own. Directions as in [`Slabs`];
+/// no product, sums are shared.
 pub fn about(slabs: &Slabs, points: &[DVec3], hull: &[DVec3]) -> Option<Box<dyn Rig>> {
     let corners = |[x, y, z]: [f32; 3]| {
         let (sum, difference) = (x + y, x - y);
@@ -55,7 +56,9 @@ pub fn about(slabs: &Slabs, points: &[DVec3], hull: &[DVec3]) -> Option<Box<dyn 
             let [_, b, c, d] = corners(p);
             join::<9, 3, 12>(join::<3, 6, 9>(p, edges(p)), [b, c, d])
         }),
-        "26-DOP" => rig(points, hull, move |p| join::<7, 6, 13>(join::<3, 4, 7>(p, corners(p)), edges(p))),
+        "26-DOP" => {
+            rig(points, hull, move |p| join::<7, 6, 13>(join::<3, 4, 7>(p, corners(p)), edges(p)))
+        }
         _ => return None,
     })
 }
@@ -77,8 +80,8 @@ fn rig<const N: usize>(
     Box::new(Moving::new(rest, update, Ranges::meets))
 }
 
-/// The box about a moved box: its centre moves, and the matrix's absolute values take half its extents to the new ones (Arvo 1990).
-/// The same as about its eight corners.
+/// The box about a moved box: its centre moves, and the matrix's absolute values take half its
+/// extents to the new ones (Arvo 1990). The same as about its eight corners.
 #[must_use]
 pub fn box_about_box(hull: &[DVec3]) -> Box<dyn Rig> {
     let rest = Ranges::of(hull.iter().map(|p| single(*p)), |p| p);
@@ -86,9 +89,14 @@ pub fn box_about_box(hull: &[DVec3]) -> Box<dyn Rig> {
     let (centre, half) = ([0, 1, 2].map(|k| at(k, 1.0)), [0, 1, 2].map(|k| at(k, -1.0)));
     let update = move |motion: &Motion| {
         let middle = motion.apply(centre);
-        let reach =
-            motion.matrix.rotation.map(|[a, b, c]| a.abs() * half[0] + b.abs() * half[1] + c.abs() * half[2]);
-        Ranges { low: [0, 1, 2].map(|k| middle[k] - reach[k]), high: [0, 1, 2].map(|k| middle[k] + reach[k]) }
+        let reach = motion
+            .matrix
+            .rotation
+            .map(|[a, b, c]| a.abs() * half[0] + b.abs() * half[1] + c.abs() * half[2]);
+        Ranges {
+            low: [0, 1, 2].map(|k| middle[k] - reach[k]),
+            high: [0, 1, 2].map(|k| middle[k] + reach[k]),
+        }
     };
     Box::new(Moving::new(rest, update, Ranges::meets))
 }
@@ -98,11 +106,13 @@ pub fn box_about_box(hull: &[DVec3]) -> Box<dyn Rig> {
 pub fn outward_about_hull(rest: Tribox, hull: &[DVec3]) -> Box<dyn Rig> {
     let points: Vec<[f32; 3]> = hull.iter().map(|p| single(*p)).collect();
     // Empty, were it refused: that meets nothing, and the f64 verdicts would tell.
-    let update = move |motion: &Motion| motion.matrix.bound(points.iter().copied()).unwrap_or(Tribox::EMPTY);
+    let update =
+        move |motion: &Motion| motion.matrix.bound(points.iter().copied()).unwrap_or(Tribox::EMPTY);
     Box::new(Moving::new(rest, update, Tribox::overlaps))
 }
 
-/// The library's triboxes about their own moved vertices, which are computed anew from the eighteen parameters.
+/// The library's triboxes about their own moved vertices, which are computed anew from the eighteen
+/// parameters.
 #[must_use]
 pub fn outward_about_own(rest: Tribox) -> Box<dyn Rig> {
     let update = move |motion: &Motion| rest.moved(&motion.matrix).unwrap_or(Tribox::EMPTY);

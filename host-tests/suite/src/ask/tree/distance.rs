@@ -1,8 +1,9 @@
 //! Distances: closest points, one and many, with a tolerance and with a sign.
 
 use meshsweep_core::query::tree::{
-    BatchError, Near, Side, Verdict, all_within as core_all_within, closest_point, closest_point_from,
-    closest_points, is_within as core_is_within, nearest as core_nearest, signed_distance,
+    BatchError, Near, Side, Verdict, all_within as core_all_within, closest_point,
+    closest_point_from, closest_points, is_within as core_is_within, nearest as core_nearest,
+    signed_distance,
 };
 use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work};
 
@@ -203,7 +204,9 @@ pub fn batch<'t>(
     };
     let Scratch { stack, hint, .. } = scratch;
     let (mut answers, mut order) = ([NONE; BATCH], [0u64; 2 * BATCH]);
-    match timed(clock, || closest_points(tree, points, &mut answers, &Stop::EXACT, stack, &mut order, hint)) {
+    match timed(clock, || {
+        closest_points(tree, points, &mut answers, &Stop::EXACT, stack, &mut order, hint)
+    }) {
         Ok(()) => answers.iter().for_each(|answer| ask::closest_point(fold, answer)),
         Err(BatchError::Query { index, error }) => {
             fold.word(index as u32);

@@ -1,6 +1,8 @@
 //! The model and its moved copy.
 
-use meshsweep_core::query::tree::{Contact, all_overlaps as core_all_overlaps, overlap as core_overlap};
+use meshsweep_core::query::tree::{
+    Contact, all_overlaps as core_all_overlaps, overlap as core_overlap,
+};
 use meshsweep_core::tribox::Pose;
 
 use super::{Scratch, Tree};
@@ -31,14 +33,19 @@ pub fn overlap(
                 Contact::Meets => 2,
                 Contact::Open => 3,
             });
-            answer.triangles.unwrap_or([u32::MAX; 2]).into_iter().for_each(|number| fold.word(number));
+            answer
+                .triangles
+                .unwrap_or([u32::MAX; 2])
+                .into_iter()
+                .for_each(|number| fold.word(number));
             ask::how(fold, answer.work, answer.ended);
         }
         Err(error) => ask::refusal(fold, error),
     }
 }
 
-/// Pairs of nodes that a search for all pairs may open: what it needs differs by orders of magnitude.
+/// Pairs of nodes that a search for all pairs may open: what it needs differs by orders of
+/// magnitude.
 const STEPS: u32 = 4;
 
 /// All pairs of triangles that meet, as far as a few steps go.

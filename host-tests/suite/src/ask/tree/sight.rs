@@ -103,7 +103,9 @@ pub fn cull(
             Ok(answer) => {
                 scratch.facing.iter().take(answer.stored).for_each(|&triangle| fold.word(triangle));
                 let FrontFacing { dropped, leaves, culled_leaves, culled, .. } = answer;
-                [dropped, leaves, culled_leaves, culled].into_iter().for_each(|count| fold.word(count));
+                [dropped, leaves, culled_leaves, culled]
+                    .into_iter()
+                    .for_each(|count| fold.word(count));
             }
             Err(error) => ask::refusal(fold, error),
         }
