@@ -3,7 +3,7 @@
 mod cli_support;
 
 use cli_support::{arg, blob, fixture, hull_blob, info, ok, run, scratch};
-use meshsweep_alloc::mesh;
+use meshsweep::mesh;
 use std::fs;
 use std::path::Path;
 

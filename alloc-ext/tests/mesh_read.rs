@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use meshsweep_alloc::mesh::{MeshError, RawMesh, read, read_bytes, repair};
+use meshsweep::mesh::{MeshError, RawMesh, read, read_bytes, repair};
 
 fn parse(name: &str, bytes: impl Into<Vec<u8>>) -> Result<RawMesh, MeshError> {
     read_bytes(Path::new(name), bytes.into())

@@ -1,8 +1,6 @@
 //! What repair mends, and that it mends nothing else.
 
-use meshsweep_alloc::mesh::{
-    Mesh, MeshError, RawMesh, RepairReport, repair, require_closed_manifold,
-};
+use meshsweep::mesh::{Mesh, MeshError, RawMesh, RepairReport, repair, require_closed_manifold};
 
 type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 

@@ -1,16 +1,16 @@
 //! Geometric questions about triangle meshes, answered from a binary blob where it lies: no heap,
 //! no recursion, no panic.
 //!
-//! A host tool (`meshsweep-alloc`) turns a mesh into a blob; [`Model::open`] checks every byte of
+//! A host tool (`meshsweep`) turns a mesh into a blob; [`Model::open`] checks every byte of
 //! it once; the functions of [`query`] then answer with intervals that contain the true distance to
 //! the input mesh in real arithmetic.
 //!
 //! ```
-//! use meshsweep_core::{Tree, query::{Stop, tree::{TreeEntry, closest_point}}};
+//! use meshsweep_core::{Bvh, query::{Budget, tree::{ScratchEntry, closest_point}}};
 //! # fn probe(blob: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
-//! let tree = Tree::open(blob)?;
-//! let mut stack = [TreeEntry::EMPTY; 64]; // `tree.header().stack_entries` says what this mesh needs
-//! let answer = closest_point(&tree, [0.1, 0.2, 0.3], &Stop::EXACT, &mut stack)?;
+//! let tree = Bvh::open(blob)?;
+//! let mut stack = [ScratchEntry::EMPTY; 64]; // `tree.header().stack_entries` says what this mesh needs
+//! let answer = closest_point(&tree, [0.1, 0.2, 0.3], &Budget::EXACT, &mut stack)?;
 //! assert!(answer.lower <= answer.upper);
 //! # Ok(()) }
 //! ```
@@ -33,7 +33,7 @@
 //!
 //! # The same bits everywhere
 //! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is
-//! `libm`'s, which is correctly rounded on every target; the box tree's is [`num::root`]. The same
+//! `libm`'s, which is correctly rounded on every target; the box tree's is [`num::sqrt_approx`]. The same
 //! blob and query give the same bits on a workstation and on a Cortex-M0.
 
 #![no_std]
@@ -48,5 +48,5 @@ pub mod refine;
 pub mod tree;
 pub mod tribox;
 
-pub use blob::{Model, OpenError, TightHull, TightHulls, Tree, Triboxes};
+pub use blob::{Bvh, Model, OpenError, TightHull, TightHulls, Triboxes};
 pub use query::{QueryError, QueueEntry};

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::DVec3;
-use meshsweep_alloc::lp::{HalfSpace, Outcome, minimise};
+use meshsweep::lp::{HalfSpace, Outcome, minimise};
 use meshsweep_host_tests::oracle::lp::Program;
 use meshsweep_host_tests::oracle::lp::random::Random;
 use meshsweep_host_tests::oracle::lp::stars::Star;

@@ -8,9 +8,9 @@ use std::hint::black_box;
 use std::path::Path;
 
 use divan::Bencher;
-use meshsweep_alloc::collapse::Priority;
-use meshsweep_core::query::{Hit, Search, Stop, closest_point, first_hit, outer_hits};
-use meshsweep_core::refine::{Face, Front};
+use meshsweep::collapse::Priority;
+use meshsweep_core::query::{Budget, Hit, Search, closest_point, first_hit, outer_hits};
+use meshsweep_core::refine::{Face, RefinedHull};
 use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::rival::Rival;
@@ -41,7 +41,7 @@ fn closest(bencher: Bencher<'_, '_>, file: &str, kind: Points) {
     let mut next = asked.iter().cycle();
     bencher.bench_local(|| {
         let point = next.next().copied().unwrap_or_default();
-        closest_point(&model, black_box(point), &Stop::EXACT, &mut queue)
+        closest_point(&model, black_box(point), &Budget::EXACT, &mut queue)
     });
 }
 
@@ -83,7 +83,7 @@ fn segment_first_hit(bencher: Bencher<'_, '_>, file: &str) {
     let mut next = asked.iter().cycle();
     bencher.bench_local(|| {
         let [a, b] = black_box(next.next().copied().unwrap_or_default());
-        first_hit(&model, a, b, &Stop::EXACT, &mut queue)
+        first_hit(&model, a, b, &Budget::EXACT, &mut queue)
     });
 }
 
@@ -96,7 +96,7 @@ fn segment_outer_hits(bencher: Bencher<'_, '_>, file: &str) {
     let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
     let mut candidates = vec![Face::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 16];
-    let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
+    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     let asked = segments(&subject, QUERIES);
     let mut next = asked.iter().cycle();
     bencher.bench_local(|| {

@@ -1,11 +1,11 @@
 //! Blobs and answers that are committed: whoever computes other bits, another machine or a later
 //! version, is noticed.
 
-use meshsweep_alloc::emit::{self, Parts};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tight::{ChainOptions, chain};
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_alloc::tribox::store;
+use meshsweep::emit::{self, Parts};
+use meshsweep::mesh::Mesh;
+use meshsweep::tight::{ChainOptions, chain};
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep::tribox::store;
 use meshsweep_suite::ask::{Refused, Subject, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
@@ -63,7 +63,7 @@ pub fn hull_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
 /// # Errors
 /// The core's refusal of the blob.
 pub fn tree_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
-    answers::<tree::Tree<'_>>(name, blob, &mut tree::Scratch::new())
+    answers::<tree::Bvh<'_>>(name, blob, &mut tree::Scratch::new())
 }
 
 /// The same for a blob's triboxes.

@@ -3,7 +3,7 @@
 
 mod scene;
 
-use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop, closest_point};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError, closest_point};
 use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere, scaled, torus};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_mesh, distance_to_triangle};
@@ -12,7 +12,7 @@ use scene::{Scene, options};
 
 const POINTS: usize = 160;
 
-fn ask(model: &Model<'_>, p: [f32; 3], stop: &Stop, queue: usize) -> ClosestPoint {
+fn ask(model: &Model<'_>, p: [f32; 3], stop: &Budget, queue: usize) -> ClosestPoint {
     closest_point(model, p, stop, &mut vec![QueueEntry::EMPTY; queue]).expect("a finite question")
 }
 
@@ -40,7 +40,7 @@ fn interval_contains_the_true_distance_on_every_mesh() {
         let model = scene.model();
         let mut rng = Rng::new(11);
         for p in scene.points(POINTS, &mut rng) {
-            let answer = ask(&model, p, &Stop::EXACT, 4096);
+            let answer = ask(&model, p, &Budget::EXACT, 4096);
             contains(&scene, p, &answer, truth(&scene, p));
             assert_eq!(answer.ended, Ended::Exact, "{}", scene.name);
         }
@@ -53,7 +53,7 @@ fn exact_interval_is_a_few_ulps_wide() {
         let model = scene.model();
         let mut rng = Rng::new(12);
         for p in scene.points(POINTS, &mut rng) {
-            let answer = ask(&model, p, &Stop::EXACT, 4096);
+            let answer = ask(&model, p, &Budget::EXACT, 4096);
             let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
             let lengths = scene.reach() + p.iter().fold(0f64, |m, x| m.max(f64::from(x.abs())));
             // On a needle the supporting plane loses its aspect ratio in accuracy.
@@ -76,7 +76,7 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
         let model = scene.model();
         let mut rng = Rng::new(13);
         for p in scene.points(POINTS, &mut rng) {
-            let answer = ask(&model, p, &Stop::EXACT, 4096);
+            let answer = ask(&model, p, &Budget::EXACT, 4096);
             let triangle = answer.triangle.expect("the blob is whole");
             // The point is rounded to f32.
             let rounding = 2.0 * f64::from(f32::EPSILON) * scene.reach();
@@ -127,7 +127,7 @@ fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
             let nearest = truth(scene, p);
             let capacity = model.capacities().queue;
             let answers = [capacity, capacity + 1, 64, 10_000]
-                .map(|n| ask(&model, p, &Stop::EXACT, n.max(capacity)));
+                .map(|n| ask(&model, p, &Budget::EXACT, n.max(capacity)));
             for answer in &answers {
                 assert_eq!(answer.ended, Ended::Exact, "{p:?}: {answers:?}");
                 assert_eq!(
@@ -163,7 +163,7 @@ fn queue_of_the_named_capacity_never_overflows_and_any_longer_one_answers_alike(
         for p in scene.points(POINTS / 2, &mut rng) {
             let nearest = truth(&scene, p);
             let answers = [10_000, 0, 1, 3, 7, 12, 20, 40, 90]
-                .map(|n| ask(&model, p, &Stop::EXACT, capacity + n));
+                .map(|n| ask(&model, p, &Budget::EXACT, capacity + n));
             for answer in answers {
                 contains(&scene, p, &answer, nearest);
                 assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
@@ -183,7 +183,7 @@ fn short_queue_still_contains_the_truth() {
         for p in scene.points(POINTS / 2, &mut rng) {
             let nearest = truth(&scene, p);
             for length in [1, 2, 3, 8] {
-                let answer = ask(&model, p, &Stop::EXACT, length);
+                let answer = ask(&model, p, &Budget::EXACT, length);
                 contains(&scene, p, &answer, nearest);
                 assert!(matches!(answer.ended, Ended::Exact | Ended::Capacity), "{answer:?}");
                 overflowed += u32::from(answer.ended == Ended::Capacity);
@@ -203,13 +203,13 @@ fn early_stop_still_contains_the_truth() {
             let nearest = truth(&scene, p);
             for steps in [0, 1, 2, 5, 20, 100] {
                 for length in [1, 4096] {
-                    let answer = ask(&model, p, &Stop { steps, ..Stop::EXACT }, length);
+                    let answer = ask(&model, p, &Budget { steps, ..Budget::EXACT }, length);
                     contains(&scene, p, &answer, nearest);
                     assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {
-                let answer = ask(&model, p, &Stop { relative, ..Stop::EXACT }, 4096);
+                let answer = ask(&model, p, &Budget { relative, ..Budget::EXACT }, 4096);
                 contains(&scene, p, &answer, nearest);
                 let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {
@@ -221,7 +221,7 @@ fn early_stop_still_contains_the_truth() {
                 }
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
-                let answer = ask(&model, p, &Stop { absolute, ..Stop::EXACT }, 4096);
+                let answer = ask(&model, p, &Budget { absolute, ..Budget::EXACT }, 4096);
                 contains(&scene, p, &answer, nearest);
                 let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {
@@ -250,7 +250,7 @@ fn a_point_far_away_gets_an_interval_that_holds() {
         while size * factor < 3e38 && factor < 1e31 {
             for _ in 0..4 {
                 let p = rng.direction().map(|x| (f64::from(x) * size * factor) as f32);
-                for stop in [Stop::EXACT, Stop { steps: 0, ..Stop::EXACT }] {
+                for stop in [Budget::EXACT, Budget { steps: 0, ..Budget::EXACT }] {
                     let answer = ask(&model, p, &stop, 256);
                     contains(&scene, p, &answer, truth(&scene, p));
                 }
@@ -271,8 +271,8 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
         let scaled_model = scene.model();
         let mut rng = Rng::new(18);
         for p in plain.points(200, &mut rng) {
-            let one = ask(&model, p, &Stop::EXACT, 256);
-            let other = ask(&scaled_model, p.map(|x| x * factor), &Stop::EXACT, 256);
+            let one = ask(&model, p, &Budget::EXACT, 256);
+            let other = ask(&scaled_model, p.map(|x| x * factor), &Budget::EXACT, 256);
             assert_eq!(
                 (one.lower * factor, one.upper * factor),
                 (other.lower, other.upper),
@@ -297,20 +297,22 @@ fn nan_infinity_and_bad_tolerances_are_typed_errors() {
             let mut p = [0.0; 3];
             p[k] = bad;
             assert_eq!(
-                closest_point(&model, p, &Stop::EXACT, &mut queue),
+                closest_point(&model, p, &Budget::EXACT, &mut queue),
                 Err(QueryError::NotFinite)
             );
         }
-        for stop in [Stop { relative: bad, ..Stop::EXACT }, Stop { absolute: bad, ..Stop::EXACT }] {
+        for stop in
+            [Budget { relative: bad, ..Budget::EXACT }, Budget { absolute: bad, ..Budget::EXACT }]
+        {
             assert_eq!(
                 closest_point(&model, [0.0; 3], &stop, &mut queue),
                 Err(QueryError::Tolerance)
             );
         }
     }
-    let negative = Stop { relative: -0.1, ..Stop::EXACT };
+    let negative = Budget { relative: -0.1, ..Budget::EXACT };
     assert_eq!(closest_point(&model, [0.0; 3], &negative, &mut queue), Err(QueryError::Tolerance));
-    assert_eq!(closest_point(&model, [0.0; 3], &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(closest_point(&model, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
 }
 
 #[test]
@@ -318,7 +320,7 @@ fn a_point_on_the_surface_has_lower_zero() {
     let scene = Scene::new("cube", cube(4), &options(12));
     let model = scene.model();
     for p in [[1.0, 0.3, -0.7], [1.0, 1.0, 1.0], [0.5, -1.0, 0.5], [-1.0, 0.0, 1.0]] {
-        assert_eq!(ask(&model, p, &Stop::EXACT, 64).lower, 0.0, "{p:?}");
+        assert_eq!(ask(&model, p, &Budget::EXACT, 64).lower, 0.0, "{p:?}");
     }
 }
 
@@ -329,8 +331,8 @@ fn what_the_queue_held_before_does_not_matter() {
     let mut rng = Rng::new(19);
     let mut used = vec![QueueEntry::EMPTY; 300];
     for p in scene.points(200, &mut rng) {
-        let again = closest_point(&model, p, &Stop::EXACT, &mut used).expect("finite");
-        assert_eq!(again, ask(&model, p, &Stop::EXACT, 300));
+        let again = closest_point(&model, p, &Budget::EXACT, &mut used).expect("finite");
+        assert_eq!(again, ask(&model, p, &Budget::EXACT, 300));
     }
 }
 
@@ -345,7 +347,7 @@ proptest! {
         queue in 1usize..80,
     ) {
         let scene = Scene::new("rough sphere", rough_sphere(1, 0.5, seed), &options(16));
-        let answer = ask(&scene.model(), p, &Stop { steps, ..Stop::EXACT }, queue);
+        let answer = ask(&scene.model(), p, &Budget { steps, ..Budget::EXACT }, queue);
         let nearest = truth(&scene, p);
         prop_assert!(f64::from(answer.lower) <= nearest.upper && nearest.lower <= f64::from(answer.upper));
     }

@@ -2,12 +2,12 @@
 
 mod scene;
 
-use meshsweep_alloc::emit::cut;
-use meshsweep_alloc::hull::{BuildError, build};
-use meshsweep_alloc::mesh::{RawMesh, repair};
-use meshsweep_alloc::precision::VertexBits;
-use meshsweep_core::query::{Ended, Search, Stop, closest_point, outer_hits};
-use meshsweep_core::refine::{Face, Front};
+use meshsweep::emit::cut;
+use meshsweep::hull::{BuildError, build};
+use meshsweep::mesh::{RawMesh, repair};
+use meshsweep::precision::VertexBits;
+use meshsweep_core::query::{Budget, Ended, Search, closest_point, outer_hits};
+use meshsweep_core::refine::{Face, RefinedHull};
 use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, transformed, uv_sphere};
 use scene::{Scene, options};
@@ -35,8 +35,9 @@ fn a_far_query_is_exact_and_opens_a_small_part_of_the_tree() {
     let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
     for exponent in [3, 5, 7, 9, 11, 13] {
         let far = 10f32.powi(exponent);
-        let answer = closest_point(&model, [far, 0.7 * far, -0.3 * far], &Stop::EXACT, &mut queue)
-            .expect("answers");
+        let answer =
+            closest_point(&model, [far, 0.7 * far, -0.3 * far], &Budget::EXACT, &mut queue)
+                .expect("answers");
         let work = answer.work;
         if far < 1e11 {
             assert_eq!(answer.ended, Ended::Exact);
@@ -52,15 +53,14 @@ fn a_hull_of_a_moved_surface_is_never_called_clear_by_its_box() {
     let (positions, triangles) = transformed(&cube(4), side, [0.4, 0.4, 0.4]);
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("sound");
     let low = mesh.positions.iter().map(|p| p[0]).fold(f32::INFINITY, f32::min);
-    let chosen =
-        meshsweep_alloc::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(12) };
+    let chosen = meshsweep::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(12) };
     let built = build(&mesh, 0.0, triangles.len(), &chosen, |_| ()).expect("builds");
     let model = Model::open(&built.bytes).expect("opens");
     assert!(model.header().surface_error > 0.0);
     let words = model.capacities().front_words.max(1);
     let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
     let mut candidates = [Face::EMPTY; 64];
-    let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
+    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     for x in [low, low.next_up(), low.next_down()] {
         let answer =
             outer_hits(&model, [x, 0.4, 5.0], [x, 0.4, -5.0], Search::First, &mut front, &mut []);
@@ -95,8 +95,7 @@ fn a_mesh_that_is_mostly_inside_out_is_refused_by_name() {
 #[test]
 fn tolerance_is_claimed_only_for_intervals_that_meet_it() {
     let mesh = rough_sphere(3, 0.2, 5);
-    let grid =
-        meshsweep_alloc::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(60) };
+    let grid = meshsweep::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(60) };
     let (exact, moved) =
         (Scene::new("exact", mesh.clone(), &options(60)), Scene::new("moved", mesh, &grid));
     let coarse = cut(&exact.model(), 2).expect("three levels").to_bytes();
@@ -107,9 +106,9 @@ fn tolerance_is_claimed_only_for_intervals_that_meet_it() {
         for _ in 0..500 {
             let point = [0; 3].map(|_| 4.0 * rng.unit_f32() - 2.0);
             for stop in [
-                Stop { relative: 0.01, ..Stop::EXACT },
-                Stop { relative: 0.5, ..Stop::EXACT },
-                Stop { absolute: 1e-3, ..Stop::EXACT },
+                Budget { relative: 0.01, ..Budget::EXACT },
+                Budget { relative: 0.5, ..Budget::EXACT },
+                Budget { absolute: 1e-3, ..Budget::EXACT },
             ] {
                 let answer = closest_point(&model, point, &stop, &mut queue).expect("answers");
                 let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));

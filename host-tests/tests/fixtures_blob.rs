@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use meshsweep_alloc::hull::BuildOptions;
+use meshsweep::hull::BuildOptions;
 use meshsweep_core::Model;
 use meshsweep_host_tests::measure::Subject;
 

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use meshsweep_core::{TightHulls, Tree, Triboxes};
+use meshsweep_core::{Bvh, TightHulls, Triboxes};
 use meshsweep_host_tests::golden::{
     bracket_hulls, groove_tree, hull_answers, tight_answers, torus_triboxes, tree_answers,
     tribox_answers,
@@ -28,7 +28,7 @@ fn committed_tree_is_what_the_builder_makes() {
 #[test]
 fn committed_tree_opens_with_every_triangle_and_every_section() {
     let bytes = read("groove.msw");
-    let tree = Tree::open(&bytes).expect("opens");
+    let tree = Bvh::open(&bytes).expect("opens");
     assert_eq!(tree.header().triangles, tree.input_triangles());
     assert!(tree.serves_distances() && tree.serves_segments() && tree.serves_culling());
     assert!(tree.header().is_closed());

@@ -3,10 +3,10 @@
 
 mod scene;
 
-use meshsweep_alloc::collapse::Priority;
-use meshsweep_alloc::emit::cut;
-use meshsweep_alloc::hull::BuildOptions;
-use meshsweep_alloc::precision::VertexBits;
+use meshsweep::collapse::Priority;
+use meshsweep::emit::cut;
+use meshsweep::hull::BuildOptions;
+use meshsweep::precision::VertexBits;
 use meshsweep_core::Model;
 use meshsweep_host_tests::check::{Blob, check_blob, side};
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, swap_entries, word};

@@ -1,7 +1,7 @@
 //! What must not change an answer, and what any input may expect.
 
 use glam::DVec3;
-use meshsweep_alloc::lp::{HalfSpace, Outcome, minimise};
+use meshsweep::lp::{HalfSpace, Outcome, minimise};
 use meshsweep_host_tests::oracle::lp::Program;
 use meshsweep_host_tests::oracle::lp::programs::Family;
 use meshsweep_host_tests::oracle::lp::random::Random;

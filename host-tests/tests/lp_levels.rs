@@ -1,7 +1,7 @@
 //! The programs in one and two variables, each against all candidates tried one by one.
 
 use glam::{DVec2, DVec3};
-use meshsweep_alloc::lp::{HalfSpace, Interval, Outcome, minimise_on_line, minimise_on_plane};
+use meshsweep::lp::{HalfSpace, Interval, Outcome, minimise_on_line, minimise_on_plane};
 use meshsweep_host_tests::oracle::lp::random::Random;
 
 const EPS: f64 = 1e-6;

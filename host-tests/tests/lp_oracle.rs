@@ -1,7 +1,7 @@
 //! The solver against exact rational arithmetic, on random and degenerate programs.
 
 use glam::DVec3;
-use meshsweep_alloc::lp::{HalfSpace, Outcome, minimise};
+use meshsweep::lp::{HalfSpace, Outcome, minimise};
 use meshsweep_host_tests::oracle::lp::programs::Family;
 use meshsweep_host_tests::oracle::lp::random::Random;
 use meshsweep_host_tests::oracle::lp::{Program, Verdict, is_feasible, quadratic, solve};

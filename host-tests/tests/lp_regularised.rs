@@ -2,7 +2,7 @@
 //! optimal throughout.
 
 use glam::DVec3;
-use meshsweep_alloc::lp::{HalfSpace, Outcome, minimise};
+use meshsweep::lp::{HalfSpace, Outcome, minimise};
 use meshsweep_host_tests::oracle::lp::programs::Family;
 use meshsweep_host_tests::oracle::lp::random::Random;
 use meshsweep_host_tests::oracle::lp::stars::Star;

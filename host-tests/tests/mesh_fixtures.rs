@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use meshsweep_alloc::mesh::{MeshError, load_closed, read, read_bytes, repair};
+use meshsweep::mesh::{MeshError, load_closed, read, read_bytes, repair};
 use meshsweep_host_tests::generate::evil::{Outcome, evil};
 use meshsweep_host_tests::generate::fixtures::files;
 
@@ -24,7 +24,7 @@ fn every_evil_file_has_its_outcome() {
         let result = read_bytes(Path::new(file.name), file.bytes).and_then(repair);
         let outcome = match result {
             Err(error) => Err((true, variant(&error))),
-            Ok((mesh, report)) => meshsweep_alloc::mesh::require_closed_manifold(&mesh)
+            Ok((mesh, report)) => meshsweep::mesh::require_closed_manifold(&mesh)
                 .map_err(|error| (false, variant(&report.explain(error)))),
         };
         let wanted = match file.outcome {

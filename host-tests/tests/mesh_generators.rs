@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair, require_closed_manifold};
+use meshsweep::mesh::{Mesh, RawMesh, read_bytes, repair, require_closed_manifold};
 use meshsweep_host_tests::generate::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use meshsweep_alloc::mesh::{read_bytes, repair, require_closed_manifold};
+use meshsweep::mesh::{read_bytes, repair, require_closed_manifold};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::writers::{ascii_ply, ascii_stl, binary_ply, binary_stl, obj};
 use meshsweep_host_tests::generate::{Rng, torus};

@@ -2,9 +2,9 @@
 
 mod scene;
 
-use meshsweep_alloc::emit::cut;
+use meshsweep::emit::cut;
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::query::{Ended, Hit, Stop, all_hits, closest_point, first_hit};
+use meshsweep_core::query::{Budget, Ended, Hit, all_hits, closest_point, first_hit};
 use meshsweep_core::refine::hull_faces;
 use meshsweep_core::{Model, OpenError, QueueEntry};
 use meshsweep_host_tests::corrupt::{entries, entry, put_u32, seal, swap_entries, word};
@@ -37,11 +37,11 @@ fn ask_everything(model: &Model<'_>) {
     let mut hits = [Hit::EMPTY; 4];
     for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0]] {
         let answer =
-            closest_point(model, p, &Stop::EXACT, &mut queue).expect("an opened model answers");
+            closest_point(model, p, &Budget::EXACT, &mut queue).expect("an opened model answers");
         assert!(answer.lower <= answer.upper && answer.work.total() <= most, "{answer:?}");
     }
     let (a, b) = ([-3.0, 0.1, 0.2], [3.0, 0.15, 0.1]);
-    if let Ok(first) = first_hit(model, a, b, &Stop::EXACT, &mut queue) {
+    if let Ok(first) = first_hit(model, a, b, &Budget::EXACT, &mut queue) {
         assert!(first.lower <= first.upper && first.work.total() <= most, "{first:?}");
         let all = all_hits(model, a, b, &mut queue, &mut hits).expect("in the domain");
         assert!(all.work.total() <= most, "{all:?}");
@@ -328,7 +328,7 @@ fn a_blob_cut_at_any_level_opens_and_still_contains_the_truth() {
         let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
         let mut rng = Rng::new(41);
         for p in scene.points(120, &mut rng) {
-            let answer = closest_point(&model, p, &Stop::EXACT, &mut queue).expect("finite");
+            let answer = closest_point(&model, p, &Budget::EXACT, &mut queue).expect("finite");
             let truth = distance_to_mesh(p, &scene.positions, &scene.triangles);
             let holds =
                 f64::from(answer.lower) <= truth.upper && truth.lower <= f64::from(answer.upper);
@@ -337,7 +337,8 @@ fn a_blob_cut_at_any_level_opens_and_still_contains_the_truth() {
         }
         for _ in 0..120 {
             let (a, b) = (scene.around(2.0, &mut rng), scene.around(2.0, &mut rng));
-            let answer = first_hit(&model, a, b, &Stop::EXACT, &mut queue).expect("in the domain");
+            let answer =
+                first_hit(&model, a, b, &Budget::EXACT, &mut queue).expect("in the domain");
             if let Some(first) = contacts(a, b, &scene.positions, &scene.triangles).first() {
                 assert!(
                     f64::from(answer.lower) <= first.t_upper,

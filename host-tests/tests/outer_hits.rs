@@ -4,9 +4,9 @@
 mod scene;
 
 use meshsweep_core::query::{
-    Ended, Hit, OuterHits, QueryError, Search, Stop, first_hit, outer_hits,
+    Budget, Ended, Hit, OuterHits, QueryError, Search, first_hit, outer_hits,
 };
-use meshsweep_core::refine::{Face, Front};
+use meshsweep_core::refine::{Face, RefinedHull};
 use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, torus};
 use meshsweep_host_tests::oracle::contacts;
@@ -29,7 +29,7 @@ fn ask(
     let (mut performed, mut swept) = (vec![u32::MAX; words], vec![0x5A5A_5A5A; words]);
     let mut candidates = vec![Face::EMPTY; faces];
     let mut hits = vec![Hit::EMPTY; 256];
-    let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
+    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     let answer =
         outer_hits(model, a, b, search, &mut front, &mut hits).expect("a segment in the domain");
     hits.truncate(answer.stored);
@@ -77,7 +77,7 @@ fn first_outer_hit_is_the_first_hit() {
                 continue;
             }
             asked += 1;
-            let first = first_hit(&model, segment.0, segment.1, &Stop::EXACT, &mut queue)
+            let first = first_hit(&model, segment.0, segment.1, &Budget::EXACT, &mut queue)
                 .expect("in the domain");
             assert_eq!(outer.ended, Ended::Exact, "{}: {segment:?}", scene.name);
             // Of several triangles that share a point either may be named first.
@@ -231,8 +231,8 @@ fn a_start_inside_the_hulls_box_is_said_and_nothing_is_promised() {
 
 #[test]
 fn a_moved_surface_gets_no_wrong_clear() {
-    let vertex_bits = meshsweep_alloc::precision::VertexBits::Grid16;
-    let options = meshsweep_alloc::hull::BuildOptions { vertex_bits, ..options(40) };
+    let vertex_bits = meshsweep::precision::VertexBits::Grid16;
+    let options = meshsweep::hull::BuildOptions { vertex_bits, ..options(40) };
     let scene = Scene::new("rough sphere", rough_sphere(2, 0.2, 7), &options);
     let model = scene.model();
     assert!(model.header().surface_error > 0.0);
@@ -258,7 +258,7 @@ fn nan_infinity_and_far_ends_are_typed_errors() {
     ] {
         for (a, b) in [(p, [9.0; 3]), ([9.0; 3], p)] {
             let mut candidates = [Face::EMPTY; 4];
-            let mut front = Front::new(&mut [], &mut [], &mut candidates);
+            let mut front = RefinedHull::new(&mut [], &mut [], &mut candidates);
             assert_eq!(outer_hits(&model, a, b, Search::First, &mut front, &mut []), Err(error));
         }
     }

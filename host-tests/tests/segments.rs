@@ -3,7 +3,7 @@
 
 mod scene;
 
-use meshsweep_core::query::{Ended, Hit, QueryError, SegmentHit, Stop, all_hits, first_hit};
+use meshsweep_core::query::{Budget, Ended, Hit, QueryError, SegmentHit, all_hits, first_hit};
 use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, scaled, torus};
 use meshsweep_host_tests::oracle::{Contact, contacts, gap_to_triangle};
@@ -12,7 +12,7 @@ use scene::{Scene, options};
 
 type Segment = ([f32; 3], [f32; 3]);
 
-fn ask(model: &Model<'_>, (a, b): Segment, stop: &Stop, queue: usize) -> SegmentHit {
+fn ask(model: &Model<'_>, (a, b): Segment, stop: &Budget, queue: usize) -> SegmentHit {
     first_hit(model, a, b, stop, &mut vec![QueueEntry::EMPTY; queue])
         .expect("a segment in the domain")
 }
@@ -111,7 +111,7 @@ fn first_hit_never_misses_and_never_invents() {
         let mut rng = Rng::new(21);
         for segment in segments(&scene, 300, &mut rng) {
             let contacts = truth(&scene, segment);
-            let answer = ask(&model, segment, &Stop::EXACT, 4096);
+            let answer = ask(&model, segment, &Budget::EXACT, 4096);
             assert_eq!(answer.ended, Ended::Exact);
             check_first(&scene, segment, &answer, &contacts);
             hits += usize::from(!contacts.is_empty());
@@ -127,7 +127,7 @@ fn on_a_moved_surface_a_hit_is_within_its_error() {
         let mut rng = Rng::new(26);
         for segment in segments(&scene, 300, &mut rng) {
             let contacts = truth(&scene, segment);
-            let answer = ask(&model, segment, &Stop::EXACT, 4096);
+            let answer = ask(&model, segment, &Budget::EXACT, 4096);
             check_first(&scene, segment, &answer, &contacts);
             if let Some(hit) = answer.hit {
                 let corners = scene.corners(hit.triangle.expect("a whole blob"));
@@ -152,12 +152,12 @@ fn stopping_early_or_short_memory_never_says_clear() {
         for segment in segments(&scene, 60, &mut rng) {
             let contacts = truth(&scene, segment);
             for steps in [0, 1, 5, 30] {
-                let answer = ask(&model, segment, &Stop { steps, ..Stop::EXACT }, 64);
+                let answer = ask(&model, segment, &Budget { steps, ..Budget::EXACT }, 64);
                 check_first(&scene, segment, &answer, &contacts);
             }
-            let exact = ask(&model, segment, &Stop::EXACT, 10_000);
+            let exact = ask(&model, segment, &Budget::EXACT, 10_000);
             for length in [1, 2, 5, capacity, capacity + 1, capacity + 12, capacity + 50] {
-                let answer = ask(&model, segment, &Stop::EXACT, length);
+                let answer = ask(&model, segment, &Budget::EXACT, length);
                 check_first(&scene, segment, &answer, &contacts);
                 if length >= capacity {
                     assert_eq!(answer.ended, exact.ended);
@@ -270,7 +270,7 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
     let segment = ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]);
     let truth = truth(&scene, segment);
     assert!(!truth.is_empty() && (truth[0].t_lower - 4.0 / 6.0).abs() < 1e-6);
-    let first = ask(&model, segment, &Stop::EXACT, 512);
+    let first = ask(&model, segment, &Budget::EXACT, 512);
     let hit = first.hit.expect("the overhang");
     assert!((hit.point[2] - 12.0).abs() < 1e-5 && !first.is_clear(), "{first:?}");
     let mut hits = [Hit::EMPTY; 16];
@@ -281,7 +281,7 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
     let mut words = vec![0u32; 2 * model.capacities().front_words];
     let (performed, swept) = words.split_at_mut(model.capacities().front_words);
     let mut candidates = [meshsweep_core::refine::Face::EMPTY; 256];
-    let mut front = meshsweep_core::refine::Front::new(performed, swept, &mut candidates);
+    let mut front = meshsweep_core::refine::RefinedHull::new(performed, swept, &mut candidates);
     let search = meshsweep_core::query::Search::First;
     let outer = meshsweep_core::query::outer_hits(
         &model, segment.0, segment.1, search, &mut front, &mut hits,
@@ -297,11 +297,11 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
 fn a_start_on_the_surface_hits_at_zero_and_a_start_inside_hits_the_way_out() {
     let scene = Scene::new("cube", cube(4), &options(12));
     let model = scene.model();
-    let on = ask(&model, ([1.0, 0.3, 0.2], [3.0, 0.3, 0.2]), &Stop::EXACT, 64);
+    let on = ask(&model, ([1.0, 0.3, 0.2], [3.0, 0.3, 0.2]), &Budget::EXACT, 64);
     assert_eq!((on.lower, on.hit.map(|h| h.t)), (0.0, Some(0.0)));
-    let out = ask(&model, ([0.0, 0.3, 0.2], [4.0, 0.3, 0.2]), &Stop::EXACT, 64);
+    let out = ask(&model, ([0.0, 0.3, 0.2], [4.0, 0.3, 0.2]), &Budget::EXACT, 64);
     assert_eq!(out.hit.map(|h| h.t), Some(0.25));
-    let inside = ask(&model, ([0.0, 0.3, 0.2], [0.5, 0.3, 0.2]), &Stop::EXACT, 64);
+    let inside = ask(&model, ([0.0, 0.3, 0.2], [0.5, 0.3, 0.2]), &Budget::EXACT, 64);
     assert!(inside.is_clear() && inside.hit.is_none());
 }
 
@@ -315,7 +315,7 @@ fn zero_length_segments_hit_where_their_point_is_on_the_surface() {
         ([0.9, 0.3, 0.2], false),
         ([3.0; 3], false),
     ] {
-        let answer = ask(&model, (p, p), &Stop::EXACT, 64);
+        let answer = ask(&model, (p, p), &Budget::EXACT, 64);
         assert_eq!((answer.hit.is_some(), answer.is_clear()), (hits, !hits), "{p:?}");
     }
 }
@@ -329,18 +329,18 @@ fn ends_up_to_2_to_the_40_sizes_away_are_answered_and_farther_ones_refused() {
     for exponent in [10, 20, 39] {
         let x = far(exponent);
         let through = ([-x, 0.25, 0.125], [x, 0.25, 0.125]);
-        let answer = ask(&model, through, &Stop::EXACT, 64);
+        let answer = ask(&model, through, &Budget::EXACT, 64);
         check_first(&scene, through, &answer, &truth(&scene, through));
         assert!(answer.hit.is_some());
         let past = ([-x, 0.75 * x, 0.0], [x, 0.75 * x, 0.0]);
-        assert!(ask(&model, past, &Stop::EXACT, 64).is_clear());
+        assert!(ask(&model, past, &Budget::EXACT, 64).is_clear());
     }
     let mut queue = [QueueEntry::EMPTY; 64];
     let mut hits = [Hit::EMPTY; 4];
     for p in [[far(42), 0.0, 0.0], [0.0, -far(43), 0.0], [0.0, 0.0, f32::MAX]] {
         for (a, b) in [(p, [0.0; 3]), ([0.0; 3], p)] {
             assert_eq!(
-                first_hit(&model, a, b, &Stop::EXACT, &mut queue),
+                first_hit(&model, a, b, &Budget::EXACT, &mut queue),
                 Err(QueryError::OutOfDomain)
             );
             assert_eq!(all_hits(&model, a, b, &mut queue, &mut hits), Err(QueryError::OutOfDomain));
@@ -357,15 +357,15 @@ fn nan_infinity_no_queue_and_bad_tolerances_are_typed_errors() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for (a, b) in [([bad, 0.0, 0.0], good), (good, [0.0, bad, 0.0])] {
             assert_eq!(
-                first_hit(&model, a, b, &Stop::EXACT, &mut queue),
+                first_hit(&model, a, b, &Budget::EXACT, &mut queue),
                 Err(QueryError::NotFinite)
             );
             assert_eq!(all_hits(&model, a, b, &mut queue, &mut []), Err(QueryError::NotFinite));
         }
     }
-    assert_eq!(first_hit(&model, good, good, &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(first_hit(&model, good, good, &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
     assert_eq!(all_hits(&model, good, good, &mut [], &mut []), Err(QueryError::NoQueue));
-    let stop = Stop { absolute: f32::NAN, ..Stop::EXACT };
+    let stop = Budget { absolute: f32::NAN, ..Budget::EXACT };
     assert_eq!(first_hit(&model, good, good, &stop, &mut queue), Err(QueryError::Tolerance));
 }
 
@@ -378,9 +378,9 @@ fn scaling_mesh_and_segment_by_a_power_of_two_changes_no_parameter() {
         let scene = Scene::new("scaled", scaled(&mesh, factor), &options(40));
         let mut rng = Rng::new(25);
         for (a, b) in segments(&plain, 200, &mut rng) {
-            let one = ask(&plain.model(), (a, b), &Stop::EXACT, 256);
+            let one = ask(&plain.model(), (a, b), &Budget::EXACT, 256);
             let [c, d] = [a, b].map(|p| p.map(|x| x * factor));
-            let other = ask(&scene.model(), (c, d), &Stop::EXACT, 256);
+            let other = ask(&scene.model(), (c, d), &Budget::EXACT, 256);
             assert_eq!((one.lower, one.upper, one.work), (other.lower, other.upper, other.work));
             assert_eq!(one.hit.map(|h| (h.t, h.triangle)), other.hit.map(|h| (h.t, h.triangle)));
         }
@@ -398,7 +398,7 @@ proptest! {
         // Lattice ends meet faces, edges and vertices all the time.
         let scene = Scene::new("cube", cube(2), &options(12));
         let segment = (a.map(|x| f32::from(x) / 4.0), b.map(|x| f32::from(x) / 4.0));
-        let answer = ask(&scene.model(), segment, &Stop::EXACT, 64);
+        let answer = ask(&scene.model(), segment, &Budget::EXACT, 64);
         check_first(&scene, segment, &answer, &truth(&scene, segment));
         prop_assert_eq!(answer.hit.is_some(), !truth(&scene, segment).is_empty());
     }

@@ -3,8 +3,8 @@
 
 use std::f64::consts::PI;
 
-use meshsweep_alloc::mesh::{Mesh, RawMesh, repair};
-use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, WrapError, wrap};
+use meshsweep::mesh::{Mesh, RawMesh, repair};
+use meshsweep::wrap::{Outcome, Goal, Hull, Options, Start, WrapError, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus,
@@ -52,7 +52,7 @@ fn solids_keep_their_margin_small_or_large() {
         let mesh = mesh_of(of);
         let report =
             proved(&format!("{name} by {part}"), &mesh, &options(100, part * size(&mesh))).report;
-        assert!(report.faces <= 100 && report.stop == Stop::Reached, "{name} {part}: {report:?}");
+        assert!(report.faces <= 100 && report.stop == Outcome::Reached, "{name} {part}: {report:?}");
     }
 }
 
@@ -123,7 +123,7 @@ fn a_slack_is_kept_with_a_margin() {
     let of = |goal| Options { goal, effort: 0.0, ..options(0, 0.5) };
     let hull = proved("slack", &mesh, &of(Goal::Slack(0.9)));
     assert!(
-        hull.report.slack.upper <= 0.9 && hull.report.stop == Stop::Reached,
+        hull.report.slack.upper <= 0.9 && hull.report.stop == Outcome::Reached,
         "{:?}",
         hull.report
     );

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;
 
-use meshsweep_alloc::hull::{BuildOptions, hull_of};
-use meshsweep_alloc::mesh::{Mesh, RawMesh, read_bytes, repair};
-use meshsweep_alloc::wrap::{
-    Goal, Hull, NoVolume, Options, Start, Stop, WrapError, share, wrap, wrap_all,
+use meshsweep::hull::{BuildOptions, hull_of};
+use meshsweep::mesh::{Mesh, RawMesh, read_bytes, repair};
+use meshsweep::wrap::{
+    Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, share, wrap, wrap_all,
 };
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
@@ -125,7 +125,7 @@ fn hulls_of_closed_meshes_are_proved() {
     for (name, of) in &meshes {
         let faces = if matches!(*name, "bracket" | "two parts") { FEW } else { 150 };
         let report = proved(name, &mesh_of(of), &options(faces)).report;
-        assert!(report.faces <= faces && report.stop == Stop::Reached, "{name}: {report:?}");
+        assert!(report.faces <= faces && report.stop == Outcome::Reached, "{name}: {report:?}");
         assert!(report.void.unwrap() > 0.0, "{name}: {report:?}");
     }
 }
@@ -237,7 +237,7 @@ fn a_short_time_has_a_hull_and_says_so() {
         let limit = Some(Duration::from_micros(micros));
         let hull =
             proved("hurried", &mesh, &Options { time_limit: limit, effort: 1e6, ..options(200) });
-        assert_eq!(hull.report.stop, Stop::OutOfTime);
+        assert_eq!(hull.report.stop, Outcome::OutOfTime);
     }
 }
 
@@ -286,7 +286,7 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
         let hull =
             proved("void", &mesh, &Options { goal: Goal::Void(most), effort: 0.0, ..options(0) });
         assert!(
-            hull.report.void.unwrap() <= most && hull.report.stop == Stop::Reached,
+            hull.report.void.unwrap() <= most && hull.report.stop == Outcome::Reached,
             "{:?}",
             hull.report
         );
@@ -298,7 +298,7 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
         let hull =
             proved("slack", &mesh, &Options { goal: Goal::Slack(most), effort: 0.0, ..options(0) });
         assert!(
-            hull.report.slack.upper <= most && hull.report.stop == Stop::Reached,
+            hull.report.slack.upper <= most && hull.report.stop == Outcome::Reached,
             "{:?}",
             hull.report
         );
@@ -400,7 +400,7 @@ fn within_a_slack_no_point_of_a_hull_is_farther_and_faces_are_fewer_than_by_numb
         let by_number = proved(name, &mesh, &options(faces));
         let most = by_number.report.slack.upper;
         let by_slack = proved(name, &mesh, &Options { goal: Goal::Slack(most), ..options(0) });
-        assert_eq!(by_slack.report.stop, Stop::Reached, "{name}");
+        assert_eq!(by_slack.report.stop, Outcome::Reached, "{name}");
         assert!(by_slack.report.slack.upper <= most, "{name}");
         let found = farthest_of(&by_slack.mesh, &mesh);
         assert!(found <= most, "{name}: {found} {most}");
@@ -420,7 +420,7 @@ fn a_slack_beyond_a_margin_leaves_no_spikes() {
     let mesh = mesh_of(&turned(&cube(1)));
     let options = Options { goal: Goal::Slack(0.3), margin: 0.2, effort: 0.1, ..options(0) };
     let hull = proved("a box with a margin", &mesh, &options);
-    assert_eq!(hull.report.stop, Stop::Reached);
+    assert_eq!(hull.report.stop, Outcome::Reached);
     let found = farthest_of(&hull.mesh, &mesh);
     // Mitred corners would be 0.35 away: they have to be cut off, and with few faces.
     assert!((0.2..=0.3).contains(&found), "{found}");
@@ -435,7 +435,7 @@ fn a_slack_that_no_hull_can_keep_is_said_to_be_unmet() {
         &mesh,
         &Options { goal: Goal::Slack(1e-12), effort: 0.0, ..options(0) },
     );
-    assert_eq!(hull.report.stop, Stop::TooLoose);
+    assert_eq!(hull.report.stop, Outcome::TooLoose);
     assert!(hull.report.slack.upper > 1e-12);
 }
 
@@ -451,7 +451,7 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
             let report = hull.report;
             let is_kept = farthest_of(&hull.mesh, &mesh) <= 1e-3;
             assert!(is_kept || report.slack.upper > 1e-3, "{time} {report:?}");
-            assert!(time > 1 || report.stop == Stop::OutOfTime, "{time} {report:?}");
+            assert!(time > 1 || report.stop == Outcome::OutOfTime, "{time} {report:?}");
         }
     }
     let refused =

@@ -1,9 +1,9 @@
 //! The independent checker proves box trees that the builder wrote, and does not prove what was
 //! damaged afterwards.
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep::emit;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
 use meshsweep_host_tests::check::{TreeProof, check_tree};
 use meshsweep_host_tests::corrupt::{Entry, entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::{

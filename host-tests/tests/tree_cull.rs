@@ -1,10 +1,10 @@
 //! No triangle that faces the eye is ever culled: against every triangle, in f64, but for triangles
 //! within 1e-15 of edge-on.
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
+use meshsweep::emit;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
 use meshsweep_core::query::QueryError;
 use meshsweep_core::query::tree::{FrontFacing, Sight, front_facing};
 use meshsweep_host_tests::generate::{
@@ -23,7 +23,7 @@ fn culling(single: bool) -> TreeOptions {
 
 /// Corners of all triangles as stored, input units, by number in the input file. Products of two
 /// are exact in f64.
-fn stored(tree: &Tree<'_>) -> Vec<(u32, [[f64; 3]; 3])> {
+fn stored(tree: &Bvh<'_>) -> Vec<(u32, [[f64; 3]; 3])> {
     let unit = (f64::from(tree.scale_exponent() + tree.header().grid_exponent)).exp2();
     let mut triangles = Vec::new();
     for node in 0..tree.header().nodes {
@@ -123,7 +123,7 @@ fn no_triangle_that_faces_the_eye_is_culled() {
     for (name, mesh) in meshes() {
         for single in [false, true] {
             let bytes = blob(&mesh, &culling(single));
-            let tree = Tree::open(&bytes).unwrap();
+            let tree = Bvh::open(&bytes).unwrap();
             let triangles = stored(&tree);
             let mut out = vec![0; triangles.len()];
             for sight in sights(&mesh, &mut Rng::new(11)) {
@@ -150,7 +150,7 @@ fn no_triangle_that_faces_the_eye_is_culled() {
 fn most_of_a_smooth_back_is_culled() {
     let mesh = icosphere(5);
     let bytes = blob(&mesh, &culling(false));
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let mut out = vec![0; mesh.1.len()];
     for sight in [Sight::From([0.0, 0.3, 50.0]), Sight::Along([0.5, -0.2, 1.0])] {
         let found = front_facing(&tree, &sight, &mut out).unwrap();
@@ -163,7 +163,7 @@ fn most_of_a_smooth_back_is_culled() {
 fn a_flat_face_is_culled_exactly() {
     let mesh = cube(8);
     let bytes = blob(&mesh, &culling(false));
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let found =
         front_facing(&tree, &Sight::Along([0.2, 0.3, -1.0]), &mut vec![0; mesh.1.len()]).unwrap();
     // Leaves over an edge see both faces.
@@ -177,7 +177,7 @@ fn a_flat_face_is_culled_exactly() {
 fn what_does_not_fit_is_counted() {
     let mesh = torus(2.0, 0.75, 40, 24);
     let bytes = blob(&mesh, &culling(false));
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let sight = Sight::From([5.0, 4.0, 3.0]);
     let mut all = vec![0; mesh.1.len()];
     let whole = front_facing(&tree, &sight, &mut all).unwrap();
@@ -197,10 +197,10 @@ fn refusals_are_typed_and_a_direction_of_no_length_leaves_nothing_out() {
     let with = blob(&mesh, &culling(false));
     let eye = Sight::From([5.0, 4.0, 3.0]);
     assert_eq!(
-        front_facing(&Tree::open(&plain).unwrap(), &eye, &mut []),
+        front_facing(&Bvh::open(&plain).unwrap(), &eye, &mut []),
         Err(QueryError::NotServed)
     );
-    let tree = Tree::open(&with).unwrap();
+    let tree = Bvh::open(&with).unwrap();
     for nan in [Sight::From([f32::NAN, 0.0, 0.0]), Sight::Along([0.0, f32::INFINITY, 0.0])] {
         assert_eq!(front_facing(&tree, &nan, &mut []), Err(QueryError::NotFinite));
     }
@@ -211,7 +211,7 @@ fn refusals_are_typed_and_a_direction_of_no_length_leaves_nothing_out() {
 fn cones_take_four_bytes_a_leaf() {
     let mesh = torus(2.0, 0.75, 40, 24);
     let (plain, with) = (blob(&mesh, &TreeOptions::default()), blob(&mesh, &culling(false)));
-    let leaves = Tree::open(&with).unwrap().header().leaves as usize;
+    let leaves = Bvh::open(&with).unwrap().header().leaves as usize;
     // And an entry of the section table.
     assert_eq!(with.len(), plain.len() + 4 * leaves + 16);
 }

@@ -118,10 +118,10 @@ fn points_get_the_same_bits_from_eight_lanes() {
             for (lane, near) in scalar.iter().enumerate() {
                 let bits = |x: [f32; 4]| x.map(f32::to_bits);
                 assert_eq!(
-                    bits([near.distance_sq, near.certified_sq, near.v, near.w]),
+                    bits([near.distance_sq, near.lower_bound_sq, near.v, near.w]),
                     bits([
                         wide.distance_sq[lane],
-                        wide.certified_sq[lane],
+                        wide.lower_bound_sq[lane],
                         wide.v[lane],
                         wide.w[lane]
                     ]),
@@ -132,7 +132,7 @@ fn points_get_the_same_bits_from_eight_lanes() {
             }
             for lane in patch.count()..WIDTH {
                 assert_eq!(
-                    (wide.distance_sq[lane], wide.certified_sq[lane]),
+                    (wide.distance_sq[lane], wide.lower_bound_sq[lane]),
                     (2f32.powi(127), 2f32.powi(127))
                 );
             }

@@ -1,12 +1,12 @@
 //! A session answers with the bits of the plain query, wherever the query goes, and its safe radius
 //! is safe.
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Followed, Session, TreeEntry, closest_point};
-use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop};
+use meshsweep::emit;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::{CoherentClosest, CoherentQuery, ScratchEntry, closest_point};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, joined, needle_comb, rough_sphere, scaled, torus,
     transformed,
@@ -19,8 +19,8 @@ fn blob((positions, triangles): &Triangles, single: bool) -> Vec<u8> {
     emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), &options).0))
 }
 
-fn stack(tree: &Tree<'_>) -> Vec<TreeEntry> {
-    vec![TreeEntry::EMPTY; tree.header().stack_entries as usize]
+fn stack(tree: &Bvh<'_>) -> Vec<ScratchEntry> {
+    vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize]
 }
 
 /// A closed part, a rough one, needles, a soup with repeats and triangles without area, one far
@@ -122,16 +122,16 @@ fn bits(answer: &ClosestPoint) -> (u32, u32, [u32; 3], Option<u32>, Ended) {
 
 fn same_bits<'t, const N: usize>(
     name: &str,
-    session: &mut Session<'t, N>,
-    tree: &Tree<'t>,
+    session: &mut CoherentQuery<'t, N>,
+    tree: &Bvh<'t>,
     points: &[[f32; 3]],
-) -> Vec<Followed> {
+) -> Vec<CoherentClosest> {
     let mut stack = stack(tree);
     points
         .iter()
         .map(|&p| {
-            let plain = closest_point(tree, p, &Stop::EXACT, &mut stack).unwrap();
-            let followed = session.closest_point(tree, p, &Stop::EXACT, &mut stack).unwrap();
+            let plain = closest_point(tree, p, &Budget::EXACT, &mut stack).unwrap();
+            let followed = session.closest_point(tree, p, &Budget::EXACT, &mut stack).unwrap();
             assert_eq!(
                 bits(&followed.closest),
                 bits(&plain),
@@ -147,8 +147,8 @@ fn a_session_has_the_bits_of_the_plain_query() {
     for (name, mesh) in meshes() {
         for single in [false, true] {
             let bytes = blob(&mesh, single);
-            let tree = Tree::open(&bytes).unwrap();
-            same_bits(name, &mut Session::<128>::new(), &tree, &journey(&mesh, 400, 5));
+            let tree = Bvh::open(&bytes).unwrap();
+            same_bits(name, &mut CoherentQuery::<128>::new(), &tree, &journey(&mesh, 400, 5));
         }
     }
 }
@@ -157,14 +157,14 @@ fn a_session_has_the_bits_of_the_plain_query() {
 fn a_front_of_any_size_will_do() {
     for (name, mesh) in meshes() {
         let bytes = blob(&mesh, false);
-        let tree = Tree::open(&bytes).unwrap();
+        let tree = Bvh::open(&bytes).unwrap();
         let points = journey(&mesh, 120, 8);
-        same_bits(name, &mut Session::<0>::new(), &tree, &points);
-        same_bits(name, &mut Session::<1>::new(), &tree, &points);
-        same_bits(name, &mut Session::<7>::new(), &tree, &points);
-        same_bits(name, &mut Session::<9>::new(), &tree, &points);
-        same_bits(name, &mut Session::<24>::new(), &tree, &points);
-        same_bits(name, &mut Session::<2048>::new(), &tree, &points);
+        same_bits(name, &mut CoherentQuery::<0>::new(), &tree, &points);
+        same_bits(name, &mut CoherentQuery::<1>::new(), &tree, &points);
+        same_bits(name, &mut CoherentQuery::<7>::new(), &tree, &points);
+        same_bits(name, &mut CoherentQuery::<9>::new(), &tree, &points);
+        same_bits(name, &mut CoherentQuery::<24>::new(), &tree, &points);
+        same_bits(name, &mut CoherentQuery::<2048>::new(), &tree, &points);
     }
 }
 
@@ -172,8 +172,8 @@ fn a_front_of_any_size_will_do() {
 fn a_session_may_change_trees_and_be_reset() {
     let (one, other) = (torus(2.0, 0.75, 60, 40), rough_sphere(3, 0.3, 9));
     let (first, second) = (blob(&one, false), blob(&other, false));
-    let trees = [Tree::open(&first).unwrap(), Tree::open(&second).unwrap()];
-    let mut session = Session::<64>::new();
+    let trees = [Bvh::open(&first).unwrap(), Bvh::open(&second).unwrap()];
+    let mut session = CoherentQuery::<64>::new();
     let points = walk(&one, 1.0e-4, 600, &mut Rng::new(3));
     for (turn, points) in points.chunks(50).enumerate() {
         same_bits("changing", &mut session, &trees[turn % 2], points);
@@ -187,15 +187,15 @@ fn a_session_may_change_trees_and_be_reset() {
 fn a_walk_around_is_followed_with_little_work() {
     let mesh = torus(2.0, 0.75, 120, 80);
     let bytes = blob(&mesh, false);
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let points = walk(&mesh, 1.0e-4, 3000, &mut Rng::new(1));
-    let mut session = Session::<128>::new();
+    let mut session = CoherentQuery::<128>::new();
     let followed = same_bits("torus", &mut session, &tree, &points);
     let opened: u32 = followed.iter().map(|f| f.closest.work.splits).sum();
     let mut stack = stack(&tree);
     let plain: u32 = points
         .iter()
-        .map(|&p| closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap().work.splits)
+        .map(|&p| closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap().work.splits)
         .sum();
     assert!(opened < plain / 10, "{opened} nodes against {plain}");
 }
@@ -204,15 +204,15 @@ fn a_walk_around_is_followed_with_little_work() {
 fn jumps_cost_hardly_more_than_plain_queries() {
     let mesh = torus(2.0, 0.75, 120, 80);
     let bytes = blob(&mesh, false);
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
     let points = jumps(&mesh, 4000, &mut Rng::new(1));
-    let mut session = Session::<128>::new();
+    let mut session = CoherentQuery::<128>::new();
     let (mut with, mut without) = (0, 0);
     for p in points {
         let cost = |answer: &ClosestPoint| answer.work.splits + answer.work.triangles / 3;
-        with += cost(&session.closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap().closest);
-        without += cost(&closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap());
+        with += cost(&session.closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap().closest);
+        without += cost(&closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap());
     }
     assert!(with < without + without / 10, "{with} against {without}");
 }
@@ -221,9 +221,9 @@ fn jumps_cost_hardly_more_than_plain_queries() {
 fn a_long_rest_ends_when_steps_get_short() {
     let mesh = torus(2.0, 0.75, 120, 80);
     let bytes = blob(&mesh, false);
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let mut rng = Rng::new(4);
-    let mut session = Session::<128>::new();
+    let mut session = CoherentQuery::<128>::new();
     same_bits("jumps", &mut session, &tree, &jumps(&mesh, 3000, &mut rng));
     let followed = same_bits("walk", &mut session, &tree, &walk(&mesh, 1.0e-5, 60, &mut rng));
     let opened: u32 = followed[20..].iter().map(|f| f.closest.work.splits).sum();
@@ -234,14 +234,14 @@ fn a_long_rest_ends_when_steps_get_short() {
 fn a_very_long_path_stays_cheap_and_has_the_same_bits() {
     let mesh = icosphere(3);
     let bytes = blob(&mesh, false);
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
-    let mut session = Session::<64>::new();
+    let mut session = CoherentQuery::<64>::new();
     let (mut late, mut early) = (0, 0);
     for i in 0..400_000u32 {
         let t = f64::from(i) * 1.0e-3;
         let p = [1.3 * t.cos(), 1.3 * t.sin(), 0.4 * (0.1 * t).sin()].map(|x| x as f32);
-        let followed = session.closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap();
+        let followed = session.closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap();
         let tested = followed.closest.work.triangles;
         match i {
             0..50_000 => early += tested,
@@ -249,7 +249,7 @@ fn a_very_long_path_stays_cheap_and_has_the_same_bits() {
             _ => {}
         }
         if i % 97 == 0 {
-            let plain = closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap();
+            let plain = closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap();
             assert_eq!(bits(&followed.closest), bits(&plain), "{p:?}");
         }
     }
@@ -260,20 +260,21 @@ fn a_very_long_path_stays_cheap_and_has_the_same_bits() {
 fn tolerances_and_budgets_are_kept() {
     let mesh = torus(2.0, 0.75, 60, 40);
     let bytes = blob(&mesh, false);
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
-    let mut session = Session::<128>::new();
+    let mut session = CoherentQuery::<128>::new();
     let mut rng = Rng::new(2);
     for p in walk(&mesh, 1.0e-4, 200, &mut rng).into_iter().chain(jumps(&mesh, 200, &mut rng)) {
-        for stop in [Stop { relative: 0.1, ..Stop::EXACT }, Stop { absolute: 0.05, ..Stop::EXACT }]
+        for stop in
+            [Budget { relative: 0.1, ..Budget::EXACT }, Budget { absolute: 0.05, ..Budget::EXACT }]
         {
             let followed = session.closest_point(&tree, p, &stop, &mut stack).unwrap();
             let plain = closest_point(&tree, p, &stop, &mut stack).unwrap();
             assert_eq!(bits(&followed.closest), bits(&plain));
         }
-        let exact = closest_point(&tree, p, &Stop::EXACT, &mut stack).unwrap();
+        let exact = closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap();
         for steps in [0, 1, 2, 5] {
-            let stop = Stop { steps, ..Stop::EXACT };
+            let stop = Budget { steps, ..Budget::EXACT };
             let closest = session.closest_point(&tree, p, &stop, &mut stack).unwrap().closest;
             assert!(closest.work.splits <= 2 * steps, "{closest:?}");
             assert!(closest.lower <= exact.upper && closest.upper >= exact.lower, "{closest:?}");
@@ -288,17 +289,17 @@ fn tolerances_and_budgets_are_kept() {
 fn what_is_refused_leaves_the_session_as_it_was() {
     let mesh = torus(2.0, 0.75, 20, 12);
     let bytes = blob(&mesh, false);
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
-    let mut session = Session::<32>::new();
+    let mut session = CoherentQuery::<32>::new();
     for p in walk(&mesh, 1.0e-4, 100, &mut Rng::new(2)) {
-        let nan = session.closest_point(&tree, [f32::NAN, 0.0, 0.0], &Stop::EXACT, &mut stack);
+        let nan = session.closest_point(&tree, [f32::NAN, 0.0, 0.0], &Budget::EXACT, &mut stack);
         assert_eq!(nan, Err(QueryError::NotFinite));
         assert_eq!(
-            session.closest_point(&tree, p, &Stop::EXACT, &mut []),
+            session.closest_point(&tree, p, &Budget::EXACT, &mut []),
             Err(QueryError::NoQueue)
         );
-        let wrong = Stop { relative: -1.0, ..Stop::EXACT };
+        let wrong = Budget { relative: -1.0, ..Budget::EXACT };
         assert_eq!(session.closest_point(&tree, p, &wrong, &mut stack), Err(QueryError::Tolerance));
         same_bits("after errors", &mut session, &tree, &[p]);
     }
@@ -320,14 +321,14 @@ fn within_the_safe_radius_the_triangle_stays_the_closest() {
         [(parts, false), (rough_sphere(2, 0.3, 9), false), (rough_sphere(2, 0.3, 9), true)]
     {
         let bytes = blob(&mesh, single);
-        let tree = Tree::open(&bytes).unwrap();
+        let tree = Bvh::open(&bytes).unwrap();
         let mut rng = Rng::new(6);
         let corners = |triangle: usize| mesh.1[triangle].map(|v| mesh.0[v as usize]);
         for step in [1.0e-6, 1.0e-4, 1.0e-3] {
             let mut points = walk(&mesh, step, 300, &mut rng);
             points.extend(jumps(&mesh, 60, &mut rng));
             points.extend(walk(&mesh, step, 100, &mut rng));
-            let followed = same_bits("safe", &mut Session::<128>::new(), &tree, &points);
+            let followed = same_bits("safe", &mut CoherentQuery::<128>::new(), &tree, &points);
             for (p, followed) in points.iter().zip(followed) {
                 let radius = f64::from(followed.safe_radius);
                 if radius == 0.0 {

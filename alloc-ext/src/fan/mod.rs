@@ -25,7 +25,7 @@ pub use pack::pack;
 pub use report::FanReport;
 pub use validate::{FanFault, validate};
 
-/// Most triangles in a fan, and in a [`Patch`]: the box tree tests a leaf in 8 lanes.
+/// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.
 pub const MAX_PATCH: usize = 8;
 
 /// Triangles about one vertex.
@@ -50,14 +50,14 @@ pub struct Fan {
 /// At most [`MAX_PATCH`] triangles together. `first` is not reversed; `second` may be, and its ring
 /// starts with the last vertex of `first`'s, so that both rings are one path.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Patch {
+pub struct FanLeaf {
     /// The fan at the path's start.
     pub first: Fan,
     /// The fan at its end, if there are two.
     pub second: Option<Fan>,
 }
 
-impl Patch {
+impl FanLeaf {
     /// The one or two fans.
     pub fn fans(&self) -> impl Iterator<Item = &Fan> {
         [Some(&self.first), self.second.as_ref()].into_iter().flatten()

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::adjacency::{Adjacency, NONE};
 use super::score::{contact, cut_off, spread};
 use super::window::{Run, Window};
-use super::{MAX_PATCH, Patch};
+use super::{FanLeaf, MAX_PATCH};
 
 /// Candidates whose score is computed in full. All of them instead give no better result.
 const FINALISTS: usize = 16;
@@ -32,7 +32,7 @@ const SEEN: usize = 512;
 /// # Panics
 /// If a triangle names a vertex that has no position, or if there are 2³²/3 triangles or more.
 #[must_use]
-pub fn pack(triangles: &[[u32; 3]], positions: &[DVec3]) -> Vec<Patch> {
+pub fn pack(triangles: &[[u32; 3]], positions: &[DVec3]) -> Vec<FanLeaf> {
     let adjacency = Adjacency::new(positions.len(), triangles);
     let mut packing = Packing {
         adjacency: &adjacency,
@@ -163,12 +163,12 @@ impl Packing<'_> {
             .count()
     }
 
-    fn take_best(&mut self, seed: u32) -> Patch {
+    fn take_best(&mut self, seed: u32) -> FanLeaf {
         self.window.fill(self.adjacency, &self.taken, seed);
         self.collect();
         let best = self.best();
         let fan = |run, reversed| self.window.fan(self.adjacency, run, reversed);
-        let patch = Patch {
+        let patch = FanLeaf {
             first: fan(best.first, false),
             second: best.second.map(|(run, reversed)| fan(run, reversed)),
         };

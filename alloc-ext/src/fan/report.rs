@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::counted::Counted;
 
-use super::{Fan, MAX_PATCH, Patch};
+use super::{Fan, FanLeaf, MAX_PATCH};
 
 /// Counts of fans and patches. Displayed as a few lines of text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,11 +28,11 @@ pub struct FanReport {
 impl FanReport {
     /// Counts `fans` and `patches`, which need not belong together: pass the fans of
     /// [`decompose`](super::decompose()) to compare with the paper, or those of the patches (by
-    /// [`Patch::fans`]) to see what is stored. Linear.
+    /// [`FanLeaf::fans`]) to see what is stored. Linear.
     ///
     /// # Panics
     /// If a fan or a patch has no triangle or more than [`MAX_PATCH`].
-    pub fn new<'a>(fans: impl IntoIterator<Item = &'a Fan>, patches: &[Patch]) -> Self {
+    pub fn new<'a>(fans: impl IntoIterator<Item = &'a Fan>, patches: &[FanLeaf]) -> Self {
         let mut report = Self { patches: patches.len(), ..Self::default() };
         for fan in fans {
             report.fans += 1;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Fan, FanFault, FanReport, MAX_PATCH, Patch, Weights, decompose, pack, validate};
+use super::{Fan, FanFault, FanLeaf, FanReport, MAX_PATCH, Weights, decompose, pack, validate};
 
 struct Soup {
     triangles: Vec<[u32; 3]>,
@@ -59,8 +59,8 @@ impl Soup {
     /// Both ways, checked; the same twice.
     fn check(&self) -> FanReport {
         let fans = decompose(&self.triangles, self.positions.len(), &Weights::default());
-        let single: Vec<Patch> =
-            fans.iter().cloned().map(|first| Patch { first, second: None }).collect();
+        let single: Vec<FanLeaf> =
+            fans.iter().cloned().map(|first| FanLeaf { first, second: None }).collect();
         assert_eq!(validate(&single, &self.triangles), Ok(()));
         assert_eq!(fans, decompose(&self.triangles, self.positions.len(), &Weights::default()));
 
@@ -276,10 +276,10 @@ fn the_report_counts_what_it_is_given() {
         reversed: false,
     };
     let patches = [
-        Patch { first: fan(vec![0, 1, 2]), second: Some(fan(vec![3])) },
-        Patch { first: fan(vec![4]), second: None },
+        FanLeaf { first: fan(vec![0, 1, 2]), second: Some(fan(vec![3])) },
+        FanLeaf { first: fan(vec![4]), second: None },
     ];
-    let report = FanReport::new(patches.iter().flat_map(Patch::fans), &patches);
+    let report = FanReport::new(patches.iter().flat_map(FanLeaf::fans), &patches);
     assert_eq!((report.triangles, report.fans, report.degenerate, report.patches), (5, 3, 2, 2));
     assert_eq!((report.stored_vertices, report.fan_sizes[2], report.patch_sizes[3]), (7 + 3, 1, 1));
     assert!(
@@ -297,7 +297,7 @@ fn validate_names_each_fault() {
             Fan { centre: 0, ring: vec![1, 2, 3], triangles: vec![0, 1], reversed: false };
         let mut second = Fan { centre: 4, ring: vec![3, 2], triangles: vec![2], reversed: false };
         change(&mut first, &mut second);
-        validate(&[Patch { first, second: Some(second) }], &triangles)
+        validate(&[FanLeaf { first, second: Some(second) }], &triangles)
     };
     assert_eq!(fault(|_, _| ()), Ok(()));
     assert_eq!(

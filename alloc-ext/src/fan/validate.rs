@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Fan, MAX_PATCH, Patch};
+use super::{Fan, FanLeaf, MAX_PATCH};
 
 /// The first broken promise that [`validate()`] found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,12 +69,12 @@ impl fmt::Display for FanFault {
 
 impl std::error::Error for FanFault {}
 
-/// Checks the promises of [`Fan`] and [`Patch`], and that every triangle is in exactly one fan.
+/// Checks the promises of [`Fan`] and [`FanLeaf`], and that every triangle is in exactly one fan.
 /// Linear.
 ///
 /// # Errors
 /// The first promise that does not hold.
-pub fn validate(patches: &[Patch], triangles: &[[u32; 3]]) -> Result<(), FanFault> {
+pub fn validate(patches: &[FanLeaf], triangles: &[[u32; 3]]) -> Result<(), FanFault> {
     let mut found = vec![0u32; triangles.len()];
     for (index, patch) in patches.iter().enumerate() {
         let size = patch.triangle_count();

@@ -11,7 +11,7 @@
 use arrayvec::ArrayVec;
 use glam::DVec3;
 use meshsweep_core::geom::point_triangle;
-use meshsweep_core::query::{Stop, closest_point};
+use meshsweep_core::query::{Budget, closest_point};
 use meshsweep_core::{Model, QueueEntry};
 use std::collections::BinaryHeap;
 
@@ -201,7 +201,7 @@ pub fn hull_to_surface(
         // The query is rounded to f32: the distance to what was asked is part of the bound.
         let asked = (point * scale).as_vec3();
         let offset = (asked.as_dvec3() / scale - point).length();
-        let answer = closest_point(model, asked.to_array(), &Stop::EXACT, &mut queue).ok()?;
+        let answer = closest_point(model, asked.to_array(), &Budget::EXACT, &mut queue).ok()?;
         Some(Nearest {
             lower: f64::from(answer.lower) / scale - offset,
             upper: f64::from(answer.upper) / scale + offset,

@@ -1,8 +1,8 @@
 //! Batches of queries on several threads.
 
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{self as questions, BatchError, Hint, TreeEntry};
-use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::{self as questions, BatchError, Hint, ScratchEntry};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work};
 use std::num::NonZeroUsize;
 
 /// Queries that are sorted at once: 4 MiB of order, and long enough for neighbours to be near.
@@ -19,9 +19,9 @@ const PIECE: usize = 1 << 18;
 /// # Errors
 /// [`BatchError::Query`], with the least index that is refused.
 pub fn closest_points(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     points: &[[f32; 3]],
-    stop: &Stop,
+    stop: &Budget,
     threads: NonZeroUsize,
 ) -> Result<Vec<ClosestPoint>, BatchError> {
     let unanswered = ClosestPoint {
@@ -35,7 +35,7 @@ pub fn closest_points(
     let mut answers = vec![unanswered; points.len()];
     let run = points.len().div_ceil(threads.get()).max(1);
     let ask = |number: usize, points: &[[f32; 3]], answers: &mut [ClosestPoint]| {
-        let mut stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+        let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
         let sorted = if is_coherent(points) { 0 } else { points.len().min(PIECE) };
         let mut order = vec![0; 2 * sorted];
         let mut hint = Hint::NONE;

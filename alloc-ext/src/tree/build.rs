@@ -7,10 +7,10 @@ use super::frame::FrameOptions;
 use super::order::{TopologyOptions, topology_with};
 use super::source;
 use super::store::{OnGrid, store};
-use crate::fan::{self, Patch, Weights};
+use crate::fan::{self, FanLeaf, Weights};
 use crate::mesh::Mesh;
 use glam::DVec3;
-use meshsweep_core::blob::TreeHeader;
+use meshsweep_core::blob::BvhHeader;
 use meshsweep_core::blob::layout::{LINK_BYTES, SectionKind, TREE_CLOSED, TREE_SINGLE, WIDTH};
 use meshsweep_core::num::up_to_f32;
 use std::time::{Duration, Instant};
@@ -115,8 +115,8 @@ pub fn build(
         sections.push((SectionKind::TreeCones, cones(&topology, &patches, &grid.positions)));
     }
     let header = header(mesh, &grid, &patches, &bounds, options, topology.stack_entries);
-    let header = TreeHeader { nodes: topology.nodes.len() as u32, ..header };
-    sections.insert(0, (SectionKind::Tree, header.write().to_vec()));
+    let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
+    sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
     debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
     let children: usize = topology.nodes.iter().map(|node| node.child_count()).sum();
     let report = TreeReport {
@@ -132,7 +132,7 @@ pub fn build(
     (TreeTables { scale_exponent: grid.scale_exponent, input_triangles, header, sections }, report)
 }
 
-fn points(patch: &Patch, grid: &OnGrid) -> Vec<DVec3> {
+fn points(patch: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {
     let (centres, ring) = encode::vertices(patch);
     let origin = DVec3::from(grid.origin.map(f64::from));
     centres.iter().chain(&ring).map(|&v| grid.positions[v as usize] - origin).collect()
@@ -145,11 +145,11 @@ fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
 fn header(
     mesh: &Mesh,
     grid: &OnGrid,
-    patches: &[Patch],
+    patches: &[FanLeaf],
     bounds: &[(DVec3, DVec3)],
     options: &TreeOptions,
     stack_entries: usize,
-) -> TreeHeader {
+) -> BvhHeader {
     let norm = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
     let mut reach = 0f64;
     for patch in patches {
@@ -167,7 +167,7 @@ fn header(
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = patches.iter().map(|patch| encode::tag(patch).vertices()).sum();
     let closed = if is_closed(&mesh.triangles) { TREE_CLOSED } else { 0 };
-    TreeHeader {
+    BvhHeader {
         flags: closed | if options.single { TREE_SINGLE } else { 0 },
         grid_exponent: grid.exponent,
         grid_origin: grid.origin,

@@ -1,7 +1,7 @@
 //! Cones of normals for all leaves.
 
 use super::order::Topology;
-use crate::fan::Patch;
+use crate::fan::FanLeaf;
 use glam::DVec3;
 use meshsweep_core::fan::NormalCone;
 
@@ -14,12 +14,12 @@ const FLAT: f64 = 1e-18;
 const ROUNDING: f64 = 1e-8;
 
 /// The section's bytes, in leaf order; `positions` in grid units, as stored.
-pub(super) fn cones(topology: &Topology, patches: &[Patch], positions: &[DVec3]) -> Vec<u8> {
+pub(super) fn cones(topology: &Topology, patches: &[FanLeaf], positions: &[DVec3]) -> Vec<u8> {
     topology.leaf_order.iter().flat_map(|&item| cone(&patches[item as usize], positions)).collect()
 }
 
 /// The cone of a leaf. Triangles without area face nowhere and do not count.
-fn cone(patch: &Patch, positions: &[DVec3]) -> [u8; 4] {
+fn cone(patch: &FanLeaf, positions: &[DVec3]) -> [u8; 4] {
     let mut normals = Vec::new();
     for fan in patch.fans() {
         let centre = positions[fan.centre as usize];

@@ -3,10 +3,10 @@
 use super::boxes::NodeBoxes;
 use super::order::Topology;
 use super::store::OnGrid;
-use crate::fan::Patch;
+use crate::fan::FanLeaf;
 use glam::DVec3;
 use meshsweep_core::blob::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES, SectionKind};
-use meshsweep_core::blob::{Links, Tag, TreeHeader};
+use meshsweep_core::blob::{BvhHeader, LeafShape, Links};
 use meshsweep_core::num::{down_to_f32, exp2};
 
 /// Everything that a blob holds of a box tree.
@@ -17,23 +17,23 @@ pub struct TreeTables {
     /// Triangles of the input file.
     pub input_triangles: u32,
     /// The tree's header.
-    pub header: TreeHeader,
+    pub header: BvhHeader,
     /// Bodies of its sections, in the order of the format.
     pub sections: Vec<(SectionKind, Vec<u8>)>,
 }
 
 /// Shape of a patch.
-pub(super) fn tag(patch: &Patch) -> Tag {
+pub(super) fn tag(patch: &FanLeaf) -> LeafShape {
     match &patch.second {
-        None => Tag::new(patch.triangle_count(), 0, false),
+        None => LeafShape::new(patch.triangle_count(), 0, false),
         Some(second) => {
-            Tag::new(patch.triangle_count(), patch.first.triangles.len(), second.reversed)
+            LeafShape::new(patch.triangle_count(), patch.first.triangles.len(), second.reversed)
         }
     }
 }
 
 /// Vertices of a patch in stored order: centres, then the ring.
-pub(super) fn vertices(patch: &Patch) -> (Vec<u32>, Vec<u32>) {
+pub(super) fn vertices(patch: &FanLeaf) -> (Vec<u32>, Vec<u32>) {
     let mut centres = vec![patch.first.centre];
     let mut ring = patch.first.ring.clone();
     if let Some(second) = &patch.second {
@@ -44,11 +44,12 @@ pub(super) fn vertices(patch: &Patch) -> (Vec<u32>, Vec<u32>) {
 }
 
 /// Links of all nodes; `patches` in item order.
-pub(super) fn links(topology: &Topology, patches: &[Patch]) -> Vec<u8> {
+pub(super) fn links(topology: &Topology, patches: &[FanLeaf]) -> Vec<u8> {
     let mut out = Vec::new();
     let (mut vertex, mut triangle) = (0u32, 0u32);
     for node in &topology.nodes {
-        let tags: Vec<Tag> = node.leaves.iter().map(|&item| tag(&patches[item as usize])).collect();
+        let tags: Vec<LeafShape> =
+            node.leaves.iter().map(|&item| tag(&patches[item as usize])).collect();
         let first = node.inner.first().copied().unwrap_or(0);
         out.extend(Links::write(first, node.inner.len(), vertex, triangle, &tags));
         vertex += tags.iter().map(|tag| tag.vertices() as u32).sum::<u32>();
@@ -58,7 +59,12 @@ pub(super) fn links(topology: &Topology, patches: &[Patch]) -> Vec<u8> {
 }
 
 /// Vertices of all leaves, in leaf order.
-pub(super) fn fans(topology: &Topology, patches: &[Patch], grid: &OnGrid, single: bool) -> Vec<u8> {
+pub(super) fn fans(
+    topology: &Topology,
+    patches: &[FanLeaf],
+    grid: &OnGrid,
+    single: bool,
+) -> Vec<u8> {
     let mut out = Vec::new();
     let origin = DVec3::from(grid.origin.map(f64::from));
     for &item in &topology.leaf_order {

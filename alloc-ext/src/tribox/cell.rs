@@ -14,10 +14,10 @@ use super::polygons::{HalfSpace, Polygons, margin};
 use super::span::{Frame, projections};
 use super::winding::{Reference, starts, winding};
 use crate::mesh::Mesh;
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::num::{down_to_f32, up_to_f32};
-use meshsweep_core::query::Stop;
-use meshsweep_core::query::tree::{Side, TreeEntry, signed_distance};
+use meshsweep_core::query::Budget;
+use meshsweep_core::query::tree::{ScratchEntry, Side, signed_distance};
 use meshsweep_core::tribox::{Tribox, TriboxError};
 use std::cell::RefCell;
 
@@ -37,8 +37,8 @@ pub(super) struct Whole<'a> {
     pub is_solid: bool,
     /// How far planes are moved outward, see [`polygons`](super::polygons).
     pub margin: f64,
-    tree: &'a Tree<'a>,
-    stack: RefCell<Vec<TreeEntry>>,
+    tree: &'a Bvh<'a>,
+    stack: RefCell<Vec<ScratchEntry>>,
 }
 
 /// `S ∩ C`, `C` being where all half-spaces of the splits above meet.
@@ -54,7 +54,7 @@ pub(super) struct Cell {
 }
 
 impl<'a> Whole<'a> {
-    pub fn new(mesh: &Mesh, tree: &'a Tree<'a>) -> Self {
+    pub fn new(mesh: &Mesh, tree: &'a Bvh<'a>) -> Self {
         let at = |v: u32| mesh.positions[v as usize].map(f64::from);
         let size =
             mesh.positions.iter().flatten().fold(0f64, |most, &x| most.max(f64::from(x).abs()));
@@ -63,7 +63,7 @@ impl<'a> Whole<'a> {
             is_solid: tree.header().is_closed(),
             margin: margin(size),
             tree,
-            stack: RefCell::new(vec![TreeEntry::EMPTY; tree.header().stack_entries as usize]),
+            stack: RefCell::new(vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize]),
         }
     }
 
@@ -101,7 +101,7 @@ impl<'a> Whole<'a> {
             Trust::Sketch => {
                 let asked = point.map(|x| x as f32);
                 let answer =
-                    signed_distance(self.tree, asked, &Stop::EXACT, &mut self.stack.borrow_mut());
+                    signed_distance(self.tree, asked, &Budget::EXACT, &mut self.stack.borrow_mut());
                 answer.is_ok_and(|answer| answer.side != Side::Outside)
             }
         }

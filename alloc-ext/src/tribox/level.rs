@@ -10,9 +10,9 @@ use crate::hull::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
 use crate::tree::{self, TreeOptions};
 use glam::DVec3;
-use meshsweep_core::Tree;
-use meshsweep_core::query::Stop;
-use meshsweep_core::query::tree::{TreeEntry, closest_point};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::Budget;
+use meshsweep_core::query::tree::{ScratchEntry, closest_point};
 use meshsweep_core::tribox::{FACES, Tribox};
 
 /// A union of triboxes that covers a mesh.
@@ -74,7 +74,7 @@ pub fn proxies(hierarchy: &Hierarchy, count: usize) -> Vec<Tribox> {
 /// Cost: a closest-point query for each triangle of the union's boundary, and some dozens more for
 /// the farthest.
 #[must_use]
-pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Tree<'_>) -> Level {
+pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Bvh<'_>) -> Level {
     let triboxes = proxies(hierarchy, count);
     let errors =
         hierarchy.leaves(count).into_iter().map(|node| hierarchy.nodes[node as usize].error);
@@ -91,8 +91,8 @@ pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Tree<'_>) 
     }
 }
 
-fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Tree<'_>) -> Farthest {
-    let mut stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
+    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
     let largest = |most: f64, x: f32| most.max(f64::from(x).abs());
     let size = triboxes
         .iter()
@@ -106,7 +106,7 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Tree<'_>) -> Farthest {
         // The query is rounded to f32: the distance to what was asked is part of the bound.
         let asked = point.as_vec3();
         let offset = (asked.as_dvec3() - point).length();
-        let answer = closest_point(tree, asked.to_array(), &Stop::EXACT, &mut stack).ok()?;
+        let answer = closest_point(tree, asked.to_array(), &Budget::EXACT, &mut stack).ok()?;
         let corners = answer.triangle.and_then(|triangle| mesh.corners(triangle as usize));
         Some(Nearest {
             lower: f64::from(answer.lower) - offset,

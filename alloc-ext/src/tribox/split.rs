@@ -7,7 +7,7 @@ use super::extent::Extent;
 use super::lattice::Lattice;
 use super::polygons::HalfSpace;
 use crate::mesh::Mesh;
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::num::exp2;
 use meshsweep_core::tribox::{Tribox, TriboxError};
 use std::cmp::Ordering;
@@ -119,7 +119,7 @@ impl Hierarchy {
     /// that none does.
     pub fn new(
         mesh: &Mesh,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         options: &SplitOptions,
     ) -> Result<Hierarchy, TriboxError> {
         let whole = Whole::new(mesh, tree);

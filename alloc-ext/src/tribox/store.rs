@@ -11,7 +11,7 @@ use meshsweep_core::blob::layout::{
 use meshsweep_core::blob::{TriboxLevel, TriboxesHeader};
 use meshsweep_core::num::{Radius16, exp2, up_to_f32};
 use meshsweep_core::tribox::{FACES, TriboxError};
-use meshsweep_core::{Model, Tree};
+use meshsweep_core::{Bvh, Model};
 use std::time::{Duration, Instant};
 
 /// Everything that a blob holds of a tribox hierarchy.
@@ -73,7 +73,7 @@ pub fn store(
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
     }
     let bytes = box_tree(mesh);
-    let tree = Tree::open(&bytes).expect("just built");
+    let tree = Bvh::open(&bytes).expect("just built");
     let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
     let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };
     let hierarchy = Hierarchy::new(mesh, &tree, &options)?;

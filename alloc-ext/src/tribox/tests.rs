@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mesh::{Mesh, RawMesh, read, repair};
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::tribox::{DIRECTIONS, Tribox, TriboxError};
 use std::path::Path;
 
@@ -35,7 +35,7 @@ fn blocks(corners: &[[[f32; 3]; 2]], solid: usize) -> Mesh {
 
 fn split(mesh: &Mesh, options: &SplitOptions) -> Hierarchy {
     let bytes = box_tree(mesh);
-    Hierarchy::new(mesh, &Tree::open(&bytes).unwrap(), options).unwrap()
+    Hierarchy::new(mesh, &Bvh::open(&bytes).unwrap(), options).unwrap()
 }
 
 fn options(leaves: usize) -> SplitOptions {
@@ -243,7 +243,7 @@ fn coordinates_beyond_the_domain_are_refused() {
         let bytes = box_tree(&fine);
         let mut mesh = fine.clone();
         mesh.positions[1][0] = x;
-        let refused = Hierarchy::new(&mesh, &Tree::open(&bytes).unwrap(), &SplitOptions::default());
+        let refused = Hierarchy::new(&mesh, &Bvh::open(&bytes).unwrap(), &SplitOptions::default());
         assert_eq!(refused.unwrap_err(), wanted);
     }
 }
@@ -261,7 +261,7 @@ fn the_same_mesh_gives_the_same_hierarchy() {
 fn simplified_proxies_hold_more_with_fewer_faces() {
     let mesh = fixture("torus.ply");
     let bytes = box_tree(&mesh);
-    let tree = Tree::open(&bytes).unwrap();
+    let tree = Bvh::open(&bytes).unwrap();
     let exact = level(&split(&mesh, &options(8)), 8, &mesh, &tree);
     let hierarchy = split(&mesh, &SplitOptions { simplify: 0.1, ..options(8) });
     let simple = level(&hierarchy, 8, &mesh, &tree);
@@ -274,7 +274,7 @@ fn a_level_s_figures_are_those_of_the_mesh_that_is_drawn() {
     let mesh = fixture("groove.obj");
     let bytes = box_tree(&mesh);
     let hierarchy = split(&mesh, &options(8));
-    let level = level(&hierarchy, 8, &mesh, &Tree::open(&bytes).unwrap());
+    let level = level(&hierarchy, 8, &mesh, &Bvh::open(&bytes).unwrap());
     let drawn = surface(&proxies(&hierarchy, 8));
     let volume: f64 = (0..drawn.triangles.len())
         .map(|t| {
@@ -295,6 +295,6 @@ fn a_block_is_its_own_tribox_without_error() {
     let bytes = box_tree(&mesh);
     let hierarchy = split(&mesh, &options(8));
     assert!(hierarchy.order.is_empty(), "nothing is saved by splitting a block");
-    let level = level(&hierarchy, 8, &mesh, &Tree::open(&bytes).unwrap());
+    let level = level(&hierarchy, 8, &mesh, &Bvh::open(&bytes).unwrap());
     assert_eq!((level.faces, level.volume, level.error), (6, 6.0, 0.0));
 }

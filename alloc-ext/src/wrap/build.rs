@@ -1,7 +1,7 @@
 //! The best start, and from there as few faces as wanted, as tight as they can be.
 
 use super::obstacle::Obstacle;
-use super::options::{Goal, Options, Progress, Stage, Start, Stop, WrapError};
+use super::options::{Goal, Options, Outcome, Progress, Stage, Start, WrapError};
 use super::polish::Polish;
 use super::rounding::Rounding;
 use super::start::{First, Place, first_box, first_closure, first_levels};
@@ -90,20 +90,20 @@ pub(super) struct Done<'a> {
     pub work: Work<'a>,
     pub start: Start,
     pub filled: usize,
-    pub stop: Stop,
+    pub stop: Outcome,
 }
 
 impl Done<'_> {
     /// One that reached the goal, then one with fewer faces if either is stuck or a slack is asked
     /// for, then the one nearer to the mesh, or with less volume.
     fn is_better_than(&self, other: &Self) -> bool {
-        if let (Stop::TooLoose, Stop::TooLoose) = (self.stop, other.stop) {
+        if let (Outcome::TooLoose, Outcome::TooLoose) = (self.stop, other.stop) {
             return self.work.slack() < other.work.slack();
         }
         let rank = |done: &Self| match done.stop {
-            Stop::TooLoose => (2, 0),
-            Stop::Stuck => (1, done.work.shell.face_count()),
-            Stop::Reached | Stop::OutOfTime => {
+            Outcome::TooLoose => (2, 0),
+            Outcome::Stuck => (1, done.work.shell.face_count()),
+            Outcome::Reached | Outcome::OutOfTime => {
                 (0, if done.work.is_kept_near() { done.work.shell.face_count() } else { 0 })
             }
         };
@@ -224,7 +224,7 @@ impl<'a> Builder<'a, '_, '_> {
                 self.is_hurried = true;
                 continue;
             }
-            let is_reached = best.as_ref().is_some_and(|best| best.stop != Stop::Stuck);
+            let is_reached = best.as_ref().is_some_and(|best| best.stop != Outcome::Stuck);
             let settled = is_enough && (!is_few || is_itself) && is_reached;
             if best.is_some() && (settled || late) {
                 break;
@@ -264,7 +264,7 @@ impl<'a> Builder<'a, '_, '_> {
             let more = volume * NEXT_TO_NONE + off.min(volume * NEARLY_NONE);
             (volume..=volume + more).contains(&shell.volume())
         };
-        done.stop == Stop::Reached && self.volume.is_some_and(near)
+        done.stop == Outcome::Reached && self.volume.is_some_and(near)
     }
 
     /// Why there is no start.
@@ -285,14 +285,15 @@ impl<'a> Builder<'a, '_, '_> {
             work.sweep();
             work.flip_all();
         }
-        let stop = if how.descends { self.descend(&mut work, how.wanted) } else { Stop::Reached };
+        let stop =
+            if how.descends { self.descend(&mut work, how.wanted) } else { Outcome::Reached };
         if how.is_few() && start == Start::Box {
             self.grow(&mut work, how.wanted);
         }
         work.refine(how.wanted);
         work.relax(self.floor(), 1e-2, 4);
         let mut done = Done { work, start, filled, stop };
-        if how.is_few() && stop == Stop::Reached {
+        if how.is_few() && stop == Outcome::Reached {
             self.finish(&mut done);
         }
         done
@@ -310,18 +311,18 @@ impl<'a> Builder<'a, '_, '_> {
 
     fn finish(&mut self, done: &mut Done<'a>) {
         let polished = self.polish(&mut done.work, self.options.effort);
-        if done.stop == Stop::Reached {
+        if done.stop == Outcome::Reached {
             done.stop = polished;
         }
     }
 
     /// Down to so many faces, or as few as can be, without polish.
-    pub fn descend(&mut self, work: &mut Work<'a>, faces: usize) -> Stop {
+    pub fn descend(&mut self, work: &mut Work<'a>, faces: usize) -> Outcome {
         let from = work.shell.face_count();
-        let mut stop = Stop::Reached;
+        let mut stop = Outcome::Reached;
         while work.shell.face_count() > faces {
             if work.is_late() {
-                return Stop::OutOfTime;
+                return Outcome::OutOfTime;
             }
             let next = ((work.shell.face_count() as f64 * STAGE) as usize).max(faces);
             let on_progress = &mut *self.on_progress;
@@ -334,14 +335,14 @@ impl<'a> Builder<'a, '_, '_> {
             };
             let mut reached = work.decimate(next, &mut show);
             if !reached && work.is_late() {
-                return Stop::OutOfTime;
+                return Outcome::OutOfTime;
             }
             if !reached && work.shape != LOOSE {
                 work.shape = LOOSE;
                 reached = work.decimate(next, &mut show);
             }
             if !reached {
-                stop = Stop::Stuck;
+                stop = Outcome::Stuck;
                 break;
             }
             work.relax(self.floor(), 1e-2, 4);
@@ -350,12 +351,12 @@ impl<'a> Builder<'a, '_, '_> {
         stop
     }
 
-    pub fn polish(&mut self, work: &mut Work<'a>, effort: f64) -> Stop {
+    pub fn polish(&mut self, work: &mut Work<'a>, effort: f64) -> Outcome {
         let on_progress = &mut *self.on_progress;
         Polish::new(work, effort).run(work, self.volume.unwrap_or(0.0), |done, of| {
             on_progress(Progress { stage: Stage::Polishing, done: done as usize, of: of as usize });
         });
         work.drop_swallowed();
-        if work.is_late() { Stop::OutOfTime } else { Stop::Reached }
+        if work.is_late() { Outcome::OutOfTime } else { Outcome::Reached }
     }
 }

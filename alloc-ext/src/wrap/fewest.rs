@@ -5,7 +5,7 @@
 //! edge may collapse any more.
 
 use super::build::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
-use super::options::{Stop, WrapError};
+use super::options::{Outcome, WrapError};
 use super::rounding::Rounding;
 use super::start::{First, OF_STAIRS, Place, first_box, first_closure, first_levels};
 use super::volume::NoVolume;
@@ -74,7 +74,7 @@ impl<'a> Builder<'a, '_, '_> {
                 if let Some(level) = levels.plenty.or(levels.wanted) {
                     any_level = true;
                     let done = self.within(level, rounding, most);
-                    came = done.stop == Stop::Reached;
+                    came = done.stop == Outcome::Reached;
                     better(&mut best, done);
                 }
                 levels_end = faces >= from.mesh.triangles.len();
@@ -90,7 +90,7 @@ impl<'a> Builder<'a, '_, '_> {
                     let first = first_closure(&place, cells, faces, conditions, self.on_progress);
                     if let Some(first) = first {
                         let done = self.within(first, rounding, most);
-                        came |= done.stop == Stop::Reached;
+                        came |= done.stop == Outcome::Reached;
                         better(&mut best, done);
                     }
                 }
@@ -105,7 +105,7 @@ impl<'a> Builder<'a, '_, '_> {
         if self.is_late()
             && let Some(done) = &mut best
         {
-            done.stop = Stop::OutOfTime;
+            done.stop = Outcome::OutOfTime;
         }
         best.ok_or_else(|| self.no_room())
     }
@@ -117,7 +117,7 @@ impl<'a> Builder<'a, '_, '_> {
         ((CELLS.0 * longest / (most - margin)) as usize).clamp(LEAST_CELLS, CELLS.1)
     }
 
-    /// The hull of a start that comes down within a slack, or one that is [`Stop::TooLoose`].
+    /// The hull of a start that comes down within a slack, or one that is [`Outcome::TooLoose`].
     fn within(&mut self, first: First, rounding: Rounding, most: f64) -> Done<'a> {
         let First { shell, start, filled } = first;
         let mut work = Work::new(self.obstacle, shell, rounding, SHAPE);
@@ -132,7 +132,7 @@ impl<'a> Builder<'a, '_, '_> {
         }
         if !came {
             work.drop_swallowed();
-            return Done { work, start, filled, stop: Stop::TooLoose };
+            return Done { work, start, filled, stop: Outcome::TooLoose };
         }
         work.relax(self.floor(), 1e-2, 4);
         let mut faces = usize::MAX;
@@ -142,7 +142,7 @@ impl<'a> Builder<'a, '_, '_> {
             let saved = faces.saturating_sub(now);
             faces = now;
             if saved < (now / NEAR_ENOUGH).max(2) || work.is_late() {
-                return Done { work, start, filled, stop: Stop::Reached };
+                return Done { work, start, filled, stop: Outcome::Reached };
             }
             // Less volume leaves more room for what the next collapses add.
             self.polish(&mut work, self.options.effort);
@@ -167,7 +167,8 @@ impl<'a> Builder<'a, '_, '_> {
         if !self.has_void(&done.work, most) {
             self.polish(&mut done.work, self.options.effort);
             if !self.has_void(&done.work, most) {
-                done.stop = if done.work.is_late() { Stop::OutOfTime } else { Stop::TooLoose };
+                done.stop =
+                    if done.work.is_late() { Outcome::OutOfTime } else { Outcome::TooLoose };
                 return Ok(done);
             }
         }
@@ -179,24 +180,24 @@ impl<'a> Builder<'a, '_, '_> {
             let staged = (faces as f64 * STAGE) as usize & !1;
             let next = if staged > too_few { staged } else { usize::midpoint(faces, too_few) & !1 };
             if next <= too_few || next >= faces || faces - next < (faces / NEAR_ENOUGH).max(2) {
-                done.stop = Stop::Reached;
+                done.stop = Outcome::Reached;
                 return Ok(done);
             }
             let mut trial = Done { work: done.work.clone(), ..done };
             trial.stop = self.descend(&mut trial.work, next);
-            if trial.stop == Stop::Reached && !self.has_void(&trial.work, most) {
+            if trial.stop == Outcome::Reached && !self.has_void(&trial.work, most) {
                 self.polish(&mut trial.work, self.options.effort);
             }
-            let mut found = trial.stop == Stop::Reached && self.has_void(&trial.work, most);
+            let mut found = trial.stop == Outcome::Reached && self.has_void(&trial.work, most);
             if !found && next <= FEW_FACES && !self.is_late() {
                 // With few faces the start decides.
                 let mut other = self.begin(from, next, true)?;
                 other.work.add_counts(&trial.work);
                 trial = other;
-                found = trial.stop == Stop::Reached && self.has_void(&trial.work, most);
+                found = trial.stop == Outcome::Reached && self.has_void(&trial.work, most);
             }
             if self.is_late() {
-                done.stop = Stop::OutOfTime;
+                done.stop = Outcome::OutOfTime;
                 return Ok(done);
             }
             if found {

@@ -3,7 +3,7 @@
 use super::boxes::Bounds;
 use super::build::{Builder, Done};
 use super::obstacle::Obstacle;
-use super::options::{Goal, Options, Progress, Report, Stop, WrapError};
+use super::options::{Goal, Options, Outcome, Progress, Report, WrapError};
 use super::slack::slack;
 use super::volume::{Solid, crosses_itself};
 use crate::mesh::Mesh;
@@ -97,8 +97,8 @@ pub fn wrap_all(
     };
     let Done { mut work, start, filled, mut stop } = builder.build(mesh, &stored, &around)?;
     work.drop_swallowed();
-    if builder.is_hurried && stop == Stop::Reached {
-        stop = Stop::OutOfTime;
+    if builder.is_hurried && stop == Outcome::Reached {
+        stop = Outcome::OutOfTime;
     }
     let (at, triangles) = work.shell.compact();
     let hull_volume = work.shell.volume();

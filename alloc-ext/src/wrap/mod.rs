@@ -56,7 +56,7 @@ mod volume;
 mod work;
 
 pub use hull::{Hull, wrap, wrap_all};
-pub use options::{Goal, Options, Progress, Report, Stage, Start, Stop, WrapError};
+pub use options::{Goal, Options, Outcome, Progress, Report, Stage, Start, WrapError};
 pub use parts::{parts, share};
 pub use surface::Surface;
 pub use volume::NoVolume;

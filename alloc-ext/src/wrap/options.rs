@@ -72,7 +72,7 @@ pub enum Start {
 
 /// Why a hull has the faces that it has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum Outcome {
     /// It reached its goal.
     Reached,
     /// More faces than asked for: no collapse of an edge kept it closed, embedded, clear of the
@@ -107,7 +107,7 @@ pub struct Report {
     /// are not in the hull.
     pub filled: usize,
     /// Why it stopped.
-    pub stop: Stop,
+    pub stop: Outcome,
     /// Stars that were placed: the measure of work.
     pub stars: u64,
     /// Linear programs solved for them.

@@ -1,7 +1,7 @@
 //! Runs the program, and knows the truth by brute force in f64.
 #![allow(dead_code, reason = "each test file uses a part")]
 
-use meshsweep_alloc::mesh;
+use meshsweep::mesh;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,4 +1,4 @@
-//! Where everything stands in a blob. The reader of this crate and the writer of `meshsweep-alloc`
+//! Where everything stands in a blob. The reader of this crate and the writer of `meshsweep`
 //! share these constants; `core/FORMAT.md` is the normative text.
 
 /// First eight bytes of every blob.
@@ -112,7 +112,7 @@ pub enum SectionKind {
     /// One swept triangle for each [`BASE_GROUP`] triangles of the base hull, which it contains.
     BaseGroups = 11,
     /// Counts, grid and error bound of the box tree.
-    Tree = 12,
+    Bvh = 12,
     /// For each node of the box tree where its children are.
     TreeLinks = 13,
     /// Boxes of the children of each node, in a frame that they share: for distances.
@@ -146,7 +146,7 @@ impl SectionKind {
         SectionKind::Cover,
         SectionKind::Surface,
         SectionKind::Source,
-        SectionKind::Tree,
+        SectionKind::Bvh,
         SectionKind::TreeLinks,
         SectionKind::TreeFrames,
         SectionKind::TreeBoxes,
@@ -159,7 +159,7 @@ impl SectionKind {
 
     /// Whether the section belongs to the hull hierarchy.
     pub fn is_hull(self) -> bool {
-        (self as u32) < SectionKind::Tree as u32
+        (self as u32) < SectionKind::Bvh as u32
     }
 
     /// Whether the section belongs to the box tree.
@@ -181,7 +181,7 @@ impl SectionKind {
             SectionKind::Source => "source numbers",
             SectionKind::Levels => "levels",
             SectionKind::BaseGroups => "base groups",
-            SectionKind::Tree => "tree header",
+            SectionKind::Bvh => "tree header",
             SectionKind::TreeLinks => "tree links",
             SectionKind::TreeFrames => "tree boxes for distances",
             SectionKind::TreeBoxes => "tree boxes for segments",

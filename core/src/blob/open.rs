@@ -6,7 +6,7 @@ use super::model::{Model, Vertices, Widths};
 use super::read::Bytes;
 use super::sections::{Section, place_sections, read_header, section};
 use super::tight::TightHulls;
-use super::tree::Tree;
+use super::tree::Bvh;
 use super::triboxes::Triboxes;
 
 impl<'a> Model<'a> {
@@ -15,7 +15,7 @@ impl<'a> Model<'a> {
     ///
     /// Cost: linear in the blob, no allocation; once per start, not per query. Alignment of `bytes`
     /// does not matter. A program that only asks the box tree links less code with
-    /// [`Tree::open`], one that only asks triboxes with [`Triboxes::open`], one that only asks
+    /// [`Bvh::open`], one that only asks triboxes with [`Triboxes::open`], one that only asks
     /// tight hulls with [`TightHulls::open`].
     ///
     /// # Errors
@@ -57,7 +57,7 @@ impl<'a> Model<'a> {
         }
         // Any section of a tree needs the others.
         if SectionKind::ALL.into_iter().any(|kind| kind.is_tree() && has(kind)) {
-            Tree::open(bytes)?;
+            Bvh::open(bytes)?;
         }
         if has(SectionKind::Triboxes) {
             Triboxes::open(bytes)?;
@@ -65,7 +65,7 @@ impl<'a> Model<'a> {
         if has(SectionKind::TightHulls) {
             TightHulls::open(bytes)?;
         }
-        let others = [SectionKind::Tree, SectionKind::Triboxes, SectionKind::TightHulls];
+        let others = [SectionKind::Bvh, SectionKind::Triboxes, SectionKind::TightHulls];
         if others.into_iter().any(has) && !model.has_hull() {
             model.check_without_hull()?;
         } else {
@@ -81,9 +81,9 @@ impl<'a> Model<'a> {
     }
 
     /// The box tree, if the blob has one.
-    pub fn tree(&self) -> Option<Tree<'a>> {
+    pub fn tree(&self) -> Option<Bvh<'a>> {
         // `open` has checked it.
-        Tree::view(self.bytes.0).ok()
+        Bvh::view(self.bytes.0).ok()
     }
 
     /// The tribox hierarchy, if the blob has one.

@@ -10,14 +10,14 @@ use glam::Vec3;
 /// Shape of a leaf in one byte: vertices, where the second fan begins, whether its winding is
 /// opposite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tag(pub u8);
+pub struct LeafShape(pub u8);
 
-impl Tag {
+impl LeafShape {
     /// The tag of a patch of `triangles` with the second fan beginning at triangle `turn` (0: one
     /// fan).
     pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
         let vertices = triangles + 2 + usize::from(turn > 0);
-        Tag(vertices as u8 & 0x0F | (turn as u8 & 7) << 4 | u8::from(reversed) << 7)
+        LeafShape(vertices as u8 & 0x0F | (turn as u8 & 7) << 4 | u8::from(reversed) << 7)
     }
 
     /// Vertices stored.
@@ -64,10 +64,10 @@ impl Tag {
 
 /// A leaf: one or two fans.
 #[derive(Clone, Copy, Debug)]
-pub struct Patch<'a> {
+pub struct FanLeaf<'a> {
     pub(super) bytes: &'a [u8],
-    pub(super) tag: Tag,
-    pub(super) single: bool,
+    pub(super) tag: LeafShape,
+    pub(super) is_f32: bool,
     pub(super) origin: [i32; 3],
 }
 
@@ -101,7 +101,7 @@ fn short(bytes: &[u8], at: usize) -> i32 {
 }
 
 #[inline(always)]
-fn single(bytes: &[u8], at: usize) -> f32 {
+fn f32_at(bytes: &[u8], at: usize) -> f32 {
     match bytes.get(at..).and_then(|b| b.first_chunk::<4>()) {
         Some(&word) => f32::from_le_bytes(word),
         None => 0.0,
@@ -163,10 +163,10 @@ fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
     }
 }
 
-impl<'a> Patch<'a> {
+impl<'a> FanLeaf<'a> {
     /// Its shape.
     #[inline(always)]
-    pub fn tag(&self) -> Tag {
+    pub fn tag(&self) -> LeafShape {
         self.tag
     }
 
@@ -174,12 +174,12 @@ impl<'a> Patch<'a> {
     /// triangles, here and below, reads as some number.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> Vec3 {
-        if self.single {
+        if self.is_f32 {
             let at = 12 * which;
             return Vec3::new(
-                single(self.bytes, at),
-                single(self.bytes, at + 4),
-                single(self.bytes, at + 8),
+                f32_at(self.bytes, at),
+                f32_at(self.bytes, at + 4),
+                f32_at(self.bytes, at + 8),
             );
         }
         let [x, y, z] = self.stored(6 * which, 2);
@@ -193,7 +193,7 @@ impl<'a> Patch<'a> {
     #[inline(always)]
     pub fn stored_vertices(&self) -> [[f32; CORNERS]; 3] {
         let mut out = [[0f32; CORNERS]; 3];
-        if self.single {
+        if self.is_f32 {
             self.single_vertices(&mut out);
             return out;
         }
@@ -242,13 +242,13 @@ impl<'a> Patch<'a> {
     #[inline(always)]
     pub fn ring(&self, i: usize) -> Vec3 {
         let entries = self.tag.triangles() + 1;
-        if self.single {
+        if self.is_f32 {
             let at = 12 * self.tag.centres() + 4 * i;
             let step = 4 * entries;
             return Vec3::new(
-                single(self.bytes, at),
-                single(self.bytes, at + step),
-                single(self.bytes, at + 2 * step),
+                f32_at(self.bytes, at),
+                f32_at(self.bytes, at + step),
+                f32_at(self.bytes, at + 2 * step),
             );
         }
         let [x, y, z] = self.stored(6 * self.tag.centres() + 2 * i, 2 * entries);
@@ -259,7 +259,7 @@ impl<'a> Patch<'a> {
     /// Ring vertex `i` less centre `which`: exact on the grid, rounded once with f32 vertices.
     #[inline(always)]
     pub fn spoke(&self, i: usize, which: usize) -> Vec3 {
-        if self.single {
+        if self.is_f32 {
             return self.ring(i) - self.centre(which);
         }
         let step = 2 * (self.tag.triangles() + 1);
@@ -312,8 +312,8 @@ impl<'a> Patch<'a> {
 
     /// Whether vertices are f32: then [`single_edges8`](Self::single_edges8) is to be asked.
     #[inline(always)]
-    pub fn is_single(&self) -> bool {
-        self.single
+    pub fn is_f32(&self) -> bool {
+        self.is_f32
     }
 
     /// All triangles as seen from `p` (grid units), for the wide kernel: vertices on the grid.
@@ -360,7 +360,7 @@ impl<'a> Patch<'a> {
     /// Ring and centres in the order of `axes`, grid units, exactly, for the wide segment kernel.
     #[inline(always)]
     pub fn ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
-        if self.single { self.single_ring8(axes) } else { self.grid_ring8(axes) }
+        if self.is_f32 { self.single_ring8(axes) } else { self.grid_ring8(axes) }
     }
 
     #[inline(always)]
@@ -402,8 +402,8 @@ impl<'a> Patch<'a> {
                 ring.here[k][i] = word(4 * i);
                 ring.next[k][i] = word(4 * i + 4);
             }
-            ring.centres[0][k] = single(self.bytes, 4 * axis);
-            ring.centres[1][k] = single(self.bytes, second + 4 * axis);
+            ring.centres[0][k] = f32_at(self.bytes, 4 * axis);
+            ring.centres[1][k] = f32_at(self.bytes, second + 4 * axis);
         }
         Some(ring)
     }

@@ -1,13 +1,13 @@
 //! Checked views of tight hulls: outer hulls of few faces, each with a box tree of its own and a
 //! certified distance from each face to the mesh.
 //!
-//! If [`TightHulls::open`] returned `Ok`, then every hull's tree is one that [`Tree::open`]
+//! If [`TightHulls::open`] returned `Ok`, then every hull's tree is one that [`Bvh::open`]
 //! accepts, has as many triangles as the hull has faces, and every distance is finite and at least
 //! 0. Accessors still return `Option`, and no path can panic.
 
 use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED};
 use super::read::Bytes;
-use super::tree::Tree;
+use super::tree::Bvh;
 use crate::num::Radius16;
 
 /// What the table says of a tight hull. Lengths are in input units.
@@ -40,7 +40,7 @@ pub struct TightHulls<'a> {
 /// enters. [`query::tight`](crate::query::tight) answers about the mesh within. Copies are cheap.
 #[derive(Clone, Copy, Debug)]
 pub struct TightHull<'a> {
-    pub(super) tree: Tree<'a>,
+    pub(super) tree: Bvh<'a>,
     pub(super) record: TightRecord,
     pub(super) slacks: &'a [[u8; 2]],
     pub(super) bytes: &'a [u8],
@@ -98,7 +98,7 @@ impl<'a> TightHulls<'a> {
     pub fn get(&self, index: u32) -> Option<TightHull<'a>> {
         let (place, record) = read(self.records.get(index as usize)?)?;
         let (bytes, slacks) = self.parts(place, record.faces)?;
-        Some(TightHull { tree: Tree::view(bytes).ok()?, record, slacks, bytes })
+        Some(TightHull { tree: Bvh::view(bytes).ok()?, record, slacks, bytes })
     }
 
     /// The finest hull: the tightest.
@@ -117,7 +117,7 @@ impl<'a> TightHulls<'a> {
 
 impl<'a> TightHull<'a> {
     /// The hull's own box tree; source numbers are those of its faces.
-    pub fn tree(&self) -> &Tree<'a> {
+    pub fn tree(&self) -> &Bvh<'a> {
         &self.tree
     }
 

@@ -8,7 +8,7 @@ use super::layout::{
 use super::read::Bytes;
 use super::sections::{place_sections, read_header};
 use super::tight::{TightHulls, read};
-use super::tree::Tree;
+use super::tree::Bvh;
 use crate::num::Radius16;
 
 impl<'a> TightHulls<'a> {
@@ -76,7 +76,7 @@ impl<'a> TightHulls<'a> {
                 return Err(bad);
             }
             let (blob, slacks) = self.parts(place, record.faces).ok_or(bad)?;
-            let tree = Tree::open(blob)?;
+            let tree = Bvh::open(blob)?;
             let whole =
                 tree.header().triangles == record.faces && tree.input_triangles() == record.faces;
             let sound = |bytes: &[u8; 2]| length(Radius16(u16::from_le_bytes(*bytes)).get());

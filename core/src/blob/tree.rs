@@ -1,22 +1,22 @@
 //! Checked views of the box tree.
 //!
-//! If [`Tree::open`] returned `Ok`, then every node below the root is a child of exactly one node
+//! If [`Bvh::open`] returned `Ok`, then every node below the root is a child of exactly one node
 //! with a lesser number, every leaf lies within the fans, and every coordinate is finite and within
 //! the tree's box. Accessors still return `Option`, and no path can panic.
 
 use super::layout::{
     BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
 };
-use super::patch::{Patch, Tag};
+use super::patch::{FanLeaf, LeafShape};
 use super::read::Bytes;
-use super::tree_header::TreeHeader;
+use super::tree_header::BvhHeader;
 use glam::Vec3;
 
 /// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows
 /// the bytes and holds the header.
 #[derive(Clone, Copy, Debug)]
-pub struct Tree<'a> {
-    pub(super) header: TreeHeader,
+pub struct Bvh<'a> {
+    pub(super) header: BvhHeader,
     pub(super) scale_exponent: i32,
     pub(super) input_triangles: u32,
     pub(super) scale: GridScale,
@@ -49,7 +49,7 @@ fn power(exponent: i32) -> f32 {
 }
 
 impl GridScale {
-    pub(super) fn of(header: &TreeHeader, scale_exponent: i32) -> GridScale {
+    pub(super) fn of(header: &BvhHeader, scale_exponent: i32) -> GridScale {
         let exponent = scale_exponent.wrapping_add(header.grid_exponent);
         let half = exponent / 2;
         let rest = exponent.wrapping_sub(half);
@@ -89,14 +89,14 @@ pub struct Links {
 /// A child of a node: another node, or a leaf. Plain numbers rather than an enum of views: the
 /// descent decides by the tag when it has to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TreeChild {
+pub struct BvhChild {
     /// Number of the node, or first vertex of the leaf.
     pub at: u32,
     /// Shape of the leaf; 0 for a node.
-    pub tag: Tag,
+    pub tag: LeafShape,
 }
 
-impl TreeChild {
+impl BvhChild {
     /// Whether it is a leaf.
     #[inline(always)]
     pub fn is_leaf(self) -> bool {
@@ -139,7 +139,7 @@ impl Links {
         inner: usize,
         first_vertex: u32,
         first_triangle: u32,
-        tags: &[Tag],
+        tags: &[LeafShape],
     ) -> [u8; LINK_BYTES] {
         let mut out = [0u8; LINK_BYTES];
         let count = inner + tags.len();
@@ -152,17 +152,17 @@ impl Links {
 
     /// Shape of child `lane`; 0 for a node.
     #[inline(always)]
-    pub fn tag(&self, lane: u32) -> Tag {
+    pub fn tag(&self, lane: u32) -> LeafShape {
         let [low, high] = self.tags;
         let word = if lane < 4 { low } else { high };
-        Tag((word >> (8 * (lane & 3))) as u8)
+        LeafShape((word >> (8 * (lane & 3))) as u8)
     }
 
     /// Child `lane`.
     #[inline(always)]
-    pub fn child(&self, lane: u32) -> TreeChild {
+    pub fn child(&self, lane: u32) -> BvhChild {
         let (node, vertex) = (self.first_node.wrapping_add(lane), self.vertex(lane));
-        TreeChild { at: if lane < self.inner { node } else { vertex }, tag: self.tag(lane) }
+        BvhChild { at: if lane < self.inner { node } else { vertex }, tag: self.tag(lane) }
     }
 
     /// First triangle of leaf `lane`.
@@ -185,9 +185,9 @@ impl Links {
     }
 }
 
-impl<'a> Tree<'a> {
+impl<'a> Bvh<'a> {
     /// The tree's header.
-    pub fn header(&self) -> &TreeHeader {
+    pub fn header(&self) -> &BvhHeader {
         &self.header
     }
 
@@ -247,23 +247,23 @@ impl<'a> Tree<'a> {
 
     /// Child `lane` of `node`.
     #[inline(always)]
-    pub fn child(&self, node: u32, lane: u32) -> Option<TreeChild> {
+    pub fn child(&self, node: u32, lane: u32) -> Option<BvhChild> {
         Some(self.links(node)?.child(lane))
     }
 
     /// Child `lane` of `node` if it is a leaf.
     #[inline(always)]
-    pub fn leaf(&self, node: u32, lane: u32) -> Option<Patch<'a>> {
+    pub fn leaf(&self, node: u32, lane: u32) -> Option<FanLeaf<'a>> {
         let child = self.child(node, lane)?;
         if child.is_leaf() { self.patch(child.at, child.tag) } else { None }
     }
 
     /// The leaf whose vertices begin at `vertex`.
     #[inline(always)]
-    pub fn patch(&self, vertex: u32, tag: Tag) -> Option<Patch<'a>> {
-        let single = self.header.is_single();
-        let at = (vertex as usize).wrapping_mul(if single { 12 } else { 6 });
-        Some(Patch { bytes: self.fans.get(at..)?, tag, single, origin: self.header.grid_origin })
+    pub fn patch(&self, vertex: u32, tag: LeafShape) -> Option<FanLeaf<'a>> {
+        let is_f32 = self.header.is_f32();
+        let at = (vertex as usize).wrapping_mul(if is_f32 { 12 } else { 6 });
+        Some(FanLeaf { bytes: self.fans.get(at..)?, tag, is_f32, origin: self.header.grid_origin })
     }
 
     /// Number in the input file of a triangle of the tree.

@@ -9,7 +9,7 @@ use super::read::Bytes;
 /// *Grid units* are units of the tree's grid: local frame divided by `2^grid_exponent`. A
 /// coordinate on the grid is a u16 plus `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TreeHeader {
+pub struct BvhHeader {
     /// [`TREE_CLOSED`] and [`TREE_SINGLE`].
     pub flags: u8,
     /// Local coordinate = grid coordinate × 2^this.
@@ -37,9 +37,9 @@ pub struct TreeHeader {
     pub high: [u16; 3],
 }
 
-impl TreeHeader {
+impl BvhHeader {
     /// Before it is read.
-    pub(super) const EMPTY: TreeHeader = TreeHeader {
+    pub(super) const EMPTY: BvhHeader = BvhHeader {
         flags: 0,
         grid_exponent: 0,
         grid_origin: [0; 3],
@@ -60,17 +60,17 @@ impl TreeHeader {
     }
 
     /// Whether leaf vertices are f32.
-    pub fn is_single(&self) -> bool {
+    pub fn is_f32(&self) -> bool {
         self.flags & TREE_SINGLE != 0
     }
 
     /// Bytes of one leaf vertex.
     pub fn vertex_bytes(&self) -> usize {
-        if self.is_single() { 12 } else { 6 }
+        if self.is_f32() { 12 } else { 6 }
     }
 
-    pub(super) fn read(bytes: Bytes<'_>) -> Result<TreeHeader, OpenError> {
-        let short = OpenError::Record { section: SectionKind::Tree, index: 0 };
+    pub(super) fn read(bytes: Bytes<'_>) -> Result<BvhHeader, OpenError> {
+        let short = OpenError::Record { section: SectionKind::Bvh, index: 0 };
         let word = |at: usize| bytes.u32(at).ok_or(short);
         let short3 = |at: usize| {
             Ok([
@@ -84,7 +84,7 @@ impl TreeHeader {
         if !reserved || flags & !(TREE_CLOSED | TREE_SINGLE) != 0 {
             return Err(OpenError::Reserved);
         }
-        Ok(TreeHeader {
+        Ok(BvhHeader {
             flags,
             grid_exponent: word(4)?.cast_signed(),
             grid_origin: [word(8)?.cast_signed(), word(12)?.cast_signed(), word(16)?.cast_signed()],

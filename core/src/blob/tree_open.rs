@@ -5,11 +5,11 @@ use super::header::Header;
 use super::layout::{
     FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, SectionKind, TREE_BYTES, WIDTH,
 };
-use super::patch::{Patch, Tag};
+use super::patch::{FanLeaf, LeafShape};
 use super::read::Bytes;
 use super::sections::{place_sections, read_header};
-use super::tree::{GridScale, Tree};
-use super::tree_header::TreeHeader;
+use super::tree::{Bvh, GridScale};
+use super::tree_header::BvhHeader;
 use crate::num::tolerance::U32;
 
 /// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
@@ -32,7 +32,7 @@ struct Family {
     waiting: u32,
 }
 
-impl<'a> Tree<'a> {
+impl<'a> Bvh<'a> {
     /// Opens the box tree of a blob where it lies, and checks all of it: CRCs, every link, every
     /// coordinate. Any bytes are safe to open. Other sections are not looked at, so that the
     /// code that checks them is not linked.
@@ -42,25 +42,25 @@ impl<'a> Tree<'a> {
     ///
     /// # Errors
     /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
-    pub fn open(bytes: &'a [u8]) -> Result<Tree<'a>, OpenError> {
-        let tree = Tree::place(bytes, true)?;
+    pub fn open(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
+        let tree = Bvh::place(bytes, true)?;
         tree.check()?;
         Ok(tree)
     }
 
     /// The tree of bytes that were opened before.
-    pub(super) fn view(bytes: &'a [u8]) -> Result<Tree<'a>, OpenError> {
-        Tree::place(bytes, false)
+    pub(super) fn view(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
+        Bvh::place(bytes, false)
     }
 
-    fn place(bytes: &'a [u8], check: bool) -> Result<Tree<'a>, OpenError> {
+    fn place(bytes: &'a [u8], check: bool) -> Result<Bvh<'a>, OpenError> {
         let header = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
         let mut head: &[u8] = &[];
-        let mut tree = Tree {
-            header: TreeHeader::EMPTY,
+        let mut tree = Bvh {
+            header: BvhHeader::EMPTY,
             scale_exponent: header.scale_exponent,
             input_triangles: header.input_triangles,
-            scale: GridScale::of(&TreeHeader::EMPTY, 0),
+            scale: GridScale::of(&BvhHeader::EMPTY, 0),
             links: &[],
             frames: &[],
             boxes: &[],
@@ -72,7 +72,7 @@ impl<'a> Tree<'a> {
         place_sections(&header, Bytes(bytes), check, wants, |index, kind, data| {
             let rest: &[u8];
             match kind {
-                SectionKind::Tree => (head, rest) = (data, &[]),
+                SectionKind::Bvh => (head, rest) = (data, &[]),
                 SectionKind::TreeLinks => (tree.links, rest) = data.as_chunks(),
                 SectionKind::TreeFrames => (tree.frames, rest) = data.as_chunks(),
                 SectionKind::TreeBoxes => (tree.boxes, rest) = data.as_chunks(),
@@ -84,9 +84,9 @@ impl<'a> Tree<'a> {
             if rest.is_empty() { Ok(()) } else { Err(OpenError::Section { index }) }
         })?;
         if head.len() != TREE_BYTES {
-            return Err(OpenError::MissingSection { section: SectionKind::Tree });
+            return Err(OpenError::MissingSection { section: SectionKind::Bvh });
         }
-        tree.header = TreeHeader::read(Bytes(head))?;
+        tree.header = BvhHeader::read(Bytes(head))?;
         tree.scale = GridScale::of(&tree.header, tree.scale_exponent);
         Ok(tree)
     }
@@ -163,7 +163,7 @@ impl<'a> Tree<'a> {
             if !sound {
                 return Err(bad);
             }
-            if (0..links.inner).any(|lane| links.tag(lane) != Tag(0)) {
+            if (0..links.inner).any(|lane| links.tag(lane) != LeafShape(0)) {
                 return Err(bad);
             }
             if links.count > links.inner
@@ -185,7 +185,7 @@ impl<'a> Tree<'a> {
                 }
                 self.check_patch(&patch, leaves - 1)?;
             }
-            if (links.count..WIDTH as u32).any(|lane| links.tag(lane) != Tag(0)) {
+            if (links.count..WIDTH as u32).any(|lane| links.tag(lane) != LeafShape(0)) {
                 return Err(bad);
             }
         }
@@ -275,7 +275,7 @@ impl<'a> Tree<'a> {
         Ok(())
     }
 
-    fn check_patch(&self, patch: &Patch<'_>, index: u32) -> Result<(), OpenError> {
+    fn check_patch(&self, patch: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
         let h = &self.header;
         let bad = OpenError::Record { section: SectionKind::TreeFans, index };
         let inside = |p: glam::Vec3| {

@@ -12,9 +12,7 @@ mod ray;
 mod ray8;
 
 pub use cone::NormalCone;
-pub use point::{
-    Nearness, PointFan, SpokeTerms, certified_distance, lone_triangle, point_patch, refined,
-};
+pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, point_patch, refined};
 pub use point8::{Edges8, LANES_BELOW, Nearness8, point_patch8};
 pub use ray::{Crossing, FanRay, STILL, Shadow, ray_patch};
 pub use ray8::{Ring8, ray_patch8};

@@ -6,7 +6,7 @@
 //! order in which the wide kernel overrides them.
 
 use super::WIDTH;
-use crate::num::root;
+use crate::num::sqrt_approx;
 use crate::num::tolerance::TREE_TINY;
 use glam::Vec3;
 
@@ -16,7 +16,7 @@ pub struct Nearness {
     /// Squared length of the residual `s − v·e − w·g`.
     pub distance_sq: f32,
     /// A supporting plane's bound: the squared distance is not below this, but for rounding.
-    pub certified_sq: f32,
+    pub lower_bound_sq: f32,
     /// The closest point is `centre + v·e + w·g`.
     pub v: f32,
     /// See [`v`](Self::v).
@@ -78,7 +78,7 @@ impl PointFan {
         let (d1, d2) = (a.along, b.along);
         if d1 <= 0.0 && d2 <= 0.0 {
             let distance_sq = self.centre_sq;
-            return Nearness { distance_sq, certified_sq: distance_sq, v: 0.0, w: 0.0 };
+            return Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 };
         }
         let (aa, cc) = (a.length_sq, b.length_sq);
         let bb = dot(a.edge, b.edge);
@@ -119,7 +119,7 @@ impl PointFan {
         let (ra, rb) = (dot(r, a.edge), dot(r, b.edge));
         let support = above(above(0.0, ra), rb);
         let slack = support - (v * ra + w * rb);
-        Nearness { distance_sq, certified_sq: distance_sq - (slack + slack), v, w }
+        Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }
     }
 }
 
@@ -133,7 +133,7 @@ pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness
 /// A sliver again, whose certificate falls far short of its distance: there the kernel's weights
 /// are differences of numbers that are nearly equal. The projection into the plane starts from the
 /// residual, so that its rounding is that of the way left; and the edges, each by itself, are
-/// always well-conditioned. The nearest of these points; `certified_sq` stays.
+/// always well-conditioned. The nearest of these points; `lower_bound_sq` stays.
 #[inline(never)]
 pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
     let mut best = *near;
@@ -216,7 +216,7 @@ pub fn point_patch(
 /// Holds up to the rounding that `TREE_FAN` covers, whatever the triangle. Cost: five roots, so it
 /// is for the few triangles that need it.
 #[inline]
-pub fn certified_distance(s: Vec3, e: Vec3, g: Vec3) -> f32 {
+pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let fan = PointFan::new(s);
     let near = lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g));
     let near = refined(&[s, e, g], &near);
@@ -241,7 +241,7 @@ fn supported(direction: Vec3, &[s, e, g]: &[Vec3; 3]) -> f32 {
     if largest > TREE_TINY {
         // Of length about 1, so that no square leaves f32's range.
         let d = direction * (1.0 / largest);
-        (dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g))) / root(dot(d, d))
+        (dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g))) / sqrt_approx(dot(d, d))
     } else {
         0.0
     }

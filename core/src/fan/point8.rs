@@ -42,7 +42,7 @@ pub struct Nearness8 {
     /// Squared lengths of the residuals.
     pub distance_sq: [f32; WIDTH],
     /// Supporting planes' bounds.
-    pub certified_sq: [f32; WIDTH],
+    pub lower_bound_sq: [f32; WIDTH],
     /// Coordinates along the first spokes.
     pub v: [f32; WIDTH],
     /// Coordinates along the second spokes.
@@ -56,7 +56,7 @@ const UNUSED: u32 = 0x7F00_0000;
 #[inline(always)]
 pub fn point_patch8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
     let mut distance_sq = [0f32; WIDTH];
-    let mut certified_sq = [0f32; WIDTH];
+    let mut lower_bound_sq = [0f32; WIDTH];
     let (mut along_e, mut along_g) = ([0f32; WIDTH], [0f32; WIDTH]);
     let [ex, ey, ez] = &edges.e;
     let [gx, gy, gz] = &edges.g;
@@ -120,9 +120,9 @@ pub fn point_patch8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
         let unused = !used[i] & UNUSED;
         let certified = r2 - (slack + slack);
         distance_sq[i] = f32::from_bits(r2.to_bits() & used[i] | unused);
-        certified_sq[i] = f32::from_bits(certified.to_bits() & used[i] | unused);
+        lower_bound_sq[i] = f32::from_bits(certified.to_bits() & used[i] | unused);
     }
     // Written to memory side by side: what is only ever used lane by lane the compiler would
     // compute so, too.
-    core::hint::black_box(Nearness8 { distance_sq, certified_sq, v: along_e, w: along_g })
+    core::hint::black_box(Nearness8 { distance_sq, lower_bound_sq, v: along_e, w: along_g })
 }

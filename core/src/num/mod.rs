@@ -6,5 +6,5 @@ mod round;
 pub mod tolerance;
 
 pub use radius::{Radius8, Radius16};
-pub use root::root;
+pub use root::sqrt_approx;
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};

@@ -12,7 +12,7 @@
 /// code is dear.
 #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
 #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-pub fn root(x: f32) -> f32 {
+pub fn sqrt_approx(x: f32) -> f32 {
     const SMALL: f32 = 1.0 / (1u64 << 60) as f32;
     const UP: f32 = (1u128 << 64) as f32;
     const DOWN: f32 = 1.0 / (1u64 << 32) as f32;
@@ -34,7 +34,7 @@ pub fn root(x: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::root;
+    use super::sqrt_approx;
 
     #[test]
     fn roots_are_within_two_units_over_all_of_f32() {
@@ -42,11 +42,11 @@ mod tests {
         while bits < f32::INFINITY.to_bits() {
             let x = f32::from_bits(bits);
             let exact = libm::sqrt(f64::from(x));
-            let error = (f64::from(root(x)) - exact).abs() / exact;
+            let error = (f64::from(sqrt_approx(x)) - exact).abs() / exact;
             assert!(error <= 2.0 * f64::from(f32::EPSILON) / 2.0, "{x:e}: {error:e}");
             bits += 9_973;
         }
-        assert_eq!(root(0.0), 0.0);
-        assert_eq!(root(f32::INFINITY), f32::INFINITY);
+        assert_eq!(sqrt_approx(0.0), 0.0);
+        assert_eq!(sqrt_approx(f32::INFINITY), f32::INFINITY);
     }
 }

@@ -2,7 +2,7 @@
 
 /// When a query may stop before its answer is exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
+pub struct Budget {
     /// Stop when `upper ≤ lower · (1 + relative)`. 0 for exact.
     pub relative: f32,
     /// Stop when `upper − lower ≤ absolute`, input units. 0 for exact.
@@ -11,9 +11,9 @@ pub struct Stop {
     pub steps: u32,
 }
 
-impl Stop {
+impl Budget {
     /// Go on until the interval is as narrow as arithmetic allows.
-    pub const EXACT: Stop = Stop { relative: 0.0, absolute: 0.0, steps: u32::MAX };
+    pub const EXACT: Budget = Budget { relative: 0.0, absolute: 0.0, steps: u32::MAX };
 
     pub(super) fn check(&self) -> Result<(), QueryError> {
         let fine = |x: f32| x >= 0.0 && x.is_finite();
@@ -21,9 +21,9 @@ impl Stop {
     }
 }
 
-impl Default for Stop {
+impl Default for Budget {
     fn default() -> Self {
-        Stop::EXACT
+        Budget::EXACT
     }
 }
 
@@ -32,12 +32,12 @@ impl Default for Stop {
 pub enum Ended {
     /// Nothing is left to look at: the interval is as narrow as the stored surface allows.
     Exact,
-    /// The tolerance of [`Stop`] was met.
+    /// The tolerance of [`Budget`] was met.
     Tolerance,
-    /// The step budget of [`Stop`] was used up.
+    /// The step budget of [`Budget`] was used up.
     Steps,
     /// The caller's memory was too short; [`Model::capacities`](crate::Model::capacities), or of a
-    /// tree [`TreeHeader::stack_entries`](crate::blob::TreeHeader::stack_entries), says what is
+    /// tree [`BvhHeader::stack_entries`](crate::blob::BvhHeader::stack_entries), says what is
     /// needed.
     Capacity,
     /// The blob knows the surface only to within an error, and that decides: it was cut after a

@@ -5,7 +5,7 @@
 //! f32, rounded down with a proved margin; the few triangles that may hold the answer are evaluated
 //! in f64, so that the interval is a rounding of f32 wide.
 
-use super::answer::{ClosestPoint, Ended, QueryError, Stop, Work};
+use super::answer::{Budget, ClosestPoint, Ended, QueryError, Work};
 use super::frame::Frame;
 use super::frontier::{Frontier, QueueEntry, Taken};
 use crate::blob::{Children, Model, NodeIdx, TriIdx};
@@ -25,7 +25,7 @@ use glam::{DVec3, Vec3};
 ///
 /// Cost: some hundreds of nodes and triangles near a scanned part (`cargo xtask measure` prints
 /// them for any mesh). The worst case is all of them, at the centre of a sphere: where time is
-/// bounded, set [`Stop::steps`].
+/// bounded, set [`Budget::steps`].
 ///
 /// # Errors
 /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`];
@@ -33,7 +33,7 @@ use glam::{DVec3, Vec3};
 pub fn closest_point(
     model: &Model<'_>,
     point: [f32; 3],
-    stop: &Stop,
+    stop: &Budget,
     queue: &mut [QueueEntry],
 ) -> Result<ClosestPoint, QueryError> {
     stop.check()?;
@@ -120,7 +120,7 @@ impl<'a> Sweep<'a> {
     fn run(
         &mut self,
         mut frontier: Frontier<'_>,
-        stop: &Stop,
+        stop: &Budget,
         absolute: f64,
     ) -> Result<Ended, QueryError> {
         let relative = 1.0 + f64::from(stop.relative);

@@ -20,7 +20,7 @@ pub mod tight;
 pub mod tree;
 pub mod tribox;
 
-pub use answer::{AllHits, ClosestPoint, Ended, Hit, QueryError, SegmentHit, Stop, Work};
+pub use answer::{AllHits, Budget, ClosestPoint, Ended, Hit, QueryError, SegmentHit, Work};
 pub use closest::closest_point;
 pub use frontier::QueueEntry;
 pub use outer_hits::{OuterHits, Search, outer_hits};

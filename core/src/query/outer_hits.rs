@@ -16,7 +16,7 @@ use crate::blob::{Children, NodeIdx};
 use crate::blob::{Model, SplitIdx, TriIdx, VertIdx};
 use crate::geom::{PointProbe, SegmentProbe, segment_triangle};
 use crate::num::{down_to_f32, up_to_f32};
-use crate::refine::{Face, Front, Refined};
+use crate::refine::{Face, Refined, RefinedHull};
 use glam::DVec3;
 
 /// How far the search goes.
@@ -51,7 +51,7 @@ pub struct OuterHits {
 
 /// Hits of the closed segment `a b`, whose start must lie outside the box of the hulls.
 ///
-/// `front` is working memory of any size ([`Front`]). The hull is reset to the base hull first. If
+/// `front` is working memory of any size ([`RefinedHull`]). The hull is reset to the base hull first. If
 /// `starts_inside` comes back set, ask [`first_hit`](super::first_hit) instead: the segment may
 /// start between hull and surface. The surface must be stored exactly (no grid rounding, no cut),
 /// or the answer is [`Ended::Level`] and says nothing. It must not wind around any
@@ -69,7 +69,7 @@ pub fn outer_hits(
     a: [f32; 3],
     b: [f32; 3],
     search: Search,
-    front: &mut Front<'_>,
+    front: &mut RefinedHull<'_>,
     hits: &mut [Hit],
 ) -> Result<OuterHits, QueryError> {
     if !model.has_hull() {
@@ -127,7 +127,7 @@ struct Sweep<'a, 'f> {
     end: DVec3,
     probe: SegmentProbe,
     search: Search,
-    front: &'a mut Front<'f>,
+    front: &'a mut RefinedHull<'f>,
     hits: &'a mut [Hit],
     out: OuterHits,
     waiting: usize,
@@ -168,7 +168,7 @@ impl Sweep<'_, '_> {
         if self.beyond(face.enter_at()) || !self.front.is_alive(self.model, corners) {
             return Some(());
         }
-        let split = Front::split_of_face(self.model, corners)?;
+        let split = RefinedHull::split_of_face(self.model, corners)?;
         match self.front.refine(self.model, split)? {
             Refined::Splits(count) => {
                 self.out.work.splits += count;
@@ -270,7 +270,7 @@ impl Sweep<'_, '_> {
         if self.beyond(t) {
             return Some(());
         }
-        if let Some(split) = Front::split_of_face(self.model, corners) {
+        if let Some(split) = RefinedHull::split_of_face(self.model, corners) {
             if !self.front.holds(split) {
                 self.give_up(t);
             } else if let Some(slot) = self.front.candidates.get_mut(self.waiting) {

@@ -4,7 +4,7 @@
 //! surface, not because it crosses a hull face; so hits below an unbroken hull (paper 000, Figure
 //! 5) are found, wherever the segment starts.
 
-use super::answer::{AllHits, Ended, Hit, QueryError, SegmentHit, Stop, Work};
+use super::answer::{AllHits, Budget, Ended, Hit, QueryError, SegmentHit, Work};
 use super::frame::Frame;
 use super::frontier::{Frontier, QueueEntry, Taken};
 use crate::blob::{Children, Model, NodeIdx, TriIdx};
@@ -21,7 +21,7 @@ use glam::DVec3;
 /// blob, a grid that moved vertices), `hit` is the first place where the surface may be, and
 /// [`Ended::Level`] says so.
 ///
-/// Of [`Stop`] only `steps` matters. `queue` as for [`closest_point`](super::closest_point).
+/// Of [`Budget`] only `steps` matters. `queue` as for [`closest_point`](super::closest_point).
 ///
 /// # Errors
 /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoQueue`],
@@ -30,7 +30,7 @@ pub fn first_hit(
     model: &Model<'_>,
     a: [f32; 3],
     b: [f32; 3],
-    stop: &Stop,
+    stop: &Budget,
     queue: &mut [QueueEntry],
 ) -> Result<SegmentHit, QueryError> {
     stop.check()?;
@@ -68,7 +68,7 @@ pub fn all_hits(
     hits: &mut [Hit],
 ) -> Result<AllHits, QueryError> {
     let mut all = All { model, hits, stored: 0, dropped: 0 };
-    let traced = trace(model, a, b, &Stop::EXACT, queue, &mut all)?;
+    let traced = trace(model, a, b, &Budget::EXACT, queue, &mut all)?;
     Ok(AllHits { stored: all.stored, dropped: all.dropped, work: traced.work, ended: traced.ended })
 }
 
@@ -158,7 +158,7 @@ fn trace(
     model: &Model<'_>,
     a: [f32; 3],
     b: [f32; 3],
-    stop: &Stop,
+    stop: &Budget,
     queue: &mut [QueueEntry],
     collect: &mut dyn Collect,
 ) -> Result<Traced, QueryError> {
@@ -216,7 +216,7 @@ impl Walk<'_> {
     fn run(
         &mut self,
         mut frontier: Frontier<'_>,
-        stop: &Stop,
+        stop: &Budget,
         collect: &mut dyn Collect,
         traced: &mut Traced,
     ) -> Option<()> {

@@ -58,7 +58,7 @@ impl Face {
 /// query says that capacity ended it. A short candidate list costs repeated scans, a short path
 /// repeated searches; neither costs an answer.
 #[derive(Debug)]
-pub struct Front<'a> {
+pub struct RefinedHull<'a> {
     /// Bit set: split performed.
     pub(crate) performed: &'a mut [u32],
     /// Bit set: its new faces have been looked at.
@@ -77,7 +77,7 @@ const PATH: usize = 32;
 /// Splits of one refinement that are listed. After a larger one the bit sets are compared instead.
 const FRESH: usize = 64;
 
-/// What [`Front::refine`] did.
+/// What [`RefinedHull::refine`] did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refined {
     /// The split and all that it needed are performed: so many of them.
@@ -86,10 +86,10 @@ pub enum Refined {
     Capacity,
 }
 
-impl<'a> Front<'a> {
+impl<'a> RefinedHull<'a> {
     /// A front in the caller's memory; its contents do not matter. The shorter bit set counts.
     pub fn new(performed: &'a mut [u32], swept: &'a mut [u32], candidates: &'a mut [Face]) -> Self {
-        Front {
+        RefinedHull {
             performed,
             swept,
             candidates,

@@ -3,5 +3,5 @@
 mod front;
 mod hull_faces;
 
-pub use front::{Face, Front, Refined};
+pub use front::{Face, Refined, RefinedHull};
 pub use hull_faces::{HullFace, hull_faces};

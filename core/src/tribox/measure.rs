@@ -3,7 +3,7 @@
 use super::Tribox;
 use super::bounds::projections;
 use crate::num::tolerance::U32;
-use crate::num::{root, sum_down, sum_up};
+use crate::num::{sqrt_approx, sum_down, sum_up};
 
 /// Four frames of orthogonal slabs: the axes', and one turned by 45° about each axis. A slab's
 /// number, and the square of its direction's length, twice three times.
@@ -47,7 +47,7 @@ impl Tribox {
             let here = square(a) + square(b) + square(c);
             if here > greatest { here } else { greatest }
         });
-        let distance = root(greatest) * (1.0 - 16.0 * U32) / scale;
+        let distance = sqrt_approx(greatest) * (1.0 - 16.0 * U32) / scale;
         // Below, the quotient may have been rounded up by more than that.
         if distance >= f32::MIN_POSITIVE { distance } else { 0.0 }
     }

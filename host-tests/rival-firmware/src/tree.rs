@@ -1,9 +1,9 @@
 //! The box tree as a program would use it: the blob read where it lies, stacks that the caller
 //! owns.
 
-use meshsweep_core::query::tree::{Facing, Session, TreeEntry, closest_point, first_hit};
-use meshsweep_core::query::{ClosestPoint, SegmentHit, Stop};
-use meshsweep_core::{OpenError, Tree};
+use meshsweep_core::query::tree::{CoherentQuery, Facing, ScratchEntry, closest_point, first_hit};
+use meshsweep_core::query::{Budget, ClosestPoint, SegmentHit};
+use meshsweep_core::{Bvh, OpenError};
 
 /// Entries of the stack: what trees of so many triangles ask for, and some more.
 const STACK: usize = 64;
@@ -13,9 +13,9 @@ const FRONT: usize = 64;
 
 /// An opened tree, and memory for its queries.
 pub struct BoxTree {
-    tree: Tree<'static>,
-    stack: [TreeEntry; STACK],
-    session: Session<'static, FRONT>,
+    tree: Bvh<'static>,
+    stack: [ScratchEntry; STACK],
+    session: CoherentQuery<'static, FRONT>,
 }
 
 impl BoxTree {
@@ -23,9 +23,9 @@ impl BoxTree {
     #[inline(never)]
     pub fn open(blob: &'static [u8]) -> Result<Self, OpenError> {
         Ok(Self {
-            tree: Tree::open(blob)?,
-            stack: [TreeEntry::EMPTY; STACK],
-            session: Session::new(),
+            tree: Bvh::open(blob)?,
+            stack: [ScratchEntry::EMPTY; STACK],
+            session: CoherentQuery::new(),
         })
     }
 
@@ -34,14 +34,14 @@ impl BoxTree {
     #[allow(dead_code, reason = "images that are never started do not ask")]
     pub fn memory(&self) -> Option<usize> {
         let entries = self.tree.header().stack_entries as usize;
-        (entries <= STACK).then_some(size_of::<Tree<'_>>() + entries * size_of::<TreeEntry>())
+        (entries <= STACK).then_some(size_of::<Bvh<'_>>() + entries * size_of::<ScratchEntry>())
     }
 
     /// Closest point of the surface.
     #[allow(dead_code, reason = "each image asks its own questions")]
     #[inline(never)]
     pub fn closest(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
-        closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack).ok()
+        closest_point(&self.tree, point, &Budget::EXACT, &mut self.stack).ok()
     }
 
     /// Closest point of the surface to a point near the one before.
@@ -50,7 +50,7 @@ impl BoxTree {
     pub fn follow(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
         Some(
             self.session
-                .closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack)
+                .closest_point(&self.tree, point, &Budget::EXACT, &mut self.stack)
                 .ok()?
                 .closest,
         )

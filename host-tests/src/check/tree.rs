@@ -10,7 +10,7 @@ mod contain;
 mod parse;
 mod surface;
 
-use meshsweep_alloc::mesh::Mesh;
+use meshsweep::mesh::Mesh;
 use parse::TreeBlob;
 
 /// What was proved, in numbers.

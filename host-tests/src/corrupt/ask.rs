@@ -5,21 +5,21 @@
 //! answers may be wrong. But every question ends, within work that the tree's counts bound, without
 //! a panic, and what it gives is in range.
 
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{
-    BatchError, Contact, Facing, Hint, Near, PairEntry, Session, Side, Sight, TreeEntry,
-    TrianglePair, Verdict, all_hits, all_overlaps, all_within, any_hit, closest_point,
+    BatchError, CoherentQuery, Contact, Facing, Hint, Neighbor, PairEntry, ScratchEntry, Side,
+    Sight, TrianglePair, Verdict, all_hits, all_overlaps, all_within, any_hit, closest_point,
     closest_point_from, closest_points, first_hit, front_facing, is_within, nearest, overlap,
     signed_distance,
 };
-use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, Stop, Work};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, Hit, QueryError, Work};
 use meshsweep_core::tribox::Pose;
 
 /// The caller's memory, of any length.
 #[derive(Debug)]
 pub struct Asker {
-    stack: Vec<TreeEntry>,
-    near: Vec<Near>,
+    stack: Vec<ScratchEntry>,
+    near: Vec<Neighbor>,
     hits: Vec<Hit>,
     hint: Hint,
 }
@@ -29,8 +29,8 @@ impl Asker {
     #[must_use]
     pub fn new(entries: usize, places: usize) -> Self {
         Self {
-            stack: vec![TreeEntry::EMPTY; entries],
-            near: vec![Near::EMPTY; places],
+            stack: vec![ScratchEntry::EMPTY; entries],
+            near: vec![Neighbor::EMPTY; places],
             hits: vec![Hit::EMPTY; places],
             hint: Hint::NONE,
         }
@@ -41,10 +41,10 @@ impl Asker {
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
-    pub fn point(&mut self, tree: &Tree<'_>, point: [f32; 3], distance: f32, stop: &Stop) {
+    pub fn point(&mut self, tree: &Bvh<'_>, point: [f32; 3], distance: f32, stop: &Budget) {
         let Self { stack, near, hint, .. } = self;
         let once = descent(tree);
-        for stop in [stop, &Stop::EXACT] {
+        for stop in [stop, &Budget::EXACT] {
             if let Some(answer) = answered(closest_point(tree, point, stop, stack)) {
                 closest(tree, &answer, once);
             }
@@ -89,7 +89,7 @@ impl Asker {
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
-    pub fn segment(&mut self, tree: &Tree<'_>, a: [f32; 3], b: [f32; 3]) {
+    pub fn segment(&mut self, tree: &Bvh<'_>, a: [f32; 3], b: [f32; 3]) {
         let Self { stack, hits, .. } = self;
         let once = descent(tree);
         for facing in [Facing::Both, Facing::Front, Facing::Back] {
@@ -115,10 +115,10 @@ impl Asker {
     /// If an answer is out of range or took too long.
     pub fn path<'t, const N: usize>(
         &mut self,
-        session: &mut Session<'t, N>,
-        tree: &Tree<'t>,
+        session: &mut CoherentQuery<'t, N>,
+        tree: &Bvh<'t>,
         path: impl IntoIterator<Item = [f32; 3]>,
-        stop: &Stop,
+        stop: &Budget,
     ) {
         for point in path {
             if let Some(answer) =
@@ -136,7 +136,7 @@ impl Asker {
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
-    pub fn batch(&mut self, tree: &Tree<'_>, points: &[[f32; 3]], piece: usize, stop: &Stop) {
+    pub fn batch(&mut self, tree: &Bvh<'_>, points: &[[f32; 3]], piece: usize, stop: &Budget) {
         let Self { stack, hint, .. } = self;
         let none = ClosestPoint {
             lower: 0.0,
@@ -161,7 +161,7 @@ impl Asker {
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
-    pub fn overlap(&self, a: &Tree<'_>, b: &Tree<'_>, pose: &Pose, steps: u32) {
+    pub fn overlap(&self, a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, steps: u32) {
         let mut stack = vec![PairEntry::EMPTY; self.stack.len()];
         let mut pairs = vec![TrianglePair::EMPTY; self.near.len()];
         let in_range = |[first, second]: [u32; 2]| {
@@ -186,7 +186,7 @@ impl Asker {
     ///
     /// # Panics
     /// If an answer is out of range.
-    pub fn sight(&self, tree: &Tree<'_>, eye: [f32; 3]) {
+    pub fn sight(&self, tree: &Bvh<'_>, eye: [f32; 3]) {
         for sight in [Sight::From(eye), Sight::Along(eye)] {
             let mut triangles = vec![u32::MAX; self.near.len()];
             if let Some(seen) = answered(front_facing(tree, &sight, &mut triangles)) {
@@ -206,7 +206,7 @@ impl Asker {
 }
 
 /// More than one descent can cost: every node opened, every box tested, every triangle looked at.
-fn descent(tree: &Tree<'_>) -> u32 {
+fn descent(tree: &Bvh<'_>) -> u32 {
     let header = tree.header();
     9 * header.nodes + header.triangles + 16
 }
@@ -224,21 +224,21 @@ fn ends(work: Work, most: u32) {
     assert!(work.total() <= most, "{work:?}, where {most} are enough");
 }
 
-fn closest(tree: &Tree<'_>, answer: &ClosestPoint, most: u32) {
+fn closest(tree: &Bvh<'_>, answer: &ClosestPoint, most: u32) {
     ends(answer.work, most);
     assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
     assert!(answer.point.iter().all(|x| !x.is_nan()), "{answer:?}");
     assert!(answer.triangle.is_none_or(|triangle| triangle < tree.input_triangles()), "{answer:?}");
 }
 
-fn found(tree: &Tree<'_>, near: &[Near]) {
+fn found(tree: &Bvh<'_>, near: &[Neighbor]) {
     for one in near {
         assert!(one.lower >= 0.0 && one.lower <= one.upper, "{one:?}");
         assert!(one.triangle < tree.input_triangles(), "{one:?}");
     }
 }
 
-fn met(tree: &Tree<'_>, hit: &Hit) {
+fn met(tree: &Bvh<'_>, hit: &Hit) {
     assert!((0.0..=1.0).contains(&hit.t), "{hit:?}");
     assert!(hit.triangle.is_none_or(|triangle| triangle < tree.input_triangles()), "{hit:?}");
 }

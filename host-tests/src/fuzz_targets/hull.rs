@@ -2,13 +2,13 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
-use meshsweep_alloc::hull::{BuildOptions, build};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::precision::VertexBits;
+use meshsweep::hull::{BuildOptions, build};
+use meshsweep::mesh::Mesh;
+use meshsweep::precision::VertexBits;
 use meshsweep_core::query::{
-    ClosestPoint, Hit, QueryError, Search, Stop, all_hits, closest_point, first_hit, outer_hits,
+    Budget, ClosestPoint, Hit, QueryError, Search, all_hits, closest_point, first_hit, outer_hits,
 };
-use meshsweep_core::refine::{Face, Front, hull_faces};
+use meshsweep_core::refine::{Face, RefinedHull, hull_faces};
 use meshsweep_core::{Model, QueueEntry};
 use std::sync::OnceLock;
 
@@ -27,7 +27,7 @@ pub fn seeds() -> &'static [Vec<u8>] {
             blob(&groove_block(), VertexBits::Auto, 40),
         ];
         let whole = Model::open(&all[2]).expect("just built");
-        let cut = meshsweep_alloc::emit::cut(&whole, 1).expect("it has a second level").to_bytes();
+        let cut = meshsweep::emit::cut(&whole, 1).expect("it has a second level").to_bytes();
         all.push(cut);
         all
     })
@@ -76,8 +76,8 @@ pub fn closest(data: &[u8]) {
     let blob = input.blob(seeds());
     let Ok(model) = Model::open(&blob) else { return };
     let mut queue = queue(&mut input);
-    let stop = Stop { relative: input.float(), absolute: input.float(), steps: input.u32() };
-    for stop in [Stop::EXACT, stop] {
+    let stop = Budget { relative: input.float(), absolute: input.float(), steps: input.u32() };
+    for stop in [Budget::EXACT, stop] {
         if let Ok(answer) = closest_point(&model, input.point(), &stop, &mut queue) {
             sound(&answer);
             assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
@@ -97,9 +97,9 @@ pub fn segment(data: &[u8]) {
     let Ok(model) = Model::open(&blob) else { return };
     let mut queue = queue(&mut input);
     let (a, b) = (input.point(), input.point());
-    let stop = Stop { steps: input.u32(), ..Stop::EXACT };
+    let stop = Budget { steps: input.u32(), ..Budget::EXACT };
     let mut hits = vec![Hit::EMPTY; usize::from(input.byte() % 8)];
-    for stop in [Stop::EXACT, stop] {
+    for stop in [Budget::EXACT, stop] {
         if let Ok(answer) = first_hit(&model, a, b, &stop, &mut queue) {
             assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
             assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
@@ -125,7 +125,7 @@ pub fn outer(data: &[u8]) {
     let mut hits = [Hit::EMPTY; 4];
     let (a, b) = (input.point(), input.point());
     for search in [Search::First, Search::Outer] {
-        let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
+        let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
         match outer_hits(&model, a, b, search, &mut front, &mut hits) {
             Ok(answer) => {
                 assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");

@@ -2,14 +2,14 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::precision::VertexBits;
-use meshsweep_alloc::tight::{ChainOptions, chain};
-use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::mesh::Mesh;
+use meshsweep::precision::VertexBits;
+use meshsweep::tight::{ChainOptions, chain};
+use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::query::tight::{closest_point, is_within};
-use meshsweep_core::query::tree::{TreeEntry, Verdict};
-use meshsweep_core::query::{Ended, QueryError, Stop};
+use meshsweep_core::query::tree::{ScratchEntry, Verdict};
+use meshsweep_core::query::{Budget, Ended, QueryError};
 use meshsweep_core::{Model, TightHull, TightHulls};
 use std::sync::OnceLock;
 
@@ -67,14 +67,14 @@ pub fn ask_tight(hulls: &TightHulls<'_>) {
         assert!((0..record.faces).all(|face| hull.slack(face).is_some_and(fine)));
         assert!(hull.slack(record.faces).is_none());
         for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0], [1e36, -1e36, 1e36], [1e-40, 0.0, -0.0]] {
-            ask(&hull, p, 0.5, &Stop::EXACT, 64);
-            ask(&hull, p, 1e30, &Stop { steps: 2, relative: 0.1, absolute: 1.0 }, 1);
+            ask(&hull, p, 0.5, &Budget::EXACT, 64);
+            ask(&hull, p, 1e30, &Budget { steps: 2, relative: 0.1, absolute: 1.0 }, 1);
         }
     }
 }
 
-fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Stop, entries: usize) {
-    let mut stack = vec![TreeEntry::EMPTY; entries];
+fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Budget, entries: usize) {
+    let mut stack = vec![ScratchEntry::EMPTY; entries];
     let closest = closest_point(hull, p, stop, &mut stack);
     let within = is_within(hull, p, distance, stop, &mut stack);
     match (closest, within) {
@@ -114,7 +114,7 @@ pub fn tight(data: &[u8]) {
     }
     let Ok(hulls) = opened else { return };
     ask_tight(&hulls);
-    let stop = Stop { relative: input.float(), absolute: input.float(), steps: input.u32() };
+    let stop = Budget { relative: input.float(), absolute: input.float(), steps: input.u32() };
     if let Some(hull) = hulls.finest() {
         ask(&hull, input.point(), input.float(), &stop, usize::from(input.byte()));
     }

@@ -3,14 +3,14 @@
 use super::input::Input;
 use crate::corrupt::Asker;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep_alloc::emit;
-use meshsweep_alloc::hull::{self, BuildOptions};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::query::Stop;
-use meshsweep_core::query::tree::Session;
+use meshsweep::emit;
+use meshsweep::hull::{self, BuildOptions};
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::query::Budget;
+use meshsweep_core::query::tree::CoherentQuery;
 use meshsweep_core::tribox::Pose;
-use meshsweep_core::{Model, Tree};
+use meshsweep_core::{Bvh, Model};
 use std::sync::OnceLock;
 
 /// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
@@ -52,11 +52,11 @@ fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened tree gives out.
 pub fn tree_open(data: &[u8]) {
-    if let Ok(tree) = Tree::open(data) {
+    if let Ok(tree) = Bvh::open(data) {
         look(&tree);
     }
     let blob = Input(data).blob(tree_seeds());
-    let tree = Tree::open(&blob);
+    let tree = Bvh::open(&blob);
     if let Ok(tree) = &tree {
         look(tree);
     }
@@ -67,7 +67,7 @@ pub fn tree_open(data: &[u8]) {
 }
 
 /// Every node, leaf and number is in range.
-fn look(tree: &Tree<'_>) {
+fn look(tree: &Bvh<'_>) {
     let header = tree.header();
     let (mut leaves, mut triangles) = (0, 0);
     for node in 0..header.nodes {
@@ -93,20 +93,20 @@ fn look(tree: &Tree<'_>) {
     assert!(tree.source(triangles).is_none());
 }
 
-fn stop(input: &mut Input<'_>) -> Stop {
-    Stop { relative: input.float(), absolute: input.float(), steps: input.u32() }
+fn stop(input: &mut Input<'_>) -> Budget {
+    Budget { relative: input.float(), absolute: input.float(), steps: input.u32() }
 }
 
 /// Every question about points on an edited blob, one by one and all at once.
 pub fn tree_closest(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
-    let Ok(tree) = Tree::open(&blob) else { return };
+    let Ok(tree) = Bvh::open(&blob) else { return };
     let mut asker = Asker::new(usize::from(input.byte()), usize::from(input.byte() % 16));
     let stop = stop(&mut input);
     // A hint of another tree is as good as any.
     let other = &tree_seeds()[usize::from(input.byte()) % tree_seeds().len()];
-    if let Ok(other) = Tree::open(other) {
+    if let Ok(other) = Bvh::open(other) {
         asker.point(&other, input.point(), input.float(), &stop);
     }
     let mut points = Vec::new();
@@ -118,7 +118,7 @@ pub fn tree_closest(data: &[u8]) {
     asker.batch(&tree, &points, piece, &stop);
     // A refused query would leave nothing to sort.
     points.retain(|point| point.iter().all(|x| x.is_finite()));
-    asker.batch(&tree, &points, piece, &Stop::EXACT);
+    asker.batch(&tree, &points, piece, &Budget::EXACT);
 }
 
 /// Every question about segments on an edited blob, one of them of no length, and what faces their
@@ -126,7 +126,7 @@ pub fn tree_closest(data: &[u8]) {
 pub fn tree_segment(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
-    let Ok(tree) = Tree::open(&blob) else { return };
+    let Ok(tree) = Bvh::open(&blob) else { return };
     let mut asker = Asker::new(usize::from(input.byte()), usize::from(input.byte() % 16));
     let [a, b, c] = [input.point(), input.point(), input.point()];
     for [from, to] in [[a, b], [b, c], [c, c]] {
@@ -139,8 +139,8 @@ pub fn tree_segment(data: &[u8]) {
 pub fn tree_session(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
-    let Ok(tree) = Tree::open(&blob) else { return };
-    let other = Tree::open(&tree_seeds()[0]).expect("a seed");
+    let Ok(tree) = Bvh::open(&blob) else { return };
+    let other = Bvh::open(&tree_seeds()[0]).expect("a seed");
     let mut asker = Asker::new(usize::from(input.byte()), 0);
     let stop = stop(&mut input);
     let mut path = Vec::new();
@@ -154,13 +154,13 @@ pub fn tree_session(data: &[u8]) {
     }
     fn follow<const N: usize>(
         asker: &mut Asker,
-        trees: [&Tree<'_>; 2],
+        trees: [&Bvh<'_>; 2],
         path: &[[f32; 3]],
-        stop: &Stop,
+        stop: &Budget,
     ) {
         let [tree, other] = trees;
-        let mut session = Session::<N>::new();
-        for stop in [&Stop::EXACT, stop] {
+        let mut session = CoherentQuery::<N>::new();
+        for stop in [&Budget::EXACT, stop] {
             asker.path(&mut session, tree, path.iter().copied(), stop);
             asker.path(&mut session, other, path.iter().copied().take(4), stop);
         }
@@ -175,7 +175,7 @@ pub fn tree_session(data: &[u8]) {
 pub fn tree_overlap(data: &[u8]) {
     let mut input = Input(data);
     let (first, second) = (input.blob(tree_seeds()), input.blob(tree_seeds()));
-    let (Ok(a), Ok(b)) = (Tree::open(&first), Tree::open(&second)) else { return };
+    let (Ok(a), Ok(b)) = (Bvh::open(&first), Bvh::open(&second)) else { return };
     let asker = Asker::new(usize::from(input.byte() % 160), usize::from(input.byte() % 16));
     let steps = u32::from(input.byte());
     for _ in 0..3 {

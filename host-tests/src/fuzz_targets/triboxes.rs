@@ -2,10 +2,10 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_alloc::tribox::store;
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep::tribox::store;
 use meshsweep_core::query::tribox::{
     BoundEntry, NodePair, apart, candidates, clip, distance, stack_entries,
 };

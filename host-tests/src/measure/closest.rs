@@ -1,6 +1,6 @@
 //! Closest points: cost, the same by parry3d, and agreement with f64 brute force.
 
-use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work, closest_point};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work, closest_point};
 use meshsweep_core::{Model, QueueEntry};
 
 use super::Subject;
@@ -28,7 +28,7 @@ impl Answers {
     pub fn of(
         model: &Model<'_>,
         points: &[[f32; 3]],
-        stop: &Stop,
+        stop: &Budget,
         queue: usize,
     ) -> Result<Self, String> {
         let mut queue = vec![QueueEntry::EMPTY; queue];
@@ -84,8 +84,10 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
         let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
         let mut last = None;
         for queue in [model.capacities().queue, LONG_QUEUE] {
-            let run =
-                fastest(|| Answers::of(model, &asked, &Stop::EXACT, queue), |run| run.nanoseconds)?;
+            let run = fastest(
+                || Answers::of(model, &asked, &Budget::EXACT, queue),
+                |run| run.nanoseconds,
+            )?;
             let widest = run.answers.iter().map(width).fold(0.0, f64::max);
             cost.push(row![
                 kind.name(),

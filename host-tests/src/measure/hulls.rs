@@ -1,8 +1,8 @@
 //! Time, void and programs of progressive hulls (paper 000, Tables 1 and 2).
 
 use glam::DVec3;
-use meshsweep_alloc::collapse::{Conditions, Engine};
-use meshsweep_alloc::precision::{VertexBits, store};
+use meshsweep::collapse::{Conditions, Engine};
+use meshsweep::precision::{VertexBits, store};
 
 use super::Subject;
 use super::paper::{HULL_FACES, Model, STRATEGIES};

@@ -38,7 +38,7 @@ pub mod workload;
 use std::path::Path;
 
 use bounds::cost::Cost;
-use meshsweep_alloc::collapse::Priority;
+use meshsweep::collapse::Priority;
 use table::Table;
 
 pub use subject::Subject;

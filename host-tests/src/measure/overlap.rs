@@ -1,9 +1,9 @@
 //! A mesh against itself in random motions: answers held to exact predicates, and time beside
 //! parry3d's.
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
+use meshsweep::emit;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
 use meshsweep_core::query::Work;
 use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
 use meshsweep_core::tribox::Pose;
@@ -75,7 +75,7 @@ struct Verdicts {
     time: [f64; 2],
 }
 
-fn ours(tree: &Tree<'_>, cases: &[Case]) -> Result<Verdicts, String> {
+fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
     let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
     let ask = |case: &Case| {
         overlap(tree, tree, &case.pose, u32::MAX, &mut stack).map_err(|error| error.to_string())
@@ -141,7 +141,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
         let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
         let bytes =
             emit::blob(None, Some(&build(&subject.mesh, 0.0, subject.triangles_read, &options).0));
-        let tree = Tree::open(&bytes).map_err(|error| error.to_string())?;
+        let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
         let verdicts = ours(&tree, &cases)?;
         let [apart, meets] = verdicts.time;
         let times_faster = |ours: f64, theirs: f64| fixed(theirs / ours, 1);

@@ -1,6 +1,6 @@
 //! What paper 000 (Platis & Theoharis 2003) reports, for the columns beside ours.
 
-use meshsweep_alloc::collapse::Priority;
+use meshsweep::collapse::Priority;
 
 /// A model of the paper's tables.
 #[derive(Clone, Copy, Debug)]

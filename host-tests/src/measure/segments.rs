@@ -1,7 +1,7 @@
 //! Segments: the paper's counts (Table 3), and the engines against each other.
 
-use meshsweep_core::query::{Ended, Hit, Search, Stop, Work, first_hit, outer_hits};
-use meshsweep_core::refine::{Face, Front};
+use meshsweep_core::query::{Budget, Ended, Hit, Search, Work, first_hit, outer_hits};
+use meshsweep_core::refine::{Face, RefinedHull};
 use meshsweep_core::{Model, QueueEntry};
 
 use super::brute::Brute;
@@ -76,8 +76,8 @@ type Asked = Result<(Option<Hit>, Work, bool), String>;
 fn cover(model: &Model<'_>, segments: &[[[f32; 3]; 2]], queue: usize) -> Result<Run, String> {
     let mut queue = vec![QueueEntry::EMPTY; queue];
     Run::of(segments, |[a, b]| {
-        let answer =
-            first_hit(model, a, b, &Stop::EXACT, &mut queue).map_err(|error| error.to_string())?;
+        let answer = first_hit(model, a, b, &Budget::EXACT, &mut queue)
+            .map_err(|error| error.to_string())?;
         Ok((answer.hit, answer.work, answer.ended == Ended::Exact))
     })
 }
@@ -87,7 +87,7 @@ fn hull(model: &Model<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result
     let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
     let mut candidates = vec![Face::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 64];
-    let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
+    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     Run::of(segments, |[a, b]| {
         let answer = outer_hits(model, a, b, search, &mut front, &mut hits)
             .map_err(|error| error.to_string())?;
@@ -242,8 +242,8 @@ fn against_brute(
     let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
     let (mut outside, mut grazing) = (0, 0);
     for &[a, b] in segments {
-        let ours =
-            first_hit(model, a, b, &Stop::EXACT, &mut queue).map_err(|error| error.to_string())?;
+        let ours = first_hit(model, a, b, &Budget::EXACT, &mut queue)
+            .map_err(|error| error.to_string())?;
         let (theirs, clear) = brute.first_hit([a, b]);
         let inside = match theirs {
             None => ours.is_clear(),

@@ -1,6 +1,6 @@
 //! What a blob takes and holds: sections, limits, levels, and the time of each stage that made it.
 
-use meshsweep_alloc::hull::Built;
+use meshsweep::hull::Built;
 use meshsweep_core::Model;
 
 use super::table::{Table, fixed, row};

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use meshsweep_alloc::collapse::Priority;
-use meshsweep_alloc::hull::{BuildOptions, Built, build};
-use meshsweep_alloc::mesh::{Mesh, RepairReport, load_closed, read, repair};
+use meshsweep::collapse::Priority;
+use meshsweep::hull::{BuildOptions, Built, build};
+use meshsweep::mesh::{Mesh, RepairReport, load_closed, read, repair};
 use meshsweep_core::Model;
 
 use super::table::{Table, fixed, row};

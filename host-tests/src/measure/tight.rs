@@ -5,10 +5,10 @@ mod beside;
 mod cluster;
 pub mod picture;
 
-use meshsweep_alloc::hull::{BuildOptions, hull_of};
-use meshsweep_alloc::mesh::{Mesh, require_closed_manifold};
-use meshsweep_alloc::tribox::volume;
-use meshsweep_alloc::wrap::{Goal, Hull, Options, Start, Stop, wrap};
+use meshsweep::hull::{BuildOptions, hull_of};
+use meshsweep::mesh::{Mesh, require_closed_manifold};
+use meshsweep::tribox::volume;
+use meshsweep::wrap::{Goal, Hull, Options, Outcome, Start, wrap};
 
 use super::Subject;
 use super::paper::STRATEGIES;
@@ -94,10 +94,10 @@ fn hulls(
             Start::Box => "box".into(),
         };
         let stop = match report.stop {
-            Stop::Reached => "reached",
-            Stop::Stuck => "stuck",
-            Stop::TooLoose => "too loose",
-            Stop::OutOfTime => "out of time",
+            Outcome::Reached => "reached",
+            Outcome::Stuck => "stuck",
+            Outcome::TooLoose => "too loose",
+            Outcome::OutOfTime => "out of time",
         };
         table.push(row![
             faces,

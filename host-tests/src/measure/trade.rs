@@ -1,8 +1,8 @@
 //! Speed for accuracy: what a query that stops early guarantees, and what it found.
 
-use meshsweep_alloc::emit::cut;
+use meshsweep::emit::cut;
 use meshsweep_core::Model;
-use meshsweep_core::query::Stop;
+use meshsweep_core::query::Budget;
 
 use super::Subject;
 use super::closest::{Answers, LONG_QUEUE, width};
@@ -23,7 +23,7 @@ pub fn tolerances(subject: &Subject, model: &Model<'_>) -> Result<Table, String>
     let columns = ["points", "tolerance"].iter().chain(&MEASURED).copied().collect::<Vec<_>>();
     let mut table = Table::new("tolerance", "Closest point within a relative tolerance", &columns);
     let stops = TOLERANCES
-        .map(|relative| (fixed(f64::from(relative), 3), Stop { relative, ..Stop::EXACT }));
+        .map(|relative| (fixed(f64::from(relative), 3), Budget { relative, ..Budget::EXACT }));
     fill(&mut table, subject, model, &stops)?;
     Ok(table)
 }
@@ -32,7 +32,7 @@ pub fn tolerances(subject: &Subject, model: &Model<'_>) -> Result<Table, String>
 pub fn steps(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
     let columns = ["points", "steps"].iter().chain(&MEASURED).copied().collect::<Vec<_>>();
     let mut table = Table::new("steps", "Closest point after so many opened nodes", &columns);
-    let stops = STEPS.map(|steps| (Cell::from(steps), Stop { steps, ..Stop::EXACT }));
+    let stops = STEPS.map(|steps| (Cell::from(steps), Budget { steps, ..Budget::EXACT }));
     fill(&mut table, subject, model, &stops)?;
     Ok(table)
 }
@@ -41,11 +41,11 @@ fn fill(
     table: &mut Table,
     subject: &Subject,
     model: &Model<'_>,
-    stops: &[(Cell, Stop)],
+    stops: &[(Cell, Budget)],
 ) -> Result<(), String> {
     for kind in KINDS {
         let asked = points(subject, kind, COUNT);
-        let truth = Answers::of(model, &asked, &Stop::EXACT, LONG_QUEUE)?;
+        let truth = Answers::of(model, &asked, &Budget::EXACT, LONG_QUEUE)?;
         for (name, stop) in stops {
             let run = Answers::of(model, &asked, stop, LONG_QUEUE)?;
             let errors = errors(&run, &truth);
@@ -90,14 +90,14 @@ pub fn cuts(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
     let mut table = Table::new("cuts", "Blobs cut after a level, closest point", &columns);
     let diagonal = subject.diagonal();
     let asked = KINDS.map(|kind| points(subject, kind, COUNT));
-    let exact = [0, 1].map(|kind| Answers::of(model, &asked[kind], &Stop::EXACT, LONG_QUEUE));
+    let exact = [0, 1].map(|kind| Answers::of(model, &asked[kind], &Budget::EXACT, LONG_QUEUE));
     let [exact_far, exact_near] = exact;
     let (exact_far, exact_near) = (exact_far?, exact_near?);
     for (index, level) in model.levels().enumerate() {
         let bytes = cut(model, index as u32).map_err(|error| error.to_string())?.to_bytes();
         let coarse = open(&bytes)?;
-        let far = Answers::of(&coarse, &asked[0], &Stop::EXACT, LONG_QUEUE)?;
-        let near = Answers::of(&coarse, &asked[1], &Stop::EXACT, LONG_QUEUE)?;
+        let far = Answers::of(&coarse, &asked[0], &Budget::EXACT, LONG_QUEUE)?;
+        let near = Answers::of(&coarse, &asked[1], &Budget::EXACT, LONG_QUEUE)?;
         let absolute =
             |run: &Answers| run.mean(|a| f64::from(a.upper) - f64::from(a.lower)) / diagonal;
         table.push(row![

@@ -3,13 +3,13 @@
 mod accuracy;
 mod trade;
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::fan::{Fan, FanReport, Patch, Weights, decompose, pack};
-use meshsweep_alloc::tree::{TreeOptions, TreeReport, TreeTables, build};
-use meshsweep_core::Tree;
+use meshsweep::emit;
+use meshsweep::fan::{Fan, FanLeaf, FanReport, Weights, decompose, pack};
+use meshsweep::tree::{TreeOptions, TreeReport, TreeTables, build};
+use meshsweep_core::Bvh;
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::query::tree::{TreeEntry, closest_point};
-use meshsweep_core::query::{ClosestPoint, Stop};
+use meshsweep_core::query::tree::{ScratchEntry, closest_point};
+use meshsweep_core::query::{Budget, ClosestPoint};
 
 use super::Subject;
 use super::stopwatch::Stopwatch;
@@ -43,8 +43,8 @@ impl Built {
         Self { tables, report, bytes }
     }
 
-    fn open(&self) -> Result<Tree<'_>, String> {
-        Tree::open(&self.bytes).map_err(|error| error.to_string())
+    fn open(&self) -> Result<Bvh<'_>, String> {
+        Bvh::open(&self.bytes).map_err(|error| error.to_string())
     }
 }
 
@@ -55,8 +55,8 @@ struct Answers {
 }
 
 impl Answers {
-    fn of(tree: &Tree<'_>, points: &[[f32; 3]], stop: &Stop) -> Result<Self, String> {
-        let mut stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+    fn of(tree: &Bvh<'_>, points: &[[f32; 3]], stop: &Budget) -> Result<Self, String> {
+        let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
         let mut answers = Vec::with_capacity(points.len());
         let begun = Stopwatch::start();
         for &point in points {
@@ -93,7 +93,7 @@ fn shape(built: &Built) -> Table {
         fixed(report.mean_children, 2),
         report.depth,
         header.stack_entries,
-        header.stack_entries as usize * size_of::<TreeEntry>(),
+        header.stack_entries as usize * size_of::<ScratchEntry>(),
         fixed(report.time.as_secs_f64(), 2),
         Cell::Scientific(f64::from(header.surface_error)),
     ]);
@@ -169,7 +169,7 @@ fn fans(subject: &Subject) -> Table {
         ]);
     };
     push("paper 003, fans of up to 8", FanReport::new(&papers, &[]));
-    let stored: Vec<&Fan> = patches.iter().flat_map(Patch::fans).collect();
+    let stored: Vec<&Fan> = patches.iter().flat_map(FanLeaf::fans).collect();
     push("leaves: one or two fans", FanReport::new(stored, &patches));
     table.note("the paper's figures: Victory 49,078 triangles in 9,747 fans, 5.04 a fan; on all models \"the average number is 5\"; it bounds no fan");
     table.note("and its gains over separate triangles: 25 to 40 % of the time of distances, almost 40 % of segments'");

@@ -2,8 +2,8 @@
 //! moved copy.
 
 use glam::DVec3;
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::tribox::store;
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::tribox::store;
 use meshsweep_core::Triboxes;
 use meshsweep_core::query::tribox::{NodePair, apart, candidates, stack_entries};
 use meshsweep_core::tribox::{Pose as CorePose, Tribox};

@@ -21,7 +21,7 @@ use std::cmp::Ordering;
 
 use exact::{Integer, Vector, shifted};
 use glam::DVec3;
-use meshsweep_alloc::lp::HalfSpace;
+use meshsweep::lp::HalfSpace;
 use num_bigint::Sign;
 use num_traits::Zero;
 

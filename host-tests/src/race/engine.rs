@@ -90,7 +90,7 @@ pub const ENTRANTS: [Entrant; 8] = [
     },
     Entrant {
         name: "session",
-        remark: "Session of 128 entries on the same tree, along paths",
+        remark: "CoherentQuery of 128 entries on the same tree, along paths",
         counted: true,
         build: tree::build_session,
     },

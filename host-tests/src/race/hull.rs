@@ -1,7 +1,7 @@
 //! The library's split hierarchy: certified answers from the cover tree of swept triangles.
 
-use meshsweep_alloc::collapse::Priority;
-use meshsweep_core::query::{Stop, closest_point, first_hit};
+use meshsweep::collapse::Priority;
+use meshsweep_core::query::{Budget, closest_point, first_hit};
 use meshsweep_core::{Model, QueueEntry};
 
 use crate::measure::Subject;
@@ -48,7 +48,7 @@ impl Engine for Hull<'_> {
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         try_each(points, answers, |point| {
-            let found = closest_point(&self.model, point, &Stop::EXACT, &mut self.queue);
+            let found = closest_point(&self.model, point, &Budget::EXACT, &mut self.queue);
             found.map(|found| Answer::Distance(found.upper)).map_err(|error| error.to_string())
         })
     }
@@ -59,7 +59,7 @@ impl Engine for Hull<'_> {
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
-            let found = first_hit(&self.model, a, b, &Stop::EXACT, &mut self.queue);
+            let found = first_hit(&self.model, a, b, &Budget::EXACT, &mut self.queue);
             let found = found.map_err(|error| error.to_string())?;
             Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
         })

@@ -27,7 +27,7 @@ mod workload;
 
 use std::path::Path;
 
-use meshsweep_alloc::mesh::require_closed_manifold;
+use meshsweep::mesh::require_closed_manifold;
 
 use crate::measure::Subject;
 use crate::measure::table::Table;

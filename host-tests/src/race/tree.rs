@@ -5,13 +5,13 @@
 
 use std::hint::black_box;
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::tree::{TreeOptions, build as build_tree};
-use meshsweep_core::Tree;
+use meshsweep::emit;
+use meshsweep::tree::{TreeOptions, build as build_tree};
+use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{
-    Facing, Hint, Session, TreeEntry, closest_point, closest_points, first_hit,
+    CoherentQuery, Facing, Hint, ScratchEntry, closest_point, closest_points, first_hit,
 };
-use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work};
 
 use crate::measure::Subject;
 
@@ -21,8 +21,8 @@ use super::{Scope, Workload};
 /// One query after the other, each on its own.
 struct Alone<'a> {
     bytes: usize,
-    tree: Tree<'a>,
-    stack: Vec<TreeEntry>,
+    tree: Bvh<'a>,
+    stack: Vec<ScratchEntry>,
     workloads: &'static [Workload],
 }
 
@@ -31,10 +31,10 @@ fn open<'a>(
     subject: &Subject,
     options: &TreeOptions,
     blob: &'a mut Vec<u8>,
-) -> Result<(usize, Tree<'a>), String> {
+) -> Result<(usize, Bvh<'a>), String> {
     let (tables, _) = build_tree(&subject.mesh, 0.0, subject.triangles_read, options);
     *blob = emit::blob(None, Some(&tables));
-    let tree = Tree::open(blob).map_err(|error| error.to_string())?;
+    let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
     Ok((blob.len(), tree))
 }
 
@@ -46,7 +46,7 @@ fn alone<'a>(
 ) -> Result<Option<Box<dyn Engine + 'a>>, String> {
     let (bytes, tree) = open(subject, options, blob)?;
     let entries = tree.header().stack_entries as usize;
-    Ok(Some(Box::new(Alone { bytes, tree, stack: vec![TreeEntry::EMPTY; entries], workloads })))
+    Ok(Some(Box::new(Alone { bytes, tree, stack: vec![ScratchEntry::EMPTY; entries], workloads })))
 }
 
 /// On every mesh.
@@ -85,7 +85,8 @@ impl Engine for Alone<'_> {
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         try_each(points, answers, |point| {
-            let found = black_box(closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack));
+            let found =
+                black_box(closest_point(&self.tree, point, &Budget::EXACT, &mut self.stack));
             found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
         })
     }
@@ -113,14 +114,14 @@ pub fn build_session<'a>(
     blob: &'a mut Vec<u8>,
 ) -> Result<Option<Box<dyn Engine + 'a>>, String> {
     let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
-    let stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+    let stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
     Ok(Some(Box::new(Following { bytes, tree, stack })))
 }
 
 struct Following<'a> {
     bytes: usize,
-    tree: Tree<'a>,
-    stack: Vec<TreeEntry>,
+    tree: Bvh<'a>,
+    stack: Vec<ScratchEntry>,
 }
 
 impl Engine for Following<'_> {
@@ -133,10 +134,14 @@ impl Engine for Following<'_> {
     }
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        let mut session = Session::<128>::new();
+        let mut session = CoherentQuery::<128>::new();
         try_each(points, answers, |point| {
-            let found =
-                black_box(session.closest_point(&self.tree, point, &Stop::EXACT, &mut self.stack));
+            let found = black_box(session.closest_point(
+                &self.tree,
+                point,
+                &Budget::EXACT,
+                &mut self.stack,
+            ));
             found.map(|found| Answer::Point(found.closest.point)).map_err(|error| error.to_string())
         })
     }
@@ -157,14 +162,14 @@ pub fn build_batch<'a>(
     blob: &'a mut Vec<u8>,
 ) -> Result<Option<Box<dyn Engine + 'a>>, String> {
     let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
-    let stack = vec![TreeEntry::EMPTY; tree.header().stack_entries as usize];
+    let stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
     Ok(Some(Box::new(Batched { bytes, tree, stack, order: Vec::new(), found: Vec::new() })))
 }
 
 struct Batched<'a> {
     bytes: usize,
-    tree: Tree<'a>,
-    stack: Vec<TreeEntry>,
+    tree: Bvh<'a>,
+    stack: Vec<ScratchEntry>,
     order: Vec<u64>,
     found: Vec<ClosestPoint>,
 }
@@ -194,7 +199,7 @@ impl Engine for Batched<'_> {
         self.found.resize(points.len(), NONE);
         self.order.resize(2 * points.len(), 0);
         let Self { tree, stack, order, found, .. } = self;
-        closest_points(tree, points, found, &Stop::EXACT, stack, order, &mut Hint::NONE.clone())
+        closest_points(tree, points, found, &Budget::EXACT, stack, order, &mut Hint::NONE.clone())
             .map_err(|error| error.to_string())?;
         answers.clear();
         answers.extend(self.found.iter().map(|found| Answer::Point(found.point)));

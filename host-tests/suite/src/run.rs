@@ -39,7 +39,7 @@ pub enum Kind {
     /// Whether a segment meets the surface.
     AnyHit,
     /// Closest point along a path of small steps and few jumps, by a session.
-    Session,
+    CoherentQuery,
     /// Closest points of eight points from the doubled box.
     Batch,
     /// Triangles that may face an eye.
@@ -86,7 +86,7 @@ impl Kind {
         Self::Signed,
         Self::Facing,
         Self::AnyHit,
-        Self::Session,
+        Self::CoherentQuery,
         Self::Batch,
         Self::Cull,
         Self::Overlap,
@@ -121,7 +121,7 @@ impl Kind {
             Self::Signed => "signed",
             Self::Facing => "facing",
             Self::AnyHit => "any_hit",
-            Self::Session => "session",
+            Self::CoherentQuery => "session",
             Self::Batch => "batch_of_8",
             Self::Cull => "cull",
             Self::Overlap => "overlap",
@@ -270,7 +270,7 @@ mod tests {
         let plan = Plan { blocks: 3, queries: 5 };
         let (mut hull, mut tree) = (hull::Scratch::new(), tree::Scratch::new());
         assert_eq!(run::<hull::Model<'_>>(BYTES, plan, &mut hull, &mut count), Err(Refused(3)));
-        assert_eq!(run::<tree::Tree<'_>>(BYTES, plan, &mut tree, &mut count), Err(Refused(3)));
+        assert_eq!(run::<tree::Bvh<'_>>(BYTES, plan, &mut tree, &mut count), Err(Refused(3)));
         assert_eq!(count.0, 0);
     }
 

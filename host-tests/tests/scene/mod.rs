@@ -1,9 +1,9 @@
 //! Meshes with their blobs, and where to put queries.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
-use meshsweep_alloc::hull::{BuildOptions, build};
-use meshsweep_alloc::mesh::{RawMesh, repair, require_closed_manifold};
-use meshsweep_alloc::precision::VertexBits;
+use meshsweep::hull::{BuildOptions, build};
+use meshsweep::mesh::{RawMesh, repair, require_closed_manifold};
+use meshsweep::precision::VertexBits;
 use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, needle_comb, rough_sphere, scaled, torus,

@@ -1,13 +1,13 @@
 //! Intervals and verdicts against every triangle of the mesh, in 106 bits.
 
 use super::{mesh, of, options};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::precision::VertexBits;
-use meshsweep_alloc::tight::{ChainOptions, HullReport, hull_mesh};
+use meshsweep::mesh::Mesh;
+use meshsweep::precision::VertexBits;
+use meshsweep::tight::{ChainOptions, HullReport, hull_mesh};
 use meshsweep_core::blob::TightHull;
 use meshsweep_core::query::tight::{closest_point, is_within};
-use meshsweep_core::query::tree::{TreeEntry, Verdict};
-use meshsweep_core::query::{Ended, QueryError, Stop, tree};
+use meshsweep_core::query::tree::{ScratchEntry, Verdict};
+use meshsweep_core::query::{Budget, Ended, QueryError, tree};
 use meshsweep_core::{Model, TightHulls};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, groove_block, icosphere, rough_sphere, scaled, torus, transformed,
@@ -61,12 +61,12 @@ fn check(
     points: &[[f32; 3]],
     moved: f64,
 ) -> [usize; 2] {
-    let mut stack = vec![TreeEntry::EMPTY; hull.tree().header().stack_entries as usize];
+    let mut stack = vec![ScratchEntry::EMPTY; hull.tree().header().stack_entries as usize];
     let (mut clear, mut near) = (0, 0);
     for &p in points {
         let real = distance_to_mesh(p, &truth.0, &truth.1);
         let answer =
-            closest_point(hull, p, &Stop::EXACT, &mut stack).expect("asked of an opened hull");
+            closest_point(hull, p, &Budget::EXACT, &mut stack).expect("asked of an opened hull");
         let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
         assert!(lower <= real.upper && upper >= real.lower, "{name}: {p:?}: {answer:?}, {real:?}");
         assert!(
@@ -85,7 +85,7 @@ fn check(
         for distance in [0.0, 0.5 * real.lower, real.lower, real.upper, 2.0 * real.upper, upper] {
             let distance = distance as f32;
             let within =
-                is_within(hull, p, distance, &Stop::EXACT, &mut stack).expect("a distance");
+                is_within(hull, p, distance, &Budget::EXACT, &mut stack).expect("a distance");
             match within.verdict {
                 Verdict::Yes { triangle: None } => {
                     assert!(f64::from(distance) >= real.lower, "{name}: {p:?} {distance}")
@@ -250,7 +250,7 @@ fn within_the_part_the_answer_is_never_that_it_is_clear() {
     let rng = &mut Rng::new(21);
     for index in 0..hulls.count() {
         let hull = hulls.get(index).expect("a hull");
-        let mut stack = vec![TreeEntry::EMPTY; hull.tree().header().stack_entries as usize];
+        let mut stack = vec![ScratchEntry::EMPTY; hull.tree().header().stack_entries as usize];
         let mut asked = 0;
         while asked < 500 {
             let [x, y, z] = rng.point_in([-3.0; 3], [3.0; 3]);
@@ -260,7 +260,7 @@ fn within_the_part_the_answer_is_never_that_it_is_clear() {
             }
             asked += 1;
             for distance in [0.0, 1e-3, 0.1, 10.0] {
-                let answer = is_within(&hull, [x, y, z], distance, &Stop::EXACT, &mut stack)
+                let answer = is_within(&hull, [x, y, z], distance, &Budget::EXACT, &mut stack)
                     .expect("a distance");
                 assert!(!answer.is_clear(), "{x} {y} {z}: {distance}");
             }
@@ -278,8 +278,8 @@ fn short_searches_say_so_and_their_intervals_hold() {
     let mut ended = [0; 2];
     for p in points {
         let real = distance_to_mesh(p, &shape.0, &shape.1);
-        for (stop, entries) in [(Stop { steps: 1, ..Stop::EXACT }, 64), (Stop::EXACT, 2)] {
-            let mut stack = vec![TreeEntry::EMPTY; entries];
+        for (stop, entries) in [(Budget { steps: 1, ..Budget::EXACT }, 64), (Budget::EXACT, 2)] {
+            let mut stack = vec![ScratchEntry::EMPTY; entries];
             let answer = closest_point(&hull, p, &stop, &mut stack).expect("asked");
             assert!(
                 f64::from(answer.lower) <= real.upper && f64::from(answer.upper) >= real.lower,
@@ -301,44 +301,47 @@ fn a_tolerance_is_met_or_the_level_is_said_to_decide() {
     let mesh = mesh(&shape);
     let (bytes, _) = of(&mesh, 0.0, &options(&[100]));
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
-    let mut stack = vec![TreeEntry::EMPTY; 64];
+    let mut stack = vec![ScratchEntry::EMPTY; 64];
     let mut ask =
-        |p: [f32; 3], stop: Stop| closest_point(&hull, p, &stop, &mut stack).expect("asked");
-    let far = ask([50.0, 3.0, 1.0], Stop { relative: 0.1, ..Stop::EXACT });
+        |p: [f32; 3], stop: Budget| closest_point(&hull, p, &stop, &mut stack).expect("asked");
+    let far = ask([50.0, 3.0, 1.0], Budget { relative: 0.1, ..Budget::EXACT });
     assert!(far.ended == Ended::Tolerance && far.upper <= 1.1 * far.lower);
-    let near = ask([1.3, 0.1, 0.1], Stop { absolute: 1e-6, ..Stop::EXACT });
+    let near = ask([1.3, 0.1, 0.1], Budget { absolute: 1e-6, ..Budget::EXACT });
     assert!(near.ended == Ended::Level && near.upper - near.lower > 1e-6);
-    assert_eq!(ask([1.3, 0.1, 0.1], Stop { absolute: 1.0, ..Stop::EXACT }).ended, Ended::Tolerance);
+    assert_eq!(
+        ask([1.3, 0.1, 0.1], Budget { absolute: 1.0, ..Budget::EXACT }).ended,
+        Ended::Tolerance
+    );
 }
 
 #[test]
 fn what_cannot_be_answered_is_refused() {
     let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &options(&[64]));
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
-    let stack = &mut [TreeEntry::EMPTY; 64];
+    let stack = &mut [ScratchEntry::EMPTY; 64];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         assert_eq!(
-            closest_point(&hull, [0.0, bad, 0.0], &Stop::EXACT, stack),
+            closest_point(&hull, [0.0, bad, 0.0], &Budget::EXACT, stack),
             Err(QueryError::NotFinite)
         );
         assert_eq!(
-            is_within(&hull, [bad, 0.0, 0.0], 1.0, &Stop::EXACT, stack),
+            is_within(&hull, [bad, 0.0, 0.0], 1.0, &Budget::EXACT, stack),
             Err(QueryError::NotFinite)
         );
         assert_eq!(
-            is_within(&hull, [0.0; 3], bad, &Stop::EXACT, stack),
+            is_within(&hull, [0.0; 3], bad, &Budget::EXACT, stack),
             Err(QueryError::Tolerance)
         );
-        let stop = Stop { absolute: bad, ..Stop::EXACT };
+        let stop = Budget { absolute: bad, ..Budget::EXACT };
         assert_eq!(closest_point(&hull, [0.0; 3], &stop, stack), Err(QueryError::Tolerance));
     }
-    assert_eq!(is_within(&hull, [0.0; 3], -1.0, &Stop::EXACT, stack), Err(QueryError::Tolerance));
-    assert_eq!(closest_point(&hull, [0.0; 3], &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(is_within(&hull, [0.0; 3], -1.0, &Budget::EXACT, stack), Err(QueryError::Tolerance));
+    assert_eq!(closest_point(&hull, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
     let segments = ChainOptions { closest: false, ..options(&[64]) };
     let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &segments);
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
-    assert_eq!(closest_point(&hull, [0.0; 3], &Stop::EXACT, stack), Err(QueryError::NotServed));
-    assert_eq!(is_within(&hull, [0.0; 3], 1.0, &Stop::EXACT, stack), Err(QueryError::NotServed));
+    assert_eq!(closest_point(&hull, [0.0; 3], &Budget::EXACT, stack), Err(QueryError::NotServed));
+    assert_eq!(is_within(&hull, [0.0; 3], 1.0, &Budget::EXACT, stack), Err(QueryError::NotServed));
 }
 
 #[test]
@@ -346,16 +349,16 @@ fn a_hull_answers_as_a_blob_of_its_own() {
     let (bytes, _) = of(&mesh(&torus(2.0, 0.75, 16, 10)), 0.0, &options(&[64, 90]));
     let model = Model::open(&bytes).expect("opens");
     let hulls = model.tight_hulls().expect("there");
-    let stack = &mut [TreeEntry::EMPTY; 64];
+    let stack = &mut [ScratchEntry::EMPTY; 64];
     for index in 0..hulls.count() {
         let hull = hulls.get(index).expect("a hull");
         let alone = Model::open(hull.bytes()).expect("a blob");
         let by_itself = alone.tree().expect("a box tree");
         for p in [[0.1, 0.2, 0.3], [3.0, 1.0, -2.0], [0.0; 3]] {
-            let ours = tree::closest_point(hull.tree(), p, &Stop::EXACT, stack).expect("asked");
+            let ours = tree::closest_point(hull.tree(), p, &Budget::EXACT, stack).expect("asked");
             assert_eq!(
                 ours,
-                tree::closest_point(&by_itself, p, &Stop::EXACT, stack).expect("asked")
+                tree::closest_point(&by_itself, p, &Budget::EXACT, stack).expect("asked")
             );
         }
     }

@@ -1,11 +1,11 @@
 //! Whatever is wrong with the bytes is a typed error, and whatever opens is safe to ask.
 
 use super::{mesh, of, options};
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::tight::chain;
-use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::tight::chain;
+use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{Model, OpenError, TightHulls, Tree};
+use meshsweep_core::{Bvh, Model, OpenError, TightHulls};
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
 };
@@ -133,7 +133,7 @@ fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let both = assemble(&Parts { tight: Some(&tight), tree: Some(&tree), ..Parts::default() });
     let model = Model::open(&both).expect("opens");
     assert!(model.tree().is_some() && model.tight_hulls().is_some() && !model.has_hull());
-    assert!(Tree::open(&both).is_ok());
+    assert!(Bvh::open(&both).is_ok());
     let alone = assemble(&Parts { tree: Some(&tree), ..Parts::default() });
     let missing = OpenError::MissingSection { section: SectionKind::TightHulls };
     assert_eq!(open(&alone), Err(missing));
@@ -143,7 +143,7 @@ fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let mut damaged = both.clone();
     let at = entry(&damaged, SectionKind::TightHulls as u32);
     damaged[at.offset as usize + 50] ^= 1;
-    assert!(Tree::open(&damaged).is_ok() && Model::open(&damaged).is_err());
+    assert!(Bvh::open(&damaged).is_ok() && Model::open(&damaged).is_err());
     let mut unknown = both.clone();
     put_u32(&mut unknown, at.at, 31);
     seal(&mut unknown);

@@ -1,11 +1,11 @@
 //! Chains: hulls of falling numbers of faces, nested or not.
 
 use super::{mesh, of, options};
-use meshsweep_alloc::emit::{Keep, Parts, assemble, cut_blob};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::precision::VertexBits;
-use meshsweep_alloc::tight::{ChainOptions, cut, hull_mesh};
-use meshsweep_alloc::wrap::Goal;
+use meshsweep::emit::{Keep, Parts, assemble, cut_blob};
+use meshsweep::mesh::Mesh;
+use meshsweep::precision::VertexBits;
+use meshsweep::tight::{ChainOptions, cut, hull_mesh};
+use meshsweep::wrap::Goal;
 use meshsweep_core::{Model, TightHulls};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::generate::{bracket, icosphere, rough_sphere, torus};

@@ -5,9 +5,9 @@ mod answers;
 mod bytes;
 mod chains;
 
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tight::{ChainOptions, HullReport, chain};
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::mesh::Mesh;
+use meshsweep::tight::{ChainOptions, HullReport, chain};
 use meshsweep_host_tests::generate::Triangles;
 
 fn mesh((positions, triangles): &Triangles) -> Mesh {

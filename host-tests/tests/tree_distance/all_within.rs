@@ -1,8 +1,8 @@
 //! All triangles within a distance.
 
 use super::scene::{STACK, Scene, all, stack};
-use meshsweep_core::query::tree::{AllWithin, Near, all_within};
-use meshsweep_core::query::{Ended, QueryError, Stop};
+use meshsweep_core::query::tree::{AllWithin, Neighbor, all_within};
+use meshsweep_core::query::{Budget, Ended, QueryError};
 use meshsweep_host_tests::generate::{cube, scaled, torus};
 
 fn ask(
@@ -10,10 +10,10 @@ fn ask(
     p: [f32; 3],
     d: f32,
     n: usize,
-    stop: &Stop,
+    stop: &Budget,
     entries: usize,
-) -> (AllWithin, Vec<Near>) {
-    let mut out = vec![Near::EMPTY; n];
+) -> (AllWithin, Vec<Neighbor>) {
+    let mut out = vec![Neighbor::EMPTY; n];
     let answer = all_within(&scene.tree(), p, d, stop, &mut out, &mut stack(entries))
         .expect("a finite question");
     assert!(answer.certain <= answer.stored && answer.stored <= n);
@@ -36,7 +36,7 @@ fn certain_ones_are_within_and_none_that_is_within_is_missing() {
             let truths: Vec<_> =
                 (0..scene.triangles.len() as u32).map(|t| scene.truth_of(p, t)).collect();
             for d in distances(&scene, p) {
-                let (answer, out) = ask(&scene, p, d, truths.len() + 1, &Stop::EXACT, STACK);
+                let (answer, out) = ask(&scene, p, d, truths.len() + 1, &Budget::EXACT, STACK);
                 let name = &scene.name;
                 assert_eq!(
                     (answer.dropped, answer.ended),
@@ -77,9 +77,9 @@ fn what_does_not_fit_is_counted_and_the_closest_are_kept() {
     for scene in all() {
         for p in scene.points(12, 52) {
             for d in distances(&scene, p) {
-                let (all, most) = ask(&scene, p, d, scene.triangles.len(), &Stop::EXACT, STACK);
+                let (all, most) = ask(&scene, p, d, scene.triangles.len(), &Budget::EXACT, STACK);
                 for n in [0, 1, 3, 10] {
-                    let (answer, out) = ask(&scene, p, d, n, &Stop::EXACT, STACK);
+                    let (answer, out) = ask(&scene, p, d, n, &Budget::EXACT, STACK);
                     assert_eq!(
                         answer.stored + answer.dropped as usize,
                         all.stored,
@@ -102,7 +102,7 @@ fn short_stacks_and_few_steps_store_only_what_is_within() {
             for d in distances(&scene, p) {
                 for (steps, entries) in [(u32::MAX, 1), (u32::MAX, 9), (0, 9), (2, STACK)] {
                     let (answer, out) =
-                        ask(&scene, p, d, 16, &Stop { steps, ..Stop::EXACT }, entries);
+                        ask(&scene, p, d, 16, &Budget { steps, ..Budget::EXACT }, entries);
                     for near in out.iter().take(answer.certain) {
                         assert!(
                             scene.truth_of(p, near.triangle).lower <= f64::from(d),
@@ -123,28 +123,28 @@ fn from_far_away_all_or_none_are_within() {
     let scene = Scene::new("torus", scaled(&torus(2.0, 0.75, 12, 8), 1e-20), false);
     let p = [1.0, 2.0, 2.0];
     let all = scene.triangles.len();
-    assert_eq!(ask(&scene, p, 2.5, all, &Stop::EXACT, STACK).0.stored, 0);
-    let (answer, _) = ask(&scene, p, 3.5, 5, &Stop::EXACT, STACK);
+    assert_eq!(ask(&scene, p, 2.5, all, &Budget::EXACT, STACK).0.stored, 0);
+    let (answer, _) = ask(&scene, p, 3.5, 5, &Budget::EXACT, STACK);
     assert_eq!((answer.stored, answer.certain, answer.dropped as usize), (5, 5, all - 5));
-    let (answer, _) = ask(&scene, p, 3.0, all, &Stop::EXACT, STACK);
+    let (answer, _) = ask(&scene, p, 3.0, all, &Budget::EXACT, STACK);
     assert_eq!((answer.stored, answer.certain), (all, 0));
 }
 
 #[test]
 fn bad_questions_are_typed_errors() {
     let scene = Scene::new("cube", cube(1), false);
-    let (tree, mut out) = (scene.tree(), [Near::EMPTY; 2]);
+    let (tree, mut out) = (scene.tree(), [Neighbor::EMPTY; 2]);
     for bad in [f32::NAN, f32::INFINITY, -1.0] {
-        let answer = all_within(&tree, [0.0; 3], bad, &Stop::EXACT, &mut out, &mut stack(64));
+        let answer = all_within(&tree, [0.0; 3], bad, &Budget::EXACT, &mut out, &mut stack(64));
         assert_eq!(answer, Err(QueryError::Tolerance));
     }
     let nan = [0.0, 0.0, f32::NAN];
     assert_eq!(
-        all_within(&tree, nan, 1.0, &Stop::EXACT, &mut out, &mut stack(64)),
+        all_within(&tree, nan, 1.0, &Budget::EXACT, &mut out, &mut stack(64)),
         Err(QueryError::NotFinite)
     );
     assert_eq!(
-        all_within(&tree, [0.0; 3], 1.0, &Stop::EXACT, &mut out, &mut []),
+        all_within(&tree, [0.0; 3], 1.0, &Budget::EXACT, &mut out, &mut []),
         Err(QueryError::NoQueue)
     );
 }

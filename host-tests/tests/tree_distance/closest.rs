@@ -1,9 +1,9 @@
 //! The closest point.
 
 use super::scene::{STACK, Scene, all, stack};
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{Hint, Verdict, closest_point, closest_point_from, is_within};
-use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, rough_sphere, scaled, torus,
 };
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 const POINTS: usize = 120;
 
-fn ask(tree: &Tree<'_>, p: [f32; 3], stop: &Stop, entries: usize) -> ClosestPoint {
+fn ask(tree: &Bvh<'_>, p: [f32; 3], stop: &Budget, entries: usize) -> ClosestPoint {
     closest_point(tree, p, stop, &mut stack(entries)).expect("a finite question")
 }
 
@@ -26,7 +26,7 @@ fn interval_contains_the_true_distance_on_every_mesh() {
     for scene in all() {
         let tree = scene.tree();
         for p in scene.points(POINTS, 11) {
-            let answer = ask(&tree, p, &Stop::EXACT, STACK);
+            let answer = ask(&tree, p, &Budget::EXACT, STACK);
             contains(&scene, p, &answer, scene.truth(p));
             assert_eq!(answer.ended, Ended::Exact, "{}", scene.name);
         }
@@ -38,7 +38,7 @@ fn exact_interval_is_as_wide_as_the_stored_surface_and_rounding() {
     for scene in all() {
         let tree = scene.tree();
         for p in scene.points(POINTS, 12) {
-            let answer = ask(&tree, p, &Stop::EXACT, STACK);
+            let answer = ask(&tree, p, &Budget::EXACT, STACK);
             let width = f64::from(answer.upper) - f64::from(answer.lower);
             let allowed = scene.width(f64::from(answer.upper));
             assert!(
@@ -55,7 +55,7 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
     for scene in all() {
         let tree = scene.tree();
         for p in scene.points(POINTS, 13) {
-            let answer = ask(&tree, p, &Stop::EXACT, STACK);
+            let answer = ask(&tree, p, &Budget::EXACT, STACK);
             let named = scene.corners(answer.triangle.expect("a tree has all triangles"));
             let rounding = 8.0 * f64::from(f32::EPSILON) * scene.reach();
             let off = distance_to_triangle(answer.point, named).lower;
@@ -88,12 +88,12 @@ fn answer_has_the_same_bits_whatever_the_hint_and_what_the_stack_held() {
         let mut used = stack(STACK);
         let mut hint = Hint::NONE;
         for p in scene.points(POINTS, 14) {
-            let plain = ask(&tree, p, &Stop::EXACT, STACK);
+            let plain = ask(&tree, p, &Budget::EXACT, STACK);
             let hinted =
-                closest_point_from(&tree, p, &Stop::EXACT, &mut used, &mut hint).expect("finite");
+                closest_point_from(&tree, p, &Budget::EXACT, &mut used, &mut hint).expect("finite");
             assert_eq!(same(&plain), same(&hinted), "{}: {p:?}", scene.name);
             let again =
-                closest_point_from(&tree, p, &Stop::EXACT, &mut used, &mut hint).expect("finite");
+                closest_point_from(&tree, p, &Budget::EXACT, &mut used, &mut hint).expect("finite");
             assert_eq!(same(&plain), same(&again), "{}: {p:?}", scene.name);
         }
     }
@@ -118,7 +118,7 @@ fn equidistant_triangles_go_to_the_least_in_blob_order() {
             // Distances to a cube's faces are exact.
             let first =
                 order.iter().find(|&&t| scene.truth_of(p, t).lower <= nearest.upper).copied();
-            assert_eq!(ask(&tree, p, &Stop::EXACT, STACK).triangle, first, "{p:?}");
+            assert_eq!(ask(&tree, p, &Budget::EXACT, STACK).triangle, first, "{p:?}");
         }
     }
 }
@@ -129,11 +129,11 @@ fn named_stack_never_overflows_and_a_longer_one_answers_alike() {
         let tree = scene.tree();
         let entries = tree.header().stack_entries as usize;
         for p in scene.points(POINTS / 2, 15) {
-            let answer = ask(&tree, p, &Stop::EXACT, entries);
+            let answer = ask(&tree, p, &Budget::EXACT, entries);
             assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
             for more in [1, 2, 5, 7, 8, 40] {
                 assert_eq!(
-                    ask(&tree, p, &Stop::EXACT, entries + more),
+                    ask(&tree, p, &Budget::EXACT, entries + more),
                     answer,
                     "{}: {p:?}",
                     scene.name
@@ -156,17 +156,17 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
         for p in scene.points(POINTS / 3, 16) {
             let truth = scene.truth(p);
             for entries in [1, 2, 3, 8, 16, STACK] {
-                let answer = ask(&tree, p, &Stop::EXACT, entries);
+                let answer = ask(&tree, p, &Budget::EXACT, entries);
                 contains(&scene, p, &answer, truth);
                 overflowed += u32::from(answer.ended == Ended::Capacity);
                 for steps in [0, 1, 2, 5, 20] {
-                    let answer = ask(&tree, p, &Stop { steps, ..Stop::EXACT }, entries);
+                    let answer = ask(&tree, p, &Budget { steps, ..Budget::EXACT }, entries);
                     contains(&scene, p, &answer, truth);
                     assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {
-                let answer = ask(&tree, p, &Stop { relative, ..Stop::EXACT }, STACK);
+                let answer = ask(&tree, p, &Budget { relative, ..Budget::EXACT }, STACK);
                 contains(&scene, p, &answer, truth);
                 let boxes = boxes(&answer);
                 let allowed = f64::from(answer.lower) * f64::from(relative)
@@ -178,7 +178,7 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
                 );
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
-                let answer = ask(&tree, p, &Stop { absolute, ..Stop::EXACT }, STACK);
+                let answer = ask(&tree, p, &Budget { absolute, ..Budget::EXACT }, STACK);
                 contains(&scene, p, &answer, truth);
                 let allowed =
                     f64::from(absolute) + scene.width(f64::from(answer.upper)) + boxes(&answer);
@@ -205,7 +205,7 @@ fn a_point_far_away_gets_an_interval_that_holds() {
             while size * far < 3e38 {
                 for _ in 0..4 {
                     let p = rng.direction().map(|x| (f64::from(x) * size * far) as f32);
-                    for stop in [Stop::EXACT, Stop { steps: 0, ..Stop::EXACT }] {
+                    for stop in [Budget::EXACT, Budget { steps: 0, ..Budget::EXACT }] {
                         contains(&scene, p, &ask(&tree, p, &stop, STACK), scene.truth(p));
                     }
                 }
@@ -219,7 +219,7 @@ fn a_point_far_away_gets_an_interval_that_holds() {
 fn centre_of_a_sphere_visits_all_and_holds() {
     for single in [false, true] {
         let scene = Scene::new("icosphere", icosphere(3), single);
-        let answer = ask(&scene.tree(), [0.0; 3], &Stop::EXACT, STACK);
+        let answer = ask(&scene.tree(), [0.0; 3], &Budget::EXACT, STACK);
         contains(&scene, [0.0; 3], &answer, scene.truth([0.0; 3]));
     }
 }
@@ -233,8 +233,8 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
             let factor = 2f32.powi(exponent);
             let scene = Scene::new("scaled", scaled(&mesh, factor), single);
             for p in plain.points(120, 18) {
-                let one = ask(&plain.tree(), p, &Stop::EXACT, STACK);
-                let other = ask(&scene.tree(), p.map(|x| x * factor), &Stop::EXACT, STACK);
+                let one = ask(&plain.tree(), p, &Budget::EXACT, STACK);
+                let other = ask(&scene.tree(), p.map(|x| x * factor), &Budget::EXACT, STACK);
                 assert_eq!(
                     (one.lower * factor, one.upper * factor),
                     (other.lower, other.upper),
@@ -259,18 +259,20 @@ fn nan_infinity_bad_tolerances_and_no_stack_are_typed_errors() {
             let mut p = [0.0; 3];
             p[k] = bad;
             assert_eq!(
-                closest_point(&tree, p, &Stop::EXACT, &mut stack(64)),
+                closest_point(&tree, p, &Budget::EXACT, &mut stack(64)),
                 Err(QueryError::NotFinite)
             );
         }
-        for stop in [Stop { relative: bad, ..Stop::EXACT }, Stop { absolute: bad, ..Stop::EXACT }] {
+        for stop in
+            [Budget { relative: bad, ..Budget::EXACT }, Budget { absolute: bad, ..Budget::EXACT }]
+        {
             assert_eq!(
                 closest_point(&tree, [0.0; 3], &stop, &mut stack(64)),
                 Err(QueryError::Tolerance)
             );
         }
     }
-    assert_eq!(closest_point(&tree, [0.0; 3], &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(closest_point(&tree, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
 }
 
 proptest! {
@@ -286,11 +288,11 @@ proptest! {
         entries in 1usize..40,
     ) {
         let scene = super::soup::random(kind, seed, single);
-        let answer = ask(&scene.tree(), p, &Stop { steps, ..Stop::EXACT }, entries);
+        let answer = ask(&scene.tree(), p, &Budget { steps, ..Budget::EXACT }, entries);
         contains(&scene, p, &answer, scene.truth(p));
         let on = scene.points(12, seed);
         for p in on {
-            contains(&scene, p, &ask(&scene.tree(), p, &Stop::EXACT, STACK), scene.truth(p));
+            contains(&scene, p, &ask(&scene.tree(), p, &Budget::EXACT, STACK), scene.truth(p));
         }
     }
 }
@@ -309,10 +311,10 @@ fn flat_parts_are_right_from_any_distance() {
                     let far = scene.size() * 2f32.powi(power);
                     let p = rng.direction().map(|x| x * far);
                     let truth = scene.truth(p);
-                    let answer = ask(&tree, p, &Stop::EXACT, STACK);
+                    let answer = ask(&tree, p, &Budget::EXACT, STACK);
                     contains(&scene, p, &answer, truth);
                     let twice = (2.0 * truth.upper) as f32;
-                    let within = is_within(&tree, p, twice, &Stop::EXACT, &mut stack(STACK))
+                    let within = is_within(&tree, p, twice, &Budget::EXACT, &mut stack(STACK))
                         .expect("finite")
                         .verdict;
                     assert!(
@@ -321,8 +323,8 @@ fn flat_parts_are_right_from_any_distance() {
                         scene.name
                     );
                     let half = (0.5 * truth.lower) as f32;
-                    let within =
-                        is_within(&tree, p, half, &Stop::EXACT, &mut stack(STACK)).expect("finite");
+                    let within = is_within(&tree, p, half, &Budget::EXACT, &mut stack(STACK))
+                        .expect("finite");
                     assert_eq!(within.verdict, Verdict::No, "{}: {p:?}", scene.name);
                 }
             }

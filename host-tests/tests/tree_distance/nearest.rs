@@ -1,13 +1,19 @@
 //! The n closest triangles.
 
 use super::scene::{STACK, Scene, all, stack};
-use meshsweep_core::query::tree::{Near, Nearest, closest_point, nearest};
-use meshsweep_core::query::{Ended, QueryError, Stop};
+use meshsweep_core::query::tree::{Nearest, Neighbor, closest_point, nearest};
+use meshsweep_core::query::{Budget, Ended, QueryError};
 use meshsweep_host_tests::generate::{cube, scaled, torus};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_triangle};
 
-fn ask(scene: &Scene, p: [f32; 3], n: usize, stop: &Stop, entries: usize) -> (Nearest, Vec<Near>) {
-    let mut out = vec![Near::EMPTY; n];
+fn ask(
+    scene: &Scene,
+    p: [f32; 3],
+    n: usize,
+    stop: &Budget,
+    entries: usize,
+) -> (Nearest, Vec<Neighbor>) {
+    let mut out = vec![Neighbor::EMPTY; n];
     let answer =
         nearest(&scene.tree(), p, stop, &mut out, &mut stack(entries)).expect("a finite question");
     assert!(answer.stored <= n);
@@ -20,7 +26,7 @@ fn truths(scene: &Scene, p: [f32; 3]) -> Vec<Bounded> {
 }
 
 /// Every interval holds, nothing is named twice, what is not stored is beyond `rest_lower`.
-fn check(scene: &Scene, p: [f32; 3], truths: &[Bounded], answer: &Nearest, out: &[Near]) {
+fn check(scene: &Scene, p: [f32; 3], truths: &[Bounded], answer: &Nearest, out: &[Neighbor]) {
     let mut named = vec![false; truths.len()];
     for near in out {
         let truth = truths[near.triangle as usize];
@@ -44,7 +50,7 @@ fn intervals_hold_and_the_rest_is_farther() {
         for p in scene.points(24, 41) {
             let truths = truths(&scene, p);
             for n in [1, 2, 7, 40, scene.triangles.len() + 3] {
-                let (answer, out) = ask(&scene, p, n, &Stop::EXACT, STACK);
+                let (answer, out) = ask(&scene, p, n, &Budget::EXACT, STACK);
                 check(&scene, p, &truths, &answer, &out);
                 assert_eq!(answer.ended, Ended::Exact);
                 assert_eq!(out.len(), n.min(truths.len()), "{}: {p:?}", scene.name);
@@ -80,8 +86,8 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
     for scene in all() {
         for p in scene.points(48, 42) {
             let closest =
-                closest_point(&scene.tree(), p, &Stop::EXACT, &mut stack(STACK)).expect("finite");
-            let (_, most) = ask(&scene, p, 20, &Stop::EXACT, STACK);
+                closest_point(&scene.tree(), p, &Budget::EXACT, &mut stack(STACK)).expect("finite");
+            let (_, most) = ask(&scene, p, 20, &Budget::EXACT, STACK);
             assert_eq!(
                 (Some(most[0].triangle), most[0].upper),
                 (closest.triangle, closest.upper),
@@ -90,7 +96,7 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
             );
             for n in 1..most.len() {
                 assert_eq!(
-                    ask(&scene, p, n, &Stop::EXACT, STACK).1,
+                    ask(&scene, p, n, &Budget::EXACT, STACK).1,
                     most[..n],
                     "{}: {p:?}",
                     scene.name
@@ -104,7 +110,7 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
 fn witnesses_lie_on_their_triangles() {
     for scene in all() {
         for p in scene.points(24, 43) {
-            for near in ask(&scene, p, 12, &Stop::EXACT, STACK).1 {
+            for near in ask(&scene, p, 12, &Budget::EXACT, STACK).1 {
                 let off = distance_to_triangle(near.point, scene.corners(near.triangle)).lower;
                 let allowed = scene.surface_error() + 8.0 * f64::from(f32::EPSILON) * scene.reach();
                 assert!(off <= allowed, "{}: {p:?}: {near:?} is {off:e} off", scene.name);
@@ -118,9 +124,10 @@ fn equidistant_triangles_come_by_their_number_in_the_blob() {
     for single in [false, true] {
         let scene = Scene::new("cube", cube(2), single);
         let order = scene.order();
-        let place = |near: &Near| order.iter().position(|&t| t == near.triangle).expect("named");
+        let place =
+            |near: &Neighbor| order.iter().position(|&t| t == near.triangle).expect("named");
         for p in [[0.0; 3], [0.0, 0.0, 2.0], [3.0; 3], [0.5, 0.5, 0.0], [-1.0; 3]] {
-            let (_, out) = ask(&scene, p, 60, &Stop::EXACT, STACK);
+            let (_, out) = ask(&scene, p, 60, &Budget::EXACT, STACK);
             for pair in out.windows(2).filter(|pair| pair[0].upper == pair[1].upper) {
                 assert!(place(&pair[0]) < place(&pair[1]), "{p:?}: {pair:?}");
             }
@@ -138,7 +145,8 @@ fn short_stacks_and_few_steps_leave_true_bounds() {
                 for (steps, entries) in
                     [(u32::MAX, 1), (u32::MAX, 2), (u32::MAX, 9), (0, 9), (1, STACK), (4, STACK)]
                 {
-                    let (answer, out) = ask(&scene, p, n, &Stop { steps, ..Stop::EXACT }, entries);
+                    let (answer, out) =
+                        ask(&scene, p, n, &Budget { steps, ..Budget::EXACT }, entries);
                     check(&scene, p, &truths, &answer, &out);
                     cut += u32::from(answer.ended != Ended::Exact);
                 }
@@ -157,7 +165,7 @@ fn far_points_get_the_interval_of_the_box() {
             let p = if x.is_finite() { [x, -x, 0.5 * x] } else { [3e38, -1e38, 2e38] };
             let truths = truths(&scene, p);
             for n in [0, 1, 5, 10_000] {
-                let (answer, out) = ask(&scene, p, n, &Stop::EXACT, STACK);
+                let (answer, out) = ask(&scene, p, n, &Budget::EXACT, STACK);
                 check(&scene, p, &truths, &answer, &out);
                 assert_eq!(out.len(), n.min(truths.len()));
             }
@@ -168,14 +176,17 @@ fn far_points_get_the_interval_of_the_box() {
 #[test]
 fn bad_questions_are_typed_errors() {
     let scene = Scene::new("cube", cube(1), false);
-    let (tree, mut out) = (scene.tree(), [Near::EMPTY; 2]);
+    let (tree, mut out) = (scene.tree(), [Neighbor::EMPTY; 2]);
     let nan = [0.0, f32::NAN, 0.0];
     assert_eq!(
-        nearest(&tree, nan, &Stop::EXACT, &mut out, &mut stack(64)),
+        nearest(&tree, nan, &Budget::EXACT, &mut out, &mut stack(64)),
         Err(QueryError::NotFinite)
     );
-    assert_eq!(nearest(&tree, [0.0; 3], &Stop::EXACT, &mut out, &mut []), Err(QueryError::NoQueue));
-    let bad = Stop { relative: -1.0, ..Stop::EXACT };
+    assert_eq!(
+        nearest(&tree, [0.0; 3], &Budget::EXACT, &mut out, &mut []),
+        Err(QueryError::NoQueue)
+    );
+    let bad = Budget { relative: -1.0, ..Budget::EXACT };
     assert_eq!(
         nearest(&tree, [0.0; 3], &bad, &mut out, &mut stack(64)),
         Err(QueryError::Tolerance)

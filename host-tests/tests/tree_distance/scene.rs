@@ -1,10 +1,10 @@
 //! Meshes with their trees, where to put queries, and the truth about them.
 
-use meshsweep_alloc::emit::blob;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::TreeEntry;
+use meshsweep::emit::blob;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::ScratchEntry;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, icosphere, needle_comb, rough_sphere, scaled,
     torus, transformed, two_parts, uv_sphere,
@@ -22,8 +22,8 @@ pub struct Scene {
     pub bytes: Vec<u8>,
 }
 
-pub fn stack(entries: usize) -> Vec<TreeEntry> {
-    vec![TreeEntry::EMPTY; entries]
+pub fn stack(entries: usize) -> Vec<ScratchEntry> {
+    vec![ScratchEntry::EMPTY; entries]
 }
 
 impl Scene {
@@ -35,8 +35,8 @@ impl Scene {
         Scene { name, positions, triangles, bytes: blob(None, Some(&tables)) }
     }
 
-    pub fn tree(&self) -> Tree<'_> {
-        Tree::open(&self.bytes).expect("opens")
+    pub fn tree(&self) -> Bvh<'_> {
+        Bvh::open(&self.bytes).expect("opens")
     }
 
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
@@ -92,8 +92,7 @@ impl Scene {
         // again.
         let rounding = roundings * f64::from(f32::EPSILON);
         let units = ((distance - self.surface_error() - rounding) / unit).max(1.0);
-        let short =
-            if tree.header().is_single() { 0.0 } else { units - (units * units - 1.0).sqrt() };
+        let short = if tree.header().is_f32() { 0.0 } else { units - (units * units - 1.0).sqrt() };
         2.0 * self.surface_error() + rounding + short * unit
     }
 

@@ -4,13 +4,13 @@ use super::scene::{IDENTITY, STACK, Scene, closed, stack};
 use super::soup::soups;
 use super::winding::winding_number;
 use meshsweep_core::query::tree::{Side, SignedDistance, closest_point, signed_distance};
-use meshsweep_core::query::{Ended, QueryError, Stop};
+use meshsweep_core::query::{Budget, Ended, QueryError};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, inverted, joined, rough_sphere, scaled, torus, transformed,
 };
 use proptest::prelude::*;
 
-fn ask(scene: &Scene, p: [f32; 3], stop: &Stop, entries: usize) -> SignedDistance {
+fn ask(scene: &Scene, p: [f32; 3], stop: &Budget, entries: usize) -> SignedDistance {
     signed_distance(&scene.tree(), p, stop, &mut stack(entries)).expect("a finite question")
 }
 
@@ -54,7 +54,7 @@ fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
         assert!(scene.tree().header().is_closed(), "{}", scene.name);
         let (mut undefined, mut clear) = (0, 0);
         for p in scene.points(480, 61) {
-            let answer = ask(&scene, p, &Stop::EXACT, STACK);
+            let answer = ask(&scene, p, &Budget::EXACT, STACK);
             let defined = check(&scene, p, 1, &answer);
             let truth = scene.truth(p);
             if truth.lower > scene.width(truth.upper) {
@@ -79,7 +79,7 @@ fn centre_of_a_sphere_is_inside() {
     for single in [false, true] {
         for level in [0, 1, 3] {
             let scene = Scene::new("icosphere", icosphere(level), single);
-            assert_eq!(ask(&scene, [0.0; 3], &Stop::EXACT, STACK).side, Side::Inside);
+            assert_eq!(ask(&scene, [0.0; 3], &Budget::EXACT, STACK).side, Side::Inside);
         }
     }
 }
@@ -92,7 +92,7 @@ fn beyond_edges_and_vertices_of_a_cube_all_is_outside() {
             for x in [-1.000_1, -1.0, -0.999_999_9, -0.5, 0.0, 0.999_99, 1.0, 1.000_000_1, 1.5] {
                 for y in [-1.0, -0.999_999, 0.0, 1.0, 1.000_01] {
                     for p in [[2.0, x, y], [x, 2.0, y], [x, y, -1.01], [x, y, 40.0]] {
-                        let answer = ask(&scene, p, &Stop::EXACT, STACK);
+                        let answer = ask(&scene, p, &Budget::EXACT, STACK);
                         assert_eq!(answer.side, Side::Outside, "{}: {p:?}: {answer:?}", scene.name);
                     }
                 }
@@ -116,7 +116,7 @@ fn sharp_edges_and_tips_have_a_side() {
                 let vertex = scene.positions[i % scene.positions.len()];
                 let d = rng.direction();
                 let p: [f32; 3] = std::array::from_fn(|k| vertex[k] + d[k] * size * 1e-3);
-                defined += u32::from(check(&scene, p, 1, &ask(&scene, p, &Stop::EXACT, STACK)));
+                defined += u32::from(check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK)));
             }
             // Near the tip of a spire opposite walls are nearer to each other than rounding tells
             // apart.
@@ -134,10 +134,10 @@ fn an_inverted_mesh_exchanges_the_sides() {
     for single in [false, true] {
         let scene = Scene::new("inverted torus", inverted(&torus(2.0, 0.75, 24, 12)), single);
         for p in scene.points(240, 63) {
-            check(&scene, p, 0, &ask(&scene, p, &Stop::EXACT, STACK));
+            check(&scene, p, 0, &ask(&scene, p, &Budget::EXACT, STACK));
         }
-        assert_eq!(ask(&scene, [40.0, 0.0, 3.0], &Stop::EXACT, STACK).side, Side::Inside);
-        assert_eq!(ask(&scene, [1e20, 0.0, 3.0], &Stop::EXACT, STACK).side, Side::Inside);
+        assert_eq!(ask(&scene, [40.0, 0.0, 3.0], &Budget::EXACT, STACK).side, Side::Inside);
+        assert_eq!(ask(&scene, [1e20, 0.0, 3.0], &Budget::EXACT, STACK).side, Side::Inside);
     }
 }
 
@@ -147,10 +147,10 @@ fn a_cavity_is_outside() {
     for single in [false, true] {
         let scene = Scene::new("hollow sphere", hollow.clone(), single);
         for p in scene.points(240, 64) {
-            check(&scene, p, 1, &ask(&scene, p, &Stop::EXACT, STACK));
+            check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK));
         }
-        assert_eq!(ask(&scene, [0.0; 3], &Stop::EXACT, STACK).side, Side::Outside);
-        assert_eq!(ask(&scene, [0.75, 0.0, 0.0], &Stop::EXACT, STACK).side, Side::Inside);
+        assert_eq!(ask(&scene, [0.0; 3], &Budget::EXACT, STACK).side, Side::Outside);
+        assert_eq!(ask(&scene, [0.75, 0.0, 0.0], &Budget::EXACT, STACK).side, Side::Inside);
     }
 }
 
@@ -159,8 +159,8 @@ fn overlapping_parts_answer_for_the_nearest_surface() {
     let scene = Scene::new("overlap", joined(&cube(2), &moved(&cube(2), [1.0, 0.0, 0.0])), true);
     // Within the first cube, outside of the second, next to the second's wall at 0; and within
     // both.
-    assert_eq!(ask(&scene, [-0.1, 0.0, 0.0], &Stop::EXACT, STACK).side, Side::Outside);
-    assert_eq!(ask(&scene, [0.1, 0.0, 0.0], &Stop::EXACT, STACK).side, Side::Inside);
+    assert_eq!(ask(&scene, [-0.1, 0.0, 0.0], &Budget::EXACT, STACK).side, Side::Outside);
+    assert_eq!(ask(&scene, [0.1, 0.0, 0.0], &Budget::EXACT, STACK).side, Side::Inside);
 }
 
 #[test]
@@ -190,7 +190,7 @@ fn overlapping_parts_that_are_equally_near_are_not_guessed() {
                 as f32
         });
         let (wall, end) = (big.truth(p), beam.truth(p));
-        let answer = ask(&both, p, &Stop::EXACT, STACK);
+        let answer = ask(&both, p, &Budget::EXACT, STACK);
         match answer.side {
             Side::Undefined => open += 1,
             Side::Inside => assert!(wall.lower <= end.upper, "{p:?} {answer:?} {wall:?} {end:?}"),
@@ -214,7 +214,7 @@ fn thin_walls_are_never_guessed() {
         for i in 0..300 {
             let far = 10f32.powi(i % 9 - 4);
             let p = rng.direction().map(|x| x * far);
-            check(&scene, p, 1, &ask(&scene, p, &Stop::EXACT, STACK));
+            check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK));
         }
     }
 }
@@ -231,7 +231,7 @@ fn open_meshes_and_soups_have_no_side() {
             continue;
         }
         for p in scene.points(24, 66) {
-            let answer = ask(&scene, p, &Stop::EXACT, STACK);
+            let answer = ask(&scene, p, &Budget::EXACT, STACK);
             assert_eq!(
                 (answer.side, answer.closest.ended),
                 (Side::Undefined, Ended::Exact),
@@ -251,7 +251,7 @@ fn flat_closed_sheets_have_no_side() {
         let scene = Scene::new("sheet", (positions.clone(), sheet.clone()), single);
         assert!(scene.tree().header().is_closed());
         for p in scene.points(120, 67) {
-            let answer = ask(&scene, p, &Stop::EXACT, STACK);
+            let answer = ask(&scene, p, &Budget::EXACT, STACK);
             assert_ne!(answer.side, Side::Inside, "{p:?}: {answer:?}");
         }
     }
@@ -263,8 +263,8 @@ fn distance_is_the_closest_points() {
         let tree = scene.tree();
         for p in scene.points(60, 68) {
             let (signed, closest) = (
-                ask(&scene, p, &Stop::EXACT, STACK).closest,
-                closest_point(&tree, p, &Stop::EXACT, &mut stack(STACK)).expect("finite"),
+                ask(&scene, p, &Budget::EXACT, STACK).closest,
+                closest_point(&tree, p, &Budget::EXACT, &mut stack(STACK)).expect("finite"),
             );
             assert_eq!(
                 (signed.upper, signed.triangle, signed.point),
@@ -291,7 +291,7 @@ fn short_stacks_and_few_steps_leave_the_side_open_or_right() {
             for (steps, entries) in
                 [(u32::MAX, 1), (u32::MAX, 4), (u32::MAX, 12), (0, 9), (3, STACK), (8, STACK)]
             {
-                let answer = ask(&scene, p, &Stop { steps, ..Stop::EXACT }, entries);
+                let answer = ask(&scene, p, &Budget { steps, ..Budget::EXACT }, entries);
                 undefined += u32::from(!check(&scene, p, 1, &answer));
                 assert!(answer.closest.work.splits <= steps);
             }
@@ -309,7 +309,7 @@ fn far_points_are_outside() {
             let mut far = 1.5 * f64::from(scene.size());
             while far < 3e38 {
                 let p = rng.direction().map(|x| (f64::from(x) * far) as f32);
-                let answer = ask(&scene, p, &Stop::EXACT, STACK);
+                let answer = ask(&scene, p, &Budget::EXACT, STACK);
                 check(&scene, p, 1, &answer);
                 assert_eq!(answer.side, Side::Outside, "{}: {p:?}: {answer:?}", scene.name);
                 far *= 5.0;
@@ -324,11 +324,11 @@ fn bad_questions_are_typed_errors() {
     let tree = scene.tree();
     let nan = [f32::NAN, 0.0, 0.0];
     assert_eq!(
-        signed_distance(&tree, nan, &Stop::EXACT, &mut stack(64)),
+        signed_distance(&tree, nan, &Budget::EXACT, &mut stack(64)),
         Err(QueryError::NotFinite)
     );
-    assert_eq!(signed_distance(&tree, [0.0; 3], &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
-    let bad = Stop { absolute: f32::NAN, ..Stop::EXACT };
+    assert_eq!(signed_distance(&tree, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
+    let bad = Budget { absolute: f32::NAN, ..Budget::EXACT };
     assert_eq!(signed_distance(&tree, [0.0; 3], &bad, &mut stack(64)), Err(QueryError::Tolerance));
 }
 
@@ -344,14 +344,14 @@ proptest! {
     ) {
         let (positions, mut triangles) = rough_sphere(1, amplitude, seed);
         let scene = Scene::new("rough sphere", (positions.clone(), triangles.clone()), single);
-        let one = ask(&scene, p, &Stop::EXACT, STACK);
+        let one = ask(&scene, p, &Budget::EXACT, STACK);
         check(&scene, p, 1, &one);
         let mut rng = Rng::new(seed);
         (1..triangles.len()).for_each(|i| triangles.swap(i, rng.below(i + 1)));
         let shuffled = Scene::new("shuffled", (positions, triangles), single);
-        check(&shuffled, p, 1, &ask(&shuffled, p, &Stop::EXACT, STACK));
+        check(&shuffled, p, 1, &ask(&shuffled, p, &Budget::EXACT, STACK));
         for p in scene.points(24, seed) {
-            check(&scene, p, 1, &ask(&scene, p, &Stop::EXACT, STACK));
+            check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK));
         }
     }
 }

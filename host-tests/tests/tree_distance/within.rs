@@ -2,12 +2,12 @@
 
 use super::scene::{STACK, Scene, all, stack};
 use meshsweep_core::query::tree::{Verdict, Within, is_within};
-use meshsweep_core::query::{Ended, QueryError, Stop};
+use meshsweep_core::query::{Budget, Ended, QueryError};
 use meshsweep_host_tests::generate::{Rng, cube, scaled, torus};
 use meshsweep_host_tests::oracle::Bounded;
 use proptest::prelude::*;
 
-fn ask(scene: &Scene, p: [f32; 3], d: f32, stop: &Stop, entries: usize) -> Within {
+fn ask(scene: &Scene, p: [f32; 3], d: f32, stop: &Budget, entries: usize) -> Within {
     is_within(&scene.tree(), p, d, stop, &mut stack(entries)).expect("a finite question")
 }
 
@@ -46,7 +46,7 @@ fn verdict_is_true_and_unknown_only_next_to_the_distance() {
             let truth = scene.truth(p);
             for factor in [0.0, 0.5, 0.99, 0.999_999, 1.0, 1.000_001, 1.01, 2.0, 1e6] {
                 let d = (truth.upper * factor).min(3e38) as f32;
-                let answer = ask(&scene, p, d, &Stop::EXACT, STACK);
+                let answer = ask(&scene, p, d, &Budget::EXACT, STACK);
                 if !check(&scene, p, d, truth, answer) {
                     let off = (truth.upper - f64::from(d)).abs();
                     let allowed = scene.width(truth.upper);
@@ -73,7 +73,7 @@ fn a_short_stack_or_few_steps_never_make_a_wrong_verdict() {
                 for (steps, entries) in
                     [(u32::MAX, 1), (u32::MAX, 3), (0, STACK), (1, STACK), (3, 8)]
                 {
-                    let answer = ask(&scene, p, d, &Stop { steps, ..Stop::EXACT }, entries);
+                    let answer = ask(&scene, p, d, &Budget { steps, ..Budget::EXACT }, entries);
                     unknown += u32::from(!check(&scene, p, d, truth, answer));
                     assert!(answer.work.splits <= steps);
                 }
@@ -100,10 +100,10 @@ fn far_points_and_huge_distances_are_answered() {
                 f32::MAX,
                 f32::MIN_POSITIVE,
             ] {
-                check(&scene, p, d, truth, ask(&scene, p, d, &Stop::EXACT, STACK));
+                check(&scene, p, d, truth, ask(&scene, p, d, &Budget::EXACT, STACK));
             }
             let certain =
-                check(&scene, p, f32::MAX, truth, ask(&scene, p, f32::MAX, &Stop::EXACT, STACK));
+                check(&scene, p, f32::MAX, truth, ask(&scene, p, f32::MAX, &Budget::EXACT, STACK));
             assert!(certain, "{p:?}");
             far *= 7.0;
         }
@@ -113,7 +113,7 @@ fn far_points_and_huge_distances_are_answered() {
 #[test]
 fn out_of_reach_costs_one_node() {
     let scene = Scene::new("cube", cube(8), false);
-    let answer = ask(&scene, [3.0, 0.0, 0.0], 1.5, &Stop::EXACT, STACK);
+    let answer = ask(&scene, [3.0, 0.0, 0.0], 1.5, &Budget::EXACT, STACK);
     assert_eq!((answer.verdict, answer.work.splits, answer.work.triangles), (Verdict::No, 1, 0));
 }
 
@@ -123,17 +123,17 @@ fn bad_distances_and_points_are_typed_errors() {
     let tree = scene.tree();
     for bad in [f32::NAN, f32::INFINITY, -1.0, -f32::MIN_POSITIVE] {
         assert_eq!(
-            is_within(&tree, [0.0; 3], bad, &Stop::EXACT, &mut stack(64)),
+            is_within(&tree, [0.0; 3], bad, &Budget::EXACT, &mut stack(64)),
             Err(QueryError::Tolerance)
         );
     }
     for bad in [f32::NAN, f32::INFINITY] {
         assert_eq!(
-            is_within(&tree, [0.0, bad, 0.0], 1.0, &Stop::EXACT, &mut stack(64)),
+            is_within(&tree, [0.0, bad, 0.0], 1.0, &Budget::EXACT, &mut stack(64)),
             Err(QueryError::NotFinite)
         );
     }
-    assert_eq!(is_within(&tree, [0.0; 3], 1.0, &Stop::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(is_within(&tree, [0.0; 3], 1.0, &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
 }
 
 proptest! {
@@ -150,6 +150,6 @@ proptest! {
         let scene = super::soup::random(kind, seed, single);
         let truth = scene.truth(p);
         let d = (truth.upper * factor) as f32;
-        check(&scene, p, d, truth, ask(&scene, p, d, &Stop::EXACT, STACK));
+        check(&scene, p, d, truth, ask(&scene, p, d, &Budget::EXACT, STACK));
     }
 }

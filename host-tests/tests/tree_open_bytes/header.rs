@@ -1,9 +1,9 @@
 //! Sections that are missing or too short, and fields of the tree's header.
 
 use super::{blob_of, edited, open, record, sphere};
-use meshsweep_alloc::tree::TreeOptions;
+use meshsweep::tree::TreeOptions;
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{OpenError, Tree};
+use meshsweep_core::{Bvh, OpenError};
 use meshsweep_host_tests::corrupt::{entries, entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::icosphere;
 
@@ -17,7 +17,7 @@ const SURFACE_ERROR: usize = 40;
 const REACH: usize = 44;
 
 fn header_word(at: usize, value: u32) -> Result<(), OpenError> {
-    edited(sphere(), SectionKind::Tree, |bytes| put_u32(bytes, at, value))
+    edited(sphere(), SectionKind::Bvh, |bytes| put_u32(bytes, at, value))
 }
 
 fn is_count(result: Result<(), OpenError>) -> bool {
@@ -27,11 +27,11 @@ fn is_count(result: Result<(), OpenError>) -> bool {
 #[test]
 fn a_blob_without_a_tree_says_so() {
     let mut bytes = sphere();
-    let at = entry(&bytes, SectionKind::Tree as u32).at;
+    let at = entry(&bytes, SectionKind::Bvh as u32).at;
     // A kind of some later version is passed over.
     put_u32(&mut bytes, at, 1000);
     seal(&mut bytes);
-    assert_eq!(open(&bytes), Err(OpenError::MissingSection { section: SectionKind::Tree }));
+    assert_eq!(open(&bytes), Err(OpenError::MissingSection { section: SectionKind::Bvh }));
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn reserved_bits_of_the_header_must_be_zero() {
 fn contradictory_and_huge_counts_are_refused() {
     for at in [NODES, LEAVES, VERTICES, TRIANGLES, STACK] {
         let bytes = sphere();
-        let stored = word(&bytes, entry(&bytes, SectionKind::Tree as u32).offset as usize + at);
+        let stored = word(&bytes, entry(&bytes, SectionKind::Bvh as u32).offset as usize + at);
         let stored = stored.expect("a header");
         let more =
             [stored - 1, stored + 1, 0, 1, 0xFFFF, 0x00FF_FFFF, 0x0100_0000, 0x0400_0001, u32::MAX];
@@ -116,13 +116,13 @@ fn error_bounds_that_are_negative_or_not_finite_are_refused() {
 #[test]
 fn an_inverted_box_is_refused_and_one_that_is_too_small_names_the_leaf() {
     let corner = |at: usize, value: u16| {
-        edited(sphere(), SectionKind::Tree, |bytes| {
+        edited(sphere(), SectionKind::Bvh, |bytes| {
             bytes[at..at + 2].copy_from_slice(&value.to_le_bytes())
         })
     };
     for axis in 0..3 {
         let bytes = sphere();
-        let at = entry(&bytes, SectionKind::Tree as u32).offset as usize + 48 + 2 * axis;
+        let at = entry(&bytes, SectionKind::Bvh as u32).offset as usize + 48 + 2 * axis;
         let short = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
         assert!(is_count(corner(48 + 2 * axis, short(at + 6) + 1)));
         for result in
@@ -133,14 +133,14 @@ fn an_inverted_box_is_refused_and_one_that_is_too_small_names_the_leaf() {
             assert!(named, "{result:?}");
         }
     }
-    let tight = edited(sphere(), SectionKind::Tree, |bytes| put_u32(bytes, REACH, 1f32.to_bits()));
+    let tight = edited(sphere(), SectionKind::Bvh, |bytes| put_u32(bytes, REACH, 1f32.to_bits()));
     assert_eq!(tight, record(SectionKind::TreeFans, 0), "a triangle longer than the reach");
 }
 
 #[test]
 fn stack_entries_that_are_too_few_are_refused() {
     let bytes = sphere();
-    let entries = Tree::open(&bytes).expect("opens").header().stack_entries;
+    let entries = Bvh::open(&bytes).expect("opens").header().stack_entries;
     let enough = (0..entries).find(|&fewer| header_word(STACK, fewer).is_ok());
     assert_eq!(enough, None, "the builder asks for {entries}");
 }

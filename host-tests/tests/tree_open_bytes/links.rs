@@ -1,11 +1,11 @@
 //! Links: counts, places and shapes of children.
 
 use super::{ask_everything, edited, open, record, sphere};
-use meshsweep_alloc::emit;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep::emit;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{OpenError, Tree};
+use meshsweep_core::{Bvh, OpenError};
 use meshsweep_host_tests::corrupt::{put_u32, word};
 
 /// Bytes of a record.
@@ -21,7 +21,7 @@ fn link_word(node: usize, at: usize, change: impl Fn(u32) -> u32) -> Result<(), 
 #[test]
 fn counts_of_children_out_of_range_name_the_node() {
     let bytes = sphere();
-    let nodes = Tree::open(&bytes).expect("opens").header().nodes;
+    let nodes = Bvh::open(&bytes).expect("opens").header().nodes;
     for node in 0..nodes {
         let named = record(SectionKind::TreeLinks, node);
         let with = |inner: u32, count: u32| {
@@ -36,7 +36,7 @@ fn counts_of_children_out_of_range_name_the_node() {
 #[test]
 fn links_that_lead_elsewhere_name_the_node() {
     let bytes = sphere();
-    let tree = Tree::open(&bytes).expect("opens");
+    let tree = Bvh::open(&bytes).expect("opens");
     let header = *tree.header();
     let (mut inner, mut leaves) = (0, 0);
     for node in 0..header.nodes {
@@ -68,7 +68,7 @@ fn links_that_lead_elsewhere_name_the_node() {
 #[test]
 fn tags_of_no_shape_name_the_node() {
     let bytes = sphere();
-    let tree = Tree::open(&bytes).expect("opens");
+    let tree = Bvh::open(&bytes).expect("opens");
     let tag = |node: u32, lane: u32, tag: u8| {
         edited(sphere(), SectionKind::TreeLinks, |bytes| {
             bytes[LINK * node as usize + 12 + lane as usize] = tag;
@@ -99,7 +99,7 @@ fn chain(nodes: usize) -> Vec<u8> {
     for (kind, bytes) in &mut tables.sections {
         let one = bytes.clone();
         match kind {
-            SectionKind::Tree => *bytes = tables.header.write().to_vec(),
+            SectionKind::Bvh => *bytes = tables.header.write().to_vec(),
             SectionKind::TreeLinks => {
                 let mut last = one;
                 let inner = |node: u32| ((node + 1) | 1 << 24 | 1 << 28).to_le_bytes();
@@ -120,7 +120,7 @@ fn chain(nodes: usize) -> Vec<u8> {
 #[test]
 fn a_tree_of_64_nodes_on_a_path_opens_and_a_deeper_one_is_refused() {
     let bytes = chain(64);
-    let tree = Tree::open(&bytes).expect("deep, but not too deep");
+    let tree = Bvh::open(&bytes).expect("deep, but not too deep");
     ask_everything(&tree, false);
     let result = open(&chain(65));
     assert!(matches!(result, Err(OpenError::Counts { what }) if what.contains("64")), "{result:?}");

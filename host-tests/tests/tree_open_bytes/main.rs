@@ -6,14 +6,14 @@ mod links;
 mod records;
 mod whole;
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
+use meshsweep::emit;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::query::Stop;
-use meshsweep_core::query::tree::Session;
+use meshsweep_core::query::Budget;
+use meshsweep_core::query::tree::CoherentQuery;
 use meshsweep_core::tribox::Pose;
-use meshsweep_core::{OpenError, Tree};
+use meshsweep_core::{Bvh, OpenError};
 use meshsweep_host_tests::corrupt::{Asker, entry, seal};
 use meshsweep_host_tests::generate::{Triangles, icosphere};
 
@@ -32,7 +32,7 @@ fn single() -> Vec<u8> {
 }
 
 fn open(bytes: &[u8]) -> Result<(), OpenError> {
-    Tree::open(bytes).map(|_| ())
+    Bvh::open(bytes).map(|_| ())
 }
 
 /// Opens a blob after an edit of one section's bytes, its CRCs right.
@@ -53,7 +53,7 @@ fn record(section: SectionKind, index: u32) -> Result<(), OpenError> {
 
 /// Asks an opened tree everything, at ordinary places and at hostile ones, with much memory and
 /// with little.
-fn ask_everything(tree: &Tree<'_>, some: bool) {
+fn ask_everything(tree: &Bvh<'_>, some: bool) {
     const POINTS: [[f32; 3]; 5] = [
         [0.1, 0.2, 0.3],
         [5.0, -3.0, 1.0],
@@ -69,18 +69,18 @@ fn ask_everything(tree: &Tree<'_>, some: bool) {
     ];
     let mut asker = Asker::new(tree.header().stack_entries.min(4096) as usize, 8);
     for point in POINTS.into_iter().take(if some { 2 } else { 5 }) {
-        asker.point(tree, point, 0.75, &Stop { steps: 3, relative: 0.1, absolute: 0.0 });
+        asker.point(tree, point, 0.75, &Budget { steps: 3, relative: 0.1, absolute: 0.0 });
     }
     for [a, b] in ENDS.into_iter().take(if some { 2 } else { 4 }) {
         asker.segment(tree, a, b);
     }
-    asker.batch(tree, &POINTS, 2, &Stop::EXACT);
+    asker.batch(tree, &POINTS, 2, &Budget::EXACT);
     asker.sight(tree, POINTS[1]);
     let path = (0..6).map(|step| [0.9, 0.2, 0.01 * step as f32]);
-    asker.path(&mut Session::<16>::new(), tree, path, &Stop::EXACT);
+    asker.path(&mut CoherentQuery::<16>::new(), tree, path, &Budget::EXACT);
     let turned = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
     for translation in POINTS.into_iter().take(if some { 2 } else { 5 }) {
         asker.overlap(tree, tree, &Pose { rotation: turned, translation }, 60);
     }
-    Asker::new(1, 1).point(tree, POINTS[0], 0.5, &Stop::EXACT);
+    Asker::new(1, 1).point(tree, POINTS[0], 0.5, &Budget::EXACT);
 }

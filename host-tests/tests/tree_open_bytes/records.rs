@@ -2,7 +2,7 @@
 
 use super::{edited, record, single, sphere};
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{OpenError, Tree};
+use meshsweep_core::{Bvh, OpenError};
 use meshsweep_host_tests::corrupt::{entry, put_u32, word};
 
 // Bytes of records.
@@ -66,7 +66,7 @@ fn vertices_that_are_outside_or_not_numbers_name_the_leaf() {
 fn bytes_after_the_last_leaf_must_be_zero() {
     for bytes in [sphere(), single()] {
         let length = entry(&bytes, SectionKind::TreeFans as u32).bytes as usize;
-        let padding = if Tree::open(&bytes).expect("opens").header().is_single() { 96 } else { 48 };
+        let padding = if Bvh::open(&bytes).expect("opens").header().is_f32() { 96 } else { 48 };
         for at in [length - 1, length - padding] {
             let result = edited(bytes.clone(), SectionKind::TreeFans, |fans| fans[at] = 1);
             assert_eq!(result, Err(OpenError::MissingSection { section: SectionKind::TreeFans }));

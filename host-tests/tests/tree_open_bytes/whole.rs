@@ -1,8 +1,8 @@
 //! Bytes changed anywhere.
 
 use super::{ask_everything, blob_of, open, single, sphere};
-use meshsweep_alloc::tree::TreeOptions;
-use meshsweep_core::Tree;
+use meshsweep::tree::TreeOptions;
+use meshsweep_core::Bvh;
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entries, entry, flip_bits, put_u32, replace_bytes, seal,
@@ -21,7 +21,7 @@ fn open_rejects_truncation_and_every_flipped_bit() {
 #[test]
 fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
     for bytes in tree_seeds().iter().filter(|bytes| bytes.len() < 3000) {
-        let ask = |bytes: &[u8]| Tree::open(bytes).map(|tree| ask_everything(&tree, true));
+        let ask = |bytes: &[u8]| Bvh::open(bytes).map(|tree| ask_everything(&tree, true));
         let outcome = flip_bits(bytes, 0..8 * bytes.len(), ask);
         assert!(outcome.opened > 100 && outcome.reasons.len() >= 7, "{outcome:?}");
     }
@@ -41,7 +41,7 @@ fn every_word_replaced_by_a_hostile_one_is_refused_or_safe_to_ask() {
                     let mut changed = bytes.clone();
                     put_u32(&mut changed, at as usize, value);
                     seal(&mut changed);
-                    match Tree::open(&changed) {
+                    match Bvh::open(&changed) {
                         Ok(tree) => {
                             opened += 1;
                             ask_everything(&tree, true);
@@ -72,7 +72,7 @@ fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
             1 => frames,
             _ => boxes,
         };
-        let ask = |bytes: &[u8]| Tree::open(bytes).map(|tree| ask_everything(&tree, false));
+        let ask = |bytes: &[u8]| Bvh::open(bytes).map(|tree| ask_everything(&tree, false));
         let outcome = replace_bytes(bytes, (1200, 40), rng, section, ask);
         assert!(outcome.opened > 100 && outcome.refused > 100, "{outcome:?}");
     }

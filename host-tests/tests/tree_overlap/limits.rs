@@ -1,10 +1,10 @@
 //! Memory, steps, and what is refused.
 
 use super::scene::{Scene, ask, ask_all, motions, truth};
-use meshsweep_alloc::emit::blob;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
+use meshsweep::emit::blob;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
 use meshsweep_core::query::{Ended, QueryError};
 use meshsweep_core::tribox::Pose;
@@ -67,7 +67,7 @@ fn what_cannot_be_answered_is_refused() {
     let scene = Scene::new(cube(2));
     let [tree, _] = scene.trees();
     let mut stack = [PairEntry::EMPTY; 8];
-    let refused = |a: &Tree<'_>, b: &Tree<'_>, pose: Pose, stack: Option<&mut [PairEntry]>| {
+    let refused = |a: &Bvh<'_>, b: &Bvh<'_>, pose: Pose, stack: Option<&mut [PairEntry]>| {
         let mut own = [PairEntry::EMPTY; 8];
         overlap(a, b, &pose, u32::MAX, stack.unwrap_or(&mut own)).expect_err("refused")
     };
@@ -89,10 +89,10 @@ fn what_cannot_be_answered_is_refused() {
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions { segments: false, ..TreeOptions::default() };
     let bytes = blob(None, Some(&build(&mesh, 0.0, 12, &options).0));
-    let closest_only = Tree::open(&bytes).expect("opens");
+    let closest_only = Bvh::open(&bytes).expect("opens");
     // A surface error beside which the model is nothing.
     let bytes = blob(None, Some(&build(&mesh, 1e37, 12, &TreeOptions::default()).0));
-    let vague = Tree::open(&bytes).expect("opens");
+    let vague = Bvh::open(&bytes).expect("opens");
     let flat = Pose { rotation: [[0.0; 3]; 3], ..Pose::IDENTITY };
     for pose in [Pose::IDENTITY, flat] {
         assert_eq!(refused(&vague, &vague, pose, None), QueryError::PoseOutOfDomain);

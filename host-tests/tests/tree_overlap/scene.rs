@@ -1,9 +1,9 @@
 //! Meshes with their trees, motions, and what is true of them.
 
-use meshsweep_alloc::emit::blob;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
+use meshsweep::emit::blob;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
 use meshsweep_core::query::Ended;
 use meshsweep_core::query::tree::{
     Contact, Overlap, PairEntry, TrianglePair, all_overlaps, overlap,
@@ -45,8 +45,8 @@ impl Scene {
     }
 
     /// On the grid, then with f32 vertices.
-    pub fn trees(&self) -> [Tree<'_>; 2] {
-        self.blobs.each_ref().map(|bytes| Tree::open(bytes).expect("opens"))
+    pub fn trees(&self) -> [Bvh<'_>; 2] {
+        self.blobs.each_ref().map(|bytes| Bvh::open(bytes).expect("opens"))
     }
 
     fn places(&self, at: impl Fn(Point) -> Place) -> Vec<[Place; 3]> {
@@ -110,13 +110,13 @@ pub fn motions(a: &Scene, b: &Scene, count: usize, seed: u64) -> Vec<Pose> {
         .collect()
 }
 
-pub fn ask(a: &Tree<'_>, b: &Tree<'_>, pose: &Pose) -> Overlap {
+pub fn ask(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> Overlap {
     let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
     overlap(a, b, pose, u32::MAX, &mut stack).expect("answers")
 }
 
 /// All pairs and how the search ended; nothing may be dropped.
-pub fn ask_all(a: &Tree<'_>, b: &Tree<'_>, pose: &Pose) -> (Vec<TrianglePair>, Ended) {
+pub fn ask_all(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> (Vec<TrianglePair>, Ended) {
     let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
     let mut pairs = vec![TrianglePair::EMPTY; 200_000];
     let all = all_overlaps(a, b, pose, u32::MAX, &mut pairs, &mut stack).expect("answers");

@@ -3,7 +3,7 @@
 use super::scene::Scene;
 use super::truth::{Asker, truth};
 use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{Facing, TreeEntry, all_hits};
+use meshsweep_core::query::tree::{Facing, ScratchEntry, all_hits};
 use meshsweep_host_tests::generate::{Triangles, icosphere, joined, scaled};
 
 fn shells(count: usize) -> Triangles {
@@ -15,7 +15,7 @@ fn every_shell_is_met_twice_and_truncation_says_how_many_are_left() {
     let scene = Scene::new("shells", shells(40));
     let (a, b) = ([-50.0, -3.1, 1.7], [50.0, 2.3, -0.9]);
     let met = truth(&scene, a, b);
-    let mut stack = vec![TreeEntry::EMPTY; 4096];
+    let mut stack = vec![ScratchEntry::EMPTY; 4096];
     let mut hits = vec![Hit { t: 0.0, point: [0.0; 3], triangle: None }; 100];
     for tree in scene.trees() {
         let all = all_hits(&tree, a, b, &Facing::Both, &mut hits, &mut stack).expect("answers");

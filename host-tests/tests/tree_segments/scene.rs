@@ -1,10 +1,10 @@
 //! Meshes with their trees, and where to put segments.
 
 use super::soup::soups;
-use meshsweep_alloc::emit::blob;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
+use meshsweep::emit::blob;
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, icosphere, inverted, joined, needle_comb,
     rough_sphere, scaled, torus, transformed, two_parts, uv_sphere,
@@ -45,8 +45,8 @@ impl Scene {
         Scene { name: name.to_owned(), positions, triangles, blobs }
     }
 
-    pub fn trees(&self) -> [Tree<'_>; 2] {
-        self.blobs.each_ref().map(|bytes| Tree::open(bytes).expect("opens"))
+    pub fn trees(&self) -> [Bvh<'_>; 2] {
+        self.blobs.each_ref().map(|bytes| Bvh::open(bytes).expect("opens"))
     }
 
     pub fn corners(&self, triangle: usize) -> [Point; 3] {

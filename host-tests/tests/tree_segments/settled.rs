@@ -3,12 +3,12 @@
 use super::scene::{Scene, add, solids};
 use super::truth::{FACINGS, of_facing, truth};
 use meshsweep_core::query::Ended;
-use meshsweep_core::query::tree::{Facing, TreeEntry, first_hit};
+use meshsweep_core::query::tree::{Facing, ScratchEntry, first_hit};
 use meshsweep_host_tests::generate::{Rng, icosphere};
 
 #[test]
 fn with_exact_vertices_hits_are_those_of_brute_force() {
-    let mut stack = vec![TreeEntry::EMPTY; 1024];
+    let mut stack = vec![ScratchEntry::EMPTY; 1024];
     let (mut asked, mut open) = (0, 0);
     for (name, mesh) in solids() {
         let scene = Scene::new(name, mesh);
@@ -54,7 +54,7 @@ fn with_exact_vertices_hits_are_those_of_brute_force() {
 #[test]
 fn proved_intervals_are_narrow() {
     let scene = Scene::new("icosphere", icosphere(4));
-    let mut stack = vec![TreeEntry::EMPTY; 1024];
+    let mut stack = vec![ScratchEntry::EMPTY; 1024];
     let [grid, single] = scene.trees();
     for (tree, most) in [(single, 5e-5), (grid, 1e-3)] {
         let rng = &mut Rng::new(3);

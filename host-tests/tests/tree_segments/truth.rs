@@ -1,8 +1,8 @@
 //! What is so, by exact predicates, and what the tree says of it.
 
 use super::scene::{Point, Scene};
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{AnyHit, Facing, TreeEntry, all_hits, any_hit, first_hit};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::{AnyHit, Facing, ScratchEntry, all_hits, any_hit, first_hit};
 use meshsweep_core::query::{Ended, Hit, SegmentHit};
 use meshsweep_host_tests::oracle::contacts;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -103,7 +103,7 @@ pub struct Tally {
 }
 
 pub struct Asker {
-    stack: Vec<TreeEntry>,
+    stack: Vec<ScratchEntry>,
     hits: Vec<Hit>,
     few: Vec<Hit>,
 }
@@ -111,7 +111,7 @@ pub struct Asker {
 impl Asker {
     pub fn new() -> Self {
         let none = Hit { t: 0.0, point: [0.0; 3], triangle: None };
-        Asker { stack: vec![TreeEntry::EMPTY; 4096], hits: vec![none; 1024], few: vec![none; 3] }
+        Asker { stack: vec![ScratchEntry::EMPTY; 4096], hits: vec![none; 1024], few: vec![none; 3] }
     }
 
     /// Asks both trees of a scene everything about a segment, and compares with what is so. Counts
@@ -123,7 +123,7 @@ impl Asker {
             for facing in FACINGS {
                 let wanted = of_facing(&truth, facing);
                 let at = || {
-                    let single = tree.header().is_single();
+                    let single = tree.header().is_f32();
                     format!("{}, f32 {single}, {facing:?}, {a:?} {b:?}, met {wanted:?}", scene.name)
                 };
                 let hit = self.prove_first(tree, [a, b], facing, &wanted, &at);
@@ -140,7 +140,7 @@ impl Asker {
 
     fn prove_first(
         &mut self,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         [a, b]: [Point; 2],
         facing: Facing,
         wanted: &[Met],
@@ -182,7 +182,7 @@ impl Asker {
 
     fn prove_all(
         &mut self,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         [a, b]: [Point; 2],
         facing: Facing,
         wanted: &[Met],

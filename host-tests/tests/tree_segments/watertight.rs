@@ -2,7 +2,7 @@
 
 use super::scene::{Point, Scene, add};
 use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{Facing, TreeEntry, all_hits, first_hit};
+use meshsweep_core::query::tree::{Facing, ScratchEntry, all_hits, first_hit};
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere, scaled, uv_sphere};
 
 /// Solids that can be seen from the origin as a whole.
@@ -30,7 +30,7 @@ fn targets(scene: &Scene) -> Vec<Point> {
 
 #[test]
 fn no_segment_out_of_a_solid_slips_through() {
-    let mut stack = vec![TreeEntry::EMPTY; 1024];
+    let mut stack = vec![ScratchEntry::EMPTY; 1024];
     let mut hits = vec![Hit { t: 0.0, point: [0.0; 3], triangle: None }; 64];
     for scene in stars() {
         let rng = &mut Rng::new(9);

@@ -1,7 +1,7 @@
 //! What is said to be apart is: by exact polytopes, by exact surfaces, at any scale.
 
 use super::{blob, mesh, of};
-use meshsweep_alloc::mesh::Mesh;
+use meshsweep::mesh::Mesh;
 use meshsweep_core::Triboxes;
 use meshsweep_core::query::tribox::{NodePair, apart, candidates, stack_entries};
 use meshsweep_core::query::{Ended, QueryError};

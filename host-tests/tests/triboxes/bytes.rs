@@ -1,12 +1,12 @@
 //! Whatever is wrong with the bytes is a typed error, and whatever opens is safe to ask.
 
 use super::{mesh, of};
-use meshsweep_alloc::emit::{self, Parts, assemble};
-use meshsweep_alloc::hull::{self, BuildOptions};
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_alloc::tribox::{cut, store};
+use meshsweep::emit::{self, Parts, assemble};
+use meshsweep::hull::{self, BuildOptions};
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep::tribox::{cut, store};
 use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{Model, OpenError, Tree, Triboxes};
+use meshsweep_core::{Bvh, Model, OpenError, Triboxes};
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
 };
@@ -204,7 +204,7 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
             (model.has_hull(), model.tree().is_some(), model.triboxes().is_some()),
             (has(0), has(1), has(2))
         );
-        assert_eq!(Tree::open(&bytes).is_ok(), has(1));
+        assert_eq!(Bvh::open(&bytes).is_ok(), has(1));
         assert_eq!(Triboxes::open(&bytes).is_ok(), has(2));
         if !has(2) {
             let missing = OpenError::MissingSection { section: SectionKind::Triboxes };
@@ -222,7 +222,7 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
         assemble(&Parts { tree: Some(&tree), triboxes: Some(&triboxes), ..Parts::default() });
     let at = entry(&bytes, SectionKind::Triboxes as u32).offset as usize;
     bytes[at + 50] ^= 1;
-    assert!(Tree::open(&bytes).is_ok() && Model::open(&bytes).is_err());
+    assert!(Bvh::open(&bytes).is_ok() && Model::open(&bytes).is_err());
 }
 
 #[test]

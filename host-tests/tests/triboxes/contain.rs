@@ -1,9 +1,9 @@
 //! Every level holds the mesh, and of a solid its inside, by parameters as stored and sums in f64.
 
 use super::{blob, mesh};
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tribox::store;
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::mesh::Mesh;
+use meshsweep::tribox::store;
 use meshsweep_core::{Model, Triboxes};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, joined, rough_sphere, scaled, torus, transformed,

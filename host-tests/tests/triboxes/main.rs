@@ -5,9 +5,9 @@ mod bytes;
 mod contain;
 mod nearest;
 
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tribox::store;
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::mesh::Mesh;
+use meshsweep::tribox::store;
 use meshsweep_host_tests::generate::Triangles;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 

@@ -1,7 +1,7 @@
 //! Reading a blob file and opening what it holds.
 
 use super::failure::Failure;
-use meshsweep_core::{Model, Tree};
+use meshsweep_core::{Bvh, Model};
 use std::path::Path;
 
 pub fn read(file: &Path) -> Result<Vec<u8>, Failure> {
@@ -13,6 +13,6 @@ pub fn open<'a>(file: &Path, bytes: &'a [u8]) -> Result<Model<'a>, Failure> {
 }
 
 /// The box tree alone.
-pub fn open_tree<'a>(file: &Path, bytes: &'a [u8]) -> Result<Tree<'a>, Failure> {
-    Tree::open(bytes).map_err(|error| Failure::open(file, error))
+pub fn open_tree<'a>(file: &Path, bytes: &'a [u8]) -> Result<Bvh<'a>, Failure> {
+    Bvh::open(bytes).map_err(|error| Failure::open(file, error))
 }

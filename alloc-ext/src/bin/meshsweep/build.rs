@@ -8,13 +8,13 @@ use super::hull::{Tightness, WrapBars, require_met, widened, write_margin, write
 use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
-use meshsweep_alloc::collapse::Stuck;
-use meshsweep_alloc::hull::{self, BuildError, BuildOptions, BuildReport, Built};
-use meshsweep_alloc::tight::{self, ChainOptions, HullReport, Stage, TightTables};
-use meshsweep_alloc::tree::{self, TreeOptions};
-use meshsweep_alloc::tribox::{self, TriboxReport, TriboxTables};
-use meshsweep_alloc::wrap::Goal;
-use meshsweep_alloc::{emit, emit::Parts, precision::VertexBits};
+use meshsweep::collapse::Stuck;
+use meshsweep::hull::{self, BuildError, BuildOptions, BuildReport, Built};
+use meshsweep::tight::{self, ChainOptions, HullReport, Stage, TightTables};
+use meshsweep::tree::{self, TreeOptions};
+use meshsweep::tribox::{self, TriboxReport, TriboxTables};
+use meshsweep::wrap::Goal;
+use meshsweep::{emit, emit::Parts, precision::VertexBits};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::VertexFormat;
 use std::io::{self, Write};
@@ -63,7 +63,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         closest: wanted.closest,
         segments: wanted.segment,
         cull: wanted.cull,
-        single: args.vertex_bits.is_single(),
+        single: args.vertex_bits.is_f32(),
         ..TreeOptions::default()
     };
     let triangles = loaded.mesh.triangles.len();

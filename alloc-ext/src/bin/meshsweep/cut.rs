@@ -6,7 +6,7 @@ use super::counted::Counted;
 use super::failure::Failure;
 use super::output::{Output, refuse_same_file};
 use super::{blob_file, served};
-use meshsweep_alloc::emit::{self, Keep};
+use meshsweep::emit::{self, Keep};
 use meshsweep_core::Model;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {

@@ -4,10 +4,12 @@ use super::failure::{Failure, Place};
 use super::output::Output;
 use super::signed::name;
 use super::{blob_file, describe};
-use meshsweep_alloc::tree::{self, TreeOptions};
-use meshsweep_alloc::{emit, mesh};
-use meshsweep_core::query::tree::{Facing, TreeEntry, closest_point, first_hit, signed_distance};
-use meshsweep_core::query::{Ended, Stop};
+use meshsweep::tree::{self, TreeOptions};
+use meshsweep::{emit, mesh};
+use meshsweep_core::query::tree::{
+    Facing, ScratchEntry, closest_point, first_hit, signed_distance,
+};
+use meshsweep_core::query::{Budget, Ended};
 use std::path::Path;
 
 /// A copy of `fixtures/bracket.stl`, which a package would not contain.
@@ -23,11 +25,11 @@ pub fn run() -> Result<(), Failure> {
     let bytes = emit::blob(None, Some(&tables));
     let tree = blob_file::open_tree(file, &bytes)?;
     let entries = tree.header().stack_entries as usize;
-    let mut stack = vec![TreeEntry::EMPTY; entries];
+    let mut stack = vec![ScratchEntry::EMPTY; entries];
     let place = |error| Failure::Query { place: Place::BuiltIn, error };
     let point = [10.0, 4.5, 7.0];
-    let closest = closest_point(&tree, point, &Stop::EXACT, &mut stack).map_err(place)?;
-    let side = signed_distance(&tree, point, &Stop::EXACT, &mut stack).map_err(place)?.side;
+    let closest = closest_point(&tree, point, &Budget::EXACT, &mut stack).map_err(place)?;
+    let side = signed_distance(&tree, point, &Budget::EXACT, &mut stack).map_err(place)?.side;
     let (from, to) = ([20.0, 10.0, 90.0], [20.0, 10.0, -90.0]);
     let segment = first_hit(&tree, from, to, &Facing::Both, &mut stack).map_err(place)?;
     Output::stdout().finish(|out| {

@@ -4,10 +4,10 @@
 use super::counted::Counted;
 use super::hull::Unmet;
 use super::served::Need;
-use meshsweep_alloc::emit::CutError;
-use meshsweep_alloc::hull::BuildError;
-use meshsweep_alloc::mesh::MeshError;
-use meshsweep_alloc::wrap::WrapError;
+use meshsweep::emit::CutError;
+use meshsweep::hull::BuildError;
+use meshsweep::mesh::MeshError;
+use meshsweep::wrap::WrapError;
 use meshsweep_core::tribox::TriboxError;
 use meshsweep_core::{OpenError, QueryError};
 use std::fmt;
@@ -237,7 +237,7 @@ impl fmt::Display for Failure {
                 f,
                 "{}: {triangles} triangles are more than the {} that a box tree holds; split the mesh",
                 file.display(),
-                meshsweep_alloc::tree::MAX_TRIANGLES
+                meshsweep::tree::MAX_TRIANGLES
             ),
             Failure::GridTooLarge { file } => write!(
                 f,

@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::output::Output;
 use super::{blob_file, served};
 use meshsweep_core::blob::layout::{VERSION_MAJOR, VERSION_MINOR};
-use meshsweep_core::{Model, Tree};
+use meshsweep_core::{Bvh, Model};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -127,7 +127,7 @@ fn hull_as_json(model: &Model<'_>) -> Value {
     })
 }
 
-fn tree_as_json(tree: &Tree<'_>, diagonal: f64) -> Value {
+fn tree_as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
     let h = tree.header();
     let shape = Shape::of(tree);
     let [near, far] = describe::half_widths(tree, diagonal);

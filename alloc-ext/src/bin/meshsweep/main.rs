@@ -44,7 +44,7 @@ mod within;
 
 use args::{Arguments, Command};
 use failure::Failure;
-use meshsweep_alloc::counted;
+use meshsweep::counted;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

@@ -1,8 +1,8 @@
 //! From a mesh file to a clean mesh, closed or not, and what had to be done for it.
 
 use super::failure::Failure;
-use meshsweep_alloc::mesh::{self, Mesh, RawMesh, RepairReport};
-use meshsweep_alloc::precision::{VertexBits, snap};
+use meshsweep::mesh::{self, Mesh, RawMesh, RepairReport};
+use meshsweep::precision::{VertexBits, snap};
 use meshsweep_core::blob::layout::MAGIC;
 use std::io::Read;
 use std::path::Path;

@@ -3,23 +3,23 @@
 use super::args::NearestArgs;
 use super::failure::Failure;
 use super::points::{self, Question};
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Near, Nearest, TreeEntry, nearest};
-use meshsweep_core::query::{Ended, QueryError, Stop, Work};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::{Nearest, Neighbor, ScratchEntry, nearest};
+use meshsweep_core::query::{Budget, Ended, QueryError, Work};
 use std::io::{self, Write};
 
 pub fn run(args: &NearestArgs) -> Result<(), Failure> {
-    let found = vec![Near::EMPTY; args.count as usize];
+    let found = vec![Neighbor::EMPTY; args.count as usize];
     points::run(&args.input, &args.search, &Ranking { found })
 }
 
 #[derive(Clone)]
 struct Ranking {
-    found: Vec<Near>,
+    found: Vec<Neighbor>,
 }
 
 impl Question for Ranking {
-    type Answer = (Nearest, Vec<Near>);
+    type Answer = (Nearest, Vec<Neighbor>);
 
     fn header(&self) -> &'static str {
         "query,rank,lower,upper,px,py,pz,triangle,work"
@@ -27,10 +27,10 @@ impl Question for Ranking {
 
     fn ask(
         &mut self,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
+        stop: &Budget,
+        stack: &mut [ScratchEntry],
     ) -> Result<Self::Answer, QueryError> {
         // A mesh has no more triangles than that.
         self.found.truncate(tree.header().triangles as usize);

@@ -7,7 +7,7 @@ use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::served::{self, Need};
 use super::threads;
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
 use meshsweep_core::query::{Ended, QueryError, Work};
 use meshsweep_core::tribox::Pose;
@@ -73,7 +73,7 @@ struct Row {
 
 fn answer<const N: usize>(
     args: &OverlapArgs,
-    [first, second]: &[Tree<'_>; 2],
+    [first, second]: &[Bvh<'_>; 2],
     mut poses: Queries<N>,
     pose_of: fn(&[f32; N]) -> Pose,
 ) -> Result<(), Failure> {
@@ -108,8 +108,8 @@ fn answer<const N: usize>(
 /// missing.
 #[allow(clippy::too_many_arguments, reason = "what a thread works with, and where its rows go")]
 fn every(
-    first: &Tree<'_>,
-    second: &Tree<'_>,
+    first: &Bvh<'_>,
+    second: &Bvh<'_>,
     pose: &Pose,
     steps: u32,
     pairs: &mut Vec<TrianglePair>,

@@ -8,9 +8,9 @@ use super::output::{Output, refuse_same_file};
 use super::queries::Queries;
 use super::served::{self, Need};
 use super::threads;
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Near, TreeEntry};
-use meshsweep_core::query::{Ended, QueryError, Stop, Work};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::{Neighbor, ScratchEntry};
+use meshsweep_core::query::{Budget, Ended, QueryError, Work};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -23,10 +23,10 @@ pub trait Question: Clone + Sync {
 
     fn ask(
         &mut self,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
+        stop: &Budget,
+        stack: &mut [ScratchEntry],
     ) -> Result<Self::Answer, QueryError>;
 
     /// How a search ended, and what it took.
@@ -38,7 +38,7 @@ pub trait Question: Clone + Sync {
     }
 
     /// Says on the standard error what holds for all answers.
-    fn remark(&self, _blob: &Path, _tree: &Tree<'_>) {}
+    fn remark(&self, _blob: &Path, _tree: &Bvh<'_>) {}
 
     /// Writes the rows of query number `query`, from 0.
     fn write(
@@ -71,7 +71,7 @@ pub fn refuse_blob_as_output(input: &PointArgs, search: &SearchArgs) -> Result<(
 pub fn ask<Q: Question>(
     input: &PointArgs,
     search: &SearchArgs,
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     question: &Q,
 ) -> Result<(), Failure> {
     let output = search.output.as_deref();
@@ -101,8 +101,8 @@ pub fn ask<Q: Question>(
 
 /// The last columns of a triangle's row: its interval, its closest point, its number, and the work
 /// of the query.
-pub fn write_near(out: &mut dyn Write, near: &Near, work: u32) -> io::Result<()> {
-    let Near { lower, upper, point: [x, y, z], triangle } = near;
+pub fn write_near(out: &mut dyn Write, near: &Neighbor, work: u32) -> io::Result<()> {
+    let Neighbor { lower, upper, point: [x, y, z], triangle } = near;
     for number in [lower, upper, x, y, z] {
         write!(out, "{},", Short(*number))?;
     }

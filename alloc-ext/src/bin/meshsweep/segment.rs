@@ -13,7 +13,7 @@ use super::threads;
 use caster::{Caster, Row, Verdict, ends};
 use meshsweep_core::num::{exp2, tolerance};
 use meshsweep_core::query::Hit;
-use meshsweep_core::{Model, QueryError, Tree};
+use meshsweep_core::{Bvh, Model, QueryError};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -91,7 +91,7 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
 }
 
 /// How far away the ends of segments may be, in the mesh's unit.
-fn limit(model: &Model<'_>, tree: Option<&Tree<'_>>) -> String {
+fn limit(model: &Model<'_>, tree: Option<&Bvh<'_>>) -> String {
     match tree {
         Some(tree) => {
             let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());

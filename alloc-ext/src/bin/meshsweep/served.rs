@@ -1,14 +1,14 @@
 //! Which questions a blob answers, and by which of its hierarchies.
 
 use super::failure::Failure;
-use meshsweep_core::{Model, TightHull, Tree};
+use meshsweep_core::{Bvh, Model, TightHull};
 use std::path::Path;
 
 /// Names of the questions that `model` serves, as the commands are called.
 pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
     let tree = model.tree();
     let tree = tree.as_ref();
-    let distances = tree.is_some_and(Tree::serves_distances);
+    let distances = tree.is_some_and(Bvh::serves_distances);
     let hull = model.has_hull();
     let tight = finest_tight(model).is_some_and(|hull| hull.tree().serves_distances());
     [
@@ -17,9 +17,9 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
         ("nearest", distances),
         ("field", distances),
         ("signed", distances && tree.is_some_and(|tree| tree.header().is_closed())),
-        ("segment", tree.is_some_and(Tree::serves_segments) || hull),
-        ("overlap", tree.is_some_and(Tree::serves_segments)),
-        ("cull", tree.is_some_and(Tree::serves_culling)),
+        ("segment", tree.is_some_and(Bvh::serves_segments) || hull),
+        ("overlap", tree.is_some_and(Bvh::serves_segments)),
+        ("cull", tree.is_some_and(Bvh::serves_culling)),
         ("hull --level", hull),
         ("hull --tight", model.tight_hulls().is_some()),
         ("triboxes", model.triboxes().is_some()),
@@ -83,7 +83,7 @@ impl Need {
 }
 
 /// The blob's tree, if it serves `need`.
-pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Tree<'a>> {
+pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Bvh<'a>> {
     model.tree().filter(|tree| match need {
         Need::Distances => tree.serves_distances(),
         Need::Segments => tree.serves_segments(),
@@ -93,7 +93,7 @@ pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Tree<'a>> {
 }
 
 /// The blob's tree for `need`.
-pub fn require_tree<'a>(file: &Path, model: &Model<'a>, need: Need) -> Result<Tree<'a>, Failure> {
+pub fn require_tree<'a>(file: &Path, model: &Model<'a>, need: Need) -> Result<Bvh<'a>, Failure> {
     tree(model, need).ok_or_else(|| not_served(file, model, need, None))
 }
 
@@ -156,7 +156,7 @@ pub fn choose<'a>(
     model: &Model<'a>,
     need: Need,
     tree_chosen: Option<bool>,
-) -> Result<Option<Tree<'a>>, Failure> {
+) -> Result<Option<Bvh<'a>>, Failure> {
     let tree = tree(model, need);
     let refuse = |need, other| Err(not_served(file, model, need, other));
     match (tree_chosen, tree) {

@@ -4,9 +4,9 @@ use super::args::SignedArgs;
 use super::csv::Short;
 use super::failure::Failure;
 use super::points::{self, Question};
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Side, SignedDistance, TreeEntry, signed_distance};
-use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Stop, Work};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::{ScratchEntry, Side, SignedDistance, signed_distance};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError, Work};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -27,7 +27,7 @@ pub fn name(side: Side) -> &'static str {
 struct Signed;
 
 /// Why a side is undefined.
-pub fn reason(tree: &Tree<'_>, answer: &SignedDistance) -> &'static str {
+pub fn reason(tree: &Bvh<'_>, answer: &SignedDistance) -> &'static str {
     let ClosestPoint { lower, ended, .. } = answer.closest;
     match (answer.side, ended) {
         (Side::Outside | Side::Inside, _) => "",
@@ -48,10 +48,10 @@ impl Question for Signed {
 
     fn ask(
         &mut self,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
+        stop: &Budget,
+        stack: &mut [ScratchEntry],
     ) -> Result<Self::Answer, QueryError> {
         let answer = signed_distance(tree, point, stop, stack)?;
         Ok((answer, reason(tree, &answer)))
@@ -61,7 +61,7 @@ impl Question for Signed {
         (answer.closest.ended, answer.closest.work)
     }
 
-    fn remark(&self, blob: &Path, tree: &Tree<'_>) {
+    fn remark(&self, blob: &Path, tree: &Bvh<'_>) {
         if !tree.header().is_closed() {
             // A standard error that is closed is no reason to withhold the answers.
             let _ = writeln!(

@@ -3,9 +3,9 @@
 use super::args::SearchArgs;
 use super::counted::Counted;
 use super::threads::Asked;
-use meshsweep_core::query::tree::TreeEntry;
-use meshsweep_core::query::{Ended, Stop, Work};
-use meshsweep_core::{Model, QueueEntry, Tree};
+use meshsweep_core::query::tree::ScratchEntry;
+use meshsweep_core::query::{Budget, Ended, Work};
+use meshsweep_core::{Bvh, Model, QueueEntry};
 use std::fmt;
 use std::io::Write;
 
@@ -14,13 +14,13 @@ const COMFORTABLE_QUEUE: usize = 4096;
 
 impl SearchArgs {
     /// The stop rule with the given tolerances.
-    pub fn stop(&self, relative: f32, absolute: f32) -> Stop {
-        Stop { relative, absolute, steps: self.steps.unwrap_or(u32::MAX) }
+    pub fn stop(&self, relative: f32, absolute: f32) -> Budget {
+        Budget { relative, absolute, steps: self.steps.unwrap_or(u32::MAX) }
     }
 
     /// The stack to search the box tree with.
-    pub fn stack(&self, tree: &Tree<'_>) -> Vec<TreeEntry> {
-        vec![TreeEntry::EMPTY; self.queue.unwrap_or(tree.header().stack_entries) as usize]
+    pub fn stack(&self, tree: &Bvh<'_>) -> Vec<ScratchEntry> {
+        vec![ScratchEntry::EMPTY; self.queue.unwrap_or(tree.header().stack_entries) as usize]
     }
 
     /// The queue to search the cover tree with.

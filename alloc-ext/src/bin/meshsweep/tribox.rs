@@ -7,12 +7,10 @@ use super::describe::{About, AtLeast, AtMost, Percent};
 use super::failure::Failure;
 use super::mesh_file::{self, Loaded};
 use super::output::{Output, refuse_same_file};
-use meshsweep_alloc::mesh::{Mesh, write_ply};
-use meshsweep_alloc::tree;
-use meshsweep_alloc::tribox::{
-    Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume,
-};
-use meshsweep_core::Tree;
+use meshsweep::mesh::{Mesh, write_ply};
+use meshsweep::tree;
+use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
+use meshsweep_core::Bvh;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -36,7 +34,7 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
     }
     let started = Instant::now();
     let bytes = box_tree(&loaded.mesh);
-    let tree = Tree::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
+    let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
     let hierarchy = Hierarchy::new(&loaded.mesh, &tree, &args.options())
         .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })?;
     let split_time = started.elapsed();
@@ -66,7 +64,7 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
 }
 
 /// Levels of 1, 2, 4, … triboxes, until there are no more.
-fn levels(args: &TriboxArgs, mesh: &Mesh, tree: &Tree<'_>, hierarchy: &Hierarchy) -> Vec<Level> {
+fn levels(args: &TriboxArgs, mesh: &Mesh, tree: &Bvh<'_>, hierarchy: &Hierarchy) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     for number in 0..args.levels {
         let level = level(hierarchy, 1 << number, mesh, tree);

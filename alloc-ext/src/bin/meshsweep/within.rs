@@ -8,10 +8,10 @@ use super::points::{self, Question};
 use super::served::{self, Need};
 use meshsweep_core::query::tight;
 use meshsweep_core::query::tree::{
-    AllWithin, Near, TreeEntry, Verdict, Within, all_within, is_within,
+    AllWithin, Neighbor, ScratchEntry, Verdict, Within, all_within, is_within,
 };
-use meshsweep_core::query::{Ended, QueryError, Stop, Work};
-use meshsweep_core::{TightHull, Tree};
+use meshsweep_core::query::{Budget, Ended, QueryError, Work};
+use meshsweep_core::{Bvh, TightHull};
 use std::io::{self, Write};
 
 const HEADER: &str = "x,y,z,within,triangle,work";
@@ -22,7 +22,7 @@ const TRIANGLES: usize = 64;
 pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let distance = args.distance;
     if args.all {
-        let found = vec![Near::EMPTY; TRIANGLES];
+        let found = vec![Neighbor::EMPTY; TRIANGLES];
         points::run(&args.input, &args.search, &All { distance, found })
     } else {
         let blob = &args.input.blob;
@@ -59,10 +59,10 @@ impl Question for Any<'_> {
 
     fn ask(
         &mut self,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
+        stop: &Budget,
+        stack: &mut [ScratchEntry],
     ) -> Result<Within, QueryError> {
         match &self.hull {
             Some(hull) => tight::is_within(hull, point, self.distance, stop, stack),
@@ -96,11 +96,11 @@ impl Question for Any<'_> {
 #[derive(Clone)]
 struct All {
     distance: f32,
-    found: Vec<Near>,
+    found: Vec<Neighbor>,
 }
 
 impl Question for All {
-    type Answer = (AllWithin, Vec<Near>);
+    type Answer = (AllWithin, Vec<Neighbor>);
 
     fn header(&self) -> &'static str {
         "query,within,lower,upper,px,py,pz,triangle,work"
@@ -108,14 +108,14 @@ impl Question for All {
 
     fn ask(
         &mut self,
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
+        stop: &Budget,
+        stack: &mut [ScratchEntry],
     ) -> Result<Self::Answer, QueryError> {
         let mut went = all_within(tree, point, self.distance, stop, &mut self.found, stack)?;
         if went.dropped > 0 {
-            self.found.resize(went.stored + went.dropped as usize, Near::EMPTY);
+            self.found.resize(went.stored + went.dropped as usize, Neighbor::EMPTY);
             went = all_within(tree, point, self.distance, stop, &mut self.found, stack)?;
         }
         Ok((went, self.found.iter().take(went.stored).copied().collect()))

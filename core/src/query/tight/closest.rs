@@ -3,8 +3,8 @@
 use super::side::seen_from;
 use crate::blob::TightHull;
 use crate::num::{sum_down, sum_up};
-use crate::query::tree::TreeEntry;
-use crate::query::{ClosestPoint, Ended, QueryError, Stop};
+use crate::query::tree::ScratchEntry;
+use crate::query::{Budget, ClosestPoint, Ended, QueryError};
 
 /// An interval of the distance from `point` (input units, the mesh's frame) to the mesh that the
 /// hull encloses, and the closest point of the hull.
@@ -29,8 +29,8 @@ use crate::query::{ClosestPoint, Ended, QueryError, Stop};
 pub fn closest_point(
     hull: &TightHull<'_>,
     point: [f32; 3],
-    stop: &Stop,
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
     stop.check()?;
     let (near, is_outside) = seen_from(hull.tree(), point, stop.steps, stack)?;

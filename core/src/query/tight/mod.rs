@@ -12,12 +12,12 @@
 //! it; what it leaves open counts as inside.
 //!
 //! ```
-//! use meshsweep_core::{TightHulls, query::{Stop, tight::is_within, tree::TreeEntry}};
+//! use meshsweep_core::{TightHulls, query::{Budget, tight::is_within, tree::ScratchEntry}};
 //! # fn probe(blob: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
 //! let hulls = TightHulls::open(blob)?; // of a blob built with `meshsweep build part.stl --for tight --tight 70,200`
 //! if let Some(hull) = hulls.finest() {
-//!     let mut stack = [TreeEntry::EMPTY; 64]; // `hull.tree().header().stack_entries` says what this hull needs
-//!     let near = is_within(&hull, [0.1, 0.2, 0.3], 0.5, &Stop::EXACT, &mut stack)?;
+//!     let mut stack = [ScratchEntry::EMPTY; 64]; // `hull.tree().header().stack_entries` says what this hull needs
+//!     let near = is_within(&hull, [0.1, 0.2, 0.3], 0.5, &Budget::EXACT, &mut stack)?;
 //!     if near.is_clear() { /* proved: the part is farther than 0.5 */ }
 //! }
 //! # Ok(()) }

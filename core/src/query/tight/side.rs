@@ -1,13 +1,13 @@
 //! How far a point is from a hull, and whether it is certainly outside.
 
-use crate::blob::Tree;
-use crate::query::tree::{Side, TreeEntry, closest_point, signed_distance};
-use crate::query::{ClosestPoint, QueryError, Stop};
+use crate::blob::Bvh;
+use crate::query::tree::{ScratchEntry, Side, closest_point, signed_distance};
+use crate::query::{Budget, ClosestPoint, QueryError};
 
 /// Whether a point, given in input units, is outside of the box of all stored vertices. Exact but
 /// for points that f32 cannot tell from the box's planes in grid units: those are too near for a
 /// distance above 0.
-pub(super) fn is_outside_box(tree: &Tree<'_>, point: [f32; 3]) -> bool {
+pub(super) fn is_outside_box(tree: &Bvh<'_>, point: [f32; 3]) -> bool {
     let scale = tree.scale();
     let [inward, rest] = scale.inward;
     let (low, high) = (scale.low.to_array(), scale.high.to_array());
@@ -19,12 +19,12 @@ pub(super) fn is_outside_box(tree: &Tree<'_>, point: [f32; 3]) -> bool {
 
 /// The hull's distance as `steps` and `stack` allow, and whether the point is certainly outside.
 pub(super) fn seen_from(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     steps: u32,
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
 ) -> Result<(ClosestPoint, bool), QueryError> {
-    let stop = Stop { steps, ..Stop::EXACT };
+    let stop = Budget { steps, ..Budget::EXACT };
     if is_outside_box(tree, point) {
         let near = closest_point(tree, point, &stop, stack)?;
         // What was moved to be stored is no farther from where it was than a distance of 0 allows

@@ -3,8 +3,8 @@
 use super::closest::upper_end;
 use super::side::is_outside_box;
 use crate::blob::TightHull;
-use crate::query::tree::{self, Side, TreeEntry, Verdict, Within, signed_distance};
-use crate::query::{Ended, QueryError, Stop};
+use crate::query::tree::{self, ScratchEntry, Side, Verdict, Within, signed_distance};
+use crate::query::{Budget, Ended, QueryError};
 
 /// Is the part that the hull encloses at most `distance` (input units) from `point`?
 ///
@@ -23,8 +23,8 @@ pub fn is_within(
     hull: &TightHull<'_>,
     point: [f32; 3],
     distance: f32,
-    stop: &Stop,
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
 ) -> Result<Within, QueryError> {
     let near = tree::is_within(hull.tree(), point, distance, stop, stack)?;
     let answer = |verdict, work, ended| Ok(Within { verdict, work, ended });
@@ -32,7 +32,7 @@ pub fn is_within(
         return answer(Verdict::No, near.work, Ended::Exact);
     }
     // A side needs the closest point itself.
-    let stop = Stop { steps: stop.steps, ..Stop::EXACT };
+    let stop = Budget { steps: stop.steps, ..Budget::EXACT };
     let (closest, side) = if near.is_clear() {
         let signed = signed_distance(hull.tree(), point, &stop, stack)?;
         (signed.closest, signed.side)

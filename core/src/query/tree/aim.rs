@@ -1,7 +1,7 @@
 //! A segment in the tree's grid units, ready for boxes and fans, and what rounding may do to it.
 
 use super::probe::{Units, bounds};
-use crate::blob::Tree;
+use crate::blob::Bvh;
 use crate::fan::{FanRay, STILL};
 use crate::num::tolerance::{TREE_FAR, TREE_TINY, U32};
 use crate::num::two_sum;
@@ -21,7 +21,7 @@ const NEAR: f32 = 8.0;
 
 /// A segment, and how its parameters go back to the caller's.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Aim {
+pub(super) struct SegmentQuery {
     pub(super) ray: FanRay,
     pub(super) slabs: Slabs,
     units: Units,
@@ -34,14 +34,14 @@ pub(super) struct Aim {
     still: bool,
 }
 
-impl Aim {
+impl SegmentQuery {
     /// `None`: the segment is proved clear of all.
     #[inline(always)]
     pub(super) fn new(
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         a: [f32; 3],
         b: [f32; 3],
-    ) -> Result<Option<Aim>, QueryError> {
+    ) -> Result<Option<SegmentQuery>, QueryError> {
         let finite = |[x, y, z]: [f32; 3]| x.is_finite() & y.is_finite() & z.is_finite();
         if !(finite(a) & finite(b)) {
             return Err(QueryError::NotFinite);
@@ -64,13 +64,20 @@ impl Aim {
         if size > NEAR * norm_1(high - low) {
             return Ok(approach(units, [a, b], [low, high], size));
         }
-        Ok(Some(Aim::at(units, a, b - a, far, 0.0, 0.0)))
+        Ok(Some(SegmentQuery::at(units, a, b - a, far, 0.0, 0.0)))
     }
 
     /// The line from `origin`, whose farthest corner is `far` away, with what the origin may be off
     /// the segment by.
     #[inline(always)]
-    fn at(units: Units, origin: Vec3, direction: Vec3, far: Vec3, start: f32, off: f32) -> Aim {
+    fn at(
+        units: Units,
+        origin: Vec3,
+        direction: Vec3,
+        far: Vec3,
+        start: f32,
+        off: f32,
+    ) -> SegmentQuery {
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
@@ -80,7 +87,7 @@ impl Aim {
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
         let (from, along) = (origin.to_array(), direction.to_array());
-        Aim {
+        SegmentQuery {
             ray: FanRay::new(from, along, inverse, end, surface, norm_1(far)),
             slabs: Slabs::new(from, inverse, margin),
             units,
@@ -161,7 +168,12 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
 /// narrow as the model allows. See `core/docs/rounding.md` §9.
 #[cold]
 #[inline(never)]
-fn approach(units: Units, [a, b]: [Vec3; 2], [low, high]: [Vec3; 2], size: f32) -> Option<Aim> {
+fn approach(
+    units: Units,
+    [a, b]: [Vec3; 2],
+    [low, high]: [Vec3; 2],
+    size: f32,
+) -> Option<SegmentQuery> {
     let direction = b - a;
     // Eight times what the slab test below can be off by.
     let pad = norm_1(high - low) + 2.0 * units.surface_error + size * (256.0 * U32) + TREE_TINY;
@@ -186,7 +198,7 @@ fn approach(units: Units, [a, b]: [Vec3; 2], [low, high]: [Vec3; 2], size: f32) 
     let origin = Vec3::new(along(a.x, b.x, start), along(a.y, b.y, start), along(a.z, b.z, start));
     let far = farthest(origin, low, high);
     let off = 2.0 * U32 * norm_1(origin) + (64.0 * U32 * U32) * (size + norm_1(direction));
-    Some(Aim::at(units, origin, direction, far, start, off))
+    Some(SegmentQuery::at(units, origin, direction, far, start, off))
 }
 
 /// `a + t·(b − a)`, rounded once and to twice f32's precision before (Dekker 1971; Knuth, TAOCP

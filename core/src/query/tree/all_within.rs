@@ -3,12 +3,12 @@
 use super::closest::closest_point;
 use super::interval::{each_triangle, limit_within, lower_of};
 use super::leaf::nearest_triangle;
-use super::probe::Probe;
-use super::ranked::{Candidate, Near, Ranked, first_triangles};
-use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
-use crate::blob::Tree;
-use crate::num::root;
-use crate::query::{Ended, QueryError, Stop, Work};
+use super::probe::PointQuery;
+use super::ranked::{Candidate, KNearest, Neighbor, first_triangles};
+use super::walk::{Descent, LeafVisit, LeafVisitor, ScratchEntry, descend};
+use crate::blob::Bvh;
+use crate::num::sqrt_approx;
+use crate::query::{Budget, Ended, QueryError, Work};
 
 /// How a search for all triangles within a distance went; they are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub struct AllWithin {
 /// `point`, into `out`, by rising distance.
 ///
 /// Order, ties, triangles without area and far points as for [`nearest`](super::nearest). An empty
-/// `out` counts. `stack` as for [`closest_point`]; of [`Stop`] only `steps` matters.
+/// `out` counts. `stack` as for [`closest_point`]; of [`Budget`] only `steps` matters.
 ///
 /// Cost: linear in what lies within the distance, also in what is dropped; log n for each triangle
 /// stored. After an error what `out` holds is undefined.
@@ -38,12 +38,12 @@ pub struct AllWithin {
 /// # Errors
 /// Those of [`is_within`](super::is_within).
 pub fn all_within(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     distance: f32,
-    stop: &Stop,
-    out: &mut [Near],
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    out: &mut [Neighbor],
+    stack: &mut [ScratchEntry],
 ) -> Result<AllWithin, QueryError> {
     stop.check()?;
     if !(distance >= 0.0 && distance.is_finite()) {
@@ -52,18 +52,18 @@ pub fn all_within(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = Probe::new(tree, point)?;
+    let probe = PointQuery::new(tree, point)?;
     if probe.far {
         return from_afar(tree, &probe, point, distance, out, stack);
     }
     let mut work = Work::default();
     let limit = limit_within(&probe, distance);
-    let ranked = Ranked::new(&mut *out);
+    let ranked = KNearest::new(&mut *out);
     let mut seek = Collect { tree, probe: &probe, distance, limit, ranked, dropped: 0 };
     let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
     let ended = match descent {
-        Descent::Short { steps: true, .. } => Ended::Steps,
-        Descent::Short { steps: false, .. } => Ended::Capacity,
+        Descent::Truncated { steps: true, .. } => Ended::Steps,
+        Descent::Truncated { steps: false, .. } => Ended::Capacity,
         _ => Ended::Exact,
     };
     let dropped = seek.dropped;
@@ -74,14 +74,14 @@ pub fn all_within(
 
 #[cold]
 fn from_afar(
-    tree: &Tree<'_>,
-    probe: &Probe,
+    tree: &Bvh<'_>,
+    probe: &PointQuery,
     point: [f32; 3],
     distance: f32,
-    out: &mut [Near],
-    stack: &mut [TreeEntry],
+    out: &mut [Neighbor],
+    stack: &mut [ScratchEntry],
 ) -> Result<AllWithin, QueryError> {
-    let closest = closest_point(tree, point, &Stop::EXACT, stack)?;
+    let closest = closest_point(tree, point, &Budget::EXACT, stack)?;
     let none =
         AllWithin { stored: 0, certain: 0, dropped: 0, work: closest.work, ended: Ended::Exact };
     if closest.lower > distance {
@@ -94,25 +94,25 @@ fn from_afar(
 }
 
 struct Collect<'a> {
-    tree: &'a Tree<'a>,
-    probe: &'a Probe,
+    tree: &'a Bvh<'a>,
+    probe: &'a PointQuery,
     /// Input units.
     distance: f32,
     limit: f32,
-    ranked: Ranked<'a>,
+    ranked: KNearest<'a>,
     dropped: u32,
 }
 
-impl Seek for Collect<'_> {
+impl LeafVisitor for Collect<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
     }
 
     #[inline(always)]
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let near = nearest_triangle(&visit.patch, self.probe.p)?;
-        if near.certified_sq <= self.limit {
+        if near.lower_bound_sq <= self.limit {
             self.collect(visit)?;
         }
         Some(true)
@@ -121,19 +121,19 @@ impl Seek for Collect<'_> {
 
 impl Collect<'_> {
     #[inline(never)]
-    fn collect(&mut self, visit: &Visit<'_>) -> Option<()> {
+    fn collect(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        each_triangle(self.probe, &visit.patch, |lane, distance_sq, certified_sq| {
-            if certified_sq > self.limit {
+        each_triangle(self.probe, &visit.patch, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit {
                 return;
             }
-            let lower = || lower_of(&visit.patch, lane, self.probe.p, distance_sq, certified_sq);
-            let within = self.probe.upper(root(distance_sq)) <= self.distance
+            let lower = || lower_of(&visit.patch, lane, self.probe.p, distance_sq, lower_bound_sq);
+            let within = self.probe.upper(sqrt_approx(distance_sq)) <= self.distance
                 || self.probe.lower(lower()) <= self.distance;
             if within
                 && self
                     .ranked
-                    .offer(Candidate::new(visit, first, lane, distance_sq, certified_sq))
+                    .offer(Candidate::new(visit, first, lane, distance_sq, lower_bound_sq))
                     .is_some()
             {
                 self.dropped = self.dropped.saturating_add(1);

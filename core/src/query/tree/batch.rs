@@ -5,9 +5,9 @@
 //! last answer's leaf bounds the next distance before the descent begins.
 
 use super::closest::{Hint, closest_point, closest_point_from};
-use super::walk::TreeEntry;
-use crate::blob::Tree;
-use crate::query::{ClosestPoint, QueryError, Stop};
+use super::walk::ScratchEntry;
+use crate::blob::Bvh;
+use crate::query::{Budget, ClosestPoint, QueryError};
 
 /// Why a batch was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,11 +59,11 @@ impl core::error::Error for BatchError {}
 /// # Errors
 /// [`BatchError`].
 pub fn closest_points(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     points: &[[f32; 3]],
     answers: &mut [ClosestPoint],
-    stop: &Stop,
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
     order: &mut [u64],
     hint: &mut Hint,
 ) -> Result<(), BatchError> {
@@ -81,7 +81,7 @@ pub fn closest_points(
     if let Some(index) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
         return Err(refused(index, QueryError::NotFinite));
     }
-    let exact = *stop == Stop::EXACT && stack.len() >= tree.header().stack_entries as usize;
+    let exact = *stop == Budget::EXACT && stack.len() >= tree.header().stack_entries as usize;
     let mut ask = |point: [f32; 3]| {
         if exact {
             closest_point_from(tree, point, stop, stack, hint)

@@ -1,14 +1,14 @@
 //! Closest point on the box tree.
 
-use super::interval::{distance_of_box, nearness, seen_from, settled};
+use super::interval::{distance_of_box, nearness, refine_sliver, seen_from};
 use super::leaf::{Lanes, NearestOf, nearest_triangle, nearest_within};
-use super::probe::{Probe, at_least, at_most, bounds};
-use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
-use crate::blob::{Patch, Tree};
-use crate::fan::certified_distance;
-use crate::num::root;
+use super::probe::{PointQuery, at_least, at_most, bounds};
+use super::walk::{Descent, LeafVisit, LeafVisitor, ScratchEntry, descend};
+use crate::blob::{Bvh, FanLeaf};
+use crate::fan::lower_bound;
+use crate::num::sqrt_approx;
 use crate::num::tolerance::{TREE_RELATIVE, U32};
-use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
+use crate::query::{Budget, ClosestPoint, Ended, QueryError, Work};
 use glam::Vec3;
 
 /// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe; a
@@ -24,22 +24,22 @@ impl Hint {
 /// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that
 /// contains the distance to the input mesh.
 ///
-/// `stack` is working memory; [`TreeHeader::stack_entries`](crate::blob::TreeHeader) entries make
+/// `stack` is working memory; [`BvhHeader::stack_entries`](crate::blob::BvhHeader) entries make
 /// overflow impossible. With fewer the interval still holds, and [`Ended::Capacity`] says so.
 /// Equidistant triangles: the least in blob order. All arithmetic is f32.
 ///
 /// Cost: five to fifteen nodes and three to twelve leaves on scanned parts. The worst case is the
-/// whole tree, at the centre of a sphere: where time is bounded, set [`Stop::steps`]. Farther than
+/// whole tree, at the centre of a sphere: where time is bounded, set [`Budget::steps`]. Farther than
 /// a million model sizes the interval is that of the model's box.
 ///
 /// # Errors
 /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`];
 /// [`QueryError::NotServed`] if the blob was not built for distances.
 pub fn closest_point(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
-    stop: &Stop,
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
     closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())
 }
@@ -51,17 +51,17 @@ pub fn closest_point(
 /// Those of [`closest_point`].
 #[inline]
 pub fn closest_point_from(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
-    stop: &Stop,
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
     hint: &mut Hint,
 ) -> Result<ClosestPoint, QueryError> {
     stop.check()?;
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = Probe::new(tree, point)?;
+    let probe = PointQuery::new(tree, point)?;
     if probe.far {
         return from_afar(tree, point, &probe);
     }
@@ -89,11 +89,11 @@ struct Best {
 const NOTHING_YET: f32 = f32::from_bits(0x7E80_0000);
 
 struct Closest<'a> {
-    tree: &'a Tree<'a>,
+    tree: &'a Bvh<'a>,
     /// As it was asked.
     point: [f32; 3],
-    probe: &'a Probe,
-    stop: &'a Stop,
+    probe: &'a PointQuery,
+    stop: &'a Budget,
     /// Squared bound above which nothing matters.
     limit: f32,
     /// The same without the tolerance: no triangle beyond this square can improve the answer.
@@ -108,7 +108,7 @@ struct Closest<'a> {
 
 impl<'a> Closest<'a> {
     #[inline(always)]
-    fn new(tree: &'a Tree<'a>, point: [f32; 3], probe: &'a Probe, stop: &'a Stop) -> Self {
+    fn new(tree: &'a Bvh<'a>, point: [f32; 3], probe: &'a PointQuery, stop: &'a Budget) -> Self {
         Closest {
             tree,
             point,
@@ -125,7 +125,7 @@ impl<'a> Closest<'a> {
 
     /// Lowers the limit by a leaf that the descent will come to again.
     #[inline(always)]
-    fn bound_by(&mut self, patch: &Patch<'_>) -> Option<()> {
+    fn bound_by(&mut self, patch: &FanLeaf<'_>) -> Option<()> {
         let near = nearest_triangle(patch, self.probe.p)?;
         self.beyond = self.probe.limit(near.distance_sq);
         self.limit = self.beyond;
@@ -139,14 +139,14 @@ impl<'a> Closest<'a> {
     /// With a tolerance, what is not nearer by that much is not wanted.
     #[cold]
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
-        let distance = root(distance_sq);
+        let distance = sqrt_approx(distance_sq);
         let absolute = self.probe.units.inward(self.stop.absolute);
         let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute);
         if wanted > 0.0 { wanted * wanted } else { 0.0 }
     }
 
     #[inline(always)]
-    fn improve(&mut self, near: &NearestOf, visit: &Visit<'_>) {
+    fn improve(&mut self, near: &NearestOf, visit: &LeafVisit<'_>) {
         let distance_sq = near.distance_sq;
         let known = self.best.node != u32::MAX;
         if distance_sq == self.best.distance_sq && known && self.comes_later(visit) {
@@ -163,7 +163,7 @@ impl<'a> Closest<'a> {
 
     /// Whether the leaf's triangles have greater numbers than the best one's.
     #[cold]
-    fn comes_later(&self, visit: &Visit<'_>) -> bool {
+    fn comes_later(&self, visit: &LeafVisit<'_>) -> bool {
         let first = |node, child| Some(self.tree.links(node)?.triangle(child));
         first(visit.node, visit.lane) > first(self.best.node, self.best.child)
     }
@@ -174,16 +174,16 @@ impl<'a> Closest<'a> {
     /// not decide what is found.
     #[cold]
     #[inline(never)]
-    fn certify(&mut self, visit: &Visit<'_>) {
+    fn certify(&mut self, visit: &LeafVisit<'_>) {
         let probe = self.probe;
         let box_sq = square(distance_of_box(probe, visit.key));
         for lane in 0..visit.patch.tag().triangles() {
             let seen = seen_from(&visit.patch, lane, probe.p);
             let near = nearness(&seen);
-            if near.certified_sq >= self.weak {
+            if near.lower_bound_sq >= self.weak {
                 continue;
             }
-            let better = settled(probe, &seen, near);
+            let better = refine_sliver(probe, &seen, near);
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
             let here = visit.node == self.best.node && visit.lane == self.best.child;
             let first = !here || lane < lanes.at(best_sq).0;
@@ -192,17 +192,18 @@ impl<'a> Closest<'a> {
                 let lanes = Lanes::one(lane, &better);
                 let near = NearestOf {
                     distance_sq: better.distance_sq,
-                    certified_sq: near.certified_sq,
+                    lower_bound_sq: near.lower_bound_sq,
                     lanes,
                 };
                 self.improve(&near, visit);
             }
             let [s, e, g] = seen;
-            let lower = certified_distance(s, e, g);
+            let lower = lower_bound(s, e, g);
             let lower_sq = square(lower);
             let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
             // Not less than what it counts for beside a farther best, where it is not weak.
-            let lower_sq = if lower_sq > near.certified_sq { lower_sq } else { near.certified_sq };
+            let lower_sq =
+                if lower_sq > near.lower_bound_sq { lower_sq } else { near.lower_bound_sq };
             if lower_sq < self.certified {
                 self.certified = lower_sq;
             }
@@ -228,18 +229,19 @@ impl<'a> Closest<'a> {
             least_sq = self.certified;
         }
         let mut ended = Ended::Exact;
-        if let Descent::Short { least, steps } = descent {
+        if let Descent::Truncated { least, steps } = descent {
             ended = if steps { Ended::Steps } else { Ended::Capacity };
             least_sq = least_sq.min(square(distance_of_box(self.probe, least)));
         }
         if node == u32::MAX {
             let mut answer = from_afar(self.tree, self.point, self.probe)?;
-            answer.lower = answer.lower.max(self.probe.lower(root(least_sq))).min(answer.upper);
+            answer.lower =
+                answer.lower.max(self.probe.lower(sqrt_approx(least_sq))).min(answer.upper);
             return Ok(ClosestPoint { work, ended, ..answer });
         }
         *hint = Hint(node << 3 | child);
-        let distance = root(distance_sq);
-        let mut least = root(least_sq);
+        let distance = sqrt_approx(distance_sq);
+        let mut least = sqrt_approx(least_sq);
         if self.tolerant {
             let absolute = self.probe.units.inward(self.stop.absolute);
             let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute).max(0.0);
@@ -260,19 +262,19 @@ impl<'a> Closest<'a> {
     }
 }
 
-impl Seek for Closest<'_> {
+impl LeafVisitor for Closest<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
     }
 
     #[inline(always)]
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let near = nearest_within(&visit.patch, self.probe.p, self.beyond)?;
         if near.distance_sq <= self.best.distance_sq {
             self.improve(&near, visit);
         }
-        if near.certified_sq < self.weak {
+        if near.lower_bound_sq < self.weak {
             self.certify(visit);
         }
         Some(true)
@@ -284,7 +286,11 @@ impl Seek for Closest<'_> {
 /// square leaves f32's range.
 #[cold]
 #[inline(never)]
-fn from_afar(tree: &Tree<'_>, point: [f32; 3], probe: &Probe) -> Result<ClosestPoint, QueryError> {
+fn from_afar(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    probe: &PointQuery,
+) -> Result<ClosestPoint, QueryError> {
     let (low, high) = bounds(tree);
     let point = Vec3::from_array(point);
     let corners = [low, high].map(|corner| Vec3::from_array(probe.units.point(corner)).abs());
@@ -300,7 +306,7 @@ fn from_afar(tree: &Tree<'_>, point: [f32; 3], probe: &Probe) -> Result<ClosestP
     let p = point * up;
     let outside = (low - p).max(p - high).max(Vec3::ZERO);
     let farthest = (low - p).abs().max((p - high).abs());
-    let (near, far) = (root(outside.dot(outside)), root(farthest.dot(farthest)));
+    let (near, far) = (sqrt_approx(outside.dot(outside)), sqrt_approx(farthest.dot(farthest)));
     let margin = |distance: f32| distance * (2.0 * TREE_RELATIVE * U32) + scaled(probe.margin());
     let mut node = 0;
     let (links, patch) = loop {

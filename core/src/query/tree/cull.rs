@@ -1,8 +1,8 @@
 //! Triangles that may face the eye: leaves that certainly show their back are left out.
 
-use super::probe::Probe;
+use super::probe::PointQuery;
 use crate::blob::layout::WIDTH;
-use crate::blob::{Patch, Tree};
+use crate::blob::{Bvh, FanLeaf};
 use crate::fan::NormalCone;
 use crate::query::QueryError;
 use glam::Vec3;
@@ -46,7 +46,7 @@ pub struct FrontFacing {
 /// # Errors
 /// [`QueryError::NotFinite`]; [`QueryError::NotServed`] if the blob was built without cones.
 pub fn front_facing(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     sight: &Sight,
     triangles: &mut [u32],
 ) -> Result<FrontFacing, QueryError> {
@@ -95,10 +95,10 @@ enum Eye {
 const DOWN: f32 = 1.0 / ((1u64 << 35) as f32 * (1u64 << 35) as f32);
 
 impl Eye {
-    fn new(tree: &Tree<'_>, sight: &Sight) -> Result<Eye, QueryError> {
+    fn new(tree: &Bvh<'_>, sight: &Sight) -> Result<Eye, QueryError> {
         match *sight {
             Sight::From(point) => {
-                let probe = Probe::new(tree, point)?;
+                let probe = PointQuery::new(tree, point)?;
                 Ok(if probe.far { Eye::FarAt(probe.p) } else { Eye::At(probe.p) })
             }
             Sight::Along(along) => {
@@ -115,7 +115,7 @@ impl Eye {
     }
 
     /// Whether no triangle of a leaf faces it, for certain.
-    fn is_behind(&self, cone: &NormalCone, patch: &Patch<'_>) -> bool {
+    fn is_behind(&self, cone: &NormalCone, patch: &FanLeaf<'_>) -> bool {
         let all = |way: &dyn Fn(Vec3) -> Vec3| {
             (0..patch.tag().centres()).all(|which| cone.is_behind(way(patch.centre(which))))
         };

@@ -1,14 +1,14 @@
 //! One query of a session: the front is brought up to date as far as the answer depends on it.
 
-use super::front::{Child, Front, Known};
+use super::front::{Child, Known, TraversalFront};
 use super::leaf::seen;
 use super::plane::{Looked, Planes, middle};
-use super::probe::Probe;
+use super::probe::PointQuery;
 use super::shape::{SHORTFALL, is_sound};
 use crate::blob::layout::WIDTH;
-use crate::blob::{Patch, Tree};
+use crate::blob::{Bvh, FanLeaf};
 use crate::fan::{Nearness, PointFan, point_patch};
-use crate::num::root;
+use crate::num::sqrt_approx;
 use crate::num::tolerance::{TREE_FAN, U32};
 use crate::query::Work;
 use crate::tree::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
@@ -56,9 +56,9 @@ pub(super) enum Gap {
 
 /// A query on its way.
 pub(super) struct Follow<'a, 't> {
-    pub(super) tree: &'a Tree<'t>,
-    pub(super) probe: &'a Probe,
-    pub(super) front: Front<'a>,
+    pub(super) tree: &'a Bvh<'t>,
+    pub(super) probe: &'a PointQuery,
+    pub(super) front: TraversalFront<'a>,
     planes: &'a mut Planes,
     /// To the query from where planes are measured from.
     way: Vec3,
@@ -85,15 +85,15 @@ pub(super) struct Follow<'a, 't> {
 impl<'a, 't> Follow<'a, 't> {
     #[inline(always)]
     pub(super) fn new(
-        tree: &'a Tree<'t>,
-        probe: &'a Probe,
-        front: Front<'a>,
+        tree: &'a Bvh<'t>,
+        probe: &'a PointQuery,
+        front: TraversalFront<'a>,
         planes: &'a mut Planes,
         ahead: f32,
         steps: u32,
     ) -> Self {
         // The allowance is 2100 times the square of it.
-        let off = root(probe.limit(0.0)) * (1.0 / 45.0);
+        let off = sqrt_approx(probe.limit(0.0)) * (1.0 / 45.0);
         let shortfall = tree.header().reach * (SHORTFALL + TREE_FAN * U32);
         Follow {
             tree,
@@ -244,7 +244,7 @@ impl<'a, 't> Follow<'a, 't> {
 
     #[inline(always)]
     fn key_of_box(&self, key: f32) -> f32 {
-        self.front.key(root(key) * (1.0 - ROUNDING) - self.off)
+        self.front.key(sqrt_approx(key) * (1.0 - ROUNDING) - self.off)
     }
 
     /// What a leaf's box says now.
@@ -276,11 +276,11 @@ impl<'a, 't> Follow<'a, 't> {
             self.weak = self.probe.weak(distance_sq);
         }
         // The plain query looks at slivers again, and may find them nearer.
-        if near.certified_sq < self.weak {
-            self.certified = least(self.certified, near.certified_sq);
+        if near.lower_bound_sq < self.weak {
+            self.certified = least(self.certified, near.lower_bound_sq);
         }
         if child.known() == Known::Triangles {
-            let key = self.key_of_triangles(near.certified_sq);
+            let key = self.key_of_triangles(near.lower_bound_sq);
             self.front.set(i, key, child);
             if key > self.bound {
                 self.looks += 1;
@@ -302,7 +302,7 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     #[inline(always)]
-    fn each(&mut self, patch: &Patch<'_>, mut then: impl FnMut(&mut Self, usize, Nearness)) {
+    fn each(&mut self, patch: &FanLeaf<'_>, mut then: impl FnMut(&mut Self, usize, Nearness)) {
         let (p, tag) = (self.probe.p, patch.tag());
         let s = [p - patch.centre(0), p - patch.centre(tag.centres() - 1)];
         point_patch(
@@ -317,13 +317,13 @@ impl<'a, 't> Follow<'a, 't> {
     /// The key below which nothing can be as near as this.
     #[inline(always)]
     pub(super) fn horizon(&self, distance_sq: f32) -> f32 {
-        self.front.horizon(root(self.probe.limit(distance_sq)) * (1.0 + ROUNDING) + self.off)
+        self.front.horizon(sqrt_approx(self.probe.limit(distance_sq)) * (1.0 + ROUNDING) + self.off)
     }
 
     /// Key of a leaf without slivers whose triangles' squared distances are not below this.
     #[inline(always)]
-    fn key_of_triangles(&self, certified_sq: f32) -> f32 {
-        let certified = if certified_sq > 0.0 { root(certified_sq) } else { 0.0 };
+    fn key_of_triangles(&self, lower_bound_sq: f32) -> f32 {
+        let certified = if lower_bound_sq > 0.0 { sqrt_approx(lower_bound_sq) } else { 0.0 };
         self.front.key(certified * (1.0 - SHORTFALL) - self.shortfall)
     }
 
@@ -332,14 +332,14 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(never)]
     pub(super) fn second(&mut self, best: &Nearest, others: f32) -> f32 {
         let Some(patch) = self.tree.leaf(best.child.node(), best.child.lane()) else { return 0.0 };
-        let mut certified_sq = f32::MAX;
+        let mut lower_bound_sq = f32::MAX;
         self.each(&patch, |_, lane, near| {
             if lane != best.lane {
-                certified_sq = least(certified_sq, near.certified_sq);
+                lower_bound_sq = least(lower_bound_sq, near.lower_bound_sq);
             }
         });
         self.work.triangles += patch.tag().triangles() as u32;
-        least(others, self.key_of_triangles(certified_sq))
+        least(others, self.key_of_triangles(lower_bound_sq))
     }
 
     /// The triangle `lane` of the first entry's leaf, if it is certain that nothing with a key from
@@ -351,10 +351,10 @@ impl<'a, 't> Follow<'a, 't> {
         let which = usize::from(lane >= patch.tag().turn());
         let fan = PointFan::new(self.probe.p - patch.centre(which));
         let (e, g) = (fan.spoke(patch.spoke(lane, which)), fan.spoke(patch.spoke(lane + 1, which)));
-        let Nearness { distance_sq, certified_sq, v, w } = fan.triangle(&e, &g);
+        let Nearness { distance_sq, lower_bound_sq, v, w } = fan.triangle(&e, &g);
         self.work.triangles += 1;
         let certain =
-            self.horizon(distance_sq) < second && certified_sq >= self.probe.weak(distance_sq);
+            self.horizon(distance_sq) < second && lower_bound_sq >= self.probe.weak(distance_sq);
         if certain { Some(Nearest { distance_sq, child, lane, v, w, at: 0 }) } else { None }
     }
 }

@@ -86,13 +86,13 @@ impl Extent {
 const ROUNDING: f32 = 1.0 / 4_194_304.0;
 
 /// Entries in the caller's memory.
-pub(super) struct Front<'a> {
+pub(super) struct TraversalFront<'a> {
     pub(super) keys: &'a mut [f32],
     pub(super) children: &'a mut [Child],
     pub(super) extent: &'a mut Extent,
 }
 
-impl Front<'_> {
+impl TraversalFront<'_> {
     /// Holds nothing.
     pub(super) fn clear(&mut self) {
         *self.extent = Extent::EMPTY;

@@ -1,7 +1,7 @@
 //! The nearest triangle of a leaf, eight at once where the target has vectors, else one after the
 //! other. Same bits.
 
-use crate::blob::Patch;
+use crate::blob::FanLeaf;
 use crate::fan::Edges8;
 use glam::Vec3;
 
@@ -12,7 +12,7 @@ pub(super) use wide::{Lanes, nearest_within, seen};
 
 /// The nearest triangle of a patch, wherever it is.
 #[inline(always)]
-pub(super) fn nearest_triangle(patch: &Patch<'_>, p: Vec3) -> Option<NearestOf> {
+pub(super) fn nearest_triangle(patch: &FanLeaf<'_>, p: Vec3) -> Option<NearestOf> {
     nearest_within(patch, p, f32::INFINITY)
 }
 
@@ -27,14 +27,14 @@ pub(super) struct NearestOf {
     /// Its squared distance.
     pub(super) distance_sq: f32,
     /// Least certified square of all triangles of the patch.
-    pub(super) certified_sq: f32,
+    pub(super) lower_bound_sq: f32,
     /// Which triangle it is.
     pub(super) lanes: Lanes,
 }
 
 impl NearestOf {
     /// The least lane that is so near, and where on its triangle the closest point lies (see
-    /// [`Patch::point`]).
+    /// [`FanLeaf::point`]).
     #[inline(always)]
     pub(super) fn lane(&self) -> (usize, f32, f32) {
         self.lanes.at(self.distance_sq)
@@ -43,7 +43,7 @@ impl NearestOf {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{Edges8, NearestOf, Patch, Seen, Vec3};
+    use super::{Edges8, FanLeaf, NearestOf, Seen, Vec3};
     use crate::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_patch8};
 
     /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch
@@ -54,7 +54,7 @@ mod wide {
     impl Lanes {
         pub(in crate::query::tree) const NONE: Lanes = Lanes(Nearness8 {
             distance_sq: [0.0; WIDTH],
-            certified_sq: [0.0; WIDTH],
+            lower_bound_sq: [0.0; WIDTH],
             v: [0.0; WIDTH],
             w: [0.0; WIDTH],
         });
@@ -83,11 +83,11 @@ mod wide {
     /// `limit` is for the scalar kernel; here leaving a lane out would gain nothing.
     #[inline(always)]
     pub(in crate::query::tree) fn nearest_within(
-        patch: &Patch<'_>,
+        patch: &FanLeaf<'_>,
         p: Vec3,
         _limit: f32,
     ) -> Option<NearestOf> {
-        let near = if patch.is_single() {
+        let near = if patch.is_f32() {
             single_nearness(patch, p)?
         } else {
             point_patch8(&patch.grid_edges8(p)?, LANES_BELOW.get(patch.tag().triangles())?)
@@ -96,28 +96,27 @@ mod wide {
     }
 
     #[inline(always)]
-    pub(in crate::query::tree) fn seen(patch: &Patch<'_>, p: Vec3) -> Option<Seen> {
-        let edges =
-            if patch.is_single() { single_edges(patch, p)? } else { patch.grid_edges8(p)? };
+    pub(in crate::query::tree) fn seen(patch: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
+        let edges = if patch.is_f32() { single_edges(patch, p)? } else { patch.grid_edges8(p)? };
         let near = point_patch8(&edges, LANES_BELOW.get(patch.tag().triangles())?);
         Some((nearest_of(near), Some(edges)))
     }
 
     #[inline(always)]
     fn nearest_of(near: Nearness8) -> NearestOf {
-        let (distance_sq, certified_sq) =
-            (least_of(&near.distance_sq), least_of(&near.certified_sq));
-        NearestOf { distance_sq, certified_sq, lanes: Lanes(near) }
+        let (distance_sq, lower_bound_sq) =
+            (least_of(&near.distance_sq), least_of(&near.lower_bound_sq));
+        NearestOf { distance_sq, lower_bound_sq, lanes: Lanes(near) }
     }
 
     #[inline(never)]
-    fn single_edges(patch: &Patch<'_>, p: Vec3) -> Option<Edges8> {
+    fn single_edges(patch: &FanLeaf<'_>, p: Vec3) -> Option<Edges8> {
         patch.single_edges8(p)
     }
 
     /// A call of its own, so that the two ways to read a leaf do not meet in memory.
     #[inline(never)]
-    fn single_nearness(patch: &Patch<'_>, p: Vec3) -> Option<Nearness8> {
+    fn single_nearness(patch: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
         Some(point_patch8(&patch.single_edges8(p)?, LANES_BELOW.get(patch.tag().triangles())?))
     }
 
@@ -131,7 +130,7 @@ mod wide {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{NearestOf, Patch, Seen, Vec3};
+    use super::{FanLeaf, NearestOf, Seen, Vec3};
     use crate::fan::{Nearness, PointFan, SpokeTerms, point_patch};
 
     /// The nearest triangle of a leaf.
@@ -158,16 +157,16 @@ mod narrow {
 
     #[inline(always)]
     pub(in crate::query::tree) fn nearest_within(
-        patch: &Patch<'_>,
+        patch: &FanLeaf<'_>,
         p: Vec3,
         limit: f32,
     ) -> Option<NearestOf> {
         let mut nearest = NearestOf {
             distance_sq: f32::INFINITY,
-            certified_sq: f32::INFINITY,
+            lower_bound_sq: f32::INFINITY,
             lanes: Lanes::NONE,
         };
-        if patch.is_single() {
+        if patch.is_f32() {
             single(patch, p, &mut nearest);
         } else {
             on_grid(patch, p, limit, &mut nearest)?;
@@ -176,7 +175,7 @@ mod narrow {
     }
 
     #[inline(always)]
-    pub(in crate::query::tree) fn seen(patch: &Patch<'_>, p: Vec3) -> Option<Seen> {
+    pub(in crate::query::tree) fn seen(patch: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
         Some((nearest_within(patch, p, f32::INFINITY)?, None))
     }
 
@@ -187,15 +186,15 @@ mod narrow {
                 self.distance_sq = near.distance_sq;
                 self.lanes = Lanes { lane, v: near.v, w: near.w };
             }
-            if near.certified_sq < self.certified_sq {
-                self.certified_sq = near.certified_sq;
+            if near.lower_bound_sq < self.lower_bound_sq {
+                self.lower_bound_sq = near.lower_bound_sq;
             }
         }
     }
 
     /// Every stored number is read once: differences of integers, then one conversion.
     #[inline(always)]
-    fn on_grid(patch: &Patch<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
+    fn on_grid(patch: &FanLeaf<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
         let ring = patch.grid_ring()?;
         let turn = patch.tag().turn();
         let mut centre = ring.centres[0];
@@ -231,7 +230,7 @@ mod narrow {
     }
 
     #[inline(never)]
-    fn single(patch: &Patch<'_>, p: Vec3, nearest: &mut NearestOf) {
+    fn single(patch: &FanLeaf<'_>, p: Vec3, nearest: &mut NearestOf) {
         let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
         let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
         point_patch(

@@ -3,12 +3,12 @@
 use super::closest::closest_point;
 use super::interval::{EVERYTHING, each_triangle, lower_of_box};
 use super::leaf::nearest_triangle;
-use super::probe::Probe;
-use super::ranked::{Candidate, Near, Ranked, first_triangles};
-use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
-use crate::blob::Tree;
-use crate::num::root;
-use crate::query::{Ended, QueryError, Stop, Work};
+use super::probe::PointQuery;
+use super::ranked::{Candidate, KNearest, Neighbor, first_triangles};
+use super::walk::{Descent, LeafVisit, LeafVisitor, ScratchEntry, descend};
+use crate::blob::Bvh;
+use crate::num::sqrt_approx;
+use crate::query::{Budget, Ended, QueryError, Work};
 
 /// How a search for the closest triangles went; they are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Nearest {
 /// its own interval. Triangles without area count like others. If `out` is longer than the mesh,
 /// all triangles are stored; if it is empty, nothing is looked at. Farther than a million model
 /// sizes all triangles are alike: the first of the blob, each with the interval of the model's box.
-/// `stack` as for [`closest_point`]; of [`Stop`] only `steps` matters.
+/// `stack` as for [`closest_point`]; of [`Budget`] only `steps` matters.
 ///
 /// Cost: for few triangles that of the closest point and a scalar kernel for each leaf near the
 /// end; a heap in `out`, log n for each that enters. After an error what `out` holds is undefined.
@@ -41,40 +41,40 @@ pub struct Nearest {
 /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`],
 /// [`QueryError::NotServed`].
 pub fn nearest(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
-    stop: &Stop,
-    out: &mut [Near],
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    out: &mut [Neighbor],
+    stack: &mut [ScratchEntry],
 ) -> Result<Nearest, QueryError> {
     stop.check()?;
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = Probe::new(tree, point)?;
+    let probe = PointQuery::new(tree, point)?;
     let mut work = Work::default();
     if out.is_empty() {
         return Ok(Nearest { stored: 0, rest_lower: 0.0, work, ended: Ended::Exact });
     }
     let all = tree.header().triangles as usize;
     if probe.far {
-        let box_of_all = closest_point(tree, point, &Stop::EXACT, stack)?;
+        let box_of_all = closest_point(tree, point, &Budget::EXACT, stack)?;
         let stored = first_triangles(tree, &probe, box_of_all.lower, box_of_all.upper, out)?;
         let rest_lower = if stored == all { f32::INFINITY } else { box_of_all.lower };
         return Ok(Nearest { stored, rest_lower, work, ended: Ended::Exact });
     }
-    let ranked = Ranked::new(out);
+    let ranked = KNearest::new(out);
     let mut seek = Closest { tree, probe: &probe, ranked, limit: EVERYTHING, rest: f32::INFINITY };
     let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
     let mut rest_lower = f32::INFINITY;
     if seek.ranked.stored() < all {
         // What was not looked at is farther than the last one stored.
-        let last = seek.ranked.farthest_sq().map_or(f32::INFINITY, root);
+        let last = seek.ranked.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
         let rest = if last < seek.rest { last } else { seek.rest };
         rest_lower = probe.lower(rest);
     }
     let mut ended = Ended::Exact;
-    if let Descent::Short { least, steps } = descent {
+    if let Descent::Truncated { least, steps } = descent {
         ended = if steps { Ended::Steps } else { Ended::Capacity };
         let missed = lower_of_box(&probe, least);
         rest_lower = if missed < rest_lower { missed } else { rest_lower };
@@ -84,24 +84,24 @@ pub fn nearest(
 }
 
 struct Closest<'a> {
-    tree: &'a Tree<'a>,
-    probe: &'a Probe,
-    ranked: Ranked<'a>,
+    tree: &'a Bvh<'a>,
+    probe: &'a PointQuery,
+    ranked: KNearest<'a>,
     limit: f32,
     /// What every triangle that was looked at and is not stored is not nearer than, grid units.
     rest: f32,
 }
 
-impl Seek for Closest<'_> {
+impl LeafVisitor for Closest<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
     }
 
     #[inline(always)]
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let near = nearest_triangle(&visit.patch, self.probe.p)?;
-        if near.certified_sq <= self.limit {
+        if near.lower_bound_sq <= self.limit {
             self.rank(visit)?;
         }
         Some(true)
@@ -110,13 +110,13 @@ impl Seek for Closest<'_> {
 
 impl Closest<'_> {
     #[inline(never)]
-    fn rank(&mut self, visit: &Visit<'_>) -> Option<()> {
+    fn rank(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        each_triangle(self.probe, &visit.patch, |lane, distance_sq, certified_sq| {
-            if certified_sq > self.limit {
+        each_triangle(self.probe, &visit.patch, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit {
                 return;
             }
-            let candidate = Candidate::new(visit, first, lane, distance_sq, certified_sq);
+            let candidate = Candidate::new(visit, first, lane, distance_sq, lower_bound_sq);
             if let Some(out) = self.ranked.offer(candidate) {
                 let lower = out.lower(self.tree, self.probe).unwrap_or(0.0);
                 if lower < self.rest {

@@ -8,9 +8,9 @@
 use super::front::Child;
 use super::shape::SHORTFALL;
 use crate::blob::layout::WIDTH;
-use crate::blob::{Patch, Tree};
+use crate::blob::{Bvh, FanLeaf};
 use crate::fan::{Edges8, LANES_BELOW};
-use crate::num::root;
+use crate::num::sqrt_approx;
 use crate::tree::in_memory;
 use glam::Vec3;
 
@@ -75,7 +75,7 @@ impl Planes {
 
 /// A leaf as it was looked at from `p`, and its triangles side by side where all were read at once.
 pub(super) struct Looked<'a> {
-    pub(super) patch: &'a Patch<'a>,
+    pub(super) patch: &'a FanLeaf<'a>,
     pub(super) p: Vec3,
     pub(super) edges: Option<&'a Edges8>,
 }
@@ -87,7 +87,7 @@ pub(super) type At = (usize, f32, f32);
 /// distance, also of a sliver's certificate.
 #[inline(always)]
 fn normal(residual: Vec3) -> Option<Vec3> {
-    let length = root(dot(residual, residual));
+    let length = sqrt_approx(dot(residual, residual));
     if length > 1.0 / 1024.0 {
         Some(residual * ((1.0 - SHORTFALL) * (1.0 - ROUNDING) / length))
     } else {
@@ -121,7 +121,7 @@ fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(
 
 /// The same, vertex by vertex.
 #[inline(never)]
-fn separate_narrow(patch: &Patch<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3, f32)> {
+fn separate_narrow(patch: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3, f32)> {
     let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
     let which = usize::from(lane >= turn);
     let from = p - patch.centre(which);
@@ -135,7 +135,7 @@ fn separate_narrow(patch: &Patch<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3
 /// The middle of the model's box, from which planes are measured: rounding counts in model sizes,
 /// wherever the origin is.
 #[inline(always)]
-pub(super) fn middle(tree: &Tree<'_>) -> Vec3 {
+pub(super) fn middle(tree: &Bvh<'_>) -> Vec3 {
     (tree.scale().low + tree.scale().high) * 0.5
 }
 

@@ -1,7 +1,7 @@
 //! A query point in the tree's grid units, and everything that rounding may do to an answer about
 //! it.
 
-use crate::blob::Tree;
+use crate::blob::Bvh;
 use crate::num::tolerance::{
     TREE_BOX, TREE_FAN, TREE_FAR, TREE_RELATIVE, TREE_SHORT, TREE_WEAK, U32,
 };
@@ -21,7 +21,7 @@ pub(crate) struct Units {
 
 impl Units {
     #[inline(always)]
-    pub(crate) fn of(tree: &Tree<'_>) -> Units {
+    pub(crate) fn of(tree: &Bvh<'_>) -> Units {
         let scale = tree.scale();
         Units { inward: scale.inward, outward: scale.outward, surface_error: scale.surface_error }
     }
@@ -71,7 +71,7 @@ pub(crate) fn at_most(x: f32) -> f32 {
 
 /// A query point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Probe {
+pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
     pub(crate) units: Units,
@@ -86,9 +86,9 @@ pub(crate) struct Probe {
     pub(crate) far: bool,
 }
 
-impl Probe {
+impl PointQuery {
     #[inline(always)]
-    pub(crate) fn new(tree: &Tree<'_>, point: [f32; 3]) -> Result<Probe, QueryError> {
+    pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
         let [x, y, z] = point;
         if !(x.is_finite() && y.is_finite() && z.is_finite()) {
             return Err(QueryError::NotFinite);
@@ -101,9 +101,9 @@ impl Probe {
         let size = farthest.x + farthest.y + farthest.z;
         let fan = TREE_FAN * U32 * header.reach;
         let off = TREE_BOX * U32 * size + fan;
-        let short = if header.is_single() { 0.0 } else { TREE_SHORT };
+        let short = if header.is_f32() { 0.0 } else { TREE_SHORT };
         let near = size <= TREE_FAR;
-        Ok(Probe { p, units, short, margin: fan, allowance: 2100.0 * off * off, far: !near })
+        Ok(PointQuery { p, units, short, margin: fan, allowance: 2100.0 * off * off, far: !near })
     }
 
     /// The squared bound above which a node cannot hold anything at the squared distance
@@ -148,6 +148,6 @@ impl Probe {
 
 /// Corners of the tree's box, grid units.
 #[inline(always)]
-pub(crate) fn bounds(tree: &Tree<'_>) -> (Vec3, Vec3) {
+pub(crate) fn bounds(tree: &Bvh<'_>) -> (Vec3, Vec3) {
     (tree.scale().low, tree.scale().high)
 }

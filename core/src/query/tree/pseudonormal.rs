@@ -11,11 +11,11 @@
 //! so among those considered. So a product with u beyond that and rounding has the right sign.
 
 use super::interval::{each_triangle, limit_of, lower_of};
-use super::probe::Probe;
+use super::probe::PointQuery;
 use super::signed::{Search, Side};
-use super::walk::{Seek, Visit};
-use crate::blob::Patch;
-use crate::num::root;
+use super::walk::{LeafVisit, LeafVisitor};
+use crate::blob::FanLeaf;
+use crate::num::sqrt_approx;
 use crate::num::tolerance::{TRUSTED_DIRECTION_SQ, U32};
 use crate::query::QueryError;
 use glam::Vec3;
@@ -56,7 +56,7 @@ fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
 
 /// How triangle `lane` faces `p`.
 #[inline]
-pub(super) fn facing(patch: &Patch<'_>, lane: usize, p: Vec3) -> Facing {
+pub(super) fn facing(patch: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
     let second = lane >= patch.tag().turn();
     let which = usize::from(second);
     let (e, g) = (patch.spoke(lane, which), patch.spoke(lane + 1, which));
@@ -81,7 +81,7 @@ pub(super) fn facing(patch: &Patch<'_>, lane: usize, p: Vec3) -> Facing {
 /// Whether a triangle whose normal came out as zero has no area: a repeated corner, or integers so
 /// small that the normal is exact.
 #[cold]
-fn is_flat(patch: &Patch<'_>, lane: usize, size: f32) -> bool {
+fn is_flat(patch: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
     let [a, b, c] = patch.corners(lane);
     let integral = |v: Vec3| v.floor() == v && v.abs().max_element() < EXACT;
     a == b || b == c || c == a || (size < EXACT && integral(a) && integral(b) && integral(c))
@@ -89,7 +89,7 @@ fn is_flat(patch: &Patch<'_>, lane: usize, size: f32) -> bool {
 
 /// The triangles that may be the closest one.
 pub(super) struct Candidates<'p> {
-    probe: &'p Probe,
+    probe: &'p PointQuery,
     /// Lower bound, grid units, up to which a triangle is one of them: twice and more what
     /// rounding asks for.
     pub(super) band: f32,
@@ -100,8 +100,8 @@ pub(super) struct Candidates<'p> {
 impl<'p> Candidates<'p> {
     /// `margin` is the part of rounding that does not grow with the distance.
     #[inline]
-    pub(super) fn new(probe: &'p Probe, margin: f32, distance_sq: f32) -> Self {
-        let distance = root(distance_sq);
+    pub(super) fn new(probe: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
+        let distance = sqrt_approx(distance_sq);
         let band = distance * (1.0 + 128.0 * U32) + 8.0 * margin;
         let reach = distance * (1.0 + 64.0 * U32) + 4.0 * margin;
         Candidates { probe, band, reach }
@@ -139,16 +139,16 @@ struct Shared<'a> {
     kept: [bool; 3],
 }
 
-impl Seek for Shared<'_> {
+impl LeafVisitor for Shared<'_> {
     fn limit(&self) -> f32 {
         self.limit
     }
 
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let (patch, p) = (&visit.patch, self.candidates.probe.p);
-        each_triangle(self.candidates.probe, patch, |lane, distance_sq, certified_sq| {
-            if certified_sq > self.limit
-                || lower_of(patch, lane, p, distance_sq, certified_sq) > self.candidates.band
+        each_triangle(self.candidates.probe, patch, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit
+                || lower_of(patch, lane, p, distance_sq, lower_bound_sq) > self.candidates.band
                 || facing(patch, lane, p) == Facing::Flat
             {
                 return;
@@ -180,7 +180,7 @@ impl Sum {
     fn add(&mut self, normal: Vec3, size: Vec3, weight: f32, eta: f32) {
         let largest = normal.abs().max_element();
         let scaled = normal * (1.0 / largest);
-        let length = root(scaled.dot(scaled));
+        let length = sqrt_approx(scaled.dot(scaled));
         self.normal += scaled * (weight / length);
         self.unsure += weight * (norm_1(size) / (largest * length));
         self.weight += weight;
@@ -215,12 +215,12 @@ struct Star<F> {
     each: F,
 }
 
-impl<F: FnMut(&Patch<'_>, usize)> Seek for Star<F> {
+impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
     fn limit(&self) -> f32 {
         self.limit
     }
 
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         for lane in 0..visit.patch.tag().triangles() {
             (self.each)(&visit.patch, lane);
         }
@@ -242,13 +242,13 @@ fn about_vertex(
     p: Vec3,
 ) -> Result<Side, QueryError> {
     let s = p - vertex;
-    let far = root(s.dot(s));
+    let far = sqrt_approx(s.dot(s));
     if !(far > 0.0 && far <= candidates.reach) {
         return Ok(Side::Undefined);
     }
     let u = s * (1.0 / far);
     let mut sum = Sum::default();
-    let each = |patch: &Patch<'_>, lane: usize| {
+    let each = |patch: &FanLeaf<'_>, lane: usize| {
         let (e, g) = match patch.corners(lane) {
             [a, b, c] if a == vertex => (b - a, c - a),
             [a, b, c] if b == vertex => (c - b, a - b),
@@ -265,8 +265,8 @@ fn about_vertex(
         }
         let largest = normal.abs().max_element();
         let scaled = normal * (1.0 / largest);
-        let angle = libm::atan2f(largest * root(scaled.dot(scaled)), e.dot(g));
-        let unit = |v: Vec3| v * (1.0 / root(v.dot(v)));
+        let angle = libm::atan2f(largest * sqrt_approx(scaled.dot(scaled)), e.dot(g));
+        let unit = |v: Vec3| v * (1.0 / sqrt_approx(v.dot(v)));
         let (e, g) = (unit(e), unit(g));
         let reached = e.dot(u).max(g.dot(u));
         // Directions between the two: (λe + μg) / |λe + μg|, whose length is at least (λ +
@@ -275,7 +275,7 @@ fn about_vertex(
             0.0
         } else {
             let half = 0.5 * (1.0 + e.dot(g)) - COSINE * U32;
-            if half > 0.0 { (reached + COSINE * U32) / root(half) } else { f32::INFINITY }
+            if half > 0.0 { (reached + COSINE * U32) / sqrt_approx(half) } else { f32::INFINITY }
         };
         sum.add(normal, size, angle, eta);
     };
@@ -296,7 +296,7 @@ fn about_edge(
     let (along, length_sq) = (s.dot(edge), edge.dot(edge));
     let rounding = COSINE * U32 * norm_1(s) * norm_1(edge);
     let across = s - edge * (along / length_sq);
-    let far = root(across.dot(across));
+    let far = sqrt_approx(across.dot(across));
     // The foot has to be within the edge, and clear of its ends.
     if !(along > rounding && length_sq - along > rounding && far > 0.0)
         || far + COSINE * U32 * norm_1(s) > candidates.reach
@@ -305,7 +305,7 @@ fn about_edge(
     }
     let u = across * (1.0 / far);
     let mut sum = Sum::default();
-    let each = |patch: &Patch<'_>, lane: usize| {
+    let each = |patch: &FanLeaf<'_>, lane: usize| {
         let corners = patch.corners(lane);
         if !corners.contains(&a) || !corners.contains(&b) {
             return;
@@ -318,7 +318,7 @@ fn about_edge(
         let Some(third) = corners.into_iter().find(|&c| c != a && c != b) else { return };
         let leg = third - a;
         let inward = leg - edge * (leg.dot(edge) / length_sq);
-        let height = root(inward.dot(inward));
+        let height = sqrt_approx(inward.dot(inward));
         if !is_sound(normal, size) || height == 0.0 {
             sum.broken = true;
             return;

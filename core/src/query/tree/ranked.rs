@@ -2,16 +2,16 @@
 //! 1964), sorted in place at the end.
 
 use super::interval::{lower_of, witness};
-use super::probe::Probe;
-use super::walk::Visit;
-use crate::blob::{Patch, Tree};
-use crate::num::root;
+use super::probe::PointQuery;
+use super::walk::LeafVisit;
+use crate::blob::{Bvh, FanLeaf};
+use crate::num::sqrt_approx;
 use crate::query::QueryError;
 
 /// A triangle near a point: `lower ≤ distance to the triangle of the input mesh ≤ upper`, in real
 /// arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Near {
+pub struct Neighbor {
     /// Not above the distance, input units.
     pub lower: f32,
     /// Not below the distance, input units.
@@ -22,17 +22,17 @@ pub struct Near {
     pub triangle: u32,
 }
 
-impl Near {
+impl Neighbor {
     /// Any value, for filling arrays.
-    pub const EMPTY: Near =
-        Near { lower: 0.0, upper: f32::INFINITY, point: [0.0; 3], triangle: u32::MAX };
+    pub const EMPTY: Neighbor =
+        Neighbor { lower: 0.0, upper: f32::INFINITY, point: [0.0; 3], triangle: u32::MAX };
 }
 
 /// A triangle that a descent has come to.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) distance_sq: f32,
-    pub(super) certified_sq: f32,
+    pub(super) lower_bound_sq: f32,
     /// In the blob.
     pub(super) number: u32,
     pub(super) node: u32,
@@ -43,34 +43,41 @@ pub(super) struct Candidate {
 impl Candidate {
     /// Triangle `lane` of a leaf whose first is `first`.
     pub(super) fn new(
-        visit: &Visit<'_>,
+        visit: &LeafVisit<'_>,
         first: u32,
         lane: usize,
         distance_sq: f32,
-        certified_sq: f32,
+        lower_bound_sq: f32,
     ) -> Self {
         let (node, child, lane) = (visit.node, visit.lane, lane as u32);
-        Candidate { distance_sq, certified_sq, number: first.wrapping_add(lane), node, child, lane }
+        Candidate {
+            distance_sq,
+            lower_bound_sq,
+            number: first.wrapping_add(lane),
+            node,
+            child,
+            lane,
+        }
     }
 
     /// While the search runs a slot of the caller holds this instead of an answer; node numbers are
     /// below 2^24, so that f32 holds them.
-    fn held(self) -> Near {
+    fn held(self) -> Neighbor {
         let place = [self.node as f32, (self.child * 8 + self.lane) as f32, 0.0];
-        Near {
+        Neighbor {
             lower: self.distance_sq,
-            upper: self.certified_sq,
+            upper: self.lower_bound_sq,
             point: place,
             triangle: self.number,
         }
     }
 
-    fn of(held: &Near) -> Candidate {
+    fn of(held: &Neighbor) -> Candidate {
         let [node, place, _] = held.point;
         let place = place as u32;
         Candidate {
             distance_sq: held.lower,
-            certified_sq: held.upper,
+            lower_bound_sq: held.upper,
             number: held.triangle,
             node: node as u32,
             child: place / 8,
@@ -78,21 +85,21 @@ impl Candidate {
         }
     }
 
-    fn patch<'t>(&self, tree: &Tree<'t>) -> Option<Patch<'t>> {
+    fn patch<'t>(&self, tree: &Bvh<'t>) -> Option<FanLeaf<'t>> {
         tree.leaf(self.node, self.child)
     }
 
     /// What the triangle is not nearer than, grid units.
-    pub(super) fn lower(&self, tree: &Tree<'_>, probe: &Probe) -> Option<f32> {
+    pub(super) fn lower(&self, tree: &Bvh<'_>, probe: &PointQuery) -> Option<f32> {
         let patch = self.patch(tree)?;
-        Some(lower_of(&patch, self.lane as usize, probe.p, self.distance_sq, self.certified_sq))
+        Some(lower_of(&patch, self.lane as usize, probe.p, self.distance_sq, self.lower_bound_sq))
     }
 
-    fn answer(&self, tree: &Tree<'_>, probe: &Probe) -> Option<Near> {
+    fn answer(&self, tree: &Bvh<'_>, probe: &PointQuery) -> Option<Neighbor> {
         let patch = self.patch(tree)?;
-        Some(Near {
+        Some(Neighbor {
             lower: probe.lower(self.lower(tree, probe)?),
-            upper: probe.upper(root(self.distance_sq)),
+            upper: probe.upper(sqrt_approx(self.distance_sq)),
             point: probe.units.point(witness(probe, &patch, self.lane as usize)),
             triangle: tree.source(self.number)?,
         })
@@ -100,19 +107,19 @@ impl Candidate {
 }
 
 /// Whether `a` comes after `b`: farther, or as far with a greater number.
-fn after(a: &Near, b: &Near) -> bool {
+fn after(a: &Neighbor, b: &Neighbor) -> bool {
     a.lower > b.lower || (a.lower == b.lower && a.triangle > b.triangle)
 }
 
 /// The caller's slice and how much of it is used.
-pub(super) struct Ranked<'a> {
-    slots: &'a mut [Near],
+pub(super) struct KNearest<'a> {
+    slots: &'a mut [Neighbor],
     stored: usize,
 }
 
-impl<'a> Ranked<'a> {
-    pub(super) fn new(slots: &'a mut [Near]) -> Self {
-        Ranked { slots, stored: 0 }
+impl<'a> KNearest<'a> {
+    pub(super) fn new(slots: &'a mut [Neighbor]) -> Self {
+        KNearest { slots, stored: 0 }
     }
 
     pub(super) fn stored(&self) -> usize {
@@ -189,7 +196,11 @@ impl<'a> Ranked<'a> {
     }
 
     /// Sorts by rising distance and writes the answers; how many there are.
-    pub(super) fn finish(mut self, tree: &Tree<'_>, probe: &Probe) -> Result<usize, QueryError> {
+    pub(super) fn finish(
+        mut self,
+        tree: &Bvh<'_>,
+        probe: &PointQuery,
+    ) -> Result<usize, QueryError> {
         for end in (1..self.stored).rev() {
             if let Ok([top, last]) = self.slots.get_disjoint_mut([0, end]) {
                 core::mem::swap(top, last);
@@ -213,11 +224,11 @@ impl<'a> Ranked<'a> {
 /// The first triangles of the blob, each with the interval of the whole model; how many. For points
 /// from which all are alike.
 pub(super) fn first_triangles(
-    tree: &Tree<'_>,
-    probe: &Probe,
+    tree: &Bvh<'_>,
+    probe: &PointQuery,
     lower: f32,
     upper: f32,
-    out: &mut [Near],
+    out: &mut [Neighbor],
 ) -> Result<usize, QueryError> {
     let mut slots = out.iter_mut();
     let mut stored = 0;
@@ -231,7 +242,7 @@ pub(super) fn first_triangles(
                 let [corner, ..] = patch.corners(lane);
                 let triangle =
                     tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Model)?;
-                *slot = Near { lower, upper, point: probe.units.point(corner), triangle };
+                *slot = Neighbor { lower, upper, point: probe.units.point(corner), triangle };
                 stored += 1;
             }
         }

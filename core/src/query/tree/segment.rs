@@ -1,13 +1,13 @@
 //! Segments on the box tree: first hit, any hit, all hits.
 //!
 //! A segment visits two nodes and less than one leaf on scanned parts, so what is done once for
-//! each segment decides. The fan kernels flag the triangles that may be met; only these are settled
+//! each segment decides. The fan kernels flag the triangles that may be met; only these are refine_sliver
 //! one by one, with the interval of parameters in which the *input's* triangle can be met.
 
-use super::aim::Aim;
-use super::walk::{TreeEntry, wait};
+use super::aim::SegmentQuery;
+use super::walk::{ScratchEntry, wait};
 use crate::blob::layout::WIDTH;
-use crate::blob::{Patch, Tree};
+use crate::blob::{Bvh, FanLeaf};
 use crate::fan::{Crossing, FanRay, LANES_BELOW, ray_patch, ray_patch8};
 use crate::query::segment::insert;
 use crate::query::{AllHits, Ended, Hit, QueryError, SegmentHit, Work};
@@ -61,11 +61,11 @@ pub enum AnyHit {
 /// loss.
 #[inline]
 pub fn first_hit(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     a: [f32; 3],
     b: [f32; 3],
     facing: &Facing,
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
 ) -> Result<SegmentHit, QueryError> {
     let mut work = Work::default();
     let Some(aim) = begin(tree, a, b, stack)? else {
@@ -97,11 +97,11 @@ pub fn first_hit(
 /// Those of [`first_hit`].
 #[inline]
 pub fn any_hit(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     a: [f32; 3],
     b: [f32; 3],
     facing: &Facing,
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
 ) -> Result<AnyHit, QueryError> {
     let Some(aim) = begin(tree, a, b, stack)? else { return Ok(AnyHit::Clear) };
     let mut any = Any { end: aim.ray.end(), open: false, certain: false };
@@ -125,12 +125,12 @@ pub fn any_hit(
 /// # Errors
 /// Those of [`first_hit`].
 pub fn all_hits(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     a: [f32; 3],
     b: [f32; 3],
     facing: &Facing,
     hits: &mut [Hit],
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
 ) -> Result<AllHits, QueryError> {
     let mut work = Work::default();
     let Some(aim) = begin(tree, a, b, stack)? else {
@@ -152,18 +152,18 @@ pub fn all_hits(
 /// What has to be so before a descent; `None` if the segment is far from the model.
 #[inline(always)]
 fn begin(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     a: [f32; 3],
     b: [f32; 3],
-    stack: &[TreeEntry],
-) -> Result<Option<Aim>, QueryError> {
+    stack: &[ScratchEntry],
+) -> Result<Option<SegmentQuery>, QueryError> {
     if !tree.serves_segments() {
         return Err(QueryError::NotServed);
     }
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    Aim::new(tree, a, b)
+    SegmentQuery::new(tree, a, b)
 }
 
 /// A stored triangle that is met.
@@ -190,7 +190,7 @@ trait Collect {
 }
 
 struct First<'a> {
-    tree: &'a Tree<'a>,
+    tree: &'a Bvh<'a>,
     /// The input's surface is met no later, if `certain`; else the segment's end.
     limit: f32,
     /// It is not met earlier.
@@ -206,7 +206,12 @@ impl First<'_> {
     }
 
     #[inline(always)]
-    fn answer(&self, aim: &Aim, dropped: f32, work: Work) -> Result<SegmentHit, QueryError> {
+    fn answer(
+        &self,
+        aim: &SegmentQuery,
+        dropped: f32,
+        work: Work,
+    ) -> Result<SegmentHit, QueryError> {
         let missed = dropped <= self.limit;
         let lower = if missed && dropped < self.lower { dropped } else { self.lower };
         let ended = match (missed, self.certain || lower == f32::INFINITY) {
@@ -294,8 +299,8 @@ impl Collect for Any {
 }
 
 struct All<'a> {
-    tree: &'a Tree<'a>,
-    aim: &'a Aim,
+    tree: &'a Bvh<'a>,
+    aim: &'a SegmentQuery,
     hits: &'a mut [Hit],
     stored: usize,
     dropped: u32,
@@ -332,13 +337,13 @@ impl Collect for All<'_> {
 
 /// Triangles of a patch that the line may meet.
 #[inline(always)]
-fn flagged(patch: &Patch<'_>, aim: &Aim) -> Option<u32> {
+fn flagged(patch: &FanLeaf<'_>, aim: &SegmentQuery) -> Option<u32> {
     let tag = patch.tag();
     if WIDE {
         let (first, used) = (LANES_BELOW.get(tag.turn())?, LANES_BELOW.get(tag.triangles())?);
         return Some(ray_patch8(&aim.ray, &patch.ring8(aim.ray.axes())?, first, used));
     }
-    if patch.is_single() {
+    if patch.is_f32() {
         return Some(flagged_single(patch, &aim.ray));
     }
     let ray = &aim.ray;
@@ -360,7 +365,7 @@ fn flagged(patch: &Patch<'_>, aim: &Aim) -> Option<u32> {
 }
 
 #[inline(never)]
-fn flagged_single(patch: &Patch<'_>, ray: &FanRay) -> u32 {
+fn flagged_single(patch: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     let tag = patch.tag();
     let centres = [0, tag.centres() - 1].map(|which| ray.shadow(patch.centre(which)));
     ray_patch(ray, tag.turn(), centres, (0..=tag.triangles()).map(|i| ray.shadow(patch.ring(i))))
@@ -369,8 +374,8 @@ fn flagged_single(patch: &Patch<'_>, ray: &FanRay) -> u32 {
 /// Settles the flagged triangles of a patch.
 #[inline(never)]
 fn settle<C: Collect>(
-    patch: &Patch<'_>,
-    aim: &Aim,
+    patch: &FanLeaf<'_>,
+    aim: &SegmentQuery,
     facing: Facing,
     flagged: u32,
     bound: f32,
@@ -385,7 +390,7 @@ fn settle<C: Collect>(
         Facing::Back => -ray.front(),
     };
     let wanted = |second: bool| if second && tag.second_reversed() { -sign } else { sign };
-    let mut settled = false;
+    let mut refine_sliver = false;
     let (mut open, mut upper) = ([0u32; 2], [0f32; 2]);
     let mut within = [true; 2];
     let mut left = flagged;
@@ -412,7 +417,7 @@ fn settle<C: Collect>(
         }
         collect.meet(&crossing, node, child, lane);
         if crossing.certain {
-            settled = true;
+            refine_sliver = true;
             collect.certain(crossing.upper);
         } else {
             open[fan & 1] |= 1 << lane;
@@ -422,7 +427,7 @@ fn settle<C: Collect>(
             }
         }
     }
-    if settled || !C::COVERS {
+    if refine_sliver || !C::COVERS {
         return;
     }
     for fan in 0..2 {
@@ -444,10 +449,10 @@ fn settle<C: Collect>(
 /// the stack, infinity if all did.
 #[inline(always)]
 fn descend<C: Collect>(
-    tree: &Tree<'_>,
-    aim: &Aim,
+    tree: &Bvh<'_>,
+    aim: &SegmentQuery,
     facing: Facing,
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
     collect: &mut C,
     work: &mut Work,
 ) -> Result<f32, QueryError> {
@@ -470,7 +475,7 @@ fn descend<C: Collect>(
         // The nearest child's links are at hand; what comes off the stack has to look its parent's
         // up.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);
-        let mut entry = TreeEntry { key: nearest, node };
+        let mut entry = ScratchEntry { key: nearest, node };
         loop {
             if found {
                 bound = f32::from_bits(entry.key.to_bits() & !LANE_MASK);

@@ -5,20 +5,20 @@
 
 use super::closest::{Hint, closest_point_from};
 use super::follow::{Follow, Gap, Nearest};
-use super::front::{Child, Extent, Front, Known};
+use super::front::{Child, Extent, Known, TraversalFront};
 use super::plane::Planes;
-use super::probe::Probe;
-use super::walk::TreeEntry;
-use crate::blob::Tree;
-use crate::num::root;
+use super::probe::PointQuery;
+use super::walk::ScratchEntry;
+use crate::blob::Bvh;
+use crate::num::sqrt_approx;
 use crate::num::tolerance::{TREE_FAN, TREE_TINY, U32};
-use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
+use crate::query::{Budget, ClosestPoint, Ended, QueryError, Work};
 use core::marker::PhantomData;
 use glam::Vec3;
 
 /// What a session answers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Followed {
+pub struct CoherentClosest {
     /// What [`closest_point`](super::closest_point) answers, with the same bits; `work` is what
     /// the session did.
     pub closest: ClosestPoint,
@@ -43,23 +43,23 @@ pub struct Followed {
 /// A session is about one tree at a time; asked about another it begins anew. Its lifetime makes
 /// sure that bytes do not change behind its back.
 #[derive(Clone, Debug)]
-pub struct Session<'t, const N: usize = 128> {
+pub struct CoherentQuery<'t, const N: usize = 128> {
     memory: Memory,
     keys: [f32; N],
     children: [Child; N],
     bytes: PhantomData<&'t [u8]>,
 }
 
-impl<const N: usize> Default for Session<'_, N> {
+impl<const N: usize> Default for CoherentQuery<'_, N> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<'t, const N: usize> Session<'t, N> {
+impl<'t, const N: usize> CoherentQuery<'t, N> {
     /// A session that knows nothing yet. May initialise a `static`.
     pub const fn new() -> Self {
-        Session {
+        CoherentQuery {
             memory: Memory::EMPTY,
             keys: [0.0; N],
             children: [Child::NONE; N],
@@ -79,7 +79,7 @@ impl<'t, const N: usize> Session<'t, N> {
     /// and, where that was not enough, the plain query after it: at most twice as many nodes.
     /// The session's answer then may be exact where the plain query's is not.
     ///
-    /// Cost: within [`Followed::safe_radius`] of the last answer one triangle; for steps of 3e-4 of
+    /// Cost: within [`CoherentClosest::safe_radius`] of the last answer one triangle; for steps of 3e-4 of
     /// the model's diagonal one to three leaves and now and then a node; for jumps that of
     /// [`closest_point_from`].
     ///
@@ -87,11 +87,11 @@ impl<'t, const N: usize> Session<'t, N> {
     /// Those of [`closest_point`](super::closest_point); the session stays as it was.
     pub fn closest_point(
         &mut self,
-        tree: &Tree<'t>,
+        tree: &Bvh<'t>,
         point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
-    ) -> Result<Followed, QueryError> {
+        stop: &Budget,
+        stack: &mut [ScratchEntry],
+    ) -> Result<CoherentClosest, QueryError> {
         self.memory.closest_point(&mut self.keys, &mut self.children, tree, point, stop, stack)
     }
 }
@@ -232,20 +232,20 @@ impl Memory {
         &mut self,
         keys: &mut [f32],
         children: &mut [Child],
-        tree: &Tree<'_>,
+        tree: &Bvh<'_>,
         point: [f32; 3],
-        stop: &Stop,
-        stack: &mut [TreeEntry],
-    ) -> Result<Followed, QueryError> {
+        stop: &Budget,
+        stack: &mut [ScratchEntry],
+    ) -> Result<CoherentClosest, QueryError> {
         stop.check()?;
         if stack.is_empty() {
             return Err(QueryError::NoQueue);
         }
-        let probe = Probe::new(tree, point)?;
+        let probe = PointQuery::new(tree, point)?;
         let first = tree.frame(0).ok_or(QueryError::NotServed)?;
         if probe.far || stop.relative > 0.0 || stop.absolute > 0.0 {
             let closest = closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())?;
-            return Ok(Followed { closest, safe_radius: 0.0 });
+            return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
         if self.of != of {
@@ -253,7 +253,7 @@ impl Memory {
         }
         let mut spent = Work::default();
         let d = probe.p - self.last.p;
-        let step = root(d.x * d.x + d.y * d.y + d.z * d.z) * (1.0 + ROUNDING) + TREE_TINY;
+        let step = sqrt_approx(d.x * d.x + d.y * d.y + d.z * d.z) * (1.0 + ROUNDING) + TREE_TINY;
         self.last.p = probe.p;
         if self.pace.follows(step) {
             match self.follow(keys, children, tree, &probe, (step, stop.steps), &mut spent) {
@@ -273,7 +273,7 @@ impl Memory {
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
         closest.work.triangles = closest.work.triangles.saturating_add(spent.triangles);
         closest.work.splits = closest.work.splits.saturating_add(spent.splits);
-        Ok(Followed { closest, safe_radius: 0.0 })
+        Ok(CoherentClosest { closest, safe_radius: 0.0 })
     }
 
     /// The answer from the front.
@@ -282,14 +282,14 @@ impl Memory {
         &mut self,
         keys: &mut [f32],
         children: &mut [Child],
-        tree: &Tree<'_>,
-        probe: &Probe,
+        tree: &Bvh<'_>,
+        probe: &PointQuery,
         (step, steps): (f32, u32),
         spent: &mut Work,
-    ) -> Result<Followed, Gap> {
+    ) -> Result<CoherentClosest, Gap> {
         let Memory { extent, planes, last, pace, .. } = self;
         let fresh = extent.count == 0;
-        let mut front = Front { keys, children, extent };
+        let mut front = TraversalFront { keys, children, extent };
         front.advance(if fresh { 0.0 } else { step });
         let mut follow = Follow::new(tree, probe, front, planes, AHEAD * step, steps);
         let path = follow.front.extent.path;
@@ -325,7 +325,7 @@ impl Memory {
                 nearest
             }
         };
-        let distance = root(nearest.distance_sq);
+        let distance = sqrt_approx(nearest.distance_sq);
         let weak = probe.weak(nearest.distance_sq);
         let error = tree.header().reach * (TREE_FAN * U32) + probe.units.surface_error;
         let path = follow.front.extent.path;
@@ -341,19 +341,19 @@ impl Memory {
         let safe_radius = safe(last.second);
         let patch = tree.leaf(nearest.child.node(), nearest.child.lane()).ok_or(Gap::Model)?;
         let closest = ClosestPoint {
-            lower: probe.lower(root(if weak > 0.0 { weak } else { 0.0 })),
+            lower: probe.lower(sqrt_approx(if weak > 0.0 { weak } else { 0.0 })),
             upper: probe.upper(distance),
             point: probe.units.point(patch.point(nearest.lane, nearest.v, nearest.w)),
             triangle: last.triangle,
             work: follow.work,
             ended: Ended::Exact,
         };
-        Ok(Followed { closest, safe_radius: probe.units.lower(safe_radius) })
+        Ok(CoherentClosest { closest, safe_radius: probe.units.lower(safe_radius) })
     }
 }
 
 /// The triangle's number in the input file.
-fn number(tree: &Tree<'_>, nearest: &Nearest) -> Option<u32> {
+fn number(tree: &Bvh<'_>, nearest: &Nearest) -> Option<u32> {
     let first = tree.links(nearest.child.node())?.triangle(nearest.child.lane());
     tree.source(first.wrapping_add(nearest.lane as u32))
 }

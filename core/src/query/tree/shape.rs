@@ -1,6 +1,6 @@
 //! Leaves without slivers: how far the bound that certifies a triangle can be from its distance.
 
-use crate::blob::Patch;
+use crate::blob::FanLeaf;
 use crate::fan::{Edges8, LANES_BELOW, WIDTH};
 use crate::tree::{WIDE, in_memory};
 use glam::Vec3;
@@ -9,13 +9,13 @@ use glam::Vec3;
 /// here: 2^-16, a quarter of a degree.
 pub(super) const SLIVER: f32 = 1.0 / 65_536.0;
 
-/// What `certified_distance` of any other triangle lacks of the true distance is below this part of
+/// What `lower_bound` of any other triangle lacks of the true distance is below this part of
 /// (distance + `reach`): 2^-14. It grows with 1/sine; measured at the limit: 2^-15.
 pub(super) const SHORTFALL: f32 = 1.0 / 16_384.0;
 
 /// Whether no triangle of a leaf is a sliver. Triangles without area are. `None`: the leaf is not
 /// one of a tree that was opened.
-pub(super) fn is_sound(patch: &Patch<'_>) -> Option<bool> {
+pub(super) fn is_sound(patch: &FanLeaf<'_>) -> Option<bool> {
     if !WIDE {
         let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
         return Some((0..count.min(WIDTH)).all(|lane| {
@@ -25,7 +25,7 @@ pub(super) fn is_sound(patch: &Patch<'_>) -> Option<bool> {
             SLIVER * (square(e) * square(g)) - square(normal) <= 0.0 && square(normal) > 0.0
         }));
     }
-    let edges = if patch.is_single() {
+    let edges = if patch.is_f32() {
         patch.single_edges8(Vec3::ZERO)?
     } else {
         patch.grid_edges8(Vec3::ZERO)?

@@ -36,13 +36,13 @@
 use super::closest::closest_point;
 use super::interval::{EVERYTHING, each_triangle, limit_of, lower_of, lower_of_box, witness};
 use super::leaf::nearest_triangle;
-use super::probe::{Probe, bounds};
+use super::probe::{PointQuery, bounds};
 use super::pseudonormal::{Candidates, Facing, facing, side_of_shared_feature};
-use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
-use crate::blob::Tree;
-use crate::num::root;
+use super::walk::{Descent, LeafVisit, LeafVisitor, ScratchEntry, descend};
+use crate::blob::Bvh;
+use crate::num::sqrt_approx;
 use crate::num::tolerance::{TREE_FAN, U32};
-use crate::query::{ClosestPoint, Ended, QueryError, Stop, Work};
+use crate::query::{Budget, ClosestPoint, Ended, QueryError, Work};
 use glam::Vec3;
 
 /// On which side of the surface a point is.
@@ -92,11 +92,11 @@ impl SignedDistance {
 /// their winding says.
 ///
 /// The side is undefined if the mesh is not closed and consistently wound
-/// ([`TreeHeader::is_closed`](crate::blob::TreeHeader::is_closed)), if the distance is not clear of
+/// ([`BvhHeader::is_closed`](crate::blob::BvhHeader::is_closed)), if the distance is not clear of
 /// the stored surface's error and of rounding, next to walls and gaps thinner than these, next to
 /// slivers so flat that they have no certain normal, and where triangles without area alone are
 /// near. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps`
-/// too few, the side is undefined, too. The tolerances of [`Stop`] do not apply: a side needs the
+/// too few, the side is undefined, too. The tolerances of [`Budget`] do not apply: a side needs the
 /// closest point itself.
 ///
 /// Triangle and point are those of [`closest_point`]; equidistant ones: the least in blob order.
@@ -109,16 +109,16 @@ impl SignedDistance {
 /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`],
 /// [`QueryError::NotServed`].
 pub fn signed_distance(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
-    stop: &Stop,
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
 ) -> Result<SignedDistance, QueryError> {
     stop.check()?;
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = Probe::new(tree, point)?;
+    let probe = PointQuery::new(tree, point)?;
     let closed = tree.header().is_closed();
     let mut search = Search { tree, steps: stop.steps, stack, work: Work::default(), cut: None };
     let survey = if probe.far { None } else { Some(search.survey(&probe)?) };
@@ -127,7 +127,7 @@ pub fn signed_distance(
         None => closest_point(
             tree,
             point,
-            &Stop { relative: 0.0, absolute: 0.0, ..*stop },
+            &Budget { relative: 0.0, absolute: 0.0, ..*stop },
             search.stack,
         )?,
     };
@@ -164,7 +164,7 @@ pub fn signed_distance(
 const NEARER: usize = 3;
 
 /// For a point outside of the model's box another one, a quarter of the model's size off it.
-fn outside_of_box(tree: &Tree<'_>, probe: &Probe) -> Option<Probe> {
+fn outside_of_box(tree: &Bvh<'_>, probe: &PointQuery) -> Option<PointQuery> {
     let (low, high) = bounds(tree);
     let size = (high - low).max_element();
     let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
@@ -184,16 +184,16 @@ fn outside_of_box(tree: &Tree<'_>, probe: &Probe) -> Option<Probe> {
             _ => x,
         };
     }
-    let near = Probe::new(tree, probe.units.point(Vec3::from_array(near))).ok()?;
+    let near = PointQuery::new(tree, probe.units.point(Vec3::from_array(near))).ok()?;
     let still_outside = out(near.p).into_iter().any(|x| x > 0.0);
     (moved && still_outside && !near.far).then_some(near)
 }
 
 /// What the descents of one question share.
 pub(super) struct Search<'a, 't> {
-    pub(super) tree: &'a Tree<'t>,
+    pub(super) tree: &'a Bvh<'t>,
     pub(super) steps: u32,
-    pub(super) stack: &'a mut [TreeEntry],
+    pub(super) stack: &'a mut [ScratchEntry],
     pub(super) work: Work,
     /// Why a descent was cut short.
     pub(super) cut: Option<Ended>,
@@ -201,15 +201,19 @@ pub(super) struct Search<'a, 't> {
 
 impl Search<'_, '_> {
     /// One descent; whether it ran to its end.
-    pub(super) fn descend(&mut self, p: Vec3, seek: &mut impl Seek) -> Result<bool, QueryError> {
+    pub(super) fn descend(
+        &mut self,
+        p: Vec3,
+        seek: &mut impl LeafVisitor,
+    ) -> Result<bool, QueryError> {
         let descent = descend(self.tree, p, self.stack, self.steps, seek, &mut self.work)?;
-        if let Descent::Short { steps, .. } = descent {
+        if let Descent::Truncated { steps, .. } = descent {
             self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
         }
         Ok(descent == Descent::Done)
     }
 
-    fn survey<'p>(&mut self, probe: &'p Probe) -> Result<Survey<'p>, QueryError> {
+    fn survey<'p>(&mut self, probe: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
         let tree = *self.tree;
         let margin = TREE_FAN * U32 * tree.header().reach;
         let mut sides = Sides {
@@ -225,7 +229,7 @@ impl Search<'_, '_> {
         let descent = descend(&tree, probe.p, self.stack, self.steps, &mut sides, &mut self.work)?;
         let Sides { best, solid, seen, least, .. } = sides;
         let mut missed = f32::INFINITY;
-        if let Descent::Short { least, steps } = descent {
+        if let Descent::Truncated { least, steps } = descent {
             missed = least;
             self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
         }
@@ -300,12 +304,12 @@ struct Place {
 impl Place {
     const NOWHERE: Place = Place { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lane: 0 };
 
-    fn number(&self, tree: &Tree<'_>) -> Option<u32> {
+    fn number(&self, tree: &Bvh<'_>) -> Option<u32> {
         Some(tree.links(self.node)?.triangle(self.child).wrapping_add(self.lane as u32))
     }
 
     /// Takes the nearer one; of two that are equally near the one with the lesser number.
-    fn improve(&mut self, tree: &Tree<'_>, other: Place) {
+    fn improve(&mut self, tree: &Bvh<'_>, other: Place) {
         if other.distance_sq < self.distance_sq
             || (other.distance_sq == self.distance_sq && other.number(tree) < self.number(tree))
         {
@@ -316,7 +320,7 @@ impl Place {
 
 /// What is near a point.
 struct Survey<'p> {
-    probe: &'p Probe,
+    probe: &'p PointQuery,
     margin: f32,
     /// The closest triangle.
     best: Place,
@@ -333,7 +337,7 @@ struct Survey<'p> {
 impl Survey<'_> {
     /// Not above the distance to the input mesh, input units; what was missed is not counted.
     fn lower(&self) -> f32 {
-        let distance = root(self.best.distance_sq);
+        let distance = sqrt_approx(self.best.distance_sq);
         self.probe.lower(
             self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }),
         )
@@ -341,11 +345,11 @@ impl Survey<'_> {
 
     /// A point on the way to a triangle, a sixteenth of the distance off it and within the ball
     /// about this one that is proved to be empty.
-    fn nearer(&self, tree: &Tree<'_>, to: Place) -> Option<Probe> {
+    fn nearer(&self, tree: &Bvh<'_>, to: Place) -> Option<PointQuery> {
         let probe = self.probe;
         let patch = tree.leaf(to.node, to.child)?;
         let place = probe.p + (witness(probe, &patch, to.lane) - probe.p) * 0.9375;
-        let nearer = Probe::new(tree, probe.units.point(place)).ok()?;
+        let nearer = PointQuery::new(tree, probe.units.point(place)).ok()?;
         let way = nearer.p - probe.p;
         let empty = probe.units.inward(self.lower());
         (way.dot(way) < empty * empty * (1.0 - 64.0 * U32)).then_some(nearer)
@@ -361,11 +365,11 @@ impl Survey<'_> {
         let ended = search.cut.unwrap_or(Ended::Exact);
         if best.node == u32::MAX {
             // No step was allowed, or there was room for nothing: the box of the model.
-            let none = Stop { steps: 0, ..Stop::EXACT };
-            let closest = closest_point(tree, point, &none, &mut [TreeEntry::EMPTY])?;
+            let none = Budget { steps: 0, ..Budget::EXACT };
+            let closest = closest_point(tree, point, &none, &mut [ScratchEntry::EMPTY])?;
             return Ok(ClosestPoint { ended, ..closest });
         }
-        let distance = root(best.distance_sq);
+        let distance = sqrt_approx(best.distance_sq);
         let mut lower = self.lower();
         if self.missed < f32::INFINITY {
             let missed = lower_of_box(probe, self.missed);
@@ -386,8 +390,8 @@ impl Survey<'_> {
 
 /// Looks for the closest triangle and for how all those face that may be it.
 struct Sides<'a, 't> {
-    tree: &'a Tree<'t>,
-    probe: &'a Probe,
+    tree: &'a Bvh<'t>,
+    probe: &'a PointQuery,
     margin: f32,
     best: Place,
     solid: Place,
@@ -396,16 +400,16 @@ struct Sides<'a, 't> {
     least: [f32; 4],
 }
 
-impl Seek for Sides<'_, '_> {
+impl LeafVisitor for Sides<'_, '_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
     }
 
     #[inline(always)]
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let near = nearest_triangle(&visit.patch, self.probe.p)?;
-        if near.certified_sq <= self.limit {
+        if near.lower_bound_sq <= self.limit {
             self.look(visit);
         }
         Some(true)
@@ -414,10 +418,10 @@ impl Seek for Sides<'_, '_> {
 
 impl Sides<'_, '_> {
     #[inline(never)]
-    fn look(&mut self, visit: &Visit<'_>) {
+    fn look(&mut self, visit: &LeafVisit<'_>) {
         let (patch, p) = (&visit.patch, self.probe.p);
-        each_triangle(self.probe, patch, |lane, distance_sq, certified_sq| {
-            if certified_sq > self.limit {
+        each_triangle(self.probe, patch, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit {
                 return;
             }
             let here = Place { distance_sq, node: visit.node, child: visit.lane, lane };
@@ -432,7 +436,7 @@ impl Sides<'_, '_> {
             if let Some(seen) = self.seen.get_mut(facing as usize) {
                 seen.improve(self.tree, here);
             }
-            let lower = lower_of(patch, lane, p, distance_sq, certified_sq);
+            let lower = lower_of(patch, lane, p, distance_sq, lower_bound_sq);
             if let Some(least) = self.least.get_mut(facing as usize)
                 && lower < *least
             {

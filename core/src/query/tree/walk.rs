@@ -7,14 +7,14 @@
 //! that a question depends on does not depend on the order of visits.
 
 use crate::blob::layout::WIDTH;
-use crate::blob::{Patch, Tree};
+use crate::blob::{Bvh, FanLeaf};
 use crate::query::{QueryError, Work};
 use crate::tree::{LANE_MASK, NodeFrame, WIDE, box_distances, nearest_lane};
 use glam::Vec3;
 
 /// A child that waits: 8 bytes of the caller's stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TreeEntry {
+pub struct ScratchEntry {
     /// Squared lower bound of its distance, or the parameter at which a segment enters it; the
     /// lane in the low bits.
     pub(super) key: f32,
@@ -22,14 +22,14 @@ pub struct TreeEntry {
     pub(super) node: u32,
 }
 
-impl TreeEntry {
+impl ScratchEntry {
     /// Any value, for filling arrays.
-    pub const EMPTY: TreeEntry = TreeEntry { key: 0.0, node: 0 };
+    pub const EMPTY: ScratchEntry = ScratchEntry { key: 0.0, node: 0 };
 }
 
 /// A leaf that a descent has come to.
-pub(super) struct Visit<'a> {
-    pub(super) patch: Patch<'a>,
+pub(super) struct LeafVisit<'a> {
+    pub(super) patch: FanLeaf<'a>,
     /// Squared lower bound of everything in it.
     pub(super) key: f32,
     pub(super) node: u32,
@@ -37,13 +37,13 @@ pub(super) struct Visit<'a> {
 }
 
 /// What a question does with leaves.
-pub(super) trait Seek {
+pub(super) trait LeafVisitor {
     /// Squared bound above which nothing is wanted.
     fn limit(&self) -> f32;
 
     /// Looks at a leaf; `Some(false)` ends the descent, `None` says that the tree is not one that
     /// was opened.
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool>;
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool>;
 }
 
 /// How a descent ended.
@@ -55,14 +55,14 @@ pub(super) enum Descent {
     Answered,
     /// The budget is used up, or something did not fit the stack: nothing below this squared bound
     /// was missed.
-    Short { least: f32, steps: bool },
+    Truncated { least: f32, steps: bool },
 }
 
 /// Puts the children of `node` within the limit on the stack, but for the nearest.
 #[inline(always)]
 #[allow(clippy::too_many_arguments, reason = "the state of both descents, inlined")]
 pub(super) fn wait(
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
     waiting: &mut usize,
     dropped: &mut f32,
     node: u32,
@@ -75,7 +75,7 @@ pub(super) fn wait(
     if WIDE && let Some(slots) = room {
         let mut next = 0usize;
         for &key in keys {
-            slots[next & (WIDTH - 1)] = TreeEntry { key, node };
+            slots[next & (WIDTH - 1)] = ScratchEntry { key, node };
             next += usize::from((key <= limit) & (key != nearest));
         }
         *waiting += next;
@@ -87,7 +87,7 @@ pub(super) fn wait(
         if key.to_bits() <= limit && key.to_bits() != nearest {
             match stack.get_mut(*waiting) {
                 Some(slot) => {
-                    *slot = TreeEntry { key, node };
+                    *slot = ScratchEntry { key, node };
                     *waiting += 1;
                 }
                 None => *dropped = if key < *dropped { key } else { *dropped },
@@ -99,11 +99,11 @@ pub(super) fn wait(
 /// Visits every leaf within `seek`'s limit.
 #[inline(always)]
 pub(super) fn descend(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     p: Vec3,
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
     steps: u32,
-    seek: &mut impl Seek,
+    seek: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
     let mut waiting = 0usize;
@@ -116,7 +116,7 @@ pub(super) fn descend(
                 .iter()
                 .take(waiting)
                 .fold(bound.min(dropped), |least, entry| least.min(entry.key));
-            return Ok(Descent::Short { least: rest, steps: true });
+            return Ok(Descent::Truncated { least: rest, steps: true });
         }
         let links = tree.links(node).ok_or(QueryError::Model)?;
         let record = tree.frame(node).ok_or(QueryError::NotServed)?;
@@ -133,7 +133,7 @@ pub(super) fn descend(
         // The nearest child's links are at hand; what comes off the stack has to look its parent's
         // up.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);
-        let mut entry = TreeEntry { key: nearest, node };
+        let mut entry = ScratchEntry { key: nearest, node };
         loop {
             if found {
                 bound = f32::from_bits(entry.key.to_bits() & !LANE_MASK);
@@ -144,7 +144,7 @@ pub(super) fn descend(
                 work.triangles += child.tag.triangles() as u32;
                 let patch = tree.patch(child.at, child.tag).ok_or(QueryError::Model)?;
                 let lane = entry.key.to_bits() & LANE_MASK;
-                let visit = Visit { patch, key: bound, node: entry.node, lane };
+                let visit = LeafVisit { patch, key: bound, node: entry.node, lane };
                 if !seek.leaf(&visit).ok_or(QueryError::Model)? {
                     return Ok(Descent::Answered);
                 }
@@ -153,7 +153,7 @@ pub(super) fn descend(
             loop {
                 let Some(top) = waiting.checked_sub(1) else {
                     return Ok(if dropped <= seek.limit() {
-                        Descent::Short { least: dropped, steps: false }
+                        Descent::Truncated { least: dropped, steps: false }
                     } else {
                         Descent::Done
                     });

@@ -4,11 +4,11 @@
 use super::closest::closest_point;
 use super::interval::{each_triangle, limit_within, lower_of, nearness, seen_from};
 use super::leaf::nearest_triangle;
-use super::probe::Probe;
-use super::walk::{Descent, Seek, TreeEntry, Visit, descend};
-use crate::blob::Tree;
-use crate::num::root;
-use crate::query::{Ended, QueryError, Stop, Work};
+use super::probe::PointQuery;
+use super::walk::{Descent, LeafVisit, LeafVisitor, ScratchEntry, descend};
+use crate::blob::Bvh;
+use crate::num::sqrt_approx;
+use crate::query::{Budget, Ended, QueryError, Work};
 
 /// Whether the mesh is within a distance, about the input mesh in real arithmetic. Said by
 /// [`is_within`], and by [`tight::is_within`](crate::query::tight::is_within) of a mesh that is
@@ -52,9 +52,9 @@ impl Within {
 ///
 /// Distance 0 asks whether the point touches the surface: `No` or, as f32 cannot prove that it
 /// does, `Unknown`. `Unknown` for want of precision needs a distance within
-/// [`TreeHeader::surface_error`](crate::blob::TreeHeader) and rounding of the one asked about.
+/// [`BvhHeader::surface_error`](crate::blob::BvhHeader) and rounding of the one asked about.
 /// Farther than a million model sizes the model's box answers. `stack` as for [`closest_point`]; a
-/// shorter one may turn an answer into `Unknown`, never into a wrong one. Of [`Stop`] only `steps`
+/// shorter one may turn an answer into `Unknown`, never into a wrong one. Of [`Budget`] only `steps`
 /// matters.
 ///
 /// Cost: one node if the model's box is out of reach; else what lies within `distance`, and no more
@@ -64,11 +64,11 @@ impl Within {
 /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative, NaN
 /// or infinite; [`QueryError::NoQueue`]; [`QueryError::NotServed`].
 pub fn is_within(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     distance: f32,
-    stop: &Stop,
-    stack: &mut [TreeEntry],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
 ) -> Result<Within, QueryError> {
     stop.check()?;
     if !(distance >= 0.0 && distance.is_finite()) {
@@ -77,7 +77,7 @@ pub fn is_within(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = Probe::new(tree, point)?;
+    let probe = PointQuery::new(tree, point)?;
     if probe.far {
         return from_afar(tree, point, distance, stack);
     }
@@ -91,8 +91,8 @@ pub fn is_within(
                 seek.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
             (Verdict::Yes { triangle: Some(triangle) }, Ended::Exact)
         }
-        Descent::Short { steps: true, .. } => (Verdict::Unknown, Ended::Steps),
-        Descent::Short { steps: false, .. } => (Verdict::Unknown, Ended::Capacity),
+        Descent::Truncated { steps: true, .. } => (Verdict::Unknown, Ended::Steps),
+        Descent::Truncated { steps: false, .. } => (Verdict::Unknown, Ended::Capacity),
         _ if seek.doubtful => (Verdict::Unknown, Ended::Level),
         _ => (Verdict::No, Ended::Exact),
     };
@@ -101,12 +101,12 @@ pub fn is_within(
 
 #[cold]
 fn from_afar(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     distance: f32,
-    stack: &mut [TreeEntry],
+    stack: &mut [ScratchEntry],
 ) -> Result<Within, QueryError> {
-    let closest = closest_point(tree, point, &Stop::EXACT, stack)?;
+    let closest = closest_point(tree, point, &Budget::EXACT, stack)?;
     let verdict = match closest.triangle {
         triangle @ Some(_) if closest.upper <= distance => Verdict::Yes { triangle },
         _ if closest.lower > distance => Verdict::No,
@@ -117,8 +117,8 @@ fn from_afar(
 }
 
 struct Threshold<'a> {
-    tree: &'a Tree<'a>,
-    probe: &'a Probe,
+    tree: &'a Bvh<'a>,
+    probe: &'a PointQuery,
     /// Input units.
     distance: f32,
     /// Squared bound above which everything is certainly farther.
@@ -129,22 +129,22 @@ struct Threshold<'a> {
     doubtful: bool,
 }
 
-impl Seek for Threshold<'_> {
+impl LeafVisitor for Threshold<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
     }
 
     #[inline(always)]
-    fn leaf(&mut self, visit: &Visit<'_>) -> Option<bool> {
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let near = nearest_triangle(&visit.patch, self.probe.p)?;
         if near.distance_sq <= self.limit
-            && self.probe.upper(root(near.distance_sq)) <= self.distance
+            && self.probe.upper(sqrt_approx(near.distance_sq)) <= self.distance
         {
             self.near = Some(self.number(visit, near.distance_sq)?);
             return Some(false);
         }
-        if near.certified_sq <= self.limit && !self.doubtful {
+        if near.lower_bound_sq <= self.limit && !self.doubtful {
             self.doubt(visit)?;
         }
         Some(self.near.is_none())
@@ -155,7 +155,7 @@ impl Threshold<'_> {
     /// Number in the blob of the first triangle at `distance_sq`.
     #[cold]
     #[inline(never)]
-    fn number(&self, visit: &Visit<'_>, distance_sq: f32) -> Option<u32> {
+    fn number(&self, visit: &LeafVisit<'_>, distance_sq: f32) -> Option<u32> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
         let here = |lane: &usize| {
             nearness(&seen_from(&visit.patch, *lane, self.probe.p)).distance_sq == distance_sq
@@ -168,18 +168,18 @@ impl Threshold<'_> {
     /// a sliver that is certainly within.
     #[cold]
     #[inline(never)]
-    fn doubt(&mut self, visit: &Visit<'_>) -> Option<()> {
+    fn doubt(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let Threshold { probe, limit, distance, .. } = *self;
         let (mut doubtful, mut within) = (false, None);
-        each_triangle(probe, &visit.patch, |lane, distance_sq, certified_sq| {
-            if certified_sq > limit {
+        each_triangle(probe, &visit.patch, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > limit {
                 return;
             }
-            if within.is_none() && probe.upper(root(distance_sq)) <= distance {
+            if within.is_none() && probe.upper(sqrt_approx(distance_sq)) <= distance {
                 within = Some(lane);
             }
             if !doubtful {
-                let lower = lower_of(&visit.patch, lane, probe.p, distance_sq, certified_sq);
+                let lower = lower_of(&visit.patch, lane, probe.p, distance_sq, lower_bound_sq);
                 doubtful = probe.lower(lower) <= distance;
             }
         });

@@ -6,12 +6,12 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::tree::{self, Scratch, Tree};
+use meshsweep_suite::ask::tree::{self, Bvh, Scratch};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
 extern "C" fn ask_closest(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     input: &Input<'_>,
     scratch: &mut Scratch<'_>,
     fold: &mut Fold,

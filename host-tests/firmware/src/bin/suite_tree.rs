@@ -5,7 +5,7 @@
 #[path = "../suite.rs"]
 mod suite;
 
-use meshsweep_suite::ask::tree::{Scratch, Tree};
+use meshsweep_suite::ask::tree::{Bvh, Scratch};
 use suite::Shared;
 
 static SCRATCH: Shared<Scratch<'static>> = Shared::new(Scratch::new());
@@ -14,5 +14,5 @@ static SCRATCH: Shared<Scratch<'static>> = Shared::new(Scratch::new());
 #[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
 fn main() -> ! {
     // SAFETY: the entry runs once.
-    unsafe { suite::main::<Tree<'static>>(&SCRATCH) }
+    unsafe { suite::main::<Bvh<'static>>(&SCRATCH) }
 }

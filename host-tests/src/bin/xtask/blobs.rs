@@ -4,11 +4,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use meshsweep_alloc::emit::{self, cut};
-use meshsweep_alloc::hull::{BuildOptions, build};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::precision::VertexBits;
-use meshsweep_alloc::tree::{self, TreeOptions};
+use meshsweep::emit::{self, cut};
+use meshsweep::hull::{BuildOptions, build};
+use meshsweep::mesh::Mesh;
+use meshsweep::precision::VertexBits;
+use meshsweep::tree::{self, TreeOptions};
 use meshsweep_core::Model;
 use meshsweep_host_tests::generate::{Triangles, bracket, torus};
 use meshsweep_host_tests::golden::{bracket_hulls, torus_triboxes};
@@ -183,7 +183,7 @@ fn write_if_changed(path: &Path, content: &[u8]) -> Result<(), String> {
 mod tests {
     use super::Blob;
     use meshsweep_core::blob::layout::VertexFormat;
-    use meshsweep_core::{Model, Tree, Triboxes};
+    use meshsweep_core::{Bvh, Model, Triboxes};
     use meshsweep_suite::Subject;
     use meshsweep_suite::ask::tight::Hulls;
 
@@ -198,7 +198,7 @@ mod tests {
         }
         for blob in TREES {
             let bytes = blob.bytes().expect("a blob");
-            assert!(Tree::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
+            assert!(Bvh::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
         }
         let bytes = Blob::Triboxes.bytes().expect("a blob");
         assert!(Triboxes::open(&bytes).expect("opens").memory_suffices());
@@ -223,10 +223,10 @@ mod tests {
     fn trees_differ_in_format_and_in_what_they_hold() {
         for blob in TREES {
             let bytes = blob.bytes().expect("a blob");
-            let tree = Tree::open(&bytes).expect("opens");
+            let tree = Bvh::open(&bytes).expect("opens");
             let header = tree.header();
             assert!(tree.serves_distances() && tree.serves_segments(), "{blob:?}");
-            assert_eq!(header.is_single(), blob == Blob::SingleTree, "{blob:?}");
+            assert_eq!(header.is_f32(), blob == Blob::SingleTree, "{blob:?}");
             assert_eq!(header.is_closed(), blob != Blob::SoupTree, "{blob:?}");
             assert_eq!(tree.serves_culling(), blob == Blob::SoupTree, "{blob:?}");
             let triangles = match blob {

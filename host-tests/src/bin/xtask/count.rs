@@ -10,8 +10,8 @@ use std::env;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
-use meshsweep_core::query::{Search, Stop, closest_point, first_hit, outer_hits};
-use meshsweep_core::refine::{Face, Front};
+use meshsweep_core::query::{Budget, Search, closest_point, first_hit, outer_hits};
+use meshsweep_core::refine::{Face, RefinedHull};
 use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::table::{Cell, Table, fixed};
@@ -81,7 +81,7 @@ pub fn ask(question: &str, queries: usize) -> Result<(), String> {
     let kind = Points::ALL.into_iter().find(|kind| kind.name() == question);
     if let Some(kind) = kind {
         for point in points(&subject, kind, QUERIES[1]).into_iter().take(queries) {
-            black_box(closest_point(&model, point, &Stop::EXACT, &mut queue).map_err(failed)?);
+            black_box(closest_point(&model, point, &Budget::EXACT, &mut queue).map_err(failed)?);
         }
         return Ok(());
     }
@@ -89,10 +89,10 @@ pub fn ask(question: &str, queries: usize) -> Result<(), String> {
         (vec![0; capacities.front_words], vec![0; capacities.front_words]);
     let mut candidates = vec![Face::EMPTY; 64];
     let mut hits = [meshsweep_core::query::Hit::EMPTY; 16];
-    let mut front = Front::new(&mut performed, &mut swept, &mut candidates);
+    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     for [a, b] in segments(&subject, QUERIES[1]).into_iter().take(queries) {
         if question == "first_hit" {
-            black_box(first_hit(&model, a, b, &Stop::EXACT, &mut queue).map_err(failed)?);
+            black_box(first_hit(&model, a, b, &Budget::EXACT, &mut queue).map_err(failed)?);
         } else {
             let search = if question == "outer_first" { Search::First } else { Search::Outer };
             black_box(outer_hits(&model, a, b, search, &mut front, &mut hits).map_err(failed)?);

@@ -9,7 +9,7 @@ use meshsweep_host_tests::golden::{
 };
 use meshsweep_host_tests::measure::Subject;
 
-use meshsweep_alloc::hull::BuildOptions;
+use meshsweep::hull::BuildOptions;
 
 use crate::steps::Steps;
 use crate::workspace;

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::tight::{ChainOptions, chain, cut};
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::tight::{ChainOptions, chain, cut};
 use meshsweep_core::{Model, TightHulls};
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::table::{Cell, Table, fixed};

@@ -94,7 +94,7 @@ impl Reading {
     pub fn of_host(blob: &[u8]) -> Result<Self, String> {
         let mut here = Here { blocks: Vec::new() };
         let plan = Plan::STANDARD;
-        let mut ran = run::<tree::Tree<'_>>(blob, plan, &mut tree::Scratch::new(), &mut here);
+        let mut ran = run::<tree::Bvh<'_>>(blob, plan, &mut tree::Scratch::new(), &mut here);
         if ran == Err(Refused::NO_SECTION) {
             ran =
                 run::<triboxes::Triboxes<'_>>(blob, plan, &mut triboxes::Scratch::new(), &mut here);

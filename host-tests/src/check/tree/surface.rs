@@ -1,7 +1,7 @@
 //! Whether the leaves hold the input's triangles, and as near to where they were as the header
 //! says.
 
-use meshsweep_alloc::mesh::Mesh;
+use meshsweep::mesh::Mesh;
 
 use super::TreeProof;
 use super::parse::TreeBlob;

@@ -126,7 +126,7 @@ mod tests {
     use crate::measure::Subject;
     use crate::measure::bounds::enclosing_sphere::Sphere;
     use glam::DVec3;
-    use meshsweep_alloc::mesh::Mesh;
+    use meshsweep::mesh::Mesh;
 
     const FLAT: [[f32; 3]; 3] = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
 

@@ -1,11 +1,11 @@
 //! Void of other bounds: convex ones, and triboxes.
 
 use glam::DVec3;
-use meshsweep_alloc::emit::{Parts, assemble};
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_alloc::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
-use meshsweep_core::Tree;
+use meshsweep::emit::{Parts, assemble};
+use meshsweep::mesh::Mesh;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
+use meshsweep_core::Bvh;
 use meshsweep_core::blob::layout::{
     TIGHT_BYTES, TIGHT_HULL_BYTES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
     TRIBOXES_BYTES,
@@ -87,7 +87,7 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
     counts.retain(|&(count, _)| count <= MOST_TRIBOXES);
     let leaves = counts.iter().map(|&(count, _)| count).max().unwrap_or(1);
     let bytes = box_tree(&subject.mesh);
-    let tree = Tree::open(&bytes).map_err(|error| error.to_string())?;
+    let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
     let options = SplitOptions { leaves, ..SplitOptions::default() };
     let all = Hierarchy::new(&subject.mesh, &tree, &options).map_err(|error| error.to_string())?;
     for (count, faces) in counts {

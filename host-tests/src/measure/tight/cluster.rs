@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use meshsweep_alloc::mesh::Mesh;
+use meshsweep::mesh::Mesh;
 
 /// Cubes along the longest side, in the order in which they are tried.
 const CELLS: [u32; 9] = [256, 160, 112, 80, 64, 48, 36, 24, 12];

@@ -1,7 +1,7 @@
 //! Hulls drawn over their mesh: parallel projection, the farthest triangle first.
 
 use glam::{DMat3, DVec3};
-use meshsweep_alloc::mesh::Mesh;
+use meshsweep::mesh::Mesh;
 use plotters::prelude::*;
 
 use super::Measured;

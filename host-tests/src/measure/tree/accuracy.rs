@@ -1,8 +1,8 @@
 //! Answers against every triangle in f64: of the surface that the blob stores, and of the input.
 
 use glam::{DVec3, Vec3};
-use meshsweep_core::Tree;
-use meshsweep_core::query::Stop;
+use meshsweep_core::Bvh;
+use meshsweep_core::query::Budget;
 
 use super::{Answers, Built};
 use crate::measure::Subject;
@@ -45,7 +45,7 @@ pub fn table(subject: &Subject, grid: &Built, single: &Built) -> Result<Table, S
         let quantisation = 2.0 * f64::from(tree.header().surface_error) * unit;
         for kind in [Points::Far, Points::Near] {
             let asked = points(subject, kind, count);
-            let run = Answers::of(&tree, &asked, &Stop::EXACT)?;
+            let run = Answers::of(&tree, &asked, &Budget::EXACT)?;
             let mut outside = 0;
             let (mut middle, mut witness, mut apart) = (Vec::new(), 0f64, 0f64);
             let (mut widest, mut width) = (0f64, 0f64);
@@ -104,7 +104,7 @@ fn contains(lower: f64, upper: f64, truth: f64, point: [f32; 3]) -> bool {
 }
 
 /// Triangles of the surface that the blob stores, input units, exact.
-fn stored(tree: &Tree<'_>) -> Result<Vec<[DVec3; 3]>, String> {
+fn stored(tree: &Bvh<'_>) -> Result<Vec<[DVec3; 3]>, String> {
     let header = tree.header();
     let unit = 2f64.powi(header.grid_exponent + tree.scale_exponent());
     let mut triangles = Vec::with_capacity(header.triangles as usize);

@@ -1,7 +1,7 @@
 //! Speed for accuracy: what an early stop costs, guarantees and finds.
 
-use meshsweep_core::Tree;
-use meshsweep_core::query::Stop;
+use meshsweep_core::Bvh;
+use meshsweep_core::query::Budget;
 
 use super::{Answers, Built};
 use crate::measure::Subject;
@@ -36,12 +36,13 @@ pub fn tables(subject: &Subject, built: &Built) -> Result<[Table; 2], String> {
         |first: &'static str| ["points", first].into_iter().chain(MEASURED).collect::<Vec<_>>();
     let title = "Box tree, closest point within a relative tolerance";
     let mut tolerances = Table::new("tree_tolerance", title, &columns("tolerance %"));
-    let stops = TOLERANCES
-        .map(|relative| (fixed(100.0 * f64::from(relative), 1), Stop { relative, ..Stop::EXACT }));
+    let stops = TOLERANCES.map(|relative| {
+        (fixed(100.0 * f64::from(relative), 1), Budget { relative, ..Budget::EXACT })
+    });
     fill(&mut tolerances, subject, &tree, &stops)?;
     let title = "Box tree, closest point after so many opened nodes";
     let mut steps = Table::new("tree_steps", title, &columns("steps"));
-    let stops = STEPS.map(|steps| (Cell::from(steps), Stop { steps, ..Stop::EXACT }));
+    let stops = STEPS.map(|steps| (Cell::from(steps), Budget { steps, ..Budget::EXACT }));
     fill(&mut steps, subject, &tree, &stops)?;
     Ok([tolerances, steps])
 }
@@ -49,15 +50,15 @@ pub fn tables(subject: &Subject, built: &Built) -> Result<[Table; 2], String> {
 fn fill(
     table: &mut Table,
     subject: &Subject,
-    tree: &Tree<'_>,
-    stops: &[(Cell, Stop)],
+    tree: &Bvh<'_>,
+    stops: &[(Cell, Budget)],
 ) -> Result<(), String> {
     let thousandth = 0.001 * subject.diagonal();
     for kind in KINDS {
         let asked = points(subject, kind, COUNT);
         let timed =
-            |stop: &Stop| fastest(|| Answers::of(tree, &asked, stop), |run| run.nanoseconds);
-        let exact = timed(&Stop::EXACT)?;
+            |stop: &Budget| fastest(|| Answers::of(tree, &asked, stop), |run| run.nanoseconds);
+        let exact = timed(&Budget::EXACT)?;
         let quantised = exact.mean(|answer| f64::from(answer.upper - answer.lower));
         for (name, stop) in stops {
             let run = timed(stop)?;

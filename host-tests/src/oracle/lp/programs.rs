@@ -1,7 +1,7 @@
 //! Random and degenerate programs, representable for the oracle.
 
 use glam::DVec3;
-use meshsweep_alloc::lp::HalfSpace;
+use meshsweep::lp::HalfSpace;
 
 use super::Program;
 use super::random::Random;

@@ -1,7 +1,7 @@
 //! Programs as edge collapse poses them: the planes of an edge's star, in its own frame.
 
 use glam::{DMat3, DVec3};
-use meshsweep_alloc::lp::HalfSpace;
+use meshsweep::lp::HalfSpace;
 
 use super::Program;
 use super::random::Random;

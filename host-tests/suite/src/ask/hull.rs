@@ -4,10 +4,10 @@ pub use meshsweep_core::Model;
 use meshsweep_core::QueueEntry;
 use meshsweep_core::blob::Header;
 use meshsweep_core::query::{
-    Hit, Search, Stop, all_hits as core_all_hits, closest_point, first_hit as core_first_hit,
+    Budget, Hit, Search, all_hits as core_all_hits, closest_point, first_hit as core_first_hit,
     outer_hits as core_outer_hits,
 };
-use meshsweep_core::refine::{Face, Front, hull_faces};
+use meshsweep_core::refine::{Face, RefinedHull, hull_faces};
 
 use super::{Refused, Subject, timed};
 use crate::fold::Fold;
@@ -161,7 +161,7 @@ pub fn closest(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(model, point, &Stop::EXACT, &mut scratch.queue)) {
+    match timed(clock, || closest_point(model, point, &Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => {
             super::closest_point(fold, &answer);
             answer.point
@@ -181,7 +181,7 @@ pub fn first_hit(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_first_hit(model, a, b, &Stop::EXACT, &mut scratch.queue)) {
+    match timed(clock, || core_first_hit(model, a, b, &Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => super::segment_hit(fold, &answer),
         Err(error) => super::refusal(fold, error),
     }
@@ -215,7 +215,7 @@ pub fn outer_hits(
 ) {
     let Scratch { hits: found, performed, swept, candidates, .. } = scratch;
     let mut ask = |search| {
-        let mut front = Front::new(performed, swept, candidates);
+        let mut front = RefinedHull::new(performed, swept, candidates);
         match core_outer_hits(model, a, b, search, &mut front, found) {
             Ok(answer) => {
                 fold.f32(answer.lower);

@@ -2,9 +2,9 @@
 
 pub use meshsweep_core::TightHull;
 use meshsweep_core::TightHulls;
-use meshsweep_core::query::Stop;
+use meshsweep_core::query::Budget;
 use meshsweep_core::query::tight::{closest_point, is_within as core_is_within};
-use meshsweep_core::query::tree::{TreeEntry, Verdict};
+use meshsweep_core::query::tree::{ScratchEntry, Verdict};
 
 use super::{Refused, Subject, closest_point as fold_answer, how, refusal, timed, tree};
 use crate::fold::Fold;
@@ -17,14 +17,14 @@ const STACK: usize = 64;
 /// What the queries need beside the hull.
 #[derive(Debug)]
 pub struct Scratch {
-    stack: [TreeEntry; STACK],
+    stack: [ScratchEntry; STACK],
 }
 
 impl Scratch {
     /// Scratch that no query has used.
     #[must_use]
     pub const fn new() -> Self {
-        Self { stack: [TreeEntry::EMPTY; STACK] }
+        Self { stack: [ScratchEntry::EMPTY; STACK] }
     }
 }
 
@@ -59,7 +59,7 @@ impl<'t> Subject<'t> for Hulls<'t> {
     /// The opened hull, and the entries that it asks for.
     fn memory(&self) -> usize {
         let entries = self.finest.tree().header().stack_entries as usize;
-        size_of::<TightHull<'_>>() + entries.saturating_mul(size_of::<TreeEntry>())
+        size_of::<TightHull<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
     fn suits(kind: Kind) -> bool {
@@ -140,7 +140,7 @@ pub fn closest(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(&hulls.finest, point, &Stop::EXACT, &mut scratch.stack)) {
+    match timed(clock, || closest_point(&hulls.finest, point, &Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold_answer(fold, &answer);
             answer.point
@@ -164,12 +164,12 @@ pub fn stopped(
     fold: &mut Fold,
 ) {
     let coarsest = hulls.all.get(0).unwrap_or(hulls.finest);
-    let tolerant = Stop { absolute: distance, ..Stop::EXACT };
-    let brief = Stop { steps: 2, ..Stop::EXACT };
+    let tolerant = Budget { absolute: distance, ..Budget::EXACT };
+    let brief = Budget { steps: 2, ..Budget::EXACT };
     for (hull, stop, entries) in [
         (&coarsest, tolerant, STACK),
         (&hulls.finest, brief, STACK),
-        (&hulls.finest, Stop::EXACT, 4),
+        (&hulls.finest, Budget::EXACT, 4),
     ] {
         let stack = scratch.stack.get_mut(..entries).unwrap_or_default();
         match timed(clock, || closest_point(hull, point, &stop, stack)) {
@@ -190,7 +190,7 @@ pub fn is_within(
     fold: &mut Fold,
 ) {
     match timed(clock, || {
-        core_is_within(&hulls.finest, point, distance, &Stop::EXACT, &mut scratch.stack)
+        core_is_within(&hulls.finest, point, distance, &Budget::EXACT, &mut scratch.stack)
     }) {
         Ok(answer) => {
             fold.word(match answer.verdict {

@@ -4,9 +4,11 @@ mod distance;
 mod meeting;
 mod sight;
 
-pub use meshsweep_core::Tree;
+pub use meshsweep_core::Bvh;
 use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{Hint, Near, PairEntry, Session, TreeEntry, TrianglePair};
+use meshsweep_core::query::tree::{
+    CoherentQuery, Hint, Neighbor, PairEntry, ScratchEntry, TrianglePair,
+};
 
 use super::{Refused, Subject};
 use crate::fold::Fold;
@@ -25,11 +27,11 @@ const STACK: usize = 64;
 /// What the queries need beside the tree.
 #[derive(Debug)]
 pub struct Scratch<'t> {
-    stack: [TreeEntry; STACK],
+    stack: [ScratchEntry; STACK],
     hits: [Hit; 8],
-    near: [Near; 8],
+    near: [Neighbor; 8],
     hint: Hint,
-    session: Session<'t>,
+    session: CoherentQuery<'t>,
     facing: [u32; 64],
     pairs: [PairEntry; PairEntry::ENOUGH],
     meeting: [TrianglePair; 8],
@@ -40,11 +42,11 @@ impl Scratch<'_> {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            stack: [TreeEntry::EMPTY; STACK],
+            stack: [ScratchEntry::EMPTY; STACK],
             hits: [Hit::EMPTY; 8],
-            near: [Near::EMPTY; 8],
+            near: [Neighbor::EMPTY; 8],
             hint: Hint::NONE,
-            session: Session::new(),
+            session: CoherentQuery::new(),
             facing: [0; 64],
             pairs: [PairEntry::EMPTY; PairEntry::ENOUGH],
             meeting: [TrianglePair::EMPTY; 8],
@@ -58,7 +60,7 @@ impl Default for Scratch<'_> {
     }
 }
 
-impl<'t> Subject<'t> for Tree<'t> {
+impl<'t> Subject<'t> for Bvh<'t> {
     type Scratch = Scratch<'t>;
 
     fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
@@ -76,7 +78,7 @@ impl<'t> Subject<'t> for Tree<'t> {
     /// The opened tree, and the entries that it asks for.
     fn memory(&self) -> usize {
         let entries = self.header().stack_entries as usize;
-        size_of::<Tree<'_>>() + entries.saturating_mul(size_of::<TreeEntry>())
+        size_of::<Bvh<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
     fn suits(kind: Kind) -> bool {
@@ -114,7 +116,7 @@ impl<'t> Subject<'t> for Tree<'t> {
                 closest(self, place.near(base), scratch, clock, fold);
             }
             Kind::ClosestPath => follow(self, place.step(), scratch, clock, fold),
-            Kind::Session => session(self, place.step_or_jump(), scratch, clock, fold),
+            Kind::CoherentQuery => session(self, place.step_or_jump(), scratch, clock, fold),
             Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, clock, fold),
             Kind::Within => is_within(self, place.far(), place.distance(), scratch, clock, fold),
             Kind::AllWithin => {
@@ -140,14 +142,14 @@ impl<'t> Subject<'t> for Tree<'t> {
 ///
 /// # Errors
 /// The core's refusal.
-pub fn open(bytes: &[u8]) -> Result<Tree<'_>, Refused> {
-    Tree::open(bytes).map_err(Refused::of)
+pub fn open(bytes: &[u8]) -> Result<Bvh<'_>, Refused> {
+    Bvh::open(bytes).map_err(Refused::of)
 }
 
 /// The surface's box in input units: products of a small integer and a power of two, the same
 /// everywhere.
 #[must_use]
-pub fn bounds(tree: &Tree<'_>) -> Bounds {
+pub fn bounds(tree: &Bvh<'_>) -> Bounds {
     let header = tree.header();
     let unit = power_of_two(tree.scale_exponent() + header.grid_exponent);
     [header.low, header.high].map(|[x, y, z]| {
@@ -162,7 +164,7 @@ fn power_of_two(exponent: i32) -> f32 {
 }
 
 /// Nodes with their boxes, leaves with their triangles.
-pub fn contents(tree: &Tree<'_>, fold: &mut Fold) {
+pub fn contents(tree: &Bvh<'_>, fold: &mut Fold) {
     let header = tree.header();
     for word in
         [header.nodes, header.leaves, header.vertices, header.triangles, header.stack_entries]

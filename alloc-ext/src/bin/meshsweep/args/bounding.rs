@@ -2,7 +2,7 @@
 
 use super::values::{tolerance, whole};
 use clap::{Args, ValueEnum};
-use meshsweep_alloc::tribox::{Measure, Planes, SplitOptions};
+use meshsweep::tribox::{Measure, Planes, SplitOptions};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]

@@ -3,8 +3,8 @@
 use super::values::{degrees, distance, factor, length, percent, positive, ratio, whole};
 use crate::describe::Given;
 use clap::{ArgGroup, Args, ValueEnum};
-use meshsweep_alloc::collapse::{Conditions, Priority};
-use meshsweep_alloc::precision::VertexBits;
+use meshsweep::collapse::{Conditions, Priority};
+use meshsweep::precision::VertexBits;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]

@@ -1,8 +1,8 @@
 //! How full a box tree is: counted by walking it once.
 
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::blob::layout::WIDTH;
-use meshsweep_core::blob::{Patch, TreeHeader};
+use meshsweep_core::blob::{BvhHeader, FanLeaf};
 
 /// Counts and means of a tree.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +18,8 @@ pub struct Shape {
 }
 
 impl Shape {
-    pub fn of(tree: &Tree<'_>) -> Shape {
-        let &TreeHeader { nodes, leaves, triangles, .. } = tree.header();
+    pub fn of(tree: &Bvh<'_>) -> Shape {
+        let &BvhHeader { nodes, leaves, triangles, .. } = tree.header();
         let mut depth = vec![1u32; nodes as usize];
         let mut children = 0u64;
         let mut fan_sizes = [0; WIDTH];
@@ -64,7 +64,7 @@ impl Shape {
     }
 }
 
-fn is_flat(patch: &Patch<'_>, lane: usize) -> bool {
+fn is_flat(patch: &FanLeaf<'_>, lane: usize) -> bool {
     let [a, b, c] = patch.corners(lane).map(|corner| corner.as_dvec3());
     (b - a).cross(c - a) == glam::DVec3::ZERO
 }

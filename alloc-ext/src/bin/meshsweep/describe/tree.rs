@@ -3,25 +3,25 @@
 use super::AtMost;
 use super::shape::Shape;
 use crate::counted::Counted;
-use meshsweep_core::Tree;
+use meshsweep_core::Bvh;
 use meshsweep_core::num::tolerance::{TREE_FAN, TREE_RELATIVE, TREE_WEAK, U32};
 use meshsweep_core::num::{exp2, up_to_f32};
-use meshsweep_core::query::tree::TreeEntry;
+use meshsweep_core::query::tree::ScratchEntry;
 use std::io::{self, Write};
 
 /// Bytes of a stack with which no query overflows.
-pub fn stack_bytes(tree: &Tree<'_>) -> usize {
-    tree.header().stack_entries as usize * size_of::<TreeEntry>()
+pub fn stack_bytes(tree: &Bvh<'_>) -> usize {
+    tree.header().stack_entries as usize * size_of::<ScratchEntry>()
 }
 
 /// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
-pub fn tree_surface_error(tree: &Tree<'_>) -> f32 {
+pub fn tree_surface_error(tree: &Bvh<'_>) -> f32 {
     up_to_f32(f64::from(tree.header().surface_error) * exp2(tree.scale_exponent()))
 }
 
 /// About what an exact answer's half-width is, in the mesh's unit: next to the surface, and one
 /// diagonal of the mesh away (`core/docs/rounding.md` §8). Wider where slivers are near.
-pub fn half_widths(tree: &Tree<'_>, diagonal: f64) -> [f64; 2] {
+pub fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
     let h = tree.header();
     let unit = exp2(h.grid_exponent + tree.scale_exponent());
     let u = f64::from(U32);
@@ -34,12 +34,12 @@ pub fn half_widths(tree: &Tree<'_>, diagonal: f64) -> [f64; 2] {
 }
 
 /// How coordinates are stored.
-pub fn tree_format_name(tree: &Tree<'_>) -> &'static str {
-    if tree.header().is_single() { "f32" } else { "16-bit grid" }
+pub fn tree_format_name(tree: &Bvh<'_>) -> &'static str {
+    if tree.header().is_f32() { "f32" } else { "16-bit grid" }
 }
 
 /// What bounds the children of nodes, and the normals of leaves.
-pub fn bounds(tree: &Tree<'_>) -> Vec<&'static str> {
+pub fn bounds(tree: &Bvh<'_>) -> Vec<&'static str> {
     [
         (tree.serves_distances(), "boxes in shared frames"),
         (tree.serves_segments(), "axis-aligned boxes"),
@@ -50,7 +50,7 @@ pub fn bounds(tree: &Tree<'_>) -> Vec<&'static str> {
     .collect()
 }
 
-pub(super) fn write(out: &mut dyn Write, tree: &Tree<'_>, diagonal: f64) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::Result<()> {
     let h = tree.header();
     let shape = Shape::of(tree);
     writeln!(out, "box tree")?;

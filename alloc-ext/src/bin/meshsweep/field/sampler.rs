@@ -3,9 +3,9 @@
 use super::lattice::Lattice;
 use crate::progress::Bar;
 use crate::signed;
-use meshsweep_core::Tree;
-use meshsweep_core::query::tree::{Hint, Side, TreeEntry, closest_point_from, signed_distance};
-use meshsweep_core::query::{QueryError, Stop};
+use meshsweep_core::Bvh;
+use meshsweep_core::query::tree::{Hint, ScratchEntry, Side, closest_point_from, signed_distance};
+use meshsweep_core::query::{Budget, QueryError};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
@@ -43,7 +43,7 @@ impl fmt::Display for NoSign {
 
 /// What is asked of a tree.
 pub struct Sampler<'a> {
-    pub tree: &'a Tree<'a>,
+    pub tree: &'a Bvh<'a>,
     pub lattice: Lattice,
     pub signed: bool,
     pub interval: bool,
@@ -86,7 +86,7 @@ impl Sampler<'_> {
         let row_values = self.lattice.size[0] * self.values();
         let rows = Mutex::new(values.chunks_mut(row_values).enumerate());
         let work = || -> Result<NoSign, QueryError> {
-            let mut stack = vec![TreeEntry::EMPTY; self.tree.header().stack_entries as usize];
+            let mut stack = vec![ScratchEntry::EMPTY; self.tree.header().stack_entries as usize];
             let mut no_sign = NoSign::default();
             loop {
                 // No thread can panic while it holds the lock.
@@ -112,7 +112,7 @@ impl Sampler<'_> {
         &self,
         row: usize,
         values: &mut [f32],
-        stack: &mut [TreeEntry],
+        stack: &mut [ScratchEntry],
         no_sign: &mut NoSign,
     ) -> Result<(), QueryError> {
         let ny = self.lattice.size[1];
@@ -137,16 +137,16 @@ impl Sampler<'_> {
     fn interval(
         &self,
         point: [f32; 3],
-        stack: &mut [TreeEntry],
+        stack: &mut [ScratchEntry],
         hint: &mut Hint,
     ) -> Result<([f32; 2], Option<&'static str>), QueryError> {
         if self.signed {
-            let answer = signed_distance(self.tree, point, &Stop::EXACT, stack)?;
+            let answer = signed_distance(self.tree, point, &Budget::EXACT, stack)?;
             let reason =
                 (answer.side == Side::Undefined).then(|| signed::reason(self.tree, &answer));
             return Ok(([answer.lower, answer.upper], reason));
         }
-        let answer = closest_point_from(self.tree, point, &Stop::EXACT, stack, hint)?;
+        let answer = closest_point_from(self.tree, point, &Budget::EXACT, stack, hint)?;
         Ok(([answer.lower, answer.upper], None))
     }
 }

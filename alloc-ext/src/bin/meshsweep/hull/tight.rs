@@ -9,9 +9,9 @@ use super::super::output::Output;
 use super::super::progress::Bar;
 use super::unmet::{Tightness, require_met};
 use super::write_hull;
-use meshsweep_alloc::mesh::Mesh;
-use meshsweep_alloc::wrap::{
-    Goal, Hull, Options, Progress, Report, Stage, Start, Stop, parts, share, wrap_all,
+use meshsweep::mesh::Mesh;
+use meshsweep::wrap::{
+    Goal, Hull, Options, Outcome, Progress, Report, Stage, Start, parts, share, wrap_all,
 };
 use std::io::{self, Write};
 use std::time::Duration;
@@ -113,26 +113,26 @@ fn describe(
     }
     write_start(out, report)?;
     match (report.stop, goal) {
-        (Stop::Reached, _) => Ok(()),
-        (Stop::Stuck, Goal::Faces(faces)) => writeln!(
+        (Outcome::Reached, _) => Ok(()),
+        (Outcome::Stuck, Goal::Faces(faces)) => writeln!(
             out,
             "  stopped before {faces} faces: no edge may collapse and leave the hull closed, clear of the mesh and of itself"
         ),
-        (Stop::Stuck, _) => writeln!(out, "  stopped where no edge may collapse any more"),
+        (Outcome::Stuck, _) => writeln!(out, "  stopped where no edge may collapse any more"),
         // It came within the goal by what was mended last, or it is not written.
-        (Stop::TooLoose, _) => {
+        (Outcome::TooLoose, _) => {
             writeln!(out, "  fewer faces were not tried: this is as tight as it gets")
         }
-        (Stop::OutOfTime, Goal::Faces(faces)) if report.faces > faces => {
+        (Outcome::OutOfTime, Goal::Faces(faces)) if report.faces > faces => {
             writeln!(
                 out,
                 "  stopped by --seconds before {faces} faces: with more time the hull has fewer"
             )
         }
-        (Stop::OutOfTime, Goal::Faces(_)) => {
+        (Outcome::OutOfTime, Goal::Faces(_)) => {
             writeln!(out, "  stopped by --seconds: with more time the hull is tighter")
         }
-        (Stop::OutOfTime, _) => {
+        (Outcome::OutOfTime, _) => {
             writeln!(out, "  stopped by --seconds: with more time it may have fewer faces")
         }
     }

@@ -2,7 +2,7 @@
 
 use super::super::describe::{AtMost, Given};
 use super::super::failure::Failure;
-use meshsweep_alloc::wrap::{Report, Stop};
+use meshsweep::wrap::{Outcome, Report};
 use std::fmt;
 use std::path::Path;
 
@@ -53,7 +53,7 @@ pub fn require_met<'a>(
     let unmet = |(index, report): (usize, &Report)| {
         let bound = bound(asked, report)?;
         let part = (parts > 1).then_some(index);
-        let is_late = report.stop == Stop::OutOfTime;
+        let is_late = report.stop == Outcome::OutOfTime;
         let unmet = Unmet { bound, faces: report.faces, is_late, by_faces: asked.by_faces, part };
         Some(Failure::Unmet { file: file.to_owned(), unmet })
     };

@@ -5,12 +5,12 @@
 //! surface is met and the mesh's may be.
 
 use crate::args::SearchArgs;
-use meshsweep_core::query::tree::{self, Facing, TreeEntry};
+use meshsweep_core::query::tree::{self, Facing, ScratchEntry};
 use meshsweep_core::query::{
-    AllHits, Ended, Hit, Search, SegmentHit, Stop, Work, all_hits, first_hit, outer_hits,
+    AllHits, Budget, Ended, Hit, Search, SegmentHit, Work, all_hits, first_hit, outer_hits,
 };
-use meshsweep_core::refine::{Face, Front};
-use meshsweep_core::{Model, QueryError, QueueEntry, Tree};
+use meshsweep_core::refine::{Face, RefinedHull};
+use meshsweep_core::{Bvh, Model, QueryError, QueueEntry};
 
 /// Hits that fit at first; a segment with more is asked again with as much room as it needs.
 const HITS: usize = 64;
@@ -39,7 +39,7 @@ pub struct Row {
 
 /// An engine with its working memory.
 enum Engine<'a> {
-    Tree { tree: Tree<'a>, facing: Facing, stack: Vec<TreeEntry> },
+    Bvh { tree: Bvh<'a>, facing: Facing, stack: Vec<ScratchEntry> },
     Cover { model: &'a Model<'a>, queue: Vec<QueueEntry> },
     Hull { model: &'a Model<'a>, queue: Vec<QueueEntry>, front: Memory },
 }
@@ -53,13 +53,13 @@ struct Memory {
 
 pub struct Caster<'a> {
     engine: Engine<'a>,
-    stop: Stop,
+    stop: Budget,
     hits: Vec<Hit>,
 }
 
 impl<'a> Caster<'a> {
     /// By the box tree.
-    pub fn tree(tree: Tree<'a>, facing: Facing, search: &SearchArgs) -> Self {
+    pub fn tree(tree: Bvh<'a>, facing: Facing, search: &SearchArgs) -> Self {
         Self::new(Engine::Tree { tree, facing, stack: search.stack(&tree) }, search)
     }
 

@@ -1,14 +1,14 @@
 //! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet
 //! leaves.
 //!
-//! A pair of nodes is settled at once for all pairs of their children, as 64 bits: that is all that
+//! A pair of nodes is refine_sliver at once for all pairs of their children, as 64 bits: that is all that
 //! has to wait, so memory is 16 bytes for each level.
 
 use super::PairEntry;
 use super::leaves::LeafPair;
-use super::placement::Placement;
-use super::spans::{Pairs, Spans, pairs};
-use crate::blob::{Tree, TreeChild};
+use super::placement::RelativePose;
+use super::spans::{AxisIntervals, Pairs, pairs};
+use crate::blob::{Bvh, BvhChild};
 use crate::geom::Contact;
 use crate::query::{Ended, QueryError, Work};
 use crate::tribox::Pose;
@@ -24,7 +24,7 @@ pub(super) trait Collect {
 
 /// Sum of the steps of a node's boxes, grid units: half of its size, or all of it.
 #[inline(always)]
-fn size(tree: &Tree<'_>, node: u32) -> Option<f32> {
+fn size(tree: &Bvh<'_>, node: u32) -> Option<f32> {
     let words = tree.boxes(node)?.as_chunks::<4>().0.get(15..)?.first_chunk::<3>()?;
     let [x, y, z] = words.map(f32::from_le_bytes);
     Some(x + y + z)
@@ -36,8 +36,8 @@ const LARGER: f32 = 4.0;
 /// Visits every pair of leaves whose boxes meet; says why it missed some, if it did.
 #[inline(always)]
 pub(super) fn descend(
-    a: &Tree<'_>,
-    b: &Tree<'_>,
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
     pose: &Pose,
     steps: u32,
     stack: &mut [PairEntry],
@@ -50,7 +50,7 @@ pub(super) fn descend(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let Some(place) = Placement::new(a, b, pose)? else { return Ok((None, work)) };
+    let Some(place) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
     let units = [place.sides[0].unit, place.sides[1].unit];
     let mut missed = None;
     let mut waiting = 0usize;
@@ -82,7 +82,7 @@ pub(super) fn descend(
             let Some((parents, lanes)) = next.take().or_else(|| take(stack, &mut waiting)) else {
                 return Ok((missed, work));
             };
-            let child = |tree: &Tree<'_>, which: usize| tree.child(parents[which], lanes[which]);
+            let child = |tree: &Bvh<'_>, which: usize| tree.child(parents[which], lanes[which]);
             let children =
                 [child(a, 0).ok_or(QueryError::Model)?, child(b, 1).ok_or(QueryError::Model)?];
             let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Model)?;
@@ -133,9 +133,9 @@ fn without([low, high]: [u32; 2], [i, j]: [u32; 2]) -> [u32; 2] {
 /// Which of two children to open: both, unless one is a leaf or much the smaller.
 #[inline(always)]
 fn opened(
-    a: &Tree<'_>,
-    b: &Tree<'_>,
-    children: &[TreeChild; 2],
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
+    children: &[BvhChild; 2],
     units: [f32; 2],
 ) -> Option<[bool; 2]> {
     let [first, second] = children;
@@ -151,16 +151,16 @@ fn opened(
 /// Pairs of children of two nodes, `wanted` of each, whose boxes meet.
 #[inline(always)]
 fn open(
-    a: &Tree<'_>,
-    b: &Tree<'_>,
-    place: &Placement,
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
+    place: &RelativePose,
     nodes: [u32; 2],
     wanted: [u32; 2],
     work: &mut Work,
 ) -> Option<Pairs> {
-    let side = |tree: &Tree<'_>, which: usize| {
+    let side = |tree: &Bvh<'_>, which: usize| {
         let count = tree.links(nodes[which])?.count;
-        let spans = Spans::of(&place.sides[which], tree.boxes(nodes[which])?, count)?;
+        let spans = AxisIntervals::of(&place.sides[which], tree.boxes(nodes[which])?, count)?;
         Some((spans, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
     };
     let ((first, rows), (second, lanes)) = (side(a, 0)?, side(b, 1)?);
@@ -172,12 +172,12 @@ fn open(
 #[inline(always)]
 #[allow(clippy::too_many_arguments, reason = "the descent's state, inlined")]
 fn leaves(
-    a: &Tree<'_>,
-    b: &Tree<'_>,
-    place: &Placement,
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
+    place: &RelativePose,
     nodes: [u32; 2],
     lanes: [u32; 2],
-    [first, second]: [TreeChild; 2],
+    [first, second]: [BvhChild; 2],
     collect: &mut impl Collect,
     work: &mut Work,
 ) -> Option<bool> {

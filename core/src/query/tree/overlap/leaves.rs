@@ -1,8 +1,8 @@
 //! Two leaves: which of their triangles may meet, then each such pair, in f32, and where that
 //! leaves it open in f64.
 
-use super::placement::Placement;
-use crate::blob::Patch;
+use super::placement::RelativePose;
+use crate::blob::FanLeaf;
 use crate::blob::layout::WIDTH;
 use crate::fan::LANES_BELOW;
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
@@ -30,7 +30,7 @@ pub(super) struct Corners {
 impl Corners {
     /// As stored: grid units from the grid's origin.
     #[inline(always)]
-    fn stored(patch: &Patch<'_>) -> Corners {
+    fn stored(patch: &FanLeaf<'_>) -> Corners {
         let tag = patch.tag();
         let triangles = tag.triangles().min(WIDTH);
         let mut at = [[0.0; SLOTS]; 3];
@@ -258,8 +258,8 @@ fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
 
 /// A leaf of the first tree, and one of the second, in common units from a vertex of the first.
 pub(super) struct LeafPair<'a> {
-    place: &'a Placement,
-    patches: [Patch<'a>; 2],
+    place: &'a RelativePose,
+    patches: [FanLeaf<'a>; 2],
     a: Corners,
     b: Corners,
     /// Where the first leaf's vertices lie to the second's planes, and the other way.
@@ -268,7 +268,7 @@ pub(super) struct LeafPair<'a> {
 
 impl<'a> LeafPair<'a> {
     #[inline(always)]
-    pub(super) fn new(place: &'a Placement, a: &Patch<'a>, b: &Patch<'a>) -> LeafPair<'a> {
+    pub(super) fn new(place: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
         let (mut first, mut second) = (Corners::stored(a), Corners::stored(b));
         let [side, _] = &place.sides;
         let unit = side.unit;
@@ -373,10 +373,10 @@ impl<'a> LeafPair<'a> {
     #[cold]
     #[inline(never)]
     fn settle_exactly(&self, i: usize, j: usize) -> Contact {
-        let Placement { matrix, shift_exact, doubt_exact, .. } = *self.place;
+        let RelativePose { matrix, shift_exact, doubt_exact, .. } = *self.place;
         let [first, second] = &self.patches;
         let unit = f64::from(self.place.sides[0].unit);
-        let wide = |patch: &Patch<'_>, slots: [usize; 3]| {
+        let wide = |patch: &FanLeaf<'_>, slots: [usize; 3]| {
             let stored = patch.stored_vertices();
             slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))
         };

@@ -12,7 +12,7 @@ mod leaves;
 mod placement;
 mod spans;
 
-use crate::blob::Tree;
+use crate::blob::Bvh;
 use crate::geom::Contact;
 use crate::query::{Ended, QueryError, Work};
 use crate::tribox::Pose;
@@ -99,9 +99,9 @@ pub struct Overlaps {
 /// xtask measure --overlap`).
 ///
 /// ```
-/// use meshsweep_core::{Tree, tribox::Pose, query::tree::{Contact, PairEntry, overlap}};
+/// use meshsweep_core::{Bvh, tribox::Pose, query::tree::{Contact, PairEntry, overlap}};
 /// # fn probe(part: &[u8], tool: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
-/// let (part, tool) = (Tree::open(part)?, Tree::open(tool)?); // of blobs built with `--for segment`
+/// let (part, tool) = (Bvh::open(part)?, Bvh::open(tool)?); // of blobs built with `--for segment`
 /// let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
 /// let pose = Pose { translation: [30.0, 0.0, 0.0], ..Pose::IDENTITY };
 /// let found = overlap(&part, &tool, &pose, u32::MAX, &mut stack)?;
@@ -118,8 +118,8 @@ pub struct Overlaps {
 /// 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid units;
 /// [`QueryError::NotServed`] unless both have boxes for segments; [`QueryError::NoQueue`].
 pub fn overlap(
-    a: &Tree<'_>,
-    b: &Tree<'_>,
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
     pose: &Pose,
     steps: u32,
     stack: &mut [PairEntry],
@@ -147,8 +147,8 @@ pub fn overlap(
 /// # Errors
 /// Those of [`overlap`].
 pub fn all_overlaps(
-    a: &Tree<'_>,
-    b: &Tree<'_>,
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
     pose: &Pose,
     steps: u32,
     pairs: &mut [TrianglePair],
@@ -166,8 +166,8 @@ pub fn all_overlaps(
 }
 
 /// Their numbers in the input files.
-fn numbers(a: &Tree<'_>, b: &Tree<'_>, [first, second]: &Place) -> Option<[u32; 2]> {
-    let number = |tree: &Tree<'_>, &[node, child, lane]: &[u32; 3]| {
+fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &Place) -> Option<[u32; 2]> {
+    let number = |tree: &Bvh<'_>, &[node, child, lane]: &[u32; 3]| {
         tree.source(tree.links(node)?.triangle(child).wrapping_add(lane))
     };
     Some([number(a, first)?, number(b, second)?])
@@ -192,8 +192,8 @@ impl Collect for First {
 }
 
 struct All<'a> {
-    a: &'a Tree<'a>,
-    b: &'a Tree<'a>,
+    a: &'a Bvh<'a>,
+    b: &'a Bvh<'a>,
     pairs: &'a mut [TrianglePair],
     stored: usize,
     dropped: u32,

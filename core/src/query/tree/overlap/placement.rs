@@ -4,7 +4,7 @@
 //! are brought there. The frame is the first one's, its origin that of the first one's grid, so
 //! that a mesh far from its own origin costs no precision. See `core/docs/rounding.md` §11.
 
-use crate::blob::Tree;
+use crate::blob::Bvh;
 use crate::num::exp2;
 use crate::num::tolerance::{U32, U64};
 use crate::query::QueryError;
@@ -52,7 +52,7 @@ pub(super) struct Side {
 
 /// Where both trees are.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placement {
+pub(super) struct RelativePose {
     pub(super) sides: [Side; 2],
     /// A place `q` of the second tree is at `matrix·q + shift`.
     pub(super) matrix: [[f32; 3]; 3],
@@ -64,13 +64,13 @@ pub(super) struct Placement {
 }
 
 /// The origin of a tree's vertices: f32 vertices have none.
-fn origin(tree: &Tree<'_>) -> [f64; 3] {
-    if tree.header().is_single() { [0.0; 3] } else { tree.header().grid_origin.map(f64::from) }
+fn origin(tree: &Bvh<'_>) -> [f64; 3] {
+    if tree.header().is_f32() { [0.0; 3] } else { tree.header().grid_origin.map(f64::from) }
 }
 
 /// How far a tree's box reaches from its origin along each axis, grid units, and one more for boxes
 /// without extent.
-fn reach(tree: &Tree<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
+fn reach(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (low, high) = (tree.scale().low, tree.scale().high);
     let along = |low: f32, high: f32, origin: f64| {
         let (low, high) = ((f64::from(low) - origin).abs(), (f64::from(high) - origin).abs());
@@ -92,13 +92,13 @@ fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |most, x| if x > most { x } else { most })
 }
 
-impl Placement {
+impl RelativePose {
     /// `None`: the trees are so far from each other that nothing has to be looked at.
     pub(super) fn new(
-        a: &Tree<'_>,
-        b: &Tree<'_>,
+        a: &Bvh<'_>,
+        b: &Bvh<'_>,
         pose: &Pose,
-    ) -> Result<Option<Placement>, QueryError> {
+    ) -> Result<Option<RelativePose>, QueryError> {
         let entries = || pose.rotation.iter().flatten();
         if !entries().chain(&pose.translation).all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
@@ -107,7 +107,7 @@ impl Placement {
             return Err(QueryError::PoseOutOfDomain);
         }
         let exponent =
-            |tree: &Tree<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
+            |tree: &Bvh<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
         let (ea, eb) = (exponent(a), exponent(b));
         let common = if ea > eb { ea } else { eb };
         if ea - eb > RATIO || eb - ea > RATIO {
@@ -181,7 +181,7 @@ impl Placement {
             unit: unit_b as f32,
         };
         let larger = if error_a > error_b { error_a } else { error_b };
-        Ok(Some(Placement {
+        Ok(Some(RelativePose {
             sides: [first, second],
             matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: narrow(shift_exact),

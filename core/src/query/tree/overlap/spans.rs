@@ -11,7 +11,7 @@ use crate::tree::{WIDE, in_memory};
 
 /// `[direction][child]`, common units.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spans {
+pub(super) struct AxisIntervals {
     low: [[f32; WIDTH]; DIRECTIONS],
     high: [[f32; WIDTH]; DIRECTIONS],
 }
@@ -19,10 +19,10 @@ pub(super) struct Spans {
 /// Twice the middles and twice the half lengths of boxes along an axis, in steps from byte 0.
 type Boxes = ([f32; WIDTH], [f32; WIDTH]);
 
-impl Spans {
+impl AxisIntervals {
     /// Intervals of a node's first `count` children.
     #[inline(always)]
-    pub(super) fn of(side: &Side, record: &[u8; BOXES_BYTES], count: u32) -> Option<Spans> {
+    pub(super) fn of(side: &Side, record: &[u8; BOXES_BYTES], count: u32) -> Option<AxisIntervals> {
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>()?;
         let words = record.as_chunks::<4>().0.get(12..)?.first_chunk::<6>()?;
         let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
@@ -30,7 +30,8 @@ impl Spans {
         let boxes = [both(lx, hx), both(ly, hy), both(lz, hz)];
         let [x, y, z] = side.origin;
         let start = [(ox - x) - 128.0 * ux, (oy - y) - 128.0 * uy, (oz - z) - 128.0 * uz];
-        let mut spans = Spans { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
+        let mut spans =
+            AxisIntervals { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
         let out = spans.low.iter_mut().zip(&mut spans.high);
         let directions = side.rows.iter().zip(side.shift).zip(side.grow);
         for ((low, high), ((row, shift), grow)) in out.zip(directions) {
@@ -97,7 +98,7 @@ pub(super) struct Pairs {
 
 /// All pairs of the first node's `rows` and the second's `lanes`, as bits.
 #[inline(always)]
-pub(super) fn pairs(a: &Spans, b: &Spans, rows: u32, lanes: u32) -> Pairs {
+pub(super) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, lanes: u32) -> Pairs {
     let mut pairs = Pairs { bits: [0; 2], deepest: [0; 2] };
     let mut depth = -1.0;
     let mut left = rows;
@@ -125,7 +126,7 @@ pub(super) fn pairs(a: &Spans, b: &Spans, rows: u32, lanes: u32) -> Pairs {
 /// By how much child `i` of the first overlaps each child of the second, along the direction where
 /// that is least; negative if it is apart.
 #[inline(always)]
-pub(super) fn wide(a: &Spans, b: &Spans, i: usize) -> [f32; WIDTH] {
+pub(super) fn wide(a: &AxisIntervals, b: &AxisIntervals, i: usize) -> [f32; WIDTH] {
     let i = i & (WIDTH - 1);
     let mut depths = [f32::MAX; WIDTH];
     for d in 0..DIRECTIONS {
@@ -139,7 +140,7 @@ pub(super) fn wide(a: &Spans, b: &Spans, i: usize) -> [f32; WIDTH] {
 
 /// The same, the wanted alone, and no further than they are apart.
 #[inline(always)]
-pub(super) fn narrow(a: &Spans, b: &Spans, i: usize, lanes: u32) -> [f32; WIDTH] {
+pub(super) fn narrow(a: &AxisIntervals, b: &AxisIntervals, i: usize, lanes: u32) -> [f32; WIDTH] {
     let mut depths = [-1f32; WIDTH];
     for (j, depth) in depths.iter_mut().enumerate() {
         if lanes >> j & 1 != 0 {
@@ -169,7 +170,7 @@ fn less(a: f32, b: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{DIRECTIONS, Spans, WIDTH, narrow, wide};
+    use super::{AxisIntervals, DIRECTIONS, WIDTH, narrow, wide};
 
     #[test]
     fn both_kernels_find_the_same_pairs_and_depths() {
@@ -181,8 +182,10 @@ mod tests {
         let mut met = 0;
         for round in 0..500 {
             let mut spans = || {
-                let mut spans =
-                    Spans { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
+                let mut spans = AxisIntervals {
+                    low: [[0.0; WIDTH]; DIRECTIONS],
+                    high: [[0.0; WIDTH]; DIRECTIONS],
+                };
                 for (low, high) in
                     spans.low.iter_mut().flatten().zip(spans.high.iter_mut().flatten())
                 {

@@ -3,13 +3,13 @@
 
 use std::hint::black_box;
 
-use meshsweep_alloc::emit;
-use meshsweep_alloc::tree::{TreeOptions, build};
-use meshsweep_core::Tree;
+use meshsweep::emit;
+use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{
-    Facing, PairEntry, TreeEntry, closest_point, first_hit, is_within, overlap,
+    Facing, PairEntry, ScratchEntry, closest_point, first_hit, is_within, overlap,
 };
-use meshsweep_core::query::{Stop, Work};
+use meshsweep_core::query::{Budget, Work};
 use meshsweep_core::tribox::Pose;
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::table::{Cell, Table, fixed};
@@ -55,7 +55,7 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
     let subject = Subject::load(&workspace::root().join("fixtures").join(fixture))?;
     let (tables, _) = build(&subject.mesh, 0.0, subject.triangles_read, &TreeOptions::default());
     let bytes = emit::blob(None, Some(&tables));
-    let tree = Tree::open(&bytes).map_err(|error| error.to_string())?;
+    let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
     let header = *tree.header();
     let triangles = f64::from(header.triangles) / f64::from(header.leaves);
     let entries = header.stack_entries as usize;
@@ -75,26 +75,26 @@ fn asked(fixture: &str, kind: &str, queries: usize) -> Result<(Work, f64), Strin
     }
     // Placed for the greater number always, so that placing them is no part of the difference.
     if let Some(kind) = Points::ALL.into_iter().find(|points| points.name() == kind) {
-        let mut stack = vec![TreeEntry::EMPTY; entries];
+        let mut stack = vec![ScratchEntry::EMPTY; entries];
         for point in points(&subject, kind, QUERIES[1]).into_iter().take(queries) {
-            add(black_box(closest_point(&tree, point, &Stop::EXACT, &mut stack))
+            add(black_box(closest_point(&tree, point, &Budget::EXACT, &mut stack))
                 .map_err(failed)?
                 .work);
         }
     } else if kind == "clear" {
-        let mut stack = vec![TreeEntry::EMPTY; entries];
+        let mut stack = vec![ScratchEntry::EMPTY; entries];
         let mut asked = Vec::new();
         for point in points(&subject, Points::Far, QUERIES[1]) {
-            let near = closest_point(&tree, point, &Stop::EXACT, &mut stack).map_err(failed)?;
+            let near = closest_point(&tree, point, &Budget::EXACT, &mut stack).map_err(failed)?;
             asked.push((point, 0.9 * near.lower));
         }
         for (point, distance) in asked.into_iter().take(queries) {
-            add(black_box(is_within(&tree, point, distance, &Stop::EXACT, &mut stack))
+            add(black_box(is_within(&tree, point, distance, &Budget::EXACT, &mut stack))
                 .map_err(failed)?
                 .work);
         }
     } else {
-        let mut stack = vec![TreeEntry::EMPTY; entries];
+        let mut stack = vec![ScratchEntry::EMPTY; entries];
         for [a, b] in segments(&subject, QUERIES[1]).into_iter().take(queries) {
             add(black_box(first_hit(&tree, a, b, &Facing::Both, &mut stack)).map_err(failed)?.work);
         }

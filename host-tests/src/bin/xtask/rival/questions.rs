@@ -5,10 +5,10 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use meshsweep_alloc::emit::blob;
-use meshsweep_alloc::hull::{BuildOptions, hull_of};
-use meshsweep_alloc::mesh::{Mesh, write_ply};
-use meshsweep_alloc::tree::{self, TreeOptions};
+use meshsweep::emit::blob;
+use meshsweep::hull::{BuildOptions, hull_of};
+use meshsweep::mesh::{Mesh, write_ply};
+use meshsweep::tree::{self, TreeOptions};
 use meshsweep_host_tests::generate::{Rng, rough_sphere};
 use meshsweep_host_tests::measure::Subject;
 use meshsweep_host_tests::measure::rival::Rival;

@@ -1,13 +1,13 @@
 //! Distances: closest points, one and many, with a tolerance and with a sign.
 
 use meshsweep_core::query::tree::{
-    BatchError, Near, Side, Verdict, all_within as core_all_within, closest_point,
+    BatchError, Neighbor, Side, Verdict, all_within as core_all_within, closest_point,
     closest_point_from, closest_points, is_within as core_is_within, nearest as core_nearest,
     signed_distance,
 };
-use meshsweep_core::query::{ClosestPoint, Ended, Stop, Work};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work};
 
-use super::{Scratch, Tree};
+use super::{Bvh, Scratch};
 use crate::Clock;
 use crate::ask::{self, timed};
 use crate::fold::Fold;
@@ -15,13 +15,13 @@ use crate::fold::Fold;
 /// Closest point; returns the witness.
 #[inline(never)]
 pub fn closest(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(tree, point, &Stop::EXACT, &mut scratch.stack)) {
+    match timed(clock, || closest_point(tree, point, &Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             ask::closest_point(fold, &answer);
             answer.point
@@ -36,14 +36,14 @@ pub fn closest(
 /// Closest point, from where the last one was found.
 #[inline(never)]
 pub fn follow(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
     let Scratch { stack, hint, .. } = scratch;
-    match timed(clock, || closest_point_from(tree, point, &Stop::EXACT, stack, hint)) {
+    match timed(clock, || closest_point_from(tree, point, &Budget::EXACT, stack, hint)) {
         Ok(answer) => ask::closest_point(fold, &answer),
         Err(error) => ask::refusal(fold, error),
     }
@@ -52,14 +52,14 @@ pub fn follow(
 /// Closest point, by a session that remembers what the last answers ruled out.
 #[inline(never)]
 pub fn session<'t>(
-    tree: &Tree<'t>,
+    tree: &Bvh<'t>,
     point: [f32; 3],
     scratch: &mut Scratch<'t>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
     let Scratch { stack, session, .. } = scratch;
-    match timed(clock, || session.closest_point(tree, point, &Stop::EXACT, stack)) {
+    match timed(clock, || session.closest_point(tree, point, &Budget::EXACT, stack)) {
         Ok(answer) => {
             ask::closest_point(fold, &answer.closest);
             fold.f32(answer.safe_radius);
@@ -71,7 +71,7 @@ pub fn session<'t>(
 /// Closest point with a tolerance of a tenth, with one of `distance`, and with three nodes to open.
 #[inline(never)]
 pub fn stopped(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     distance: f32,
     scratch: &mut Scratch<'_>,
@@ -79,9 +79,9 @@ pub fn stopped(
     fold: &mut Fold,
 ) {
     let stops = [
-        Stop { relative: 0.1, ..Stop::EXACT },
-        Stop { absolute: distance, ..Stop::EXACT },
-        Stop { steps: 3, ..Stop::EXACT },
+        Budget { relative: 0.1, ..Budget::EXACT },
+        Budget { absolute: distance, ..Budget::EXACT },
+        Budget { steps: 3, ..Budget::EXACT },
     ];
     for stop in &stops {
         match timed(clock, || closest_point(tree, point, stop, &mut scratch.stack)) {
@@ -94,14 +94,15 @@ pub fn stopped(
 /// Whether the surface is within a distance.
 #[inline(never)]
 pub fn is_within(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     distance: f32,
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_is_within(tree, point, distance, &Stop::EXACT, &mut scratch.stack)) {
+    match timed(clock, || core_is_within(tree, point, distance, &Budget::EXACT, &mut scratch.stack))
+    {
         Ok(answer) => {
             let [kind, triangle] = match answer.verdict {
                 Verdict::Yes { triangle } => [1, triangle.unwrap_or(u32::MAX)],
@@ -119,14 +120,14 @@ pub fn is_within(
 /// The eight closest triangles.
 #[inline(never)]
 pub fn nearest(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
     let Scratch { stack, near, .. } = scratch;
-    match timed(clock, || core_nearest(tree, point, &Stop::EXACT, near, stack)) {
+    match timed(clock, || core_nearest(tree, point, &Budget::EXACT, near, stack)) {
         Ok(answer) => {
             found(fold, near.get(..answer.stored).unwrap_or_default());
             fold.f32(answer.rest_lower);
@@ -139,7 +140,7 @@ pub fn nearest(
 /// All triangles within a distance, as far as eight places hold them.
 #[inline(never)]
 pub fn all_within(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     distance: f32,
     scratch: &mut Scratch<'_>,
@@ -147,7 +148,7 @@ pub fn all_within(
     fold: &mut Fold,
 ) {
     let Scratch { stack, near, .. } = scratch;
-    match timed(clock, || core_all_within(tree, point, distance, &Stop::EXACT, near, stack)) {
+    match timed(clock, || core_all_within(tree, point, distance, &Budget::EXACT, near, stack)) {
         Ok(answer) => {
             found(fold, near.get(..answer.stored).unwrap_or_default());
             fold.word(answer.certain as u32);
@@ -161,13 +162,13 @@ pub fn all_within(
 /// Distance with the sign of the side.
 #[inline(never)]
 pub fn signed(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || signed_distance(tree, point, &Stop::EXACT, &mut scratch.stack)) {
+    match timed(clock, || signed_distance(tree, point, &Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold.f32(answer.lower);
             fold.f32(answer.upper);
@@ -188,7 +189,7 @@ const BATCH: usize = 8;
 /// Closest points of eight points, in an order of the core's own.
 #[inline(never)]
 pub fn batch<'t>(
-    tree: &Tree<'t>,
+    tree: &Bvh<'t>,
     points: &[[f32; 3]; BATCH],
     scratch: &mut Scratch<'t>,
     clock: &mut impl Clock,
@@ -205,7 +206,7 @@ pub fn batch<'t>(
     let Scratch { stack, hint, .. } = scratch;
     let (mut answers, mut order) = ([NONE; BATCH], [0u64; 2 * BATCH]);
     match timed(clock, || {
-        closest_points(tree, points, &mut answers, &Stop::EXACT, stack, &mut order, hint)
+        closest_points(tree, points, &mut answers, &Budget::EXACT, stack, &mut order, hint)
     }) {
         Ok(()) => answers.iter().for_each(|answer| ask::closest_point(fold, answer)),
         Err(BatchError::Query { index, error }) => {
@@ -216,7 +217,7 @@ pub fn batch<'t>(
     }
 }
 
-fn found(fold: &mut Fold, triangles: &[Near]) {
+fn found(fold: &mut Fold, triangles: &[Neighbor]) {
     for near in triangles {
         fold.f32(near.lower);
         fold.f32(near.upper);

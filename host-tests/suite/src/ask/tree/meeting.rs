@@ -5,7 +5,7 @@ use meshsweep_core::query::tree::{
 };
 use meshsweep_core::tribox::Pose;
 
-use super::{Scratch, Tree};
+use super::{Bvh, Scratch};
 use crate::Clock;
 use crate::ask::{self, timed};
 use crate::fold::Fold;
@@ -20,7 +20,7 @@ pub fn pose((rotation, translation): Motion) -> Pose {
 /// Whether the surface meets its moved copy.
 #[inline(never)]
 pub fn overlap(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     pose: &Pose,
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
@@ -51,7 +51,7 @@ const STEPS: u32 = 4;
 /// All pairs of triangles that meet, as far as a few steps go.
 #[inline(never)]
 pub fn all_overlaps(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     pose: &Pose,
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,

@@ -5,7 +5,7 @@ use meshsweep_core::query::tree::{
     first_hit as core_first_hit, front_facing,
 };
 
-use super::{Scratch, Tree};
+use super::{Bvh, Scratch};
 use crate::Clock;
 use crate::ask::{self, timed};
 use crate::fold::Fold;
@@ -13,7 +13,7 @@ use crate::fold::Fold;
 /// First point of the segment from `a` to `b` on the surface.
 #[inline(never)]
 pub fn first_hit(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     ends: [[f32; 3]; 2],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
@@ -25,7 +25,7 @@ pub fn first_hit(
 /// First point of the segment from `a` to `b` on a triangle's front, then on a back.
 #[inline(never)]
 pub fn facing(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     ends: [[f32; 3]; 2],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
@@ -37,7 +37,7 @@ pub fn facing(
 }
 
 fn hit_of(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     [a, b]: [[f32; 3]; 2],
     facing: Facing,
     scratch: &mut Scratch<'_>,
@@ -53,7 +53,7 @@ fn hit_of(
 /// Whether the segment from `a` to `b` meets the surface.
 #[inline(never)]
 pub fn any_hit(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
@@ -72,7 +72,7 @@ pub fn any_hit(
 /// Every point of the segment from `a` to `b` on the surface.
 #[inline(never)]
 pub fn all_hits(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
@@ -92,7 +92,7 @@ pub fn all_hits(
 /// Triangles that may face an eye at `point`, then along the way to there from the origin.
 #[inline(never)]
 pub fn cull(
-    tree: &Tree<'_>,
+    tree: &Bvh<'_>,
     point: [f32; 3],
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
