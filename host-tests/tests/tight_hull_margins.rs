@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use meshsweep::mesh::{Mesh, RawMesh, repair};
-use meshsweep::wrap::{Outcome, Goal, Hull, Options, Start, WrapError, wrap};
+use meshsweep::wrap::{Goal, Hull, Options, Outcome, Start, WrapError, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus,
@@ -52,7 +52,10 @@ fn solids_keep_their_margin_small_or_large() {
         let mesh = mesh_of(of);
         let report =
             proved(&format!("{name} by {part}"), &mesh, &options(100, part * size(&mesh))).report;
-        assert!(report.faces <= 100 && report.stop == Outcome::Reached, "{name} {part}: {report:?}");
+        assert!(
+            report.faces <= 100 && report.stop == Outcome::Reached,
+            "{name} {part}: {report:?}"
+        );
     }
 }
 

@@ -63,7 +63,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         closest: wanted.closest,
         segments: wanted.segment,
         cull: wanted.cull,
-        single: args.vertex_bits.is_f32(),
+        single: args.vertex_bits.is_single(),
         ..TreeOptions::default()
     };
     let triangles = loaded.mesh.triangles.len();

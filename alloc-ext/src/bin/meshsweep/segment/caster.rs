@@ -39,7 +39,7 @@ pub struct Row {
 
 /// An engine with its working memory.
 enum Engine<'a> {
-    Bvh { tree: Bvh<'a>, facing: Facing, stack: Vec<ScratchEntry> },
+    Tree { tree: Bvh<'a>, facing: Facing, stack: Vec<ScratchEntry> },
     Cover { model: &'a Model<'a>, queue: Vec<QueueEntry> },
     Hull { model: &'a Model<'a>, queue: Vec<QueueEntry>, front: Memory },
 }
@@ -166,7 +166,8 @@ fn on_hull(
     memory: &mut Memory,
     hits: &mut [Hit],
 ) -> Result<Option<SegmentHit>, QueryError> {
-    let mut front = Front::new(&mut memory.performed, &mut memory.swept, &mut memory.candidates);
+    let mut front =
+        RefinedHull::new(&mut memory.performed, &mut memory.swept, &mut memory.candidates);
     let outer = outer_hits(model, a, b, Search::First, &mut front, hits)?;
     if outer.starts_inside {
         return Ok(None);
