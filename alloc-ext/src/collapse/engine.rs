@@ -123,9 +123,10 @@ impl Engine {
 
     /// Faces now, corners as labels of [`History`].
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let alive =
-            (0..self.surface.mesh.corners.len() as u32).filter(|&t| self.surface.mesh.is_alive(t));
-        alive.map(|t| self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]))
+        self.surface
+            .mesh
+            .alive()
+            .map(|t| self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]))
     }
 
     /// Collapses until at most `target` faces are left, `Some` if no legal collapse gets there.
@@ -144,14 +145,9 @@ impl Engine {
 
     /// Ends the loop: labels and instances of what is left go into the history.
     pub fn finish(mut self) -> History {
-        for t in 0..self.surface.mesh.corners.len() as u32 {
-            if self.surface.mesh.is_alive(t) {
-                let corners =
-                    self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]);
-                self.history.base.push(corners);
-                self.history.base_instances.push(self.instances[t as usize]);
-            }
-        }
+        self.history.base = self.faces().collect();
+        let instances = self.surface.mesh.alive().map(|t| self.instances[t as usize]);
+        self.history.base_instances = instances.collect();
         self.history
     }
 

@@ -46,6 +46,11 @@ impl Connectivity {
         self.alive[triangle as usize]
     }
 
+    /// Numbers of the triangles that are left.
+    pub fn alive(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.corners.len() as u32).filter(|&t| self.is_alive(t))
+    }
+
     /// Triangles at a vertex, in no order; none once it was collapsed away.
     #[inline]
     pub fn at(&self, vertex: u32) -> &[u32] {

@@ -7,7 +7,7 @@ use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, Ve
 use crate::emit::{NodeRecord, SplitRecord, Tables};
 use crate::hausdorff::hull_to_surface;
 use crate::mesh::Mesh;
-use crate::surface::{Stored, VertexBits, store};
+use crate::surface::{SignedVolume, Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::MAX_RING;
@@ -193,7 +193,8 @@ pub fn hull_of(
 
 /// Volume in the local frame, which void is measured against.
 fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
-    let volume = signed_volume(&stored.positions, &mesh.triangles);
+    let corners = mesh.triangles.iter().map(|t| t.map(|v| stored.positions[v as usize]));
+    let volume = SignedVolume::of(corners).value;
     let scale = meshsweep_core::num::exp2(stored.scale_exponent);
     if volume > 0.0 {
         Ok(volume)
@@ -221,14 +222,6 @@ fn collapse(
     let mut history = engine.finish();
     sort_base(&mut history);
     (history, stuck, programs)
-}
-
-fn signed_volume(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    // Around a vertex of the mesh, so that a part far from the origin loses nothing to
-    // cancellation.
-    let Some(&origin) = positions.first() else { return 0.0 };
-    let at = |v: u32| positions[v as usize] - origin;
-    triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
 }
 
 /// Split counts of the levels: the base hull, then every doubling of the faces, then all.

@@ -4,6 +4,7 @@ use super::lattice::Lattice;
 use super::level::{Level, box_tree, level};
 use super::split::{Hierarchy, Node, SplitOptions};
 use crate::mesh::Mesh;
+use crate::surface::SignedVolume;
 use meshsweep_core::blob::layout::{
     MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
     TRIBOXES_BYTES, TRIBOXES_SOLID,
@@ -103,11 +104,7 @@ pub fn store(
 
 /// Volume that a closed mesh bounds, cubed input units.
 pub fn volume(mesh: &Mesh) -> f64 {
-    let wide = |p: [f32; 3]| glam::DVec3::from(p.map(f64::from));
-    let origin = mesh.positions.first().copied().map_or(glam::DVec3::ZERO, wide);
-    let of = |[a, b, c]: [glam::DVec3; 3]| (a - origin).cross(b - origin).dot(c - origin) / 6.0;
-    let corners = (0..mesh.triangles.len()).filter_map(|triangle| mesh.corners(triangle));
-    corners.map(|corners| of(corners.map(wide))).sum::<f64>().abs()
+    SignedVolume::of(mesh.corners_f64()).value.abs()
 }
 
 /// A node in the order of the splits.
