@@ -20,4 +20,11 @@ pub mod sweep;
 pub mod tight;
 pub mod tree;
 pub mod tribox;
-pub mod wrap;
+
+/// The names of [`tight`] under which the program and the tests use one hull.
+pub mod wrap {
+    pub use crate::tight::{
+        Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
+        Surface, WrapError, parts, share, wrap, wrap_all,
+    };
+}
