@@ -6,7 +6,7 @@ use crate::mesh::Mesh;
 use crate::precision::VertexBits;
 use crate::tight::hull::{Hull, wrap};
 use crate::tight::options::{self, Goal, Options, WrapError};
-use crate::tight::proof::volume::{NoVolume, Solid};
+use crate::tight::proof::volume::NoVolume;
 use meshsweep_core::blob::layout::MAX_LEVELS;
 use meshsweep_core::num::Radius16;
 use std::time::{Duration, Instant};
@@ -24,8 +24,6 @@ pub struct ChainOptions {
     /// Distance that every hull keeps from the mesh; see [`Options::margin`]. Answers about the
     /// mesh hold as they do without: of the margin they know nothing.
     pub margin: f64,
-    /// Whether each hull shall enclose all finer ones.
-    pub nested: bool,
     /// How long to polish; see [`Options::effort`].
     pub effort: f64,
     /// Bits of a hull vertex. The mesh is not moved: only the hull's vertices lie on a grid.
@@ -44,7 +42,6 @@ impl Default for ChainOptions {
             faces: vec![200],
             goal: None,
             margin: 0.0,
-            nested: false,
             effort: 1.0,
             vertex_bits: VertexBits::Auto,
             closest: true,
@@ -74,20 +71,16 @@ pub enum Stage {
 pub struct HullReport {
     /// What was asked for.
     pub asked: Goal,
-    /// What `wrap` says; of a nested hull its `slack` is measured to the next finer hull, and so
-    /// is its `void`.
+    /// What `wrap` says of the hull.
     pub wrapped: options::Report,
     /// Both ways between hull and mesh, input units.
     pub distances: Distances,
     /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that
     /// against.
     pub void: Result<f64, NoVolume>,
-    /// The same of a hull with as many faces that need not enclose the finer ones; `None` where
-    /// nothing was nested.
-    pub free_void: Option<f64>,
     /// Bytes in the blob.
     pub bytes: usize,
-    /// Time, the free hull's among it.
+    /// Time.
     pub time: Duration,
 }
 
@@ -96,8 +89,8 @@ pub struct HullReport {
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see
 /// [`snap`](crate::precision::snap)), 0 if none were. The hulls enclose the mesh where it is now,
-/// and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull, twice
-/// for nested ones; some hundred distance queries for each triangle of the hulls, one for each
+/// and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull;
+/// some hundred distance queries for each triangle of the hulls, one for each
 /// triangle of the mesh. On a mesh, or hull, of more than
 /// [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES) it panics.
 ///
@@ -129,25 +122,13 @@ pub fn chain(
         },
         ..Options::default()
     };
-    // Fine to coarse: a nested hull needs the one that it encloses.
+    // Fine to coarse: of equal hulls the one that was asked for with more faces is kept.
     let mut made: Vec<(Hull, HullReport)> = Vec::new();
-    let solid = Solid::of(mesh);
     let mut overlaps = false;
     for (index, &goal) in goals.iter().rev().enumerate() {
         let started = Instant::now();
-        let options_here = wrap_options(goal);
         let mut show = |progress| on_progress(Stage::Wrapping { hull: index, of, progress });
-        let free = wrap(mesh, &options_here, &mut show)?;
-        let finer = made.last().filter(|_| options.nested);
-        let (hull, free_void) = match finer {
-            Some((finer, _)) => {
-                // The finer one keeps the margin for it.
-                let options_here = Options { margin: 0.0, ..options_here };
-                let hull = wrap(&finer.mesh, &options_here, &mut show)?;
-                (hull, free.report.void.ok())
-            }
-            None => (free, None),
-        };
+        let hull = wrap(mesh, &wrap_options(goal), &mut show)?;
         if made
             .last()
             .is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len())
@@ -165,14 +146,13 @@ pub fn chain(
         if !fits(&distances) {
             return Err(WrapError::NoRoom);
         }
-        let void = solid.and_then(|solid| solid.void(&hull.mesh, hull.report.volume));
+        let void = hull.report.void;
         overlaps |= void == Err(NoVolume::Overlapping);
         let report = HullReport {
             asked: goal,
             wrapped: hull.report,
             distances,
             void,
-            free_void,
             bytes: 0,
             time: started.elapsed(),
         };
@@ -194,7 +174,7 @@ pub fn chain(
             stored
         })
         .collect();
-    let tables = TightTables::new(mesh, moved, input_triangles, options.nested, &stored);
+    let tables = TightTables::new(mesh, moved, input_triangles, &stored);
     Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
 }
 

@@ -12,8 +12,7 @@
 //! | `section.rs` | the bytes: writing, cutting, reading a hull back |
 //!
 //! Every hull of a chain is made from the mesh, as tight as possible, and need not enclose the
-//! others. A nested chain wraps each hull around the next finer one: from coarse to fine every hull
-//! encloses all that follow, at a price in volume, which [`HullReport::free_void`] tells.
+//! others.
 
 mod chain;
 mod distances;

@@ -6,9 +6,7 @@ use crate::mesh::Mesh;
 use crate::precision::{VertexBits, scale_exponent};
 use crate::tree::{self, TreeOptions, TreeTables};
 use meshsweep_core::blob::TightRecord;
-use meshsweep_core::blob::layout::{
-    SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED,
-};
+use meshsweep_core::blob::layout::{SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES};
 use meshsweep_core::num::{Radius16, down_to_f32, exp2, up_to_f32};
 use meshsweep_core::{Model, TightHull, TightHulls};
 use std::collections::BTreeMap;
@@ -86,7 +84,6 @@ impl TightTables {
         mesh: &Mesh,
         moved: f64,
         input_triangles: usize,
-        nested: bool,
         hulls: &[Stored],
     ) -> TightTables {
         let exponent = scale_exponent(mesh);
@@ -104,15 +101,16 @@ impl TightTables {
             input_triangles: input_triangles.max(mesh.triangles.len()) as u32,
             surface_error: up_to_f32((mesh.rounding + moved) * local),
             bounds: [low, high],
-            section: section(nested, hulls),
+            section: section(hulls),
         }
     }
 }
 
-fn section(nested: bool, hulls: &[Stored]) -> Vec<u8> {
+fn section(hulls: &[Stored]) -> Vec<u8> {
     let mut out = Vec::new();
     out.extend((hulls.len() as u32).to_le_bytes());
-    out.extend((if nested { TIGHT_NESTED } else { 0 }).to_le_bytes());
+    // No flags.
+    out.extend(0u32.to_le_bytes());
     let mut end = TIGHT_BYTES + hulls.len() * TIGHT_HULL_BYTES;
     for hull in hulls {
         let start = end.next_multiple_of(SECTION_ALIGNMENT);
@@ -140,7 +138,7 @@ pub fn cut(model: &Model<'_>, faces: u32) -> Option<TightTables> {
         input_triangles: h.input_triangles,
         surface_error: h.surface_error,
         bounds: [h.surface_box.min.to_array(), h.surface_box.max.to_array()],
-        section: section(hulls.is_nested(), &kept?),
+        section: section(&kept?),
     })
 }
 
