@@ -10,12 +10,21 @@ pub use crate::tribox::format::Triboxes;
 // Old paths, until the callers have moved.
 #[doc(hidden)]
 pub mod layout {
-    pub use crate::bvh::format::layout::*;
+    pub use crate::bvh::format::layout::{
+        BOXES_BYTES, CONE_BYTES, FAN_PADDING, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK,
+        SOURCE_ENTRY_BYTES, SOURCE_PADDING, TREE_BYTES, TREE_CLOSED, TREE_SINGLE,
+    };
+    pub use crate::format::layout::field::CRC as HEADER_CRC_AT;
     pub use crate::format::layout::*;
     pub use crate::geom::fan::WIDTH;
-    pub use crate::hull::format::layout::*;
-    pub use crate::tight::format::layout::*;
-    pub use crate::tribox::format::layout::*;
+    pub use crate::hull::format::layout::{
+        BASE_GROUP, LEAF_FLAG, LEVEL_BYTES, MAX_CHILDREN, MAX_RING,
+    };
+    pub use crate::tight::format::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED};
+    pub use crate::tribox::format::layout::{
+        MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
+        TRIBOXES_BYTES, TRIBOXES_SOLID,
+    };
 }
 #[doc(hidden)]
 pub use crate::bvh::format::{

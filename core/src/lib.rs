@@ -54,6 +54,7 @@ pub mod tribox;
 #[doc(hidden)]
 pub mod fan {
     pub use crate::geom::fan::*;
+    pub use crate::num::tolerance::STILL;
 }
 #[doc(hidden)]
 pub mod tree {

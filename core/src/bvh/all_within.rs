@@ -52,22 +52,22 @@ pub fn all_within(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = PointQuery::new(tree, point)?;
-    if probe.far {
-        return from_afar(tree, &probe, point, distance, out, stack);
+    let query = PointQuery::new(tree, point)?;
+    if query.far {
+        return from_afar(tree, &query, point, distance, out, stack);
     }
     let mut work = Work::default();
-    let limit = limit_within(&probe, distance);
-    let ranked = KNearest::new(&mut *out);
-    let mut seek = Collect { tree, probe: &probe, distance, limit, ranked, dropped: 0 };
-    let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
+    let limit = limit_within(&query, distance);
+    let k_nearest = KNearest::new(&mut *out);
+    let mut visitor = Collect { tree, query: &query, distance, limit, k_nearest, dropped: 0 };
+    let descent = descend(tree, query.p, stack, stop.steps, &mut visitor, &mut work)?;
     let ended = match descent {
         Descent::Truncated { steps: true, .. } => Ended::Steps,
         Descent::Truncated { steps: false, .. } => Ended::Capacity,
         _ => Ended::Exact,
     };
-    let dropped = seek.dropped;
-    let stored = seek.ranked.finish(tree, &probe)?;
+    let dropped = visitor.dropped;
+    let stored = visitor.k_nearest.finish(tree, &query)?;
     let certain = out.iter().take(stored).take_while(|near| near.upper <= distance).count();
     Ok(AllWithin { stored, certain, dropped, work, ended })
 }
@@ -75,7 +75,7 @@ pub fn all_within(
 #[cold]
 fn from_afar(
     tree: &Bvh<'_>,
-    probe: &PointQuery,
+    query: &PointQuery,
     point: [f32; 3],
     distance: f32,
     out: &mut [Neighbor],
@@ -87,7 +87,7 @@ fn from_afar(
     if closest.lower > distance {
         return Ok(none);
     }
-    let stored = first_triangles(tree, probe, closest.lower, closest.upper, out)?;
+    let stored = first_triangles(tree, query, closest.lower, closest.upper, out)?;
     let certain = if closest.upper <= distance { stored } else { 0 };
     let dropped = tree.header().triangles.saturating_sub(stored as u32);
     Ok(AllWithin { stored, certain, dropped, ..none })
@@ -95,11 +95,11 @@ fn from_afar(
 
 struct Collect<'a> {
     tree: &'a Bvh<'a>,
-    probe: &'a PointQuery,
+    query: &'a PointQuery,
     /// Input units.
     distance: f32,
     limit: f32,
-    ranked: KNearest<'a>,
+    k_nearest: KNearest<'a>,
     dropped: u32,
 }
 
@@ -111,7 +111,7 @@ impl LeafVisitor for Collect<'_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.patch, self.probe.p)?;
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
         if near.lower_bound_sq <= self.limit {
             self.collect(visit)?;
         }
@@ -123,16 +123,16 @@ impl Collect<'_> {
     #[inline(never)]
     fn collect(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        each_triangle(self.probe, &visit.patch, |lane, distance_sq, lower_bound_sq| {
+        each_triangle(self.query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > self.limit {
                 return;
             }
-            let lower = || lower_of(&visit.patch, lane, self.probe.p, distance_sq, lower_bound_sq);
-            let within = self.probe.upper(sqrt_approx(distance_sq)) <= self.distance
-                || self.probe.lower(lower()) <= self.distance;
+            let lower = || lower_of(&visit.leaf, lane, self.query.p, distance_sq, lower_bound_sq);
+            let within = self.query.upper(sqrt_approx(distance_sq)) <= self.distance
+                || self.query.lower(lower()) <= self.distance;
             if within
                 && self
-                    .ranked
+                    .k_nearest
                     .offer(Candidate::new(visit, first, lane, distance_sq, lower_bound_sq))
                     .is_some()
             {

@@ -8,7 +8,7 @@ use super::triangle_bounds::{distance_of_box, nearness, refine_sliver, seen_from
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::lower_bound;
 use crate::num::sqrt_approx;
-use crate::num::tolerance::{TREE_RELATIVE, U32};
+use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
 
@@ -62,19 +62,19 @@ pub fn closest_point_from(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = PointQuery::new(tree, point)?;
-    if probe.far {
-        return from_afar(tree, point, &probe);
+    let query = PointQuery::new(tree, point)?;
+    if query.far {
+        return from_afar(tree, point, &query);
     }
     let mut work = Work::default();
-    let mut seek = Closest::new(tree, point, &probe, stop);
+    let mut visitor = Closest::new(tree, point, &query, stop);
     if *hint != Hint::NONE
-        && let Some(patch) = tree.leaf(hint.0 >> 3, hint.0 & 7)
+        && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
     {
-        seek.bound_by(&patch).ok_or(QueryError::Model)?;
+        visitor.bound_by(&leaf).ok_or(QueryError::Model)?;
     }
-    let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
-    seek.answer(descent, work, hint)
+    let descent = descend(tree, query.p, stack, stop.steps, &mut visitor, &mut work)?;
+    visitor.answer(descent, work, hint)
 }
 
 /// The best leaf so far.
@@ -86,14 +86,11 @@ struct Best {
     lanes: Lanes,
 }
 
-/// Above every square of the domain and below what stands for no child.
-const NOTHING_YET: f32 = f32::from_bits(0x7E80_0000);
-
 struct Closest<'a> {
     tree: &'a Bvh<'a>,
     /// As it was asked.
     point: [f32; 3],
-    probe: &'a PointQuery,
+    query: &'a PointQuery,
     stop: &'a Budget,
     /// Squared bound above which nothing matters.
     limit: f32,
@@ -101,7 +98,7 @@ struct Closest<'a> {
     beyond: f32,
     best: Best,
     /// Certified squares below this are weak.
-    weak: f32,
+    refine_below: f32,
     /// Least certified square of a triangle whose own distance says too little.
     certified: f32,
     tolerant: bool,
@@ -109,16 +106,16 @@ struct Closest<'a> {
 
 impl<'a> Closest<'a> {
     #[inline(always)]
-    fn new(tree: &'a Bvh<'a>, point: [f32; 3], probe: &'a PointQuery, stop: &'a Budget) -> Self {
+    fn new(tree: &'a Bvh<'a>, point: [f32; 3], query: &'a PointQuery, stop: &'a Budget) -> Self {
         Closest {
             tree,
             point,
-            probe,
+            query,
             stop,
-            limit: NOTHING_YET,
-            beyond: NOTHING_YET,
+            limit: EVERYTHING_SQ,
+            beyond: EVERYTHING_SQ,
             best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
-            weak: f32::NEG_INFINITY,
+            refine_below: f32::NEG_INFINITY,
             certified: f32::INFINITY,
             tolerant: stop.relative > 0.0 || stop.absolute > 0.0,
         }
@@ -126,14 +123,14 @@ impl<'a> Closest<'a> {
 
     /// Lowers the limit by a leaf that the descent will come to again.
     #[inline(always)]
-    fn bound_by(&mut self, patch: &FanLeaf<'_>) -> Option<()> {
-        let near = nearest_triangle(patch, self.probe.p)?;
-        self.beyond = self.probe.limit(near.distance_sq);
+    fn bound_by(&mut self, leaf: &FanLeaf<'_>) -> Option<()> {
+        let near = nearest_triangle(leaf, self.query.p)?;
+        self.beyond = self.query.limit(near.distance_sq);
         self.limit = self.beyond;
         // Farther leaves do not count, on whichever target they are told to be beyond the limit
         // before they are computed.
         self.best.distance_sq = near.distance_sq;
-        self.weak = self.probe.weak(near.distance_sq);
+        self.refine_below = self.query.refine_below(near.distance_sq);
         Some(())
     }
 
@@ -141,7 +138,7 @@ impl<'a> Closest<'a> {
     #[cold]
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
         let distance = sqrt_approx(distance_sq);
-        let absolute = self.probe.units.inward(self.stop.absolute);
+        let absolute = self.query.units.inward(self.stop.absolute);
         let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute);
         if wanted > 0.0 { wanted * wanted } else { 0.0 }
     }
@@ -154,8 +151,8 @@ impl<'a> Closest<'a> {
             return;
         }
         self.best = Best { distance_sq, node: visit.node, child: visit.lane, lanes: near.lanes };
-        self.weak = self.probe.weak(distance_sq);
-        let beyond = self.probe.limit(distance_sq);
+        self.refine_below = self.query.refine_below(distance_sq);
+        let beyond = self.query.limit(distance_sq);
         if beyond < self.beyond {
             self.beyond = beyond;
         }
@@ -176,15 +173,15 @@ impl<'a> Closest<'a> {
     #[cold]
     #[inline(never)]
     fn certify(&mut self, visit: &LeafVisit<'_>) {
-        let probe = self.probe;
-        let box_sq = square(distance_of_box(probe, visit.key));
-        for lane in 0..visit.patch.tag().triangles() {
-            let seen = seen_from(&visit.patch, lane, probe.p);
+        let query = self.query;
+        let box_sq = square(distance_of_box(query, visit.key));
+        for lane in 0..visit.leaf.tag().triangles() {
+            let seen = seen_from(&visit.leaf, lane, query.p);
             let near = nearness(&seen);
-            if near.lower_bound_sq >= self.weak {
+            if near.lower_bound_sq >= self.refine_below {
                 continue;
             }
-            let better = refine_sliver(probe, &seen, near);
+            let better = refine_sliver(query, &seen, near);
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
             let here = visit.node == self.best.node && visit.lane == self.best.child;
             let first = !here || lane < lanes.at(best_sq).0;
@@ -220,8 +217,8 @@ impl<'a> Closest<'a> {
     ) -> Result<ClosestPoint, QueryError> {
         let Best { distance_sq, node, child, lanes } = self.best;
         // What is not weak is certified to this part of the best square, and no more.
-        let mut least_sq = match self.weak {
-            weak if weak > 0.0 => weak,
+        let mut least_sq = match self.refine_below {
+            below if below > 0.0 => below,
             // No leaf was looked at.
             f32::NEG_INFINITY => f32::MAX,
             _ => 0.0,
@@ -232,30 +229,30 @@ impl<'a> Closest<'a> {
         let mut ended = Ended::Exact;
         if let Descent::Truncated { least, steps } = descent {
             ended = if steps { Ended::Steps } else { Ended::Capacity };
-            least_sq = least_sq.min(square(distance_of_box(self.probe, least)));
+            least_sq = least_sq.min(square(distance_of_box(self.query, least)));
         }
         if node == u32::MAX {
-            let mut answer = from_afar(self.tree, self.point, self.probe)?;
+            let mut answer = from_afar(self.tree, self.point, self.query)?;
             answer.lower =
-                answer.lower.max(self.probe.lower(sqrt_approx(least_sq))).min(answer.upper);
+                answer.lower.max(self.query.lower(sqrt_approx(least_sq))).min(answer.upper);
             return Ok(ClosestPoint { work, ended, ..answer });
         }
         *hint = Hint(node << 3 | child);
         let distance = sqrt_approx(distance_sq);
         let mut least = sqrt_approx(least_sq);
         if self.tolerant {
-            let absolute = self.probe.units.inward(self.stop.absolute);
+            let absolute = self.query.units.inward(self.stop.absolute);
             let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute).max(0.0);
-            least = least.min(distance_of_box(self.probe, wanted * wanted));
+            least = least.min(distance_of_box(self.query, wanted * wanted));
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
         let (lane, v, w) = lanes.at(distance_sq);
         let first = self.tree.links(node).ok_or(QueryError::Model)?.triangle(child);
-        let patch = self.tree.leaf(node, child).ok_or(QueryError::Model)?;
+        let leaf = self.tree.leaf(node, child).ok_or(QueryError::Model)?;
         Ok(ClosestPoint {
-            lower: self.probe.lower(least),
-            upper: self.probe.upper(distance),
-            point: self.probe.units.point(patch.point(lane, v, w)),
+            lower: self.query.lower(least),
+            upper: self.query.upper(distance),
+            point: self.query.units.point(leaf.point(lane, v, w)),
             triangle: self.tree.source(first.wrapping_add(lane as u32)),
             work,
             ended,
@@ -271,11 +268,11 @@ impl LeafVisitor for Closest<'_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_within(&visit.patch, self.probe.p, self.beyond)?;
+        let near = nearest_within(&visit.leaf, self.query.p, self.beyond)?;
         if near.distance_sq <= self.best.distance_sq {
             self.improve(&near, visit);
         }
-        if near.lower_bound_sq < self.weak {
+        if near.lower_bound_sq < self.refine_below {
             self.certify(visit);
         }
         Some(true)
@@ -290,27 +287,27 @@ impl LeafVisitor for Closest<'_> {
 fn from_afar(
     tree: &Bvh<'_>,
     point: [f32; 3],
-    probe: &PointQuery,
+    query: &PointQuery,
 ) -> Result<ClosestPoint, QueryError> {
     let (low, high) = bounds(tree);
     let point = Vec3::from_array(point);
-    let corners = [low, high].map(|corner| Vec3::from_array(probe.units.point(corner)).abs());
+    let corners = [low, high].map(|corner| Vec3::from_array(query.units.point(corner)).abs());
     let size = point.abs().max(corners[0]).max(corners[1]).max_element();
     let (up, down) = match size {
         size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
         size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
         _ => (1.0, 1.0),
     };
-    let scaled = |x: f32| probe.units.outward(x, up);
+    let scaled = |x: f32| query.units.outward(x, up);
     let [low, high] =
         [low, high].map(|corner| Vec3::new(scaled(corner.x), scaled(corner.y), scaled(corner.z)));
     let p = point * up;
     let outside = (low - p).max(p - high).max(Vec3::ZERO);
     let farthest = (low - p).abs().max((p - high).abs());
     let (near, far) = (sqrt_approx(outside.dot(outside)), sqrt_approx(farthest.dot(farthest)));
-    let margin = |distance: f32| distance * (2.0 * TREE_RELATIVE * U32) + scaled(probe.margin());
+    let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.margin());
     let mut node = 0;
-    let (links, patch) = loop {
+    let (links, leaf) = loop {
         let links = tree.links(node).ok_or(QueryError::Model)?;
         let child = links.child(0);
         if child.is_leaf() {
@@ -321,7 +318,7 @@ fn from_afar(
     Ok(ClosestPoint {
         lower: at_least((near - margin(near)) * down),
         upper: at_most((far + margin(far)) * down),
-        point: probe.units.point(patch.centre(0)),
+        point: query.units.point(leaf.centre(0)),
         triangle: tree.source(links.triangle(0)),
         work: Work::default(),
         ended: Ended::Exact,

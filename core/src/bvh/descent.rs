@@ -15,7 +15,7 @@ use glam::Vec3;
 
 /// A leaf that a descent has come to.
 pub(crate) struct LeafVisit<'a> {
-    pub(crate) patch: FanLeaf<'a>,
+    pub(crate) leaf: FanLeaf<'a>,
     /// Squared lower bound of everything in it.
     pub(crate) key: f32,
     pub(crate) node: u32,
@@ -47,7 +47,7 @@ pub(crate) enum Descent {
 /// Puts the children of `node` within the limit on the stack, but for the nearest.
 #[inline(always)]
 #[allow(clippy::too_many_arguments, reason = "the state of both descents, inlined")]
-pub(crate) fn wait(
+pub(crate) fn push_children(
     stack: &mut [ScratchEntry],
     waiting: &mut usize,
     dropped: &mut f32,
@@ -82,14 +82,14 @@ pub(crate) fn wait(
     }
 }
 
-/// Visits every leaf within `seek`'s limit.
+/// Visits every leaf within `visitor`'s limit.
 #[inline(always)]
 pub(crate) fn descend(
     tree: &Bvh<'_>,
     p: Vec3,
     stack: &mut [ScratchEntry],
     steps: u32,
-    seek: &mut impl LeafVisitor,
+    visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
     let mut waiting = 0usize;
@@ -111,10 +111,19 @@ pub(crate) fn descend(
         work.splits += 1;
         work.nodes += links.count;
         let nearest = nearest_lane(&keys);
-        let limit = seek.limit();
+        let limit = visitor.limit();
         let mut found = nearest <= limit;
         if found {
-            wait(stack, &mut waiting, &mut dropped, node, &keys, links.count, nearest, limit);
+            push_children(
+                stack,
+                &mut waiting,
+                &mut dropped,
+                node,
+                &keys,
+                links.count,
+                nearest,
+                limit,
+            );
         }
         // The nearest child's links are at hand; what comes off the stack has to look its parent's
         // up.
@@ -128,17 +137,17 @@ pub(crate) fn descend(
                     break;
                 }
                 work.triangles += child.tag.triangles() as u32;
-                let patch = tree.patch(child.at, child.tag).ok_or(QueryError::Model)?;
+                let leaf = tree.patch(child.at, child.tag).ok_or(QueryError::Model)?;
                 let lane = entry.key.to_bits() & LANE_MASK;
-                let visit = LeafVisit { patch, key: bound, node: entry.node, lane };
-                if !seek.leaf(&visit).ok_or(QueryError::Model)? {
+                let visit = LeafVisit { leaf, key: bound, node: entry.node, lane };
+                if !visitor.leaf(&visit).ok_or(QueryError::Model)? {
                     return Ok(Descent::Answered);
                 }
             }
             found = true;
             loop {
                 let Some(top) = waiting.checked_sub(1) else {
-                    return Ok(if dropped <= seek.limit() {
+                    return Ok(if dropped <= visitor.limit() {
                         Descent::Truncated { least: dropped, steps: false }
                     } else {
                         Descent::Done
@@ -146,7 +155,7 @@ pub(crate) fn descend(
                 };
                 waiting = top;
                 entry = stack.get(top).copied().ok_or(QueryError::Model)?;
-                if entry.key <= seek.limit() {
+                if entry.key <= visitor.limit() {
                     break;
                 }
             }

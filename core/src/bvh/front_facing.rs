@@ -57,11 +57,11 @@ pub fn front_facing(
     for node in 0..tree.header().nodes {
         let links = tree.links(node).ok_or(QueryError::Model)?;
         for lane in links.inner..links.count.min(WIDTH as u32) {
-            let patch = tree.patch(links.vertex(lane), links.tag(lane)).ok_or(QueryError::Model)?;
+            let leaf = tree.patch(links.vertex(lane), links.tag(lane)).ok_or(QueryError::Model)?;
             let cone = tree.cone(found.leaves).ok_or(QueryError::Model)?;
-            let count = patch.tag().triangles() as u32;
+            let count = leaf.tag().triangles() as u32;
             found.leaves += 1;
-            if NormalCone::read(cone).is_some_and(|cone| eye.is_behind(&cone, &patch)) {
+            if NormalCone::read(cone).is_some_and(|cone| eye.is_behind(&cone, &leaf)) {
                 found.culled_leaves += 1;
                 found.culled += count;
                 continue;
@@ -97,8 +97,8 @@ impl Eye {
     fn new(tree: &Bvh<'_>, sight: &Sight) -> Result<Eye, QueryError> {
         match *sight {
             Sight::From(point) => {
-                let probe = PointQuery::new(tree, point)?;
-                Ok(if probe.far { Eye::FarAt(probe.p) } else { Eye::At(probe.p) })
+                let query = PointQuery::new(tree, point)?;
+                Ok(if query.far { Eye::FarAt(query.p) } else { Eye::At(query.p) })
             }
             Sight::Along(along) => {
                 let along = Vec3::from_array(along);
@@ -114,9 +114,9 @@ impl Eye {
     }
 
     /// Whether no triangle of a leaf faces it, for certain.
-    fn is_behind(&self, cone: &NormalCone, patch: &FanLeaf<'_>) -> bool {
+    fn is_behind(&self, cone: &NormalCone, leaf: &FanLeaf<'_>) -> bool {
         let all = |way: &dyn Fn(Vec3) -> Vec3| {
-            (0..patch.tag().centres()).all(|which| cone.is_behind(way(patch.centre(which))))
+            (0..leaf.tag().centres()).all(|which| cone.is_behind(way(leaf.centre(which))))
         };
         match *self {
             Eye::Towards(way) => cone.is_behind(way),

@@ -85,22 +85,22 @@ impl Candidate {
         }
     }
 
-    fn patch<'t>(&self, tree: &Bvh<'t>) -> Option<FanLeaf<'t>> {
+    fn leaf<'t>(&self, tree: &Bvh<'t>) -> Option<FanLeaf<'t>> {
         tree.leaf(self.node, self.child)
     }
 
     /// What the triangle is not nearer than, grid units.
-    pub(crate) fn lower(&self, tree: &Bvh<'_>, probe: &PointQuery) -> Option<f32> {
-        let patch = self.patch(tree)?;
-        Some(lower_of(&patch, self.lane as usize, probe.p, self.distance_sq, self.lower_bound_sq))
+    pub(crate) fn lower(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<f32> {
+        let leaf = self.leaf(tree)?;
+        Some(lower_of(&leaf, self.lane as usize, query.p, self.distance_sq, self.lower_bound_sq))
     }
 
-    fn answer(&self, tree: &Bvh<'_>, probe: &PointQuery) -> Option<Neighbor> {
-        let patch = self.patch(tree)?;
+    fn answer(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<Neighbor> {
+        let leaf = self.leaf(tree)?;
         Some(Neighbor {
-            lower: probe.lower(self.lower(tree, probe)?),
-            upper: probe.upper(sqrt_approx(self.distance_sq)),
-            point: probe.units.point(witness(probe, &patch, self.lane as usize)),
+            lower: query.lower(self.lower(tree, query)?),
+            upper: query.upper(sqrt_approx(self.distance_sq)),
+            point: query.units.point(witness(query, &leaf, self.lane as usize)),
             triangle: tree.source(self.number)?,
         })
     }
@@ -199,7 +199,7 @@ impl<'a> KNearest<'a> {
     pub(crate) fn finish(
         mut self,
         tree: &Bvh<'_>,
-        probe: &PointQuery,
+        query: &PointQuery,
     ) -> Result<usize, QueryError> {
         for end in (1..self.stored).rev() {
             if let Ok([top, last]) = self.slots.get_disjoint_mut([0, end]) {
@@ -210,7 +210,7 @@ impl<'a> KNearest<'a> {
         // Squares rise; roots that are rounded may not.
         let mut farthest = 0f32;
         for slot in self.slots.iter_mut().take(self.stored) {
-            let mut near = Candidate::of(slot).answer(tree, probe).ok_or(QueryError::Model)?;
+            let mut near = Candidate::of(slot).answer(tree, query).ok_or(QueryError::Model)?;
             if near.upper < farthest {
                 near.upper = farthest;
             }
@@ -225,7 +225,7 @@ impl<'a> KNearest<'a> {
 /// from which all are alike.
 pub(crate) fn first_triangles(
     tree: &Bvh<'_>,
-    probe: &PointQuery,
+    query: &PointQuery,
     lower: f32,
     upper: f32,
     out: &mut [Neighbor],
@@ -235,14 +235,14 @@ pub(crate) fn first_triangles(
     for node in 0..tree.header().nodes {
         let links = tree.links(node).ok_or(QueryError::Model)?;
         for child in links.inner..links.count {
-            let patch = tree.leaf(node, child).ok_or(QueryError::Model)?;
+            let leaf = tree.leaf(node, child).ok_or(QueryError::Model)?;
             let first = links.triangle(child);
-            for lane in 0..patch.tag().triangles() {
+            for lane in 0..leaf.tag().triangles() {
                 let Some(slot) = slots.next() else { return Ok(stored) };
-                let [corner, ..] = patch.corners(lane);
+                let [corner, ..] = leaf.corners(lane);
                 let triangle =
                     tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Model)?;
-                *slot = Neighbor { lower, upper, point: probe.units.point(corner), triangle };
+                *slot = Neighbor { lower, upper, point: query.units.point(corner), triangle };
                 stored += 1;
             }
         }

@@ -10,23 +10,23 @@ pub(crate) use narrow::{Lanes, nearest_within, seen};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use wide::{Lanes, nearest_within, seen};
 
-/// The nearest triangle of a patch, wherever it is.
+/// The nearest triangle of a leaf, wherever it is.
 #[inline(always)]
-pub(crate) fn nearest_triangle(patch: &FanLeaf<'_>, p: Vec3) -> Option<NearestOf> {
-    nearest_within(patch, p, f32::INFINITY)
+pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<NearestOf> {
+    nearest_within(leaf, p, f32::INFINITY)
 }
 
-/// The nearest triangle of a patch, and its triangles as seen from the query where all are read at
+/// The nearest triangle of a leaf, and its triangles as seen from the query where all are read at
 /// once.
 pub(crate) type Seen = (NearestOf, Option<Edges8>);
 
-/// The nearest triangle of a patch. One that is proved to be beyond a squared limit may be left out
+/// The nearest triangle of a leaf. One that is proved to be beyond a squared limit may be left out
 /// of it.
 #[derive(Clone, Copy)]
 pub(crate) struct NearestOf {
     /// Its squared distance.
     pub(crate) distance_sq: f32,
-    /// Least certified square of all triangles of the patch.
+    /// Least certified square of all triangles of the leaf.
     pub(crate) lower_bound_sq: f32,
     /// Which triangle it is.
     pub(crate) lanes: Lanes,
@@ -82,19 +82,19 @@ mod wide {
 
     /// `limit` is for the scalar kernel; here leaving a lane out would gain nothing.
     #[inline(always)]
-    pub(crate) fn nearest_within(patch: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<NearestOf> {
-        let near = if patch.is_f32() {
-            single_nearness(patch, p)?
+    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<NearestOf> {
+        let near = if leaf.is_f32() {
+            single_nearness(leaf, p)?
         } else {
-            point_patch8(&patch.grid_edges8(p)?, LANES_BELOW.get(patch.tag().triangles())?)
+            point_patch8(&leaf.grid_edges8(p)?, LANES_BELOW.get(leaf.tag().triangles())?)
         };
         Some(nearest_of(near))
     }
 
     #[inline(always)]
-    pub(crate) fn seen(patch: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
-        let edges = if patch.is_f32() { single_edges(patch, p)? } else { patch.grid_edges8(p)? };
-        let near = point_patch8(&edges, LANES_BELOW.get(patch.tag().triangles())?);
+    pub(crate) fn seen(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
+        let edges = if leaf.is_f32() { single_edges(leaf, p)? } else { leaf.grid_edges8(p)? };
+        let near = point_patch8(&edges, LANES_BELOW.get(leaf.tag().triangles())?);
         Some((nearest_of(near), Some(edges)))
     }
 
@@ -106,14 +106,14 @@ mod wide {
     }
 
     #[inline(never)]
-    fn single_edges(patch: &FanLeaf<'_>, p: Vec3) -> Option<Edges8> {
-        patch.single_edges8(p)
+    fn single_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Edges8> {
+        leaf.single_edges8(p)
     }
 
     /// A call of its own, so that the two ways to read a leaf do not meet in memory.
     #[inline(never)]
-    fn single_nearness(patch: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
-        Some(point_patch8(&patch.single_edges8(p)?, LANES_BELOW.get(patch.tag().triangles())?))
+    fn single_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
+        Some(point_patch8(&leaf.single_edges8(p)?, LANES_BELOW.get(leaf.tag().triangles())?))
     }
 
     #[inline(always)]
@@ -152,23 +152,23 @@ mod narrow {
     }
 
     #[inline(always)]
-    pub(crate) fn nearest_within(patch: &FanLeaf<'_>, p: Vec3, limit: f32) -> Option<NearestOf> {
+    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, limit: f32) -> Option<NearestOf> {
         let mut nearest = NearestOf {
             distance_sq: f32::INFINITY,
             lower_bound_sq: f32::INFINITY,
             lanes: Lanes::NONE,
         };
-        if patch.is_f32() {
-            single(patch, p, &mut nearest);
+        if leaf.is_f32() {
+            single(leaf, p, &mut nearest);
         } else {
-            on_grid(patch, p, limit, &mut nearest)?;
+            on_grid(leaf, p, limit, &mut nearest)?;
         }
         Some(nearest)
     }
 
     #[inline(always)]
-    pub(crate) fn seen(patch: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
-        Some((nearest_within(patch, p, f32::INFINITY)?, None))
+    pub(crate) fn seen(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
+        Some((nearest_within(leaf, p, f32::INFINITY)?, None))
     }
 
     impl NearestOf {
@@ -186,11 +186,11 @@ mod narrow {
 
     /// Every stored number is read once: differences of integers, then one conversion.
     #[inline(always)]
-    fn on_grid(patch: &FanLeaf<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
-        let ring = patch.grid_ring()?;
-        let turn = patch.tag().turn();
+    fn on_grid(leaf: &FanLeaf<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
+        let ring = leaf.grid_ring()?;
+        let turn = leaf.tag().turn();
         let mut centre = ring.centres[0];
-        let mut fan = PointFan::new(p - patch.centre(0));
+        let mut fan = PointFan::new(p - leaf.centre(0));
         let less = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
             Vec3::new(
                 x.wrapping_sub(cx) as f32,
@@ -205,7 +205,7 @@ mod narrow {
             if let Some(mut first) = a {
                 if i == turn + 1 {
                     centre = ring.centres[1];
-                    fan = PointFan::new(p - patch.centre(1));
+                    fan = PointFan::new(p - leaf.centre(1));
                     first = fan.spoke(less(before, centre));
                 }
                 let second = fan.spoke(less(here, centre));
@@ -222,14 +222,14 @@ mod narrow {
     }
 
     #[inline(never)]
-    fn single(patch: &FanLeaf<'_>, p: Vec3, nearest: &mut NearestOf) {
-        let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
-        let s = [p - patch.centre(0), p - patch.centre(patch.tag().centres() - 1)];
+    fn single(leaf: &FanLeaf<'_>, p: Vec3, nearest: &mut NearestOf) {
+        let (count, turn) = (leaf.tag().triangles(), leaf.tag().turn());
+        let s = [p - leaf.centre(0), p - leaf.centre(leaf.tag().centres() - 1)];
         point_patch(
             count,
             turn,
             s,
-            |i, which| patch.spoke(i, which),
+            |i, which| leaf.spoke(i, which),
             |lane, near| nearest.take(lane, &near),
         );
     }

@@ -5,9 +5,10 @@ use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use super::k_nearest::{Candidate, KNearest, Neighbor, first_triangles};
 use super::leaf_distance::nearest_triangle;
 use super::point_query::PointQuery;
-use super::triangle_bounds::{EVERYTHING, each_triangle, lower_of_box};
+use super::triangle_bounds::{each_triangle, lower_of_box};
 use crate::bvh::format::Bvh;
 use crate::num::sqrt_approx;
+use crate::num::tolerance::EVERYTHING_SQ;
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 
 /// How a search for the closest triangles went; they are in the caller's slice.
@@ -51,42 +52,43 @@ pub fn nearest(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = PointQuery::new(tree, point)?;
+    let query = PointQuery::new(tree, point)?;
     let mut work = Work::default();
     if out.is_empty() {
         return Ok(Nearest { stored: 0, rest_lower: 0.0, work, ended: Ended::Exact });
     }
     let all = tree.header().triangles as usize;
-    if probe.far {
+    if query.far {
         let box_of_all = closest_point(tree, point, &Budget::EXACT, stack)?;
-        let stored = first_triangles(tree, &probe, box_of_all.lower, box_of_all.upper, out)?;
+        let stored = first_triangles(tree, &query, box_of_all.lower, box_of_all.upper, out)?;
         let rest_lower = if stored == all { f32::INFINITY } else { box_of_all.lower };
         return Ok(Nearest { stored, rest_lower, work, ended: Ended::Exact });
     }
-    let ranked = KNearest::new(out);
-    let mut seek = Closest { tree, probe: &probe, ranked, limit: EVERYTHING, rest: f32::INFINITY };
-    let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
+    let k_nearest = KNearest::new(out);
+    let mut visitor =
+        Closest { tree, query: &query, k_nearest, limit: EVERYTHING_SQ, rest: f32::INFINITY };
+    let descent = descend(tree, query.p, stack, stop.steps, &mut visitor, &mut work)?;
     let mut rest_lower = f32::INFINITY;
-    if seek.ranked.stored() < all {
+    if visitor.k_nearest.stored() < all {
         // What was not looked at is farther than the last one stored.
-        let last = seek.ranked.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
-        let rest = if last < seek.rest { last } else { seek.rest };
-        rest_lower = probe.lower(rest);
+        let last = visitor.k_nearest.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
+        let rest = if last < visitor.rest { last } else { visitor.rest };
+        rest_lower = query.lower(rest);
     }
     let mut ended = Ended::Exact;
     if let Descent::Truncated { least, steps } = descent {
         ended = if steps { Ended::Steps } else { Ended::Capacity };
-        let missed = lower_of_box(&probe, least);
+        let missed = lower_of_box(&query, least);
         rest_lower = if missed < rest_lower { missed } else { rest_lower };
     }
-    let stored = seek.ranked.finish(tree, &probe)?;
+    let stored = visitor.k_nearest.finish(tree, &query)?;
     Ok(Nearest { stored, rest_lower, work, ended })
 }
 
 struct Closest<'a> {
     tree: &'a Bvh<'a>,
-    probe: &'a PointQuery,
-    ranked: KNearest<'a>,
+    query: &'a PointQuery,
+    k_nearest: KNearest<'a>,
     limit: f32,
     /// What every triangle that was looked at and is not stored is not nearer than, grid units.
     rest: f32,
@@ -100,7 +102,7 @@ impl LeafVisitor for Closest<'_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.patch, self.probe.p)?;
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
         if near.lower_bound_sq <= self.limit {
             self.rank(visit)?;
         }
@@ -112,19 +114,19 @@ impl Closest<'_> {
     #[inline(never)]
     fn rank(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        each_triangle(self.probe, &visit.patch, |lane, distance_sq, lower_bound_sq| {
+        each_triangle(self.query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > self.limit {
                 return;
             }
             let candidate = Candidate::new(visit, first, lane, distance_sq, lower_bound_sq);
-            if let Some(out) = self.ranked.offer(candidate) {
-                let lower = out.lower(self.tree, self.probe).unwrap_or(0.0);
+            if let Some(out) = self.k_nearest.offer(candidate) {
+                let lower = out.lower(self.tree, self.query).unwrap_or(0.0);
                 if lower < self.rest {
                     self.rest = lower;
                 }
             }
-            if let Some(farthest_sq) = self.ranked.farthest_sq() {
-                let limit = self.probe.limit(farthest_sq);
+            if let Some(farthest_sq) = self.k_nearest.farthest_sq() {
+                let limit = self.query.limit(farthest_sq);
                 self.limit = if limit < self.limit { limit } else { self.limit };
             }
         });

@@ -3,7 +3,7 @@
 
 use crate::bvh::format::Bvh;
 use crate::num::tolerance::{
-    TREE_BOX, TREE_FAN, TREE_FAR, TREE_RELATIVE, TREE_SHORT, TREE_WEAK, U32,
+    BOX_DISTANCE, BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, U32,
 };
 use crate::query::QueryError;
 use glam::Vec3;
@@ -75,14 +75,14 @@ pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
     pub(crate) units: Units,
-    /// What a distance in grid units may be off by: this, and [`TREE_RELATIVE`] roundings of
+    /// What a distance in grid units may be off by: this, and [`FAN_RELATIVE`] roundings of
     /// itself.
     margin: f32,
     /// What is added to a squared limit, so that no rounding hides a candidate.
     allowance: f32,
-    /// Square that a certificate may fall short by: [`TREE_SHORT`], or 0 for exact vertices.
+    /// Square that a certificate may fall short by: [`CERTIFIED_SHORTFALL`], or 0 for exact vertices.
     short: f32,
-    /// Farther than [`TREE_FAR`]: the box is all that matters.
+    /// Farther than [`BVH_FAR`]: the box is all that matters.
     pub(crate) far: bool,
 }
 
@@ -99,10 +99,10 @@ impl PointQuery {
         let (low, high) = bounds(tree);
         let farthest = (p - low).abs().max((p - high).abs());
         let size = farthest.x + farthest.y + farthest.z;
-        let fan = TREE_FAN * U32 * header.reach;
-        let off = TREE_BOX * U32 * size + fan;
-        let short = if header.is_f32() { 0.0 } else { TREE_SHORT };
-        let near = size <= TREE_FAR;
+        let fan = FAN_DISTANCE * U32 * header.reach;
+        let off = BOX_DISTANCE * U32 * size + fan;
+        let short = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
+        let near = size <= BVH_FAR;
         Ok(PointQuery { p, units, short, margin: fan, allowance: 2100.0 * off * off, far: !near })
     }
 
@@ -117,8 +117,8 @@ impl PointQuery {
     /// What a certified square has to reach beside the best computed one; below it is looked at
     /// again.
     #[inline(always)]
-    pub(crate) fn weak(&self, distance_sq: f32) -> f32 {
-        distance_sq * TREE_WEAK - self.short
+    pub(crate) fn refine_below(&self, distance_sq: f32) -> f32 {
+        distance_sq * CERTIFIED_PART - self.short
     }
 
     /// A computed distance to the stored surface as an upper bound of the true one to the input's,
@@ -126,8 +126,7 @@ impl PointQuery {
     #[inline(always)]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
         self.units.upper(
-            distance
-                + (distance * (TREE_RELATIVE * U32) + (self.margin + self.units.surface_error)),
+            distance + (distance * (FAN_RELATIVE * U32) + (self.margin + self.units.surface_error)),
         )
     }
 
@@ -140,8 +139,7 @@ impl PointQuery {
     #[inline(always)]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
         self.units.lower(
-            distance
-                - (distance * (TREE_RELATIVE * U32) + (self.margin + self.units.surface_error)),
+            distance - (distance * (FAN_RELATIVE * U32) + (self.margin + self.units.surface_error)),
         )
     }
 }

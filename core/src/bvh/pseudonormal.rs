@@ -16,19 +16,11 @@ use super::side_search::{Search, Side};
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use crate::bvh::format::FanLeaf;
 use crate::num::sqrt_approx;
-use crate::num::tolerance::{TRUSTED_DIRECTION_SQ, U32};
+use crate::num::tolerance::{
+    EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
+};
 use crate::query::QueryError;
 use glam::Vec3;
-
-/// Rounding of a triple product in f32, in units of [`U32`] times the sum of the absolute values of
-/// its products. Proved: eight, second order apart, for three factors that carry one rounding each.
-const TRIPLE_PRODUCT: f32 = 16.0;
-
-/// Largest sum of absolute products of integers below which every one of them is exact in f32.
-const EXACT: f32 = (1u32 << 24) as f32;
-
-/// Cosines are off by less than this many [`U32`].
-const COSINE: f32 = 16.0;
 
 /// Which side of a triangle is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,19 +48,20 @@ fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
 
 /// How triangle `lane` faces `p`.
 #[inline]
-pub(crate) fn facing(patch: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
-    let second = lane >= patch.tag().turn();
+pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
+    let second = lane >= leaf.tag().turn();
     let which = usize::from(second);
-    let (e, g) = (patch.spoke(lane, which), patch.spoke(lane + 1, which));
+    let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
     let (normal, size) = cross(e, g);
-    if normal == Vec3::ZERO && is_flat(patch, lane, norm_1(size)) {
+    if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
         return Facing::Flat;
     }
-    let s = p - patch.centre(which);
+    let s = p - leaf.centre(which);
     let volume = normal.dot(s);
     // What underflow may add is some hundred times below the last term.
-    let rounding = TRIPLE_PRODUCT * U32 * size.dot(s.abs()) + f32::MIN_POSITIVE * (1.0 + norm_1(s));
-    let volume = if second && patch.tag().second_reversed() { -volume } else { volume };
+    let rounding =
+        SIGN_TRIPLE_PRODUCT * U32 * size.dot(s.abs()) + f32::MIN_POSITIVE * (1.0 + norm_1(s));
+    let volume = if second && leaf.tag().second_reversed() { -volume } else { volume };
     if volume > rounding {
         Facing::Front
     } else if volume < -rounding {
@@ -81,15 +74,18 @@ pub(crate) fn facing(patch: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
 /// Whether a triangle whose normal came out as zero has no area: a repeated corner, or integers so
 /// small that the normal is exact.
 #[cold]
-fn is_flat(patch: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
-    let [a, b, c] = patch.corners(lane);
-    let integral = |v: Vec3| v.floor() == v && v.abs().max_element() < EXACT;
-    a == b || b == c || c == a || (size < EXACT && integral(a) && integral(b) && integral(c))
+fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
+    let [a, b, c] = leaf.corners(lane);
+    let integral = |v: Vec3| v.floor() == v && v.abs().max_element() < EXACT_INTEGERS;
+    a == b
+        || b == c
+        || c == a
+        || (size < EXACT_INTEGERS && integral(a) && integral(b) && integral(c))
 }
 
 /// The triangles that may be the closest one.
 pub(crate) struct Candidates<'p> {
-    probe: &'p PointQuery,
+    query: &'p PointQuery,
     /// Lower bound, grid units, up to which a triangle is one of them: twice and more what
     /// rounding asks for.
     pub(crate) band: f32,
@@ -100,11 +96,11 @@ pub(crate) struct Candidates<'p> {
 impl<'p> Candidates<'p> {
     /// `margin` is the part of rounding that does not grow with the distance.
     #[inline]
-    pub(crate) fn new(probe: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
+    pub(crate) fn new(query: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
         let distance = sqrt_approx(distance_sq);
         let band = distance * (1.0 + 128.0 * U32) + 8.0 * margin;
         let reach = distance * (1.0 + 64.0 * U32) + 4.0 * margin;
-        Candidates { probe, band, reach }
+        Candidates { query, band, reach }
     }
 }
 
@@ -114,12 +110,12 @@ pub(crate) fn side_of_shared_feature(
     candidates: &Candidates<'_>,
     corners: [Vec3; 3],
 ) -> Result<Side, QueryError> {
-    let limit = limit_of(candidates.probe, candidates.band);
+    let limit = limit_of(candidates.query, candidates.band);
     let mut shared = Shared { candidates, limit, corners, kept: [true; 3] };
-    if !search.descend(candidates.probe.p, &mut shared)? {
+    if !search.descend(candidates.query.p, &mut shared)? {
         return Ok(Side::Undefined);
     }
-    let ([a, b, c], p) = (corners, candidates.probe.p);
+    let ([a, b, c], p) = (corners, candidates.query.p);
     match shared.kept {
         [true, false, false] => about_vertex(search, candidates, limit, a, p),
         [false, true, false] => about_vertex(search, candidates, limit, b, p),
@@ -145,15 +141,15 @@ impl LeafVisitor for Shared<'_> {
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let (patch, p) = (&visit.patch, self.candidates.probe.p);
-        each_triangle(self.candidates.probe, patch, |lane, distance_sq, lower_bound_sq| {
+        let (leaf, p) = (&visit.leaf, self.candidates.query.p);
+        each_triangle(self.candidates.query, leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > self.limit
-                || lower_of(patch, lane, p, distance_sq, lower_bound_sq) > self.candidates.band
-                || facing(patch, lane, p) == Facing::Flat
+                || lower_of(leaf, lane, p, distance_sq, lower_bound_sq) > self.candidates.band
+                || facing(leaf, lane, p) == Facing::Flat
             {
                 return;
             }
-            let corners = patch.corners(lane);
+            let corners = leaf.corners(lane);
             for (kept, corner) in self.kept.iter_mut().zip(&self.corners) {
                 *kept &= corners.contains(corner);
             }
@@ -221,8 +217,8 @@ impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        for lane in 0..visit.patch.tag().triangles() {
-            (self.each)(&visit.patch, lane);
+        for lane in 0..visit.leaf.tag().triangles() {
+            (self.each)(&visit.leaf, lane);
         }
         Some(true)
     }
@@ -248,15 +244,15 @@ fn about_vertex(
     }
     let u = s * (1.0 / far);
     let mut sum = Sum::default();
-    let each = |patch: &FanLeaf<'_>, lane: usize| {
-        let (e, g) = match patch.corners(lane) {
+    let each = |leaf: &FanLeaf<'_>, lane: usize| {
+        let (e, g) = match leaf.corners(lane) {
             [a, b, c] if a == vertex => (b - a, c - a),
             [a, b, c] if b == vertex => (c - b, a - b),
             [a, b, c] if c == vertex => (a - c, b - c),
             _ => return,
         };
         let (normal, size) = cross(e, g);
-        if normal == Vec3::ZERO && is_flat(patch, lane, norm_1(size)) {
+        if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
             return;
         }
         if !is_sound(normal, size) {
@@ -271,11 +267,15 @@ fn about_vertex(
         let reached = e.dot(u).max(g.dot(u));
         // Directions between the two: (λe + μg) / |λe + μg|, whose length is at least (λ +
         // μ)·cos(α/2).
-        let eta = if reached <= -COSINE * U32 {
+        let eta = if reached <= -SIGN_COSINE * U32 {
             0.0
         } else {
-            let half = 0.5 * (1.0 + e.dot(g)) - COSINE * U32;
-            if half > 0.0 { (reached + COSINE * U32) / sqrt_approx(half) } else { f32::INFINITY }
+            let half = 0.5 * (1.0 + e.dot(g)) - SIGN_COSINE * U32;
+            if half > 0.0 {
+                (reached + SIGN_COSINE * U32) / sqrt_approx(half)
+            } else {
+                f32::INFINITY
+            }
         };
         sum.add(normal, size, angle, eta);
     };
@@ -294,25 +294,25 @@ fn about_edge(
 ) -> Result<Side, QueryError> {
     let (edge, s) = (b - a, p - a);
     let (along, length_sq) = (s.dot(edge), edge.dot(edge));
-    let rounding = COSINE * U32 * norm_1(s) * norm_1(edge);
+    let rounding = SIGN_COSINE * U32 * norm_1(s) * norm_1(edge);
     let across = s - edge * (along / length_sq);
     let far = sqrt_approx(across.dot(across));
     // The foot has to be within the edge, and clear of its ends.
     if !(along > rounding && length_sq - along > rounding && far > 0.0)
-        || far + COSINE * U32 * norm_1(s) > candidates.reach
+        || far + SIGN_COSINE * U32 * norm_1(s) > candidates.reach
     {
         return Ok(Side::Undefined);
     }
     let u = across * (1.0 / far);
     let mut sum = Sum::default();
-    let each = |patch: &FanLeaf<'_>, lane: usize| {
-        let corners = patch.corners(lane);
+    let each = |leaf: &FanLeaf<'_>, lane: usize| {
+        let corners = leaf.corners(lane);
         if !corners.contains(&a) || !corners.contains(&b) {
             return;
         }
         let [x, y, z] = corners;
         let (normal, size) = cross(y - x, z - x);
-        if normal == Vec3::ZERO && is_flat(patch, lane, norm_1(size)) {
+        if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
             return;
         }
         let Some(third) = corners.into_iter().find(|&c| c != a && c != b) else { return };
@@ -323,7 +323,7 @@ fn about_edge(
             sum.broken = true;
             return;
         }
-        let noise = COSINE * U32 * (norm_1(leg) / height + norm_1(s) / far);
+        let noise = SIGN_COSINE * U32 * (norm_1(leg) / height + norm_1(s) / far);
         let reached = inward.dot(u) / height + noise;
         sum.add(normal, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
     };

@@ -1,10 +1,10 @@
 //! Segments on the box tree: first hit, any hit, all hits.
 //!
 //! A segment visits two nodes and less than one leaf on scanned parts, so what is done once for
-//! each segment decides. The fan kernels flag the triangles that may be met; only these are refine_sliver
+//! each segment decides. The fan kernels flag the triangles that may be met; only these are settled
 //! one by one, with the interval of parameters in which the *input's* triangle can be met.
 
-use super::descent::wait;
+use super::descent::push_children;
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::node::{LANE_MASK, WIDE, box_entries, nearest_lane};
@@ -66,7 +66,7 @@ pub fn first_hit(
     stack: &mut [ScratchEntry],
 ) -> Result<SegmentHit, QueryError> {
     let mut work = Work::default();
-    let Some(aim) = begin(tree, a, b, stack)? else {
+    let Some(query) = begin(tree, a, b, stack)? else {
         return Ok(SegmentHit {
             lower: f32::INFINITY,
             upper: f32::INFINITY,
@@ -76,14 +76,14 @@ pub fn first_hit(
         });
     };
     let mut first = First {
-        limit: aim.ray.end(),
+        limit: query.ray.end(),
         lower: f32::INFINITY,
         best: Place { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
         certain: false,
         tree,
     };
-    let dropped = descend(tree, &aim, *facing, stack, &mut first, &mut work)?;
-    first.answer(&aim, dropped, work)
+    let dropped = descend(tree, &query, *facing, stack, &mut first, &mut work)?;
+    first.answer(&query, dropped, work)
 }
 
 /// Whether the closed segment `a b` (input units) meets the surface: ends at the first proof.
@@ -101,9 +101,9 @@ pub fn any_hit(
     facing: &Facing,
     stack: &mut [ScratchEntry],
 ) -> Result<AnyHit, QueryError> {
-    let Some(aim) = begin(tree, a, b, stack)? else { return Ok(AnyHit::Clear) };
-    let mut any = Any { end: aim.ray.end(), open: false, certain: false };
-    let dropped = descend(tree, &aim, *facing, stack, &mut any, &mut Work::default())?;
+    let Some(query) = begin(tree, a, b, stack)? else { return Ok(AnyHit::Clear) };
+    let mut any = Any { end: query.ray.end(), open: false, certain: false };
+    let dropped = descend(tree, &query, *facing, stack, &mut any, &mut Work::default())?;
     Ok(match (any.certain, any.open | dropped.is_finite()) {
         (true, _) => AnyHit::Hit,
         (_, true) => AnyHit::Unknown,
@@ -131,11 +131,12 @@ pub fn all_hits(
     stack: &mut [ScratchEntry],
 ) -> Result<AllHits, QueryError> {
     let mut work = Work::default();
-    let Some(aim) = begin(tree, a, b, stack)? else {
+    let Some(query) = begin(tree, a, b, stack)? else {
         return Ok(AllHits { stored: 0, dropped: 0, work, ended: Ended::Exact });
     };
-    let mut all = All { tree, aim: &aim, hits, stored: 0, dropped: 0, open: false, failed: false };
-    let missed = descend(tree, &aim, *facing, stack, &mut all, &mut work)?;
+    let mut all =
+        All { tree, query: &query, hits, stored: 0, dropped: 0, open: false, failed: false };
+    let missed = descend(tree, &query, *facing, stack, &mut all, &mut work)?;
     if all.failed {
         return Err(QueryError::Model);
     }
@@ -206,7 +207,7 @@ impl First<'_> {
     #[inline(always)]
     fn answer(
         &self,
-        aim: &SegmentQuery,
+        query: &SegmentQuery,
         dropped: f32,
         work: Work,
     ) -> Result<SegmentHit, QueryError> {
@@ -220,14 +221,14 @@ impl First<'_> {
         let mut hit = None;
         if self.best.t < f32::INFINITY {
             let number = self.number(&self.best).ok_or(QueryError::Model)?;
-            hit = Some(aim.hit(self.best.t, self.tree.source(number)));
+            hit = Some(query.hit(self.best.t, self.tree.source(number)));
         }
         let upper = match (self.certain, hit) {
-            (true, _) => aim.upper(self.limit),
+            (true, _) => query.upper(self.limit),
             (false, Some(_)) => 1.0,
             (false, None) => f32::INFINITY,
         };
-        Ok(SegmentHit { lower: aim.lower(lower), upper, hit, work, ended })
+        Ok(SegmentHit { lower: query.lower(lower), upper, hit, work, ended })
     }
 }
 
@@ -298,7 +299,7 @@ impl Collect for Any {
 
 struct All<'a> {
     tree: &'a Bvh<'a>,
-    aim: &'a SegmentQuery,
+    query: &'a SegmentQuery,
     hits: &'a mut [Hit],
     stored: usize,
     dropped: u32,
@@ -308,7 +309,7 @@ struct All<'a> {
 
 impl Collect for All<'_> {
     fn limit(&self) -> f32 {
-        self.aim.ray.end()
+        self.query.ray.end()
     }
 
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) {
@@ -319,7 +320,7 @@ impl Collect for All<'_> {
                 return;
             };
             let number = links.triangle(child).wrapping_add(lane);
-            let hit = self.aim.hit(crossing.t, self.tree.source(number));
+            let hit = self.query.hit(crossing.t, self.tree.source(number));
             insert(self.hits, &mut self.stored, &mut self.dropped, hit);
         }
     }
@@ -333,19 +334,19 @@ impl Collect for All<'_> {
     const COVERS: bool = false;
 }
 
-/// Triangles of a patch that the line may meet.
+/// Triangles of a leaf that the line may meet.
 #[inline(always)]
-fn flagged(patch: &FanLeaf<'_>, aim: &SegmentQuery) -> Option<u32> {
-    let tag = patch.tag();
+fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
+    let tag = leaf.tag();
     if WIDE {
         let (first, used) = (LANES_BELOW.get(tag.turn())?, LANES_BELOW.get(tag.triangles())?);
-        return Some(ray_patch8(&aim.ray, &patch.ring8(aim.ray.axes())?, first, used));
+        return Some(ray_patch8(&query.ray, &leaf.ring8(query.ray.axes())?, first, used));
     }
-    if patch.is_f32() {
-        return Some(flagged_single(patch, &aim.ray));
+    if leaf.is_f32() {
+        return Some(flagged_single(leaf, &query.ray));
     }
-    let ray = &aim.ray;
-    let ring = patch.grid_ring()?;
+    let ray = &query.ray;
+    let ring = leaf.grid_ring()?;
     let origin = ray.in_order(ring.origin);
     let shadow = |vertex: [i32; 3]| {
         let mut at = [0f32; 3];
@@ -363,32 +364,32 @@ fn flagged(patch: &FanLeaf<'_>, aim: &SegmentQuery) -> Option<u32> {
 }
 
 #[inline(never)]
-fn flagged_single(patch: &FanLeaf<'_>, ray: &FanRay) -> u32 {
-    let tag = patch.tag();
-    let centres = [0, tag.centres() - 1].map(|which| ray.shadow(patch.centre(which)));
-    ray_patch(ray, tag.turn(), centres, (0..=tag.triangles()).map(|i| ray.shadow(patch.ring(i))))
+fn flagged_single(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
+    let tag = leaf.tag();
+    let centres = [0, tag.centres() - 1].map(|which| ray.shadow(leaf.centre(which)));
+    ray_patch(ray, tag.turn(), centres, (0..=tag.triangles()).map(|i| ray.shadow(leaf.ring(i))))
 }
 
-/// Settles the flagged triangles of a patch.
+/// Settles the flagged triangles of a leaf.
 #[inline(never)]
 fn settle<C: Collect>(
-    patch: &FanLeaf<'_>,
-    aim: &SegmentQuery,
+    leaf: &FanLeaf<'_>,
+    query: &SegmentQuery,
     facing: Facing,
     flagged: u32,
     bound: f32,
     [node, child]: [u32; 2],
     collect: &mut C,
 ) {
-    let tag = patch.tag();
-    let ray = &aim.ray;
+    let tag = leaf.tag();
+    let ray = &query.ray;
     let sign = match facing {
         Facing::Both => 0.0,
         Facing::Front => ray.front(),
         Facing::Back => -ray.front(),
     };
     let wanted = |second: bool| if second && tag.second_reversed() { -sign } else { sign };
-    let mut refine_sliver = false;
+    let mut is_met = false;
     let (mut open, mut upper) = ([0u32; 2], [0f32; 2]);
     let mut within = [true; 2];
     let mut left = flagged;
@@ -397,7 +398,7 @@ fn settle<C: Collect>(
         left &= left - 1;
         let second = lane as usize >= tag.turn();
         let fan = usize::from(second);
-        let corners = [patch.centre(fan), patch.ring(lane as usize), patch.ring(lane as usize + 1)];
+        let corners = [leaf.centre(fan), leaf.ring(lane as usize), leaf.ring(lane as usize + 1)];
         let found = ray.crossing(corners.map(|v| ray.shadow(v)), wanted(second));
         let Some(mut crossing) = found else { continue };
         // All of the leaf lies in its box; and so the answer does not depend on which leaves beyond
@@ -415,7 +416,7 @@ fn settle<C: Collect>(
         }
         collect.meet(&crossing, node, child, lane);
         if crossing.certain {
-            refine_sliver = true;
+            is_met = true;
             collect.certain(crossing.upper);
         } else {
             open[fan & 1] |= 1 << lane;
@@ -425,15 +426,15 @@ fn settle<C: Collect>(
             }
         }
     }
-    if refine_sliver || !C::COVERS {
+    if is_met || !C::COVERS {
         return;
     }
     for fan in 0..2 {
         if open[fan] != 0 && within[fan] {
             let (from, to) = if fan == 0 { (0, tag.turn()) } else { (tag.turn(), WIDTH) };
             let to = if to < tag.triangles() { to } else { tag.triangles() };
-            let centre = ray.shadow(patch.centre(fan));
-            let turns = ray.cover(centre, |i| ray.shadow(patch.ring(i)), open[fan], from, to);
+            let centre = ray.shadow(leaf.centre(fan));
+            let turns = ray.cover(centre, |i| ray.shadow(leaf.ring(i)), open[fan], from, to);
             let met =
                 turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
             if met {
@@ -448,7 +449,7 @@ fn settle<C: Collect>(
 #[inline(always)]
 fn descend<C: Collect>(
     tree: &Bvh<'_>,
-    aim: &SegmentQuery,
+    query: &SegmentQuery,
     facing: Facing,
     stack: &mut [ScratchEntry],
     collect: &mut C,
@@ -462,13 +463,22 @@ fn descend<C: Collect>(
         let links = tree.links(node).ok_or(QueryError::Model)?;
         let record = tree.boxes(node).ok_or(QueryError::NotServed)?;
         let limit = collect.limit();
-        let keys = box_entries(record, &aim.slabs, links.count, bound, limit);
+        let keys = box_entries(record, &query.slabs, links.count, bound, limit);
         work.splits += 1;
         work.nodes += links.count;
         let nearest = nearest_lane(&keys);
         let mut found = nearest <= limit;
         if found {
-            wait(stack, &mut waiting, &mut dropped, node, &keys, links.count, nearest, limit);
+            push_children(
+                stack,
+                &mut waiting,
+                &mut dropped,
+                node,
+                &keys,
+                links.count,
+                nearest,
+                limit,
+            );
         }
         // The nearest child's links are at hand; what comes off the stack has to look its parent's
         // up.
@@ -482,11 +492,11 @@ fn descend<C: Collect>(
                     break;
                 }
                 work.triangles += child.tag.triangles() as u32;
-                let patch = tree.patch(child.at, child.tag).ok_or(QueryError::Model)?;
-                let lanes = flagged(&patch, aim).ok_or(QueryError::Model)?;
+                let leaf = tree.patch(child.at, child.tag).ok_or(QueryError::Model)?;
+                let lanes = flagged(&leaf, query).ok_or(QueryError::Model)?;
                 if lanes != 0 {
                     let lane = entry.key.to_bits() & LANE_MASK;
-                    settle(&patch, aim, facing, lanes, bound, [entry.node, lane], collect);
+                    settle(&leaf, query, facing, lanes, bound, [entry.node, lane], collect);
                     if collect.is_answered() {
                         return Ok(dropped);
                     }

@@ -3,21 +3,11 @@
 use super::point_query::{Units, bounds};
 use crate::bvh::format::Bvh;
 use crate::bvh::node::Slabs;
-use crate::geom::fan::{FanRay, STILL};
-use crate::num::tolerance::{TREE_FAR, TREE_TINY, U32};
+use crate::geom::fan::FanRay;
+use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
 use crate::num::two_sum;
 use crate::query::{Hit, QueryError};
 use glam::Vec3;
-
-/// Rounding of the parameter at which a segment enters a box, in units of [`U32`] times the way to
-/// the farthest corner along that axis. Proved: 28 (`core/docs/rounding.md` §9). Larger visits
-/// more.
-const SLAB: f32 = 32.0;
-
-/// How many extents of the model its farthest corner may be away from a segment's start before the
-/// start is moved nearer. There the strip along edges in which nothing is decided is 2^-17 of the
-/// model.
-const NEAR: f32 = 8.0;
 
 /// A segment, and how its parameters go back to the caller's.
 #[derive(Clone, Copy, Debug)]
@@ -54,14 +44,14 @@ impl SegmentQuery {
         let far = farthest(a, low, high);
         let size = norm_1(far);
         let far_b = farthest(b, low, high);
-        if !((size <= TREE_FAR) & (norm_1(far_b) <= TREE_FAR)) {
+        if !((size <= BVH_FAR) & (norm_1(far_b) <= BVH_FAR)) {
             return Err(QueryError::OutOfDomain);
         }
         let size_b = norm_1(far_b);
         if misses([a, b], [low, high], units.surface_error, size + size_b) {
             return Ok(None);
         }
-        if size > NEAR * norm_1(high - low) {
+        if size > NEAR_START * norm_1(high - low) {
             return Ok(approach(units, [a, b], [low, high], size));
         }
         Ok(Some(SegmentQuery::at(units, a, b - a, far, 0.0, 0.0)))
@@ -83,7 +73,7 @@ impl SegmentQuery {
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
         // The way and a unit more: a node that is flat, or thinner than a grid unit, has an origin
         // that is an integer.
-        let margin = |far: f32| surface + (SLAB * U32 * far + SLAB * U32);
+        let margin = |far: f32| surface + (BOX_ENTRY * U32 * far + BOX_ENTRY * U32);
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
         let (from, along) = (origin.to_array(), direction.to_array());
@@ -148,7 +138,7 @@ fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
 /// away, `core/docs/rounding.md` §9 has the margin.
 #[inline(always)]
 fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f32) -> bool {
-    let margin = 2.0 * surface_error + size * (32.0 * U32) + TREE_TINY;
+    let margin = 2.0 * surface_error + size * (32.0 * U32) + LEAST_DENOMINATOR;
     let (d, m) = (b - a, (a - low) + (b - high));
     let (half, d_abs) = ((high - low) + Vec3::splat(margin), d.abs());
     let along = |m: f32, half: f32, d: f32| m.abs() > half + d;
@@ -156,7 +146,7 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
         return true;
     }
     let across = |[m, n]: [f32; 2], [d, e]: [f32; 2], [h, k]: [f32; 2]| {
-        (m * e - n * d).abs() > (h * e.abs() + k * d.abs()) + TREE_TINY
+        (m * e - n * d).abs() > (h * e.abs() + k * d.abs()) + LEAST_DENOMINATOR
     };
     across([m.x, m.y], [d.x, d.y], [half.x, half.y])
         | across([m.y, m.z], [d.y, d.z], [half.y, half.z])
@@ -176,7 +166,8 @@ fn approach(
 ) -> Option<SegmentQuery> {
     let direction = b - a;
     // Eight times what the slab test below can be off by.
-    let pad = norm_1(high - low) + 2.0 * units.surface_error + size * (256.0 * U32) + TREE_TINY;
+    let pad =
+        norm_1(high - low) + 2.0 * units.surface_error + size * (256.0 * U32) + LEAST_DENOMINATOR;
     let (mut enter, mut leave) = (0f32, 1f32);
     for axis in 0..3 {
         let (a, d) = (a.to_array()[axis], direction.to_array()[axis]);

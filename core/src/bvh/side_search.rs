@@ -31,9 +31,9 @@ impl Search<'_, '_> {
     pub(crate) fn descend(
         &mut self,
         p: Vec3,
-        seek: &mut impl LeafVisitor,
+        visitor: &mut impl LeafVisitor,
     ) -> Result<bool, QueryError> {
-        let descent = descend(self.tree, p, self.stack, self.steps, seek, &mut self.work)?;
+        let descent = descend(self.tree, p, self.stack, self.steps, visitor, &mut self.work)?;
         if let Descent::Truncated { steps, .. } = descent {
             self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
         }

@@ -39,12 +39,10 @@ use super::leaf_distance::nearest_triangle;
 use super::point_query::{PointQuery, bounds};
 use super::pseudonormal::{Candidates, Facing, facing, side_of_shared_feature};
 use super::side_search::{Search, Side};
-use super::triangle_bounds::{
-    EVERYTHING, each_triangle, limit_of, lower_of, lower_of_box, witness,
-};
+use super::triangle_bounds::{each_triangle, limit_of, lower_of, lower_of_box, witness};
 use crate::bvh::format::Bvh;
 use crate::num::sqrt_approx;
-use crate::num::tolerance::{TREE_FAN, U32};
+use crate::num::tolerance::{EVERYTHING_SQ, FAN_DISTANCE, U32};
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
 
@@ -110,10 +108,10 @@ pub fn signed_distance(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = PointQuery::new(tree, point)?;
+    let query = PointQuery::new(tree, point)?;
     let closed = tree.header().is_closed();
     let mut search = Search { tree, steps: stop.steps, stack, work: Work::default(), cut: None };
-    let survey = if probe.far { None } else { Some(search.survey(&probe)?) };
+    let survey = if query.far { None } else { Some(search.survey(&query)?) };
     let mut closest = match &survey {
         Some(survey) => survey.closest(&search, point)?,
         None => closest_point(
@@ -131,7 +129,7 @@ pub fn signed_distance(
     if side == Side::Undefined
         && clear
         && search.cut.is_none()
-        && let Some(nearby) = outside_of_box(tree, &probe)
+        && let Some(nearby) = outside_of_box(tree, &query)
     {
         let survey = search.survey(&nearby)?;
         side = search.side(&survey)?;
@@ -156,15 +154,15 @@ pub fn signed_distance(
 const NEARER: usize = 3;
 
 /// For a point outside of the model's box another one, a quarter of the model's size off it.
-fn outside_of_box(tree: &Bvh<'_>, probe: &PointQuery) -> Option<PointQuery> {
+fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
     let (low, high) = bounds(tree);
     let size = (high - low).max_element();
     let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
     let out = |p: Vec3| (p - high).max(low - p).to_array();
-    let most = out(probe.p).into_iter().fold(0f32, |most, x| if x > most { x } else { most });
+    let most = out(query.p).into_iter().fold(0f32, |most, x| if x > most { x } else { most });
     let mut near = [0f32; 3];
     let mut moved = false;
-    let axes = probe.p.to_array().into_iter().zip(low.to_array().into_iter().zip(high.to_array()));
+    let axes = query.p.to_array().into_iter().zip(low.to_array().into_iter().zip(high.to_array()));
     for (slot, (x, (low, high))) in near.iter_mut().zip(axes) {
         let farthest = !moved && (x - high == most || low - x == most) && most > 0.0;
         moved |= farthest;
@@ -176,33 +174,33 @@ fn outside_of_box(tree: &Bvh<'_>, probe: &PointQuery) -> Option<PointQuery> {
             _ => x,
         };
     }
-    let near = PointQuery::new(tree, probe.units.point(Vec3::from_array(near))).ok()?;
+    let near = PointQuery::new(tree, query.units.point(Vec3::from_array(near))).ok()?;
     let still_outside = out(near.p).into_iter().any(|x| x > 0.0);
     (moved && still_outside && !near.far).then_some(near)
 }
 
 impl Search<'_, '_> {
-    fn survey<'p>(&mut self, probe: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
+    fn survey<'p>(&mut self, query: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
         let tree = *self.tree;
-        let margin = TREE_FAN * U32 * tree.header().reach;
+        let margin = FAN_DISTANCE * U32 * tree.header().reach;
         let mut sides = Sides {
             tree: &tree,
-            probe,
+            query,
             margin,
             best: Place::NOWHERE,
             solid: Place::NOWHERE,
             seen: [Place::NOWHERE; 3],
-            limit: EVERYTHING,
+            limit: EVERYTHING_SQ,
             least: [f32::INFINITY; 4],
         };
-        let descent = descend(&tree, probe.p, self.stack, self.steps, &mut sides, &mut self.work)?;
+        let descent = descend(&tree, query.p, self.stack, self.steps, &mut sides, &mut self.work)?;
         let Sides { best, solid, seen, least, .. } = sides;
         let mut missed = f32::INFINITY;
         if let Descent::Truncated { least, steps } = descent {
             missed = least;
             self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
         }
-        Ok(Survey { probe, margin, best, solid, seen, least, missed })
+        Ok(Survey { query, margin, best, solid, seen, least, missed })
     }
 
     /// The side that points on the ways to the surface have: there is none of it in the ball about
@@ -211,7 +209,7 @@ impl Search<'_, '_> {
     /// parts overlap, surfaces that are equally near may have different sides of it: the ways
     /// to the closest triangles of either facing have to agree.
     fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
-        let band = Candidates::new(survey.probe, survey.margin, survey.solid.distance_sq).band;
+        let band = Candidates::new(survey.query, survey.margin, survey.solid.distance_sq).band;
         let mut agreed = None;
         for (place, lower) in survey.seen.into_iter().zip(survey.least) {
             if place.node == u32::MAX || lower > band {
@@ -231,8 +229,8 @@ impl Search<'_, '_> {
     fn side_on_the_way(&mut self, survey: &Survey<'_>, place: Place) -> Result<Side, QueryError> {
         let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
-            let Some(probe) = nearer else { break };
-            let survey = self.survey(&probe)?;
+            let Some(query) = nearer else { break };
+            let survey = self.survey(&query)?;
             let side = self.side(&survey)?;
             if side != Side::Undefined || self.cut.is_some() {
                 return Ok(side);
@@ -244,18 +242,18 @@ impl Search<'_, '_> {
 
     /// The side of the surveyed point, which is known to be clear of the surface.
     fn side(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
-        let Survey { probe, margin, solid, least, .. } = *survey;
+        let Survey { query, margin, solid, least, .. } = *survey;
         if self.cut.is_some() || solid.node == u32::MAX {
             return Ok(Side::Undefined);
         }
-        let candidates = Candidates::new(probe, margin, solid.distance_sq);
+        let candidates = Candidates::new(query, margin, solid.distance_sq);
         let [front, back, unclear, _] = least.map(|lower| lower <= candidates.band);
         match (front, back, unclear) {
             (true, false, false) => Ok(Side::Outside),
             (false, true, false) => Ok(Side::Inside),
             _ => {
-                let patch = self.tree.leaf(solid.node, solid.child).ok_or(QueryError::Model)?;
-                side_of_shared_feature(self, &candidates, patch.corners(solid.lane))
+                let leaf = self.tree.leaf(solid.node, solid.child).ok_or(QueryError::Model)?;
+                side_of_shared_feature(self, &candidates, leaf.corners(solid.lane))
             }
         }
     }
@@ -289,7 +287,7 @@ impl Place {
 
 /// What is near a point.
 struct Survey<'p> {
-    probe: &'p PointQuery,
+    query: &'p PointQuery,
     margin: f32,
     /// The closest triangle.
     best: Place,
@@ -307,7 +305,7 @@ impl Survey<'_> {
     /// Not above the distance to the input mesh, input units; what was missed is not counted.
     fn lower(&self) -> f32 {
         let distance = sqrt_approx(self.best.distance_sq);
-        self.probe.lower(
+        self.query.lower(
             self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }),
         )
     }
@@ -315,12 +313,12 @@ impl Survey<'_> {
     /// A point on the way to a triangle, a sixteenth of the distance off it and within the ball
     /// about this one that is proved to be empty.
     fn nearer(&self, tree: &Bvh<'_>, to: Place) -> Option<PointQuery> {
-        let probe = self.probe;
-        let patch = tree.leaf(to.node, to.child)?;
-        let place = probe.p + (witness(probe, &patch, to.lane) - probe.p) * 0.9375;
-        let nearer = PointQuery::new(tree, probe.units.point(place)).ok()?;
-        let way = nearer.p - probe.p;
-        let empty = probe.units.inward(self.lower());
+        let query = self.query;
+        let leaf = tree.leaf(to.node, to.child)?;
+        let place = query.p + (witness(query, &leaf, to.lane) - query.p) * 0.9375;
+        let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
+        let way = nearer.p - query.p;
+        let empty = query.units.inward(self.lower());
         (way.dot(way) < empty * empty * (1.0 - 64.0 * U32)).then_some(nearer)
     }
 
@@ -329,7 +327,7 @@ impl Survey<'_> {
         search: &Search<'_, '_>,
         point: [f32; 3],
     ) -> Result<ClosestPoint, QueryError> {
-        let Survey { probe, best, .. } = *self;
+        let Survey { query, best, .. } = *self;
         let tree = search.tree;
         let ended = search.cut.unwrap_or(Ended::Exact);
         if best.node == u32::MAX {
@@ -341,15 +339,15 @@ impl Survey<'_> {
         let distance = sqrt_approx(best.distance_sq);
         let mut lower = self.lower();
         if self.missed < f32::INFINITY {
-            let missed = lower_of_box(probe, self.missed);
+            let missed = lower_of_box(query, self.missed);
             lower = if missed < lower { missed } else { lower };
         }
-        let patch = tree.leaf(best.node, best.child).ok_or(QueryError::Model)?;
+        let leaf = tree.leaf(best.node, best.child).ok_or(QueryError::Model)?;
         let number = best.number(tree).ok_or(QueryError::Model)?;
         Ok(ClosestPoint {
             lower,
-            upper: probe.upper(distance),
-            point: probe.units.point(witness(probe, &patch, best.lane)),
+            upper: query.upper(distance),
+            point: query.units.point(witness(query, &leaf, best.lane)),
             triangle: tree.source(number),
             work: search.work,
             ended,
@@ -360,7 +358,7 @@ impl Survey<'_> {
 /// Looks for the closest triangle and for how all those face that may be it.
 struct Sides<'a, 't> {
     tree: &'a Bvh<'t>,
-    probe: &'a PointQuery,
+    query: &'a PointQuery,
     margin: f32,
     best: Place,
     solid: Place,
@@ -377,7 +375,7 @@ impl LeafVisitor for Sides<'_, '_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.patch, self.probe.p)?;
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
         if near.lower_bound_sq <= self.limit {
             self.look(visit);
         }
@@ -388,24 +386,24 @@ impl LeafVisitor for Sides<'_, '_> {
 impl Sides<'_, '_> {
     #[inline(never)]
     fn look(&mut self, visit: &LeafVisit<'_>) {
-        let (patch, p) = (&visit.patch, self.probe.p);
-        each_triangle(self.probe, patch, |lane, distance_sq, lower_bound_sq| {
+        let (leaf, p) = (&visit.leaf, self.query.p);
+        each_triangle(self.query, leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > self.limit {
                 return;
             }
             let here = Place { distance_sq, node: visit.node, child: visit.lane, lane };
             self.best.improve(self.tree, here);
-            let facing = facing(patch, lane, p);
+            let facing = facing(leaf, lane, p);
             if facing != Facing::Flat && distance_sq <= self.solid.distance_sq {
                 self.solid.improve(self.tree, here);
-                let band = Candidates::new(self.probe, self.margin, self.solid.distance_sq).band;
-                let limit = limit_of(self.probe, band);
+                let band = Candidates::new(self.query, self.margin, self.solid.distance_sq).band;
+                let limit = limit_of(self.query, band);
                 self.limit = if limit < self.limit { limit } else { self.limit };
             }
             if let Some(seen) = self.seen.get_mut(facing as usize) {
                 seen.improve(self.tree, here);
             }
-            let lower = lower_of(patch, lane, p, distance_sq, lower_bound_sq);
+            let lower = lower_of(leaf, lane, p, distance_sq, lower_bound_sq);
             if let Some(least) = self.least.get_mut(facing as usize)
                 && lower < *least
             {

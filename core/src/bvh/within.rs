@@ -77,23 +77,24 @@ pub fn is_within(
     if stack.is_empty() {
         return Err(QueryError::NoQueue);
     }
-    let probe = PointQuery::new(tree, point)?;
-    if probe.far {
+    let query = PointQuery::new(tree, point)?;
+    if query.far {
         return from_afar(tree, point, distance, stack);
     }
     let mut work = Work::default();
-    let limit = limit_within(&probe, distance);
-    let mut seek = Threshold { tree, probe: &probe, distance, limit, near: None, doubtful: false };
-    let descent = descend(tree, probe.p, stack, stop.steps, &mut seek, &mut work)?;
+    let limit = limit_within(&query, distance);
+    let mut visitor =
+        Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
+    let descent = descend(tree, query.p, stack, stop.steps, &mut visitor, &mut work)?;
     let (verdict, ended) = match descent {
-        _ if seek.near.is_some() => {
+        _ if visitor.near.is_some() => {
             let triangle =
-                seek.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
+                visitor.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
             (Verdict::Yes { triangle: Some(triangle) }, Ended::Exact)
         }
         Descent::Truncated { steps: true, .. } => (Verdict::Unknown, Ended::Steps),
         Descent::Truncated { steps: false, .. } => (Verdict::Unknown, Ended::Capacity),
-        _ if seek.doubtful => (Verdict::Unknown, Ended::Level),
+        _ if visitor.doubtful => (Verdict::Unknown, Ended::Level),
         _ => (Verdict::No, Ended::Exact),
     };
     Ok(Within { verdict, work, ended })
@@ -118,7 +119,7 @@ fn from_afar(
 
 struct Threshold<'a> {
     tree: &'a Bvh<'a>,
-    probe: &'a PointQuery,
+    query: &'a PointQuery,
     /// Input units.
     distance: f32,
     /// Squared bound above which everything is certainly farther.
@@ -137,9 +138,9 @@ impl LeafVisitor for Threshold<'_> {
 
     #[inline(always)]
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.patch, self.probe.p)?;
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
         if near.distance_sq <= self.limit
-            && self.probe.upper(sqrt_approx(near.distance_sq)) <= self.distance
+            && self.query.upper(sqrt_approx(near.distance_sq)) <= self.distance
         {
             self.near = Some(self.number(visit, near.distance_sq)?);
             return Some(false);
@@ -158,9 +159,9 @@ impl Threshold<'_> {
     fn number(&self, visit: &LeafVisit<'_>, distance_sq: f32) -> Option<u32> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);
         let here = |lane: &usize| {
-            nearness(&seen_from(&visit.patch, *lane, self.probe.p)).distance_sq == distance_sq
+            nearness(&seen_from(&visit.leaf, *lane, self.query.p)).distance_sq == distance_sq
         };
-        let lane = (0..visit.patch.tag().triangles()).find(here)?;
+        let lane = (0..visit.leaf.tag().triangles()).find(here)?;
         Some(first.wrapping_add(lane as u32))
     }
 
@@ -169,18 +170,18 @@ impl Threshold<'_> {
     #[cold]
     #[inline(never)]
     fn doubt(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
-        let Threshold { probe, limit, distance, .. } = *self;
+        let Threshold { query, limit, distance, .. } = *self;
         let (mut doubtful, mut within) = (false, None);
-        each_triangle(probe, &visit.patch, |lane, distance_sq, lower_bound_sq| {
+        each_triangle(query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > limit {
                 return;
             }
-            if within.is_none() && probe.upper(sqrt_approx(distance_sq)) <= distance {
+            if within.is_none() && query.upper(sqrt_approx(distance_sq)) <= distance {
                 within = Some(lane);
             }
             if !doubtful {
-                let lower = lower_of(&visit.patch, lane, probe.p, distance_sq, lower_bound_sq);
-                doubtful = probe.lower(lower) <= distance;
+                let lower = lower_of(&visit.leaf, lane, query.p, distance_sq, lower_bound_sq);
+                doubtful = query.lower(lower) <= distance;
             }
         });
         self.doubtful = doubtful;

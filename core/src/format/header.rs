@@ -3,7 +3,7 @@
 use super::bytes::Bytes;
 use super::error::OpenError;
 use super::layout::{
-    FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, index_bytes,
+    FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, field, index_bytes,
 };
 use crate::geom::Aabb;
 use glam::Vec3;
@@ -62,14 +62,14 @@ impl Header {
     /// Reads and checks the fixed header; the CRC is the caller's.
     pub(crate) fn read(bytes: Bytes<'_>) -> Result<Header, OpenError> {
         let short = OpenError::Truncated { needed: HEADER_BYTES as u32, found: bytes.len() as u32 };
-        if bytes.slice(0, 8).ok_or(short)? != MAGIC {
+        if bytes.slice(field::MAGIC, MAGIC.len()).ok_or(short)? != MAGIC {
             return Err(OpenError::NotABlob);
         }
         if bytes.len() < HEADER_BYTES {
             return Err(short);
         }
         let word = |at: usize| bytes.u32(at).ok_or(short);
-        let version = bytes.u16(8).ok_or(short)?;
+        let version = bytes.u16(field::VERSION_MAJOR).ok_or(short)?;
         if version != VERSION_MAJOR {
             return Err(OpenError::Version { found: version });
         }
@@ -84,43 +84,49 @@ impl Header {
                 float(at + 8, name)?,
             ))
         };
-        let code = bytes.u8(32).ok_or(short)?;
+        let code = bytes.u8(field::VERTEX_FORMAT).ok_or(short)?;
         let vertex_format =
             VertexFormat::from_code(code).ok_or(OpenError::VertexFormat { found: code })?;
         let header = Header {
-            header_bytes: word(12)?,
-            total_bytes: word(16)?,
-            section_count: word(20)?,
-            flags: word(24)?,
-            scale_exponent: word(28)?.cast_signed(),
+            header_bytes: word(field::HEADER_BYTES)?,
+            total_bytes: word(field::TOTAL_BYTES)?,
+            section_count: word(field::SECTION_COUNT)?,
+            flags: word(field::FLAGS)?,
+            scale_exponent: word(field::SCALE_EXPONENT)?.cast_signed(),
             vertex_format,
-            grid_exponent: word(36)?.cast_signed(),
+            grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
             grid_origin: [
-                word(40)?.cast_signed(),
-                word(44)?.cast_signed(),
-                word(48)?.cast_signed(),
+                word(field::GRID_ORIGIN)?.cast_signed(),
+                word(field::GRID_ORIGIN + 4)?.cast_signed(),
+                word(field::GRID_ORIGIN + 8)?.cast_signed(),
             ],
-            vertices: word(52)?,
-            base_vertices: word(56)?,
-            base_triangles: word(60)?,
-            splits: word(64)?,
-            rings: word(68)?,
-            nodes: word(72)?,
-            surface_triangles: word(76)?,
-            levels: word(80)?,
-            input_triangles: word(84)?,
-            surface_error: float(88, "surface error")?,
-            hull_box: Aabb { min: corner(92, "hull box")?, max: corner(104, "hull box")? },
-            surface_box: Aabb {
-                min: corner(116, "surface box")?,
-                max: corner(128, "surface box")?,
+            vertices: word(field::VERTICES)?,
+            base_vertices: word(field::BASE_VERTICES)?,
+            base_triangles: word(field::BASE_TRIANGLES)?,
+            splits: word(field::SPLITS)?,
+            rings: word(field::RINGS)?,
+            nodes: word(field::NODES)?,
+            surface_triangles: word(field::SURFACE_TRIANGLES)?,
+            levels: word(field::LEVELS)?,
+            input_triangles: word(field::INPUT_TRIANGLES)?,
+            surface_error: float(field::SURFACE_ERROR, "surface error")?,
+            hull_box: Aabb {
+                min: corner(field::HULL_BOX, "hull box")?,
+                max: corner(field::HULL_BOX + 12, "hull box")?,
             },
-            queue_capacity: word(140)?,
-            dependency_depth: word(144)?,
+            surface_box: Aabb {
+                min: corner(field::SURFACE_BOX, "surface box")?,
+                max: corner(field::SURFACE_BOX + 12, "surface box")?,
+            },
+            queue_capacity: word(field::QUEUE_CAPACITY)?,
+            dependency_depth: word(field::DEPENDENCY_DEPTH)?,
         };
         let zero =
             |at: usize, len: usize| bytes.slice(at, len).is_some_and(|b| b.iter().all(|&b| b == 0));
-        if !zero(33, 3) || !zero(148, 8) || header.flags & !FLAG_CUT != 0 {
+        if !zero(field::RESERVED_BESIDE_FORMAT, 3)
+            || !zero(field::RESERVED, 8)
+            || header.flags & !FLAG_CUT != 0
+        {
             return Err(OpenError::Reserved);
         }
         Ok(header)
@@ -134,40 +140,40 @@ impl Header {
                 *slot = *byte;
             }
         };
-        put(0, &MAGIC);
-        put(8, &VERSION_MAJOR.to_le_bytes());
-        put(10, &VERSION_MINOR.to_le_bytes());
+        put(field::MAGIC, &MAGIC);
+        put(field::VERSION_MAJOR, &VERSION_MAJOR.to_le_bytes());
+        put(field::VERSION_MINOR, &VERSION_MINOR.to_le_bytes());
         let b = |v: Vec3| [v.x.to_bits(), v.y.to_bits(), v.z.to_bits()];
         let words = [
-            (12, self.header_bytes),
-            (16, self.total_bytes),
-            (20, self.section_count),
-            (24, self.flags),
-            (28, self.scale_exponent.cast_unsigned()),
-            (32, u32::from(self.vertex_format.code())),
-            (36, self.grid_exponent.cast_unsigned()),
-            (52, self.vertices),
-            (56, self.base_vertices),
-            (60, self.base_triangles),
-            (64, self.splits),
-            (68, self.rings),
-            (72, self.nodes),
-            (76, self.surface_triangles),
-            (80, self.levels),
-            (84, self.input_triangles),
-            (88, self.surface_error.to_bits()),
-            (140, self.queue_capacity),
-            (144, self.dependency_depth),
+            (field::HEADER_BYTES, self.header_bytes),
+            (field::TOTAL_BYTES, self.total_bytes),
+            (field::SECTION_COUNT, self.section_count),
+            (field::FLAGS, self.flags),
+            (field::SCALE_EXPONENT, self.scale_exponent.cast_unsigned()),
+            (field::VERTEX_FORMAT, u32::from(self.vertex_format.code())),
+            (field::GRID_EXPONENT, self.grid_exponent.cast_unsigned()),
+            (field::VERTICES, self.vertices),
+            (field::BASE_VERTICES, self.base_vertices),
+            (field::BASE_TRIANGLES, self.base_triangles),
+            (field::SPLITS, self.splits),
+            (field::RINGS, self.rings),
+            (field::NODES, self.nodes),
+            (field::SURFACE_TRIANGLES, self.surface_triangles),
+            (field::LEVELS, self.levels),
+            (field::INPUT_TRIANGLES, self.input_triangles),
+            (field::SURFACE_ERROR, self.surface_error.to_bits()),
+            (field::QUEUE_CAPACITY, self.queue_capacity),
+            (field::DEPENDENCY_DEPTH, self.dependency_depth),
         ];
         for (at, word) in words {
             put(at, &word.to_le_bytes());
         }
         for (at, triple) in [
-            (40, self.grid_origin.map(i32::cast_unsigned)),
-            (92, b(self.hull_box.min)),
-            (104, b(self.hull_box.max)),
-            (116, b(self.surface_box.min)),
-            (128, b(self.surface_box.max)),
+            (field::GRID_ORIGIN, self.grid_origin.map(i32::cast_unsigned)),
+            (field::HULL_BOX, b(self.hull_box.min)),
+            (field::HULL_BOX + 12, b(self.hull_box.max)),
+            (field::SURFACE_BOX, b(self.surface_box.min)),
+            (field::SURFACE_BOX + 12, b(self.surface_box.max)),
         ] {
             for (i, word) in triple.into_iter().enumerate() {
                 put(at + 4 * i, &word.to_le_bytes());

@@ -9,9 +9,6 @@ pub const VERSION_MAJOR: u16 = 1;
 pub const VERSION_MINOR: u16 = 3;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
-/// Offset of the header's own CRC, which covers the header with this field skipped, and the section
-/// table.
-pub const HEADER_CRC_AT: usize = 156;
 /// Bytes of one entry of the section table: kind, offset, length, CRC, each a u32.
 pub const SECTION_ENTRY_BYTES: usize = 16;
 /// Every section starts at a multiple of this.
@@ -196,4 +193,76 @@ pub const fn none(bytes: usize) -> u32 {
         3 => 0xFF_FFFF,
         _ => 0xFFFF_FFFF,
     }
+}
+
+/// Offsets in the fixed header.
+pub mod field {
+    /// First eight bytes.
+    pub const MAGIC: usize = 0;
+    /// u16.
+    pub const VERSION_MAJOR: usize = 8;
+    /// u16.
+    pub const VERSION_MINOR: usize = 10;
+    /// u32: header and section table.
+    pub const HEADER_BYTES: usize = 12;
+    /// u32: the blob.
+    pub const TOTAL_BYTES: usize = 16;
+    /// u32.
+    pub const SECTION_COUNT: usize = 20;
+    /// u32.
+    pub const FLAGS: usize = 24;
+    /// i32.
+    pub const SCALE_EXPONENT: usize = 28;
+    /// u8.
+    pub const VERTEX_FORMAT: usize = 32;
+    /// Three zeros.
+    pub const RESERVED_BESIDE_FORMAT: usize = 33;
+    /// i32.
+    pub const GRID_EXPONENT: usize = 36;
+    /// Three i32.
+    pub const GRID_ORIGIN: usize = 40;
+    /// u32.
+    pub const VERTICES: usize = 52;
+    /// u32.
+    pub const BASE_VERTICES: usize = 56;
+    /// u32.
+    pub const BASE_TRIANGLES: usize = 60;
+    /// u32.
+    pub const SPLITS: usize = 64;
+    /// u32.
+    pub const RINGS: usize = 68;
+    /// u32.
+    pub const NODES: usize = 72;
+    /// u32.
+    pub const SURFACE_TRIANGLES: usize = 76;
+    /// u32.
+    pub const LEVELS: usize = 80;
+    /// u32.
+    pub const INPUT_TRIANGLES: usize = 84;
+    /// f32.
+    pub const SURFACE_ERROR: usize = 88;
+    /// Six f32: least corner, greatest corner.
+    pub const HULL_BOX: usize = 92;
+    /// Six f32: least corner, greatest corner.
+    pub const SURFACE_BOX: usize = 116;
+    /// u32.
+    pub const QUEUE_CAPACITY: usize = 140;
+    /// u32.
+    pub const DEPENDENCY_DEPTH: usize = 144;
+    /// Eight zeros.
+    pub const RESERVED: usize = 148;
+    /// u32: of the header with this field left out, and of the section table.
+    pub const CRC: usize = 156;
+}
+
+/// Offsets in an entry of the section table.
+pub mod entry {
+    /// u32.
+    pub const KIND: usize = 0;
+    /// u32.
+    pub const OFFSET: usize = 4;
+    /// u32.
+    pub const BYTES: usize = 8;
+    /// u32.
+    pub const CRC: usize = 12;
 }

@@ -4,7 +4,7 @@ use super::bytes::Bytes;
 use super::error::OpenError;
 use super::header::Header;
 use super::layout::{
-    HEADER_BYTES, HEADER_CRC_AT, MAX_SECTIONS, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind,
+    HEADER_BYTES, MAX_SECTIONS, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind, entry, field,
 };
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 
@@ -19,8 +19,8 @@ pub fn section_crc(bytes: &[u8]) -> u32 {
 /// CRC of header and section table, the field that holds it left out.
 fn header_crc(bytes: &[u8]) -> Option<u32> {
     let mut digest = CRC.digest();
-    digest.update(bytes.get(..HEADER_CRC_AT)?);
-    digest.update(bytes.get(HEADER_CRC_AT + 4..)?);
+    digest.update(bytes.get(..field::CRC)?);
+    digest.update(bytes.get(field::CRC + 4..)?);
     Some(digest.finalize())
 }
 
@@ -57,7 +57,7 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
         return Err(OpenError::Counts { what: "size of the section table" });
     }
     let head = all.slice(0, header.header_bytes as usize).unwrap_or_default();
-    if header_crc(head) != all.u32(HEADER_CRC_AT) {
+    if header_crc(head) != all.u32(field::CRC) {
         return Err(OpenError::Crc { section: None });
     }
     Ok(header)
@@ -67,10 +67,10 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
 pub(crate) fn section(bytes: Bytes<'_>, index: u32) -> Result<Option<Section>, OpenError> {
     let malformed = OpenError::Section { index };
     let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
-    let word = |k: usize| bytes.u32(at + 4 * k).ok_or(malformed);
-    let code = word(0)?;
+    let word = |field: usize| bytes.u32(at + field).ok_or(malformed);
+    let code = word(entry::KIND)?;
     let kind = SectionKind::ALL.into_iter().find(|kind| *kind as u32 == code);
-    let (offset, bytes, crc) = (word(1)?, word(2)?, word(3)?);
+    let (offset, bytes, crc) = (word(entry::OFFSET)?, word(entry::BYTES)?, word(entry::CRC)?);
     Ok(kind.map(|kind| Section { kind, offset, bytes, crc }))
 }
 
@@ -90,8 +90,8 @@ pub(crate) fn place_sections<'a>(
         // An unknown kind still has to lie where sections may lie; a later minor version may add
         // one.
         let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
-        let offset = bytes.u32(at + 4).ok_or(malformed)?;
-        let length = bytes.u32(at + 8).ok_or(malformed)?;
+        let offset = bytes.u32(at + entry::OFFSET).ok_or(malformed)?;
+        let length = bytes.u32(at + entry::BYTES).ok_or(malformed)?;
         let section_end = offset.checked_add(length).ok_or(malformed)?;
         if offset < end
             || section_end > header.total_bytes

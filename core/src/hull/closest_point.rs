@@ -8,7 +8,7 @@
 use super::sweep_queue::{Frontier, QueueEntry, Taken};
 use crate::geom::{LANES, Lanes, PointProbe, Support, point_triangle};
 use crate::hull::format::{Children, Model, NodeIdx, TriIdx};
-use crate::num::tolerance::{FAR, SINGLE, U32, U64};
+use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{Budget, ClosestPoint, Ended, Frame, QueryError, Work};
 use glam::{DVec3, Vec3};
@@ -45,7 +45,7 @@ pub fn closest_point(
         return Err(QueryError::NoQueue);
     }
     let mut sweep = Sweep::new(model, p);
-    let ended = if p.abs().max_element() > FAR {
+    let ended = if p.abs().max_element() > HULL_FAR {
         sweep.far()?;
         if model.is_cut() { Ended::Level } else { Ended::Exact }
     } else {
@@ -69,9 +69,6 @@ fn chunks(first: u32, count: u32) -> impl Iterator<Item = (u32, usize)> {
         .map(move |i| (first.wrapping_add(i * run), (count - i * run).min(run) as usize))
 }
 
-/// What rounding to f32 and the change of units may do to either end of the interval.
-const REPORTED: f64 = 8.0 * U32 as f64;
-
 /// The best triangle so far.
 #[derive(Clone, Copy)]
 struct Best {
@@ -92,7 +89,7 @@ struct Sweep<'a> {
     lower: f64,
     best: Option<Best>,
     cut: bool,
-    /// Beyond [`SINGLE`]: bounds in f64.
+    /// Beyond [`F32_BOUNDS`]: bounds in f64.
     distant: bool,
     work: Work,
 }
@@ -111,7 +108,7 @@ impl<'a> Sweep<'a> {
             lower: f64::INFINITY,
             best: None,
             cut: false,
-            distant: p.abs().max_element() > SINGLE,
+            distant: p.abs().max_element() > F32_BOUNDS,
             work: Work::default(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::error::QueryError;
 use crate::format::Header;
-use crate::num::tolerance::{FAR, U64};
+use crate::num::tolerance::{HULL_FAR, U64};
 use crate::num::{down_to_f32, exp2, up_to_f32};
 use glam::{DVec3, Vec3};
 
@@ -35,7 +35,7 @@ impl Frame {
     /// An end of a segment in the local frame.
     pub(crate) fn local_end(&self, point: [f32; 3]) -> Result<DVec3, QueryError> {
         let local = self.local(point)?;
-        if local.abs().max_element() > FAR { Err(QueryError::OutOfDomain) } else { Ok(local) }
+        if local.abs().max_element() > HULL_FAR { Err(QueryError::OutOfDomain) } else { Ok(local) }
     }
 
     /// A point in input units, rounded to nearest, kept finite.

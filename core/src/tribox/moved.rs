@@ -4,15 +4,8 @@
 use super::bounds::{Tribox, TriboxError, checked};
 use super::directions::SLABS;
 use crate::geom::Pose;
-use crate::num::tolerance::U32;
+use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_COORDINATE, U32};
 use crate::num::{sum_down, sum_up};
-
-/// What rounding may do to a coordinate, in units of [`U32`] times the sum of the sizes of its
-/// terms. Proved: 5, of the product 1, of sums 3, of this product 1.
-const COORDINATE: f32 = 8.0;
-
-/// More than what products lose below f32's range.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 impl Pose {
     pub(crate) fn check(&self) -> Result<(), TriboxError> {
@@ -75,7 +68,9 @@ impl Pose {
         let mut margins = [0f32; 3];
         for ((margin, size), [a, b, c]) in margins.iter_mut().zip(sizes).zip(self.rotation) {
             let spread = (a.abs() + b.abs() + c.abs()) * doubt;
-            *margin = size * (COORDINATE * U32) + spread * (1.0 + COORDINATE * U32) + UNDERFLOW;
+            *margin = size * (TRIBOX_COORDINATE * U32)
+                + spread * (1.0 + TRIBOX_COORDINATE * U32)
+                + PRODUCT_UNDERFLOW;
         }
         let ([x, y, z], [sx, sy, sz]) = (margins, sizes);
         // The sum of two coordinates is rounded once more.

@@ -4,7 +4,7 @@ use super::bounds::TriboxError;
 use super::directions::{DIRECTIONS, FACES, SLABS};
 use super::support::Support;
 use crate::geom::Pose;
-use crate::num::tolerance::{TRIBOX_AXIS, U32};
+use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, U32};
 use crate::query::QueryError;
 use crate::tribox::format::Triboxes;
 
@@ -25,9 +25,6 @@ struct Axis {
 pub(crate) struct Axes {
     sides: [[Axis; SLABS]; 2],
 }
-
-/// More than products lose below f32's range.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE;
 
 #[inline(always)]
 fn dot([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
@@ -121,7 +118,7 @@ impl Axes {
             let f = direction.map(f32::from);
             let margin = |w: [f32; 3]| {
                 TRIBOX_AXIS * U32 * (back_sizes(w) * reach_b + size(w) * (reach_a + largest))
-                    + UNDERFLOW
+                    + PRODUCT_UNDERFLOW
             };
             let e = back(f);
             (of_a.towards, of_a.offset, of_a.margin) = (e, dot(f, pose.translation), margin(f));

@@ -1,7 +1,7 @@
 //! One query of a session: the front is brought up to date as far as the answer depends on it.
 
 use super::front::{Child, Known, TraversalFront};
-use super::leaf_shape::{SHORTFALL, is_sound};
+use super::leaf_shape::is_sound;
 use super::planes::{Looked, Planes, middle};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::leaf_distance::seen;
@@ -9,12 +9,9 @@ use crate::bvh::node::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
 use crate::bvh::point_query::PointQuery;
 use crate::geom::fan::{Nearness, PointFan, WIDTH, point_patch};
 use crate::num::sqrt_approx;
-use crate::num::tolerance::{TREE_FAN, U32};
+use crate::num::tolerance::{FAN_DISTANCE, ROOT_AND_PRODUCTS, SHORTFALL, U32};
 use crate::query::Work;
 use glam::Vec3;
-
-/// More than what a root and a few products may be rounded by.
-const ROUNDING: f32 = 1.0 / 1_048_576.0;
 
 /// The nearest triangle.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +53,7 @@ pub(crate) enum Gap {
 /// A query on its way.
 pub(crate) struct Follow<'a, 't> {
     pub(crate) tree: &'a Bvh<'t>,
-    pub(crate) probe: &'a PointQuery,
+    pub(crate) query: &'a PointQuery,
     pub(crate) front: TraversalFront<'a>,
     planes: &'a mut Planes,
     /// To the query from where planes are measured from.
@@ -68,7 +65,7 @@ pub(crate) struct Follow<'a, 't> {
     /// Keys above it are of no interest.
     bound: f32,
     /// Certified squares below this are weak.
-    weak: f32,
+    refine_below: f32,
     /// Least certified square of a triangle whose own distance says too little.
     certified: f32,
     /// What a box's bound may be off by.
@@ -85,26 +82,26 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(always)]
     pub(crate) fn new(
         tree: &'a Bvh<'t>,
-        probe: &'a PointQuery,
+        query: &'a PointQuery,
         front: TraversalFront<'a>,
         planes: &'a mut Planes,
         ahead: f32,
         steps: u32,
     ) -> Self {
         // The allowance is 2100 times the square of it.
-        let off = sqrt_approx(probe.limit(0.0)) * (1.0 / 45.0);
-        let shortfall = tree.header().reach * (SHORTFALL + TREE_FAN * U32);
+        let off = sqrt_approx(query.limit(0.0)) * (1.0 / 45.0);
+        let shortfall = tree.header().reach * (SHORTFALL + FAN_DISTANCE * U32);
         Follow {
             tree,
-            probe,
+            query,
             front,
             planes,
-            way: probe.p - middle(tree),
+            way: query.p - middle(tree),
             work: Work::default(),
             ahead,
             best: Nearest::NONE,
             bound: f32::INFINITY,
-            weak: f32::NEG_INFINITY,
+            refine_below: f32::NEG_INFINITY,
             certified: f32::INFINITY,
             off,
             shortfall,
@@ -147,7 +144,7 @@ impl<'a, 't> Follow<'a, 't> {
                         return Err(Gap::Lost);
                     }
                 } else if key > self.bound + self.ahead {
-                    self.front.retire(next, key);
+                    self.front.deactivate(next, key);
                     continue;
                 }
                 next += 1;
@@ -155,13 +152,13 @@ impl<'a, 't> Follow<'a, 't> {
             if self.bound < self.front.extent.rest || !self.front.is_waiting() {
                 break;
             }
-            self.front.rouse(self.bound + self.ahead);
+            self.front.activate(self.bound + self.ahead);
             self.looks += self.front.extent.count as u32 / 24;
         }
         if self.bound >= self.front.extent.dropped || self.best.at == usize::MAX {
             return Err(Gap::Lost);
         }
-        if self.certified < self.weak {
+        if self.certified < self.refine_below {
             return Err(Gap::Undecided);
         }
         self.front.swap(0, self.best.at);
@@ -191,9 +188,9 @@ impl<'a, 't> Follow<'a, 't> {
             }
             let found = self.tree.child(child.node(), child.lane()).ok_or(Gap::Model)?;
             if found.is_leaf() {
-                let patch = self.tree.patch(found.at, found.tag).ok_or(Gap::Model)?;
+                let leaf = self.tree.patch(found.at, found.tag).ok_or(Gap::Model)?;
                 self.looks += 1;
-                let known = if is_sound(&patch).ok_or(Gap::Model)? {
+                let known = if is_sound(&leaf).ok_or(Gap::Model)? {
                     Known::Triangles
                 } else {
                     Known::Sliver
@@ -218,14 +215,14 @@ impl<'a, 't> Follow<'a, 't> {
         }
         let links = self.tree.links(node).ok_or(Gap::Model)?;
         let record = self.tree.frame(node).ok_or(Gap::Model)?;
-        let keys = box_distances(record, &NodeFrame::of(record, self.probe.p), links.count, 0.0);
+        let keys = box_distances(record, &NodeFrame::of(record, self.query.p), links.count, 0.0);
         self.work.splits += 1;
         self.work.nodes += links.count;
         self.looks += 3;
         let nearest = nearest_lane(&keys);
         let horizon = self.bound + self.ahead;
         if !self.front.has_room(WIDTH) {
-            self.front.thin_out(entry.map_or(0, |i| i + 1), horizon);
+            self.front.evict(entry.map_or(0, |i| i + 1), horizon);
             self.looks += self.front.extent.count as u32 / 12;
         }
         if let Some(i) = entry {
@@ -243,7 +240,7 @@ impl<'a, 't> Follow<'a, 't> {
 
     #[inline(always)]
     fn key_of_box(&self, key: f32) -> f32 {
-        self.front.key(sqrt_approx(key) * (1.0 - ROUNDING) - self.off)
+        self.front.key(sqrt_approx(key) * (1.0 - ROOT_AND_PRODUCTS) - self.off)
     }
 
     /// What a leaf's box says now.
@@ -251,7 +248,7 @@ impl<'a, 't> Follow<'a, 't> {
     fn box_key(&mut self, child: Child) -> Result<f32, Gap> {
         let record = self.tree.frame(child.node()).ok_or(Gap::Model)?;
         let count = child.lane() + 1;
-        let keys = box_distances(record, &NodeFrame::of(record, self.probe.p), count, 0.0);
+        let keys = box_distances(record, &NodeFrame::of(record, self.query.p), count, 0.0);
         self.work.nodes += count;
         let key = keys.get(child.lane() as usize).copied().ok_or(Gap::Model)?;
         Ok(self.key_of_box(key))
@@ -261,9 +258,9 @@ impl<'a, 't> Follow<'a, 't> {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn look(&mut self, i: usize, child: Child) -> Result<(), Gap> {
-        let patch = self.tree.leaf(child.node(), child.lane()).ok_or(Gap::Model)?;
-        let (near, edges) = seen(&patch, self.probe.p).ok_or(Gap::Model)?;
-        self.work.triangles += patch.tag().triangles() as u32;
+        let leaf = self.tree.leaf(child.node(), child.lane()).ok_or(Gap::Model)?;
+        let (near, edges) = seen(&leaf, self.query.p).ok_or(Gap::Model)?;
+        self.work.triangles += leaf.tag().triangles() as u32;
         self.looks += 2;
         let distance_sq = near.distance_sq;
         if distance_sq < self.best.distance_sq
@@ -272,10 +269,10 @@ impl<'a, 't> Follow<'a, 't> {
             let (lane, v, w) = near.lane();
             self.best = Nearest { distance_sq, child, lane, v, w, at: i };
             self.bound = self.horizon(distance_sq);
-            self.weak = self.probe.weak(distance_sq);
+            self.refine_below = self.query.refine_below(distance_sq);
         }
         // The plain query looks at slivers again, and may find them nearer.
-        if near.lower_bound_sq < self.weak {
+        if near.lower_bound_sq < self.refine_below {
             self.certified = least(self.certified, near.lower_bound_sq);
         }
         if child.known() == Known::Triangles {
@@ -283,7 +280,7 @@ impl<'a, 't> Follow<'a, 't> {
             self.front.set(i, key, child);
             if key > self.bound {
                 self.looks += 1;
-                let looked = Looked { patch: &patch, p: self.probe.p, edges: edges.as_ref() };
+                let looked = Looked { fans: &leaf, p: self.query.p, edges: edges.as_ref() };
                 self.planes.put(child, &looked, self.way, near.lane(), self.shortfall + self.off);
             }
         } else if let Some((key, _)) = self.front.get(i) {
@@ -301,14 +298,14 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     #[inline(always)]
-    fn each(&mut self, patch: &FanLeaf<'_>, mut then: impl FnMut(&mut Self, usize, Nearness)) {
-        let (p, tag) = (self.probe.p, patch.tag());
-        let s = [p - patch.centre(0), p - patch.centre(tag.centres() - 1)];
+    fn each(&mut self, leaf: &FanLeaf<'_>, mut then: impl FnMut(&mut Self, usize, Nearness)) {
+        let (p, tag) = (self.query.p, leaf.tag());
+        let s = [p - leaf.centre(0), p - leaf.centre(tag.centres() - 1)];
         point_patch(
             tag.triangles(),
             tag.turn(),
             s,
-            |i, which| patch.spoke(i, which),
+            |i, which| leaf.spoke(i, which),
             |lane, near| then(self, lane, near),
         );
     }
@@ -316,7 +313,9 @@ impl<'a, 't> Follow<'a, 't> {
     /// The key below which nothing can be as near as this.
     #[inline(always)]
     pub(crate) fn horizon(&self, distance_sq: f32) -> f32 {
-        self.front.horizon(sqrt_approx(self.probe.limit(distance_sq)) * (1.0 + ROUNDING) + self.off)
+        self.front.horizon(
+            sqrt_approx(self.query.limit(distance_sq)) * (1.0 + ROOT_AND_PRODUCTS) + self.off,
+        )
     }
 
     /// Key of a leaf without slivers whose triangles' squared distances are not below this.
@@ -330,14 +329,14 @@ impl<'a, 't> Follow<'a, 't> {
     #[cold]
     #[inline(never)]
     pub(crate) fn second(&mut self, best: &Nearest, others: f32) -> f32 {
-        let Some(patch) = self.tree.leaf(best.child.node(), best.child.lane()) else { return 0.0 };
+        let Some(leaf) = self.tree.leaf(best.child.node(), best.child.lane()) else { return 0.0 };
         let mut lower_bound_sq = f32::MAX;
-        self.each(&patch, |_, lane, near| {
+        self.each(&leaf, |_, lane, near| {
             if lane != best.lane {
                 lower_bound_sq = least(lower_bound_sq, near.lower_bound_sq);
             }
         });
-        self.work.triangles += patch.tag().triangles() as u32;
+        self.work.triangles += leaf.tag().triangles() as u32;
         least(others, self.key_of_triangles(lower_bound_sq))
     }
 
@@ -346,14 +345,14 @@ impl<'a, 't> Follow<'a, 't> {
     #[inline(always)]
     pub(crate) fn same(&mut self, lane: usize, second: f32) -> Option<Nearest> {
         let (_, child) = self.front.get(0)?;
-        let patch = self.tree.leaf(child.node(), child.lane())?;
-        let which = usize::from(lane >= patch.tag().turn());
-        let fan = PointFan::new(self.probe.p - patch.centre(which));
-        let (e, g) = (fan.spoke(patch.spoke(lane, which)), fan.spoke(patch.spoke(lane + 1, which)));
+        let leaf = self.tree.leaf(child.node(), child.lane())?;
+        let which = usize::from(lane >= leaf.tag().turn());
+        let fan = PointFan::new(self.query.p - leaf.centre(which));
+        let (e, g) = (fan.spoke(leaf.spoke(lane, which)), fan.spoke(leaf.spoke(lane + 1, which)));
         let Nearness { distance_sq, lower_bound_sq, v, w } = fan.triangle(&e, &g);
         self.work.triangles += 1;
-        let certain =
-            self.horizon(distance_sq) < second && lower_bound_sq >= self.probe.weak(distance_sq);
+        let certain = self.horizon(distance_sq) < second
+            && lower_bound_sq >= self.query.refine_below(distance_sq);
         if certain { Some(Nearest { distance_sq, child, lane, v, w, at: 0 }) } else { None }
     }
 }

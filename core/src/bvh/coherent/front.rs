@@ -7,6 +7,8 @@
 //! 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the
 //! others the least key is known, so that most queries never look at them.
 
+use crate::num::tolerance::PATH_SUM;
+
 /// A child of a node, and what is known of it, in 32 bits: 24 of node (a blob has no more), 5 of
 /// which two say what is known, 3 of lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,9 +84,6 @@ impl Extent {
         Extent { count: 0, active: 0, rest: f32::INFINITY, dropped: f32::INFINITY, path: 0.0 };
 }
 
-/// More than what one sum may be rounded by.
-const ROUNDING: f32 = 1.0 / 4_194_304.0;
-
 /// Entries in the caller's memory.
 pub(crate) struct TraversalFront<'a> {
     pub(crate) keys: &'a mut [f32],
@@ -101,7 +100,7 @@ impl TraversalFront<'_> {
     /// The query has moved by `step`.
     #[inline(always)]
     pub(crate) fn advance(&mut self, step: f32) {
-        self.extent.path = (self.extent.path + step) * (1.0 + ROUNDING);
+        self.extent.path = (self.extent.path + step) * (1.0 + PATH_SUM);
     }
 
     /// Counts the path from here on: it has become so long that the rounding of keys would show.
@@ -109,7 +108,7 @@ impl TraversalFront<'_> {
     #[inline(never)]
     pub(crate) fn rebase(&mut self) {
         let Extent { count, rest, dropped, path, .. } = *self.extent;
-        let less = |key: f32| if key > path { (key - path) * (1.0 - ROUNDING) } else { 0.0 };
+        let less = |key: f32| if key > path { (key - path) * (1.0 - PATH_SUM) } else { 0.0 };
         self.keys.iter_mut().take(count).for_each(|key| *key = less(*key));
         (self.extent.rest, self.extent.dropped, self.extent.path) =
             (less(rest), less(dropped), 0.0);
@@ -119,13 +118,13 @@ impl TraversalFront<'_> {
     #[inline(always)]
     pub(crate) fn key(&self, bound: f32) -> f32 {
         let bound = if bound > 0.0 { bound } else { 0.0 };
-        (bound + self.extent.path) * (1.0 - ROUNDING)
+        (bound + self.extent.path) * (1.0 - PATH_SUM)
     }
 
     /// An entry with a lesser key may hold something nearer than `reach`.
     #[inline(always)]
     pub(crate) fn horizon(&self, reach: f32) -> f32 {
-        (reach + self.extent.path) * (1.0 + ROUNDING)
+        (reach + self.extent.path) * (1.0 + PATH_SUM)
     }
 
     #[inline(always)]
@@ -175,7 +174,7 @@ impl TraversalFront<'_> {
 
     /// Entry `i` is of no interest for the time being: another active one takes its place.
     #[inline(always)]
-    pub(crate) fn retire(&mut self, i: usize, key: f32) {
+    pub(crate) fn deactivate(&mut self, i: usize, key: f32) {
         let last = self.extent.active.saturating_sub(1);
         self.swap(i, last);
         self.extent.active = last;
@@ -189,7 +188,7 @@ impl TraversalFront<'_> {
     }
 
     /// Makes those of the rest active that are within `horizon`.
-    pub(crate) fn rouse(&mut self, horizon: f32) {
+    pub(crate) fn activate(&mut self, horizon: f32) {
         let (mut active, mut rest) = (self.extent.active, f32::INFINITY);
         let waiting = active..self.extent.count;
         for i in waiting {
@@ -208,11 +207,11 @@ impl TraversalFront<'_> {
     /// beyond the mean of the keys.
     #[cold]
     #[inline(never)]
-    pub(crate) fn thin_out(&mut self, from: usize, horizon: f32) {
+    pub(crate) fn evict(&mut self, from: usize, horizon: f32) {
         let mut i = from;
         while i < self.extent.active {
             match self.keys.get(i) {
-                Some(&key) if key > horizon => self.retire(i, key),
+                Some(&key) if key > horizon => self.deactivate(i, key),
                 _ => i += 1,
             }
         }

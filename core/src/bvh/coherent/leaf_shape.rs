@@ -3,35 +3,25 @@
 use crate::bvh::format::FanLeaf;
 use crate::bvh::node::{WIDE, in_memory};
 use crate::geom::fan::{Edges8, LANES_BELOW, WIDTH};
+use crate::num::tolerance::SLIVER_SINE_SQ;
 use glam::Vec3;
-
-/// Squared sine of the angle between the spokes of a triangle below which it counts as a sliver
-/// here: 2^-16, a quarter of a degree.
-pub(crate) const SLIVER: f32 = 1.0 / 65_536.0;
-
-/// What `lower_bound` of any other triangle lacks of the true distance is below this part of
-/// (distance + `reach`): 2^-14. It grows with 1/sine; measured at the limit: 2^-15.
-pub(crate) const SHORTFALL: f32 = 1.0 / 16_384.0;
 
 /// Whether no triangle of a leaf is a sliver. Triangles without area are. `None`: the leaf is not
 /// one of a tree that was opened.
-pub(crate) fn is_sound(patch: &FanLeaf<'_>) -> Option<bool> {
+pub(crate) fn is_sound(leaf: &FanLeaf<'_>) -> Option<bool> {
     if !WIDE {
-        let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
+        let (count, turn) = (leaf.tag().triangles(), leaf.tag().turn());
         return Some((0..count.min(WIDTH)).all(|lane| {
             let which = usize::from(lane >= turn);
-            let (e, g) = (patch.spoke(lane, which), patch.spoke(lane + 1, which));
+            let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
             let normal = e.cross(g);
-            SLIVER * (square(e) * square(g)) - square(normal) <= 0.0 && square(normal) > 0.0
+            SLIVER_SINE_SQ * (square(e) * square(g)) - square(normal) <= 0.0 && square(normal) > 0.0
         }));
     }
-    let edges = if patch.is_f32() {
-        patch.single_edges8(Vec3::ZERO)?
-    } else {
-        patch.grid_edges8(Vec3::ZERO)?
-    };
+    let edges =
+        if leaf.is_f32() { leaf.single_edges8(Vec3::ZERO)? } else { leaf.grid_edges8(Vec3::ZERO)? };
     let Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], .. } = &edges;
-    let used = LANES_BELOW.get(patch.tag().triangles())?;
+    let used = LANES_BELOW.get(leaf.tag().triangles())?;
     let mut excess = [0f32; WIDTH];
     for i in 0..WIDTH {
         let (ex, ey, ez, gx, gy, gz) = (ex[i], ey[i], ez[i], gx[i], gy[i], gz[i]);
@@ -39,7 +29,7 @@ pub(crate) fn is_sound(patch: &FanLeaf<'_>) -> Option<bool> {
         let normal = x * x + y * y + z * z;
         let sides = (ex * ex + ey * ey + ez * ez) * (gx * gx + gy * gy + gz * gz);
         // Not a sliver where it is negative, and an unused lane may hold anything.
-        let lack = SLIVER * sides - normal;
+        let lack = SLIVER_SINE_SQ * sides - normal;
         let lack = if normal > 0.0 { lack } else { 1.0 };
         excess[i] = f32::from_bits(lack.to_bits() & used[i]);
     }

@@ -6,18 +6,15 @@
 //! loses the whole step. One plane costs as much as half a leaf, asking it six products.
 
 use super::front::Child;
-use super::leaf_shape::SHORTFALL;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::node::in_memory;
 use crate::geom::fan::{Edges8, LANES_BELOW, WIDTH};
 use crate::num::sqrt_approx;
+use crate::num::tolerance::{PLANE_NORMAL, SHORTFALL};
 use glam::Vec3;
 
 /// Planes that a session holds: a power of two.
 const PLANES: usize = 32;
-
-/// More than what the length of a scaled normal may be rounded by.
-const ROUNDING: f32 = 1.0 / 262_144.0;
 
 /// A leaf's distance is at least `normal·(p − middle) − offset`, up to what a box's bound may be
 /// off by.
@@ -60,8 +57,8 @@ impl Planes {
         margin: f32,
     ) {
         let found = match leaf.edges {
-            Some(edges) => separate_wide(edges, leaf.patch.tag().triangles(), near),
-            None => separate_narrow(leaf.patch, leaf.p, near),
+            Some(edges) => separate_wide(edges, leaf.fans.tag().triangles(), near),
+            None => separate_narrow(leaf.fans, leaf.p, near),
         };
         if let Some((normal, distance)) = found
             && let Some(plane) = self.0.get_mut(place(child))
@@ -74,7 +71,7 @@ impl Planes {
 
 /// A leaf as it was looked at from `p`, and its triangles side by side where all were read at once.
 pub(crate) struct Looked<'a> {
-    pub(crate) patch: &'a FanLeaf<'a>,
+    pub(crate) fans: &'a FanLeaf<'a>,
     pub(crate) p: Vec3,
     pub(crate) edges: Option<&'a Edges8>,
 }
@@ -88,7 +85,7 @@ pub(crate) type At = (usize, f32, f32);
 fn normal(residual: Vec3) -> Option<Vec3> {
     let length = sqrt_approx(dot(residual, residual));
     if length > 1.0 / 1024.0 {
-        Some(residual * ((1.0 - SHORTFALL) * (1.0 - ROUNDING) / length))
+        Some(residual * ((1.0 - SHORTFALL) * (1.0 - PLANE_NORMAL) / length))
     } else {
         None
     }
@@ -120,14 +117,14 @@ fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(
 
 /// The same, vertex by vertex.
 #[inline(never)]
-fn separate_narrow(patch: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3, f32)> {
-    let (count, turn) = (patch.tag().triangles(), patch.tag().turn());
+fn separate_narrow(leaf: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3, f32)> {
+    let (count, turn) = (leaf.tag().triangles(), leaf.tag().turn());
     let which = usize::from(lane >= turn);
-    let from = p - patch.centre(which);
-    let n = normal(from - patch.spoke(lane, which) * v - patch.spoke(lane + 1, which) * w)?;
-    let other = p - patch.centre(patch.tag().centres() - 1 - which.min(patch.tag().centres() - 1));
+    let from = p - leaf.centre(which);
+    let n = normal(from - leaf.spoke(lane, which) * v - leaf.spoke(lane + 1, which) * w)?;
+    let other = p - leaf.centre(leaf.tag().centres() - 1 - which.min(leaf.tag().centres() - 1));
     let along = dot(n, from);
-    let nearest = (0..=count).fold(0.0, |least, i| less(least, -dot(n, patch.spoke(i, which))));
+    let nearest = (0..=count).fold(0.0, |least, i| less(least, -dot(n, leaf.spoke(i, which))));
     Some((n, less(along + nearest, dot(n, other))))
 }
 

@@ -10,7 +10,7 @@ use crate::bvh::closest_point::{Hint, closest_point_from};
 use crate::bvh::format::Bvh;
 use crate::bvh::point_query::PointQuery;
 use crate::num::sqrt_approx;
-use crate::num::tolerance::{TREE_FAN, TREE_TINY, U32};
+use crate::num::tolerance::{FAN_DISTANCE, LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS, U32};
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use core::marker::PhantomData;
 use glam::Vec3;
@@ -104,9 +104,6 @@ const BASE: u32 = 4;
 const CREDIT: u32 = 4;
 /// Plain queries that it then asks, the first time and at most.
 const REST: (u32, u32) = (8, 256);
-/// A path so many times as long as what a box's bound may be off by is counted from new: keys,
-/// which are as long, are rounded by no more than that.
-const LONG_PATH: f32 = 2_097_152.0;
 /// A rest ends early after this many steps in a row, each this many times shorter than the one at
 /// which it began.
 const WAKE: u32 = 3;
@@ -114,8 +111,6 @@ const WAKE: u32 = 3;
 const SHORTER: f32 = 8.0;
 /// Queries followed without debt after which the past is forgiven.
 const RELIABLE: u32 = 64;
-/// More than what a root and a few products may be rounded by.
-const ROUNDING: f32 = 1.0 / 1_048_576.0;
 
 /// Whether the front pays. Cost is counted in half leaves: about 250 instructions without vectors,
 /// 30 ns with them. A session's count half as much again, for with vectors they take as long: what
@@ -240,9 +235,9 @@ impl Memory {
         if stack.is_empty() {
             return Err(QueryError::NoQueue);
         }
-        let probe = PointQuery::new(tree, point)?;
+        let query = PointQuery::new(tree, point)?;
         let first = tree.frame(0).ok_or(QueryError::NotServed)?;
-        if probe.far || stop.relative > 0.0 || stop.absolute > 0.0 {
+        if query.far || stop.relative > 0.0 || stop.absolute > 0.0 {
             let closest = closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())?;
             return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
@@ -251,11 +246,12 @@ impl Memory {
             *self = Memory { of, ..Memory::EMPTY };
         }
         let mut spent = Work::default();
-        let d = probe.p - self.last.p;
-        let step = sqrt_approx(d.x * d.x + d.y * d.y + d.z * d.z) * (1.0 + ROUNDING) + TREE_TINY;
-        self.last.p = probe.p;
+        let d = query.p - self.last.p;
+        let step = sqrt_approx(d.x * d.x + d.y * d.y + d.z * d.z) * (1.0 + ROOT_AND_PRODUCTS)
+            + LEAST_DENOMINATOR;
+        self.last.p = query.p;
         if self.pace.follows(step) {
-            match self.follow(keys, children, tree, &probe, (step, stop.steps), &mut spent) {
+            match self.follow(keys, children, tree, &query, (step, stop.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
                 Err(Gap::Model) => return Err(QueryError::Model),
                 Err(Gap::Undecided) => {}
@@ -268,7 +264,7 @@ impl Memory {
         }
         let mut closest = closest_point_from(tree, point, stop, stack, &mut self.hint)?;
         self.pace.plain_query(&closest.work);
-        self.last.reach = probe.units.inward(closest.upper) + probe.units.surface_error;
+        self.last.reach = query.units.inward(closest.upper) + query.units.surface_error;
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
         closest.work.triangles = closest.work.triangles.saturating_add(spent.triangles);
         closest.work.splits = closest.work.splits.saturating_add(spent.splits);
@@ -282,7 +278,7 @@ impl Memory {
         keys: &mut [f32],
         children: &mut [Child],
         tree: &Bvh<'_>,
-        probe: &PointQuery,
+        query: &PointQuery,
         (step, steps): (f32, u32),
         spent: &mut Work,
     ) -> Result<CoherentClosest, Gap> {
@@ -290,11 +286,14 @@ impl Memory {
         let fresh = extent.count == 0;
         let mut front = TraversalFront { keys, children, extent };
         front.advance(if fresh { 0.0 } else { step });
-        let mut follow = Follow::new(tree, probe, front, planes, AHEAD * step, steps);
+        let mut follow = Follow::new(tree, query, front, planes, AHEAD * step, steps);
         let path = follow.front.extent.path;
         if path > follow.off * LONG_PATH {
-            last.second =
-                if last.second > path { (last.second - path) * (1.0 - ROUNDING) } else { 0.0 };
+            last.second = if last.second > path {
+                (last.second - path) * (1.0 - ROOT_AND_PRODUCTS)
+            } else {
+                0.0
+            };
             follow.front.rebase();
         }
         let same = if last.second > follow.horizon(0.0) {
@@ -325,11 +324,13 @@ impl Memory {
             }
         };
         let distance = sqrt_approx(nearest.distance_sq);
-        let weak = probe.weak(nearest.distance_sq);
-        let error = tree.header().reach * (TREE_FAN * U32) + probe.units.surface_error;
+        let below = query.refine_below(nearest.distance_sq);
+        let error = tree.header().reach * (FAN_DISTANCE * U32) + query.units.surface_error;
         let path = follow.front.extent.path;
         let safe = |second: f32| {
-            0.5 * ((second - path) * (1.0 - ROUNDING) - distance * (1.0 + ROUNDING)) - error
+            0.5 * ((second - path) * (1.0 - ROOT_AND_PRODUCTS)
+                - distance * (1.0 + ROOT_AND_PRODUCTS))
+                - error
         };
         if same.is_none() && nearest.child.known() == Known::Triangles {
             let others = follow.front.second();
@@ -338,16 +339,16 @@ impl Memory {
             }
         }
         let safe_radius = safe(last.second);
-        let patch = tree.leaf(nearest.child.node(), nearest.child.lane()).ok_or(Gap::Model)?;
+        let leaf = tree.leaf(nearest.child.node(), nearest.child.lane()).ok_or(Gap::Model)?;
         let closest = ClosestPoint {
-            lower: probe.lower(sqrt_approx(if weak > 0.0 { weak } else { 0.0 })),
-            upper: probe.upper(distance),
-            point: probe.units.point(patch.point(nearest.lane, nearest.v, nearest.w)),
+            lower: query.lower(sqrt_approx(if below > 0.0 { below } else { 0.0 })),
+            upper: query.upper(distance),
+            point: query.units.point(leaf.point(nearest.lane, nearest.v, nearest.w)),
             triangle: last.triangle,
             work: follow.work,
             ended: Ended::Exact,
         };
-        Ok(CoherentClosest { closest, safe_radius: probe.units.lower(safe_radius) })
+        Ok(CoherentClosest { closest, safe_radius: query.units.lower(safe_radius) })
     }
 }
 

@@ -1,7 +1,9 @@
 //! Opening the box tree of a blob, and what is made sure of.
 
 use super::header::BvhHeader;
-use super::layout::{FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, TREE_BYTES};
+use super::layout::{
+    FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, TREE_BYTES, boxes,
+};
 use super::leaf::{FanLeaf, LeafShape};
 use super::view::{Bvh, GridScale};
 use crate::format::layout::SectionKind;
@@ -173,14 +175,14 @@ impl<'a> Bvh<'a> {
                 if !tag.is_sound() {
                     return Err(bad);
                 }
-                let patch = self.patch(vertices, tag).ok_or(bad)?;
+                let leaf = self.patch(vertices, tag).ok_or(bad)?;
                 vertices += tag.vertices() as u32;
                 triangles += tag.triangles() as u32;
                 leaves += 1;
                 if vertices > h.vertices {
                     return Err(bad);
                 }
-                self.check_patch(&patch, leaves - 1)?;
+                self.check_patch(&leaf, leaves - 1)?;
             }
             if (links.count..WIDTH as u32).any(|lane| links.tag(lane) != LeafShape(0)) {
                 return Err(bad);
@@ -237,7 +239,7 @@ impl<'a> Bvh<'a> {
         let origin = |x: f32| x.abs() <= MAX_GRID;
         for (index, record) in (0u32..).zip(self.frames) {
             let (words, _) = record.as_chunks::<4>();
-            let sound = words.iter().skip(2 * 6).enumerate().all(|(at, word)| {
+            let sound = words.iter().skip(boxes::FRAME_ROWS / 4).enumerate().all(|(at, word)| {
                 let x = f32::from_le_bytes(*word);
                 match at {
                     0..9 => x.abs() <= MAX_ROW,
@@ -249,7 +251,7 @@ impl<'a> Bvh<'a> {
             // range.
             let mut f = [0f32; 15];
             f.iter_mut()
-                .zip(words.iter().skip(12))
+                .zip(words.iter().skip(boxes::FRAME_ROWS / 4))
                 .for_each(|(x, word)| *x = f32::from_le_bytes(*word));
             let [a, b, c, d, e, g, h, i, j, _, _, _, u, v, w] = f;
             let short = |x: f32, y: f32, z: f32, weight: f32| {
@@ -261,7 +263,7 @@ impl<'a> Bvh<'a> {
         }
         for (index, record) in (0u32..).zip(self.boxes) {
             let (words, _) = record.as_chunks::<4>();
-            let sound = words.iter().skip(2 * 6).enumerate().all(|(at, word)| {
+            let sound = words.iter().skip(boxes::ORIGIN / 4).enumerate().all(|(at, word)| {
                 let x = f32::from_le_bytes(*word);
                 if at < 3 { origin(x) } else { (0.0..=MAX_GRID).contains(&x) }
             });
@@ -272,7 +274,7 @@ impl<'a> Bvh<'a> {
         Ok(())
     }
 
-    fn check_patch(&self, patch: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
+    fn check_patch(&self, leaf: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
         let h = &self.header;
         let bad = OpenError::Record { section: SectionKind::TreeFans, index };
         let inside = |p: glam::Vec3| {
@@ -283,15 +285,15 @@ impl<'a> Bvh<'a> {
                     && x <= (o + i32::from(h.high[axis])) as f32
             })
         };
-        let tag = patch.tag();
-        let sound = (0..tag.centres()).all(|which| inside(patch.centre(which)))
-            && (0..=tag.triangles()).all(|i| inside(patch.ring(i)))
+        let tag = leaf.tag();
+        let sound = (0..tag.centres()).all(|which| inside(leaf.centre(which)))
+            && (0..=tag.triangles()).all(|i| inside(leaf.ring(i)))
             && (0..tag.triangles()).all(|i| {
                 let which = usize::from(i >= tag.turn());
                 let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
                 // Exact on the grid; with f32 vertices off by a few roundings, which the bounds
                 // that `reach` enters have room for.
-                norm(patch.spoke(i, which)) + norm(patch.spoke(i + 1, which))
+                norm(leaf.spoke(i, which)) + norm(leaf.spoke(i + 1, which))
                     <= h.reach * (1.0 + 8.0 * U32)
             });
         if sound { Ok(()) } else { Err(bad) }

@@ -1,6 +1,6 @@
 //! The box tree's own header: counts, grid, error bound.
 
-use super::layout::{TREE_BYTES, TREE_CLOSED, TREE_SINGLE};
+use super::layout::{TREE_BYTES, TREE_CLOSED, TREE_SINGLE, field};
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError};
 
@@ -18,7 +18,7 @@ pub struct BvhHeader {
     pub grid_origin: [i32; 3],
     /// Nodes; node 0 is the root.
     pub nodes: u32,
-    /// Leaves: patches of one or two fans.
+    /// Leaves: leaves of one or two fans.
     pub leaves: u32,
     /// Vertices that the leaves store.
     pub vertices: u32,
@@ -79,24 +79,30 @@ impl BvhHeader {
                 bytes.u16(at + 4).ok_or(short)?,
             ])
         };
-        let flags = bytes.u8(1).ok_or(short)?;
-        let reserved = bytes.u8(0) == Some(0) && bytes.u16(2) == Some(0) && word(60)? == 0;
+        let flags = bytes.u8(field::FLAGS).ok_or(short)?;
+        let reserved = bytes.u8(field::RESERVED) == Some(0)
+            && bytes.u16(field::RESERVED_BESIDE_FLAGS) == Some(0)
+            && word(field::RESERVED_AT_END)? == 0;
         if !reserved || flags & !(TREE_CLOSED | TREE_SINGLE) != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(BvhHeader {
             flags,
-            grid_exponent: word(4)?.cast_signed(),
-            grid_origin: [word(8)?.cast_signed(), word(12)?.cast_signed(), word(16)?.cast_signed()],
-            nodes: word(20)?,
-            leaves: word(24)?,
-            vertices: word(28)?,
-            triangles: word(32)?,
-            stack_entries: word(36)?,
-            surface_error: f32::from_bits(word(40)?),
-            reach: f32::from_bits(word(44)?),
-            low: short3(48)?,
-            high: short3(54)?,
+            grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
+            grid_origin: [
+                word(field::GRID_ORIGIN)?.cast_signed(),
+                word(field::GRID_ORIGIN + 4)?.cast_signed(),
+                word(field::GRID_ORIGIN + 8)?.cast_signed(),
+            ],
+            nodes: word(field::NODES)?,
+            leaves: word(field::LEAVES)?,
+            vertices: word(field::VERTICES)?,
+            triangles: word(field::TRIANGLES)?,
+            stack_entries: word(field::STACK_ENTRIES)?,
+            surface_error: f32::from_bits(word(field::SURFACE_ERROR)?),
+            reach: f32::from_bits(word(field::STAR_RADIUS)?),
+            low: short3(field::LOW)?,
+            high: short3(field::HIGH)?,
         })
     }
 
@@ -108,24 +114,28 @@ impl BvhHeader {
                 *slot = *byte;
             }
         };
-        put(1, &[self.flags]);
+        put(field::FLAGS, &[self.flags]);
         let [x, y, z] = self.grid_origin.map(i32::cast_unsigned);
-        let words =
-            [self.grid_exponent.cast_unsigned(), x, y, z, self.nodes, self.leaves, self.vertices];
-        for (at, word) in (4..).step_by(4).zip(words) {
-            put(at, &word.to_le_bytes());
-        }
         let words = [
-            self.triangles,
-            self.stack_entries,
-            self.surface_error.to_bits(),
-            self.reach.to_bits(),
+            (field::GRID_EXPONENT, self.grid_exponent.cast_unsigned()),
+            (field::GRID_ORIGIN, x),
+            (field::GRID_ORIGIN + 4, y),
+            (field::GRID_ORIGIN + 8, z),
+            (field::NODES, self.nodes),
+            (field::LEAVES, self.leaves),
+            (field::VERTICES, self.vertices),
+            (field::TRIANGLES, self.triangles),
+            (field::STACK_ENTRIES, self.stack_entries),
+            (field::SURFACE_ERROR, self.surface_error.to_bits()),
+            (field::STAR_RADIUS, self.reach.to_bits()),
         ];
-        for (at, word) in (32..).step_by(4).zip(words) {
+        for (at, word) in words {
             put(at, &word.to_le_bytes());
         }
-        for (at, short) in (48..).step_by(2).zip(self.low.into_iter().chain(self.high)) {
-            put(at, &short.to_le_bytes());
+        for (at, corner) in [(field::LOW, self.low), (field::HIGH, self.high)] {
+            for (axis, short) in corner.into_iter().enumerate() {
+                put(at + 2 * axis, &short.to_le_bytes());
+            }
         }
         out
     }

@@ -1,6 +1,6 @@
 //! Leaves of the box tree: one or two triangle fans, read where they lie.
 //!
-//! A patch comes out of a tree that was opened, so its window of the fans' section is in range;
+//! A leaf comes out of a tree that was opened, so its window of the fans' section is in range;
 //! still no read can panic.
 
 use crate::geom::fan::{Edges8, LANES_BELOW, Ring8, WIDTH};
@@ -12,7 +12,7 @@ use glam::Vec3;
 pub struct LeafShape(pub u8);
 
 impl LeafShape {
-    /// The tag of a patch of `triangles` with the second fan beginning at triangle `turn` (0: one
+    /// The tag of a leaf of `triangles` with the second fan beginning at triangle `turn` (0: one
     /// fan).
     pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
         let vertices = triangles + 2 + usize::from(turn > 0);
@@ -51,7 +51,7 @@ impl LeafShape {
         self.0 & 0x80 != 0
     }
 
-    /// Whether a patch can look like that.
+    /// Whether a leaf can look like that.
     pub(crate) fn is_sound(self) -> bool {
         let triangles = self.vertices().checked_sub(1 + self.centres());
         let turns = self.turn() == WIDTH || triangles.is_some_and(|count| self.turn() < count);
@@ -70,7 +70,7 @@ pub struct FanLeaf<'a> {
     pub(crate) origin: [i32; 3],
 }
 
-/// What a patch on the grid stores: integers without the grid's origin.
+/// What a leaf on the grid stores: integers without the grid's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct GridRing<'a> {
     /// What is to be added.
@@ -85,10 +85,10 @@ pub struct GridRing<'a> {
     pub z: &'a [[u8; 2]],
 }
 
-/// Vertices of the largest patch: two centres and nine ring vertices.
+/// Vertices of the largest leaf: two centres and nine ring vertices.
 pub const CORNERS: usize = 11;
 
-/// Bytes of the largest patch on the grid: two centres and nine ring vertices.
+/// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
 const GRID_WINDOW: usize = 66;
 
 #[inline(always)]
@@ -169,7 +169,7 @@ impl<'a> FanLeaf<'a> {
         self.tag
     }
 
-    /// Centre 0 or 1, grid units, exactly. What is asked beyond a patch's centres, ring or
+    /// Centre 0 or 1, grid units, exactly. What is asked beyond a leaf's centres, ring or
     /// triangles, here and below, reads as some number.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> Vec3 {
@@ -267,7 +267,7 @@ impl<'a> FanLeaf<'a> {
         Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
     }
 
-    /// The stored integers of a patch on the grid.
+    /// The stored integers of a leaf on the grid.
     #[inline(always)]
     pub fn grid_ring(&self) -> Option<GridRing<'a>> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;

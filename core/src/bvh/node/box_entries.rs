@@ -5,7 +5,7 @@
 //! is the near one depends on the direction alone: it is chosen once for each segment.
 
 use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
-use crate::bvh::format::layout::BOXES_BYTES;
+use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 
 /// A segment as the boxes see it, grid units. See `core/docs/rounding.md` §9.
@@ -76,7 +76,7 @@ impl<'a> Sides<'a> {
     #[inline(always)]
     pub(crate) fn of(record: &'a [u8; BOXES_BYTES], slabs: &Slabs) -> Option<Self> {
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<8>()?;
-        let words = record.as_chunks::<4>().0.get(12..)?.first_chunk::<6>()?;
+        let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
         let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
         let side = |axis: usize, origin: f32, unit: f32| {
             let (enter, leave, step) = slabs.axis(axis, origin, unit);

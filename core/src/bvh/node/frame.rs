@@ -5,6 +5,7 @@
 //! `√weight·A` is a rotation: no rounding but that of the sums here.
 
 use crate::bvh::format::layout::FRAME_BYTES;
+use crate::bvh::format::layout::boxes;
 use glam::Vec3;
 
 /// Box coordinates of a point, and what a step is worth.
@@ -22,7 +23,9 @@ impl NodeFrame {
     pub fn of(record: &[u8; FRAME_BYTES], p: Vec3) -> NodeFrame {
         let (words, _) = record.as_chunks::<4>();
         let mut f = [0f32; 15];
-        if let Some(tail) = words.get(12..).and_then(|words| words.first_chunk::<15>()) {
+        if let Some(tail) =
+            words.get(boxes::FRAME_ROWS / 4..).and_then(|words| words.first_chunk::<15>())
+        {
             f = tail.map(f32::from_le_bytes);
         }
         let [a, b, c, d, e, g, h, i, j, ox, oy, oz, u, v, w] = f;

@@ -104,7 +104,7 @@ fn entries_have_the_same_bits() {
         put(&mut record, 60, &steps);
         let size = 2f32.powi(noise.below(16) as i32);
         let (from, direction) = (noise.vector(size), noise.vector(2.0 * size));
-        let still = crate::geom::fan::STILL;
+        let still = crate::num::tolerance::STILL;
         let inverse = direction.map(|d| 1.0 / if d.abs() > still { d } else { still.copysign(d) });
         let margin = [[1e-6; 3], [1.0; 3], [1e3; 3]][noise.below(3) as usize];
         let slabs = Slabs::new(from, inverse, margin);

@@ -6,7 +6,7 @@
 //! Bergen, *Efficient Collision Detection of Complex Deformable Models using AABB Trees*, 1997).
 
 use super::relative_pose::{DIRECTIONS, Side};
-use crate::bvh::format::layout::BOXES_BYTES;
+use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::bvh::node::{WIDE, in_memory};
 use crate::geom::fan::WIDTH;
 
@@ -25,7 +25,7 @@ impl AxisIntervals {
     #[inline(always)]
     pub(crate) fn of(side: &Side, record: &[u8; BOXES_BYTES], count: u32) -> Option<AxisIntervals> {
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>()?;
-        let words = record.as_chunks::<4>().0.get(12..)?.first_chunk::<6>()?;
+        let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
         let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
         let [lx, hx, ly, hy, lz, hz] = rows;
         let boxes = [both(lx, hx), both(ly, hy), both(lz, hz)];

@@ -1,13 +1,14 @@
 //! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet
 //! leaves.
 //!
-//! A pair of nodes is refine_sliver at once for all pairs of their children, as 64 bits: that is all that
+//! A pair of nodes is settled at once for all pairs of their children, as 64 bits: that is all that
 //! has to wait, so memory is 16 bytes for each level.
 
 use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;
 use super::pair_entry::PairEntry;
 use super::relative_pose::RelativePose;
+use crate::bvh::format::layout::boxes;
 use crate::bvh::format::{Bvh, BvhChild};
 use crate::geom::{Contact, Pose};
 use crate::query::{Ended, QueryError, Work};
@@ -24,7 +25,7 @@ pub(crate) trait Collect {
 /// Sum of the steps of a node's boxes, grid units: half of its size, or all of it.
 #[inline(always)]
 fn size(tree: &Bvh<'_>, node: u32) -> Option<f32> {
-    let words = tree.boxes(node)?.as_chunks::<4>().0.get(15..)?.first_chunk::<3>()?;
+    let words = tree.boxes(node)?.as_chunks::<4>().0.get(boxes::STEPS / 4..)?.first_chunk::<3>()?;
     let [x, y, z] = words.map(f32::from_le_bytes);
     Some(x + y + z)
 }

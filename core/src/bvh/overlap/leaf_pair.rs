@@ -8,7 +8,7 @@ use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 use crate::query::Work;
 
-/// Places for a patch's vertices: two centres and the ring, and some to spare so that eight are
+/// Places for a leaf's vertices: two centres and the ring, and some to spare so that eight are
 /// read at shift 1.
 pub(crate) const SLOTS: usize = 12;
 
@@ -29,12 +29,12 @@ pub(crate) struct Corners {
 impl Corners {
     /// As stored: grid units from the grid's origin.
     #[inline(always)]
-    fn stored(patch: &FanLeaf<'_>) -> Corners {
-        let tag = patch.tag();
+    fn stored(leaf: &FanLeaf<'_>) -> Corners {
+        let tag = leaf.tag();
         let triangles = tag.triangles().min(WIDTH);
         let mut at = [[0.0; SLOTS]; 3];
         let used = (RING + triangles + 1).min(SLOTS);
-        for (at, stored) in at.iter_mut().zip(patch.stored_vertices()) {
+        for (at, stored) in at.iter_mut().zip(leaf.stored_vertices()) {
             // What is not in use may not count as far away.
             *at = [stored[0]; SLOTS];
             at.iter_mut().zip(stored).take(used).for_each(|(x, stored)| *x = stored);
@@ -258,7 +258,7 @@ fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
 /// A leaf of the first tree, and one of the second, in common units from a vertex of the first.
 pub(crate) struct LeafPair<'a> {
     place: &'a RelativePose,
-    patches: [FanLeaf<'a>; 2],
+    leaves: [FanLeaf<'a>; 2],
     a: Corners,
     b: Corners,
     /// Where the first leaf's vertices lie to the second's planes, and the other way.
@@ -286,7 +286,7 @@ impl<'a> LeafPair<'a> {
             }
         }
         let none = || Sides { above: [0; SLOTS], below: [0; SLOTS] };
-        LeafPair { place, patches: [*a, *b], a: first, b: second, sides: [none(), none()] }
+        LeafPair { place, leaves: [*a, *b], a: first, b: second, sides: [none(), none()] }
     }
 
     /// Pairs that neither a coordinate nor the plane of a triangle parts: for each triangle of the
@@ -373,10 +373,10 @@ impl<'a> LeafPair<'a> {
     #[inline(never)]
     fn settle_exactly(&self, i: usize, j: usize) -> Contact {
         let RelativePose { matrix, shift_exact, doubt_exact, .. } = *self.place;
-        let [first, second] = &self.patches;
+        let [first, second] = &self.leaves;
         let unit = f64::from(self.place.sides[0].unit);
-        let wide = |patch: &FanLeaf<'_>, slots: [usize; 3]| {
-            let stored = patch.stored_vertices();
+        let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
+            let stored = leaf.stored_vertices();
             slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))
         };
         let a = wide(first, self.a.slots(i));

@@ -71,7 +71,7 @@ pub struct Overlaps {
 ///
 /// ```
 /// use meshsweep_core::{Bvh, tribox::Pose, query::tree::{Contact, PairEntry, overlap}};
-/// # fn probe(part: &[u8], tool: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
+/// # fn query(part: &[u8], tool: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
 /// let (part, tool) = (Bvh::open(part)?, Bvh::open(tool)?); // of blobs built with `--for segment`
 /// let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
 /// let pose = Pose { translation: [30.0, 0.0, 0.0], ..Pose::IDENTITY };

@@ -7,33 +7,17 @@
 use crate::bvh::format::Bvh;
 use crate::geom::Pose;
 use crate::num::exp2;
-use crate::num::tolerance::{U32, U64};
+use crate::num::tolerance::{
+    OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
+};
 use crate::query::QueryError;
 
 /// Directions along which boxes are compared: the axes of both trees' boxes.
 pub(crate) const DIRECTIONS: usize = 6;
 
-/// Rounding of a box's interval, in units of [`U32`] times what both trees reach along the
-/// direction. Proved: 76 (§11).
-const INTERVAL: f64 = 96.0;
-
-/// Rounding of a moved vertex, the 2-norm, in units of the roundoff times the longest way along an
-/// axis. Proved: 8.7 in f32, 19.1 in f64 (§11).
-const VERTEX: f64 = 20.0;
-
 /// Largest ratio of the trees' grid units, 2^40: then the smaller model is a point for all that the
 /// larger one can tell.
 const RATIO: i32 = 40;
-
-/// Longest way along an axis in common units, surface errors with it: 2^30. Products of four such
-/// lengths, and sums of some of them, stay in f32's range. Trees are within 2^25 of their origins,
-/// so only an absurd surface error gets there.
-const FARTHEST: f64 = (1u64 << 30) as f64;
-
-/// More than what underflow takes from an interval's ends, whatever the direction: terms lose
-/// 2^-150 each, which are multiplied by less than 2^30 (§11). A direction as short as that parts
-/// nothing.
-const UNDERFLOW: f64 = 1.0 / (1u128 << 100) as f64;
 
 /// A tree as the directions see it.
 #[derive(Clone, Copy, Debug)]
@@ -149,19 +133,19 @@ impl RelativePose {
             + greatest([r0, r1, r2].map(|row| most(row, from.map(|x| x * unit_b))))
             + greatest(into.map(f64::abs)) * unit_a;
         let errors = error_a + error_b;
-        let rounded = VERTEX * U64 * far;
+        let rounded = OVERLAP_VERTEX * U64 * far;
         let mut grow = [0f32; DIRECTIONS];
         for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
             let both = most(d, reach_a) + most(row, reach_b);
-            let error = (errors + rounded) * libm::sqrt(dot(d, d)) + UNDERFLOW;
+            let error = (errors + rounded) * libm::sqrt(dot(d, d)) + OVERLAP_UNDERFLOW;
             if away.abs() * (1.0 - 64.0 * U64) > both + error {
                 return Ok(None);
             }
-            *grow = ((both + away.abs()) * (INTERVAL * f64::from(U32)) + error) as f32
+            *grow = ((both + away.abs()) * (OVERLAP_INTERVAL * f64::from(U32)) + error) as f32
                 * (1.0 + 2.0 * U32);
         }
         // What is not a number is not in range either.
-        let is_in_range = far + errors <= FARTHEST;
+        let is_in_range = far + errors <= OVERLAP_FARTHEST;
         if !is_in_range {
             return Err(QueryError::PoseOutOfDomain);
         }
@@ -186,7 +170,7 @@ impl RelativePose {
             matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: narrow(shift_exact),
             shift_exact,
-            doubt: (larger + VERTEX * f64::from(U32) * near) as f32 * (1.0 + 2.0 * U32),
+            doubt: (larger + OVERLAP_VERTEX * f64::from(U32) * near) as f32 * (1.0 + 2.0 * U32),
             doubt_exact: larger + rounded,
         }))
     }

@@ -5,7 +5,7 @@
 //! the eye is on: no bounding sphere is needed. A slip of the paper: a fan is back-facing if
 //! `n₀·d ≤ −sin α`, not `≤ sin α`.
 
-use crate::num::tolerance::{CONE_SINE, TREE_TINY};
+use crate::num::tolerance::{CONE_SINE, LEAST_DENOMINATOR};
 use glam::Vec3;
 
 /// A cone that contains all normals of a leaf's triangles.
@@ -28,7 +28,7 @@ impl NormalCone {
         let length_sq = dot(way, way);
         let sine = self.sine + CONE_SINE;
         against > 0.0
-            && length_sq > TREE_TINY
+            && length_sq > LEAST_DENOMINATOR
             && against * against > dot(self.axis, self.axis) * length_sq * (sine * sine)
     }
 }

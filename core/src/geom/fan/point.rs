@@ -7,7 +7,7 @@
 
 use super::lanes::WIDTH;
 use crate::num::sqrt_approx;
-use crate::num::tolerance::TREE_TINY;
+use crate::num::tolerance::LEAST_DENOMINATOR;
 use glam::Vec3;
 
 /// How near a point is to a triangle, as computed: see `core/docs/rounding.md` §8.
@@ -110,7 +110,7 @@ impl PointFan {
             }
             // A part of a triangle that is a point for all that f32 can tell: what is divided by it
             // is smaller still.
-            den = above(TREE_TINY, least);
+            den = above(LEAST_DENOMINATOR, least);
         }
         let inverse = 1.0 / den;
         let (v, w) = (nv * inverse, nw * inverse);
@@ -146,7 +146,7 @@ pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
     };
     let normal = cross(e, g);
     let area_sq = dot(normal, normal);
-    if area_sq > TREE_TINY {
+    if area_sq > LEAST_DENOMINATOR {
         let r = residual(s, e, g, near.v, near.w);
         let v = near.v + dot(cross(r, g), normal) / area_sq;
         let w = near.w + dot(cross(e, r), normal) / area_sq;
@@ -155,7 +155,7 @@ pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
         }
     }
     let share = |along: f32, length_sq: f32| {
-        let share = above(0.0, along) / above(TREE_TINY, length_sq);
+        let share = above(0.0, along) / above(LEAST_DENOMINATOR, length_sq);
         if share < 1.0 { share } else { 1.0 }
     };
     offer(share(dot(s, e), dot(e, e)), 0.0);
@@ -213,7 +213,7 @@ pub fn point_patch(
 /// of its plane and of supporting planes along the residual and along the residual made orthogonal
 /// to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
-/// Holds up to the rounding that `TREE_FAN` covers, whatever the triangle. Cost: five roots, so it
+/// Holds up to the rounding that `FAN_DISTANCE` covers, whatever the triangle. Cost: five roots, so it
 /// is for the few triangles that need it.
 #[inline]
 pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
@@ -223,7 +223,7 @@ pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let r = residual(s, e, g, near.v, near.w);
     let orthogonal = |edge: Vec3| {
         let length_sq = dot(edge, edge);
-        if length_sq > TREE_TINY { r - edge * (dot(r, edge) / length_sq) } else { r }
+        if length_sq > LEAST_DENOMINATOR { r - edge * (dot(r, edge) / length_sq) } else { r }
     };
     let normal = cross(e, g);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
@@ -238,7 +238,7 @@ pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
 #[inline(never)]
 fn supported(direction: Vec3, &[s, e, g]: &[Vec3; 3]) -> f32 {
     let largest = above(above(direction.x.abs(), direction.y.abs()), direction.z.abs());
-    if largest > TREE_TINY {
+    if largest > LEAST_DENOMINATOR {
         // Of length about 1, so that no square leaves f32's range.
         let d = direction * (1.0 / largest);
         (dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g))) / sqrt_approx(dot(d, d))

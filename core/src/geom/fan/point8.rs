@@ -6,7 +6,7 @@
 //! both to it).
 
 use super::lanes::WIDTH;
-use crate::num::tolerance::TREE_TINY;
+use crate::num::tolerance::LEAST_DENOMINATOR;
 
 /// Spokes of the triangles of a patch: `e` to ring vertex `i`, `g` to ring vertex `i + 1`, each
 /// from the triangle's own centre. `[axis][lane]`.
@@ -75,7 +75,7 @@ pub fn point_patch8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
         nv = if first { d1 } else { nv };
         nw = if first { 0.0 } else { nw };
         den = if first { aa } else { den };
-        den = if den > TREE_TINY { den } else { TREE_TINY };
+        den = if den > LEAST_DENOMINATOR { den } else { LEAST_DENOMINATOR };
         let end = (d6 >= 0.0) & (d5 <= d6);
         nv = if end { 0.0 } else { nv };
         nw = if end { 1.0 } else { nw };

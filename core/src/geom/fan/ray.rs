@@ -10,31 +10,15 @@
 //! The cross product of a spoke is the term `(s ∧ d)·eₖ` that Galin & Akkouche (2005, 3.1) share
 //! between the triangles beside it. Slips of the paper: `u` and `v` have the wrong sign in 3.1 (3.3
 //! has them right), `(c ∧ b)·a` there is `(b ∧ c)·a`, in 3.2 `n` is `(o − p₀) ∧ d`, and step 2 of
-//! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is refine_sliver
-//! here.
+//! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is settled//! here.
 //!
 //! What rounding and the surface error leave open: `core/docs/rounding.md` §9.
 
 use super::lanes::WIDTH;
-use crate::num::tolerance::{TREE_TINY, U32};
+use crate::num::tolerance::{
+    FAN_PARAMETER, FAN_SHEAR, LEAST_DENOMINATOR, PRODUCT_UNDERFLOW, STILL, U32,
+};
 use glam::Vec3;
-
-/// Half the width of the strip along an edge in which a kernel decides nothing, in units of [`U32`]
-/// times the 1-norm of the way to the farthest corner. Proved: 12.9 (§9). Smaller loses the
-/// guarantee, larger leaves more segments undecided.
-const SHEAR: f32 = 16.0;
-
-/// Rounding of a parameter, in units of [`U32`] times the greatest parameter of the triangle's
-/// corners, and of the segment's far end. Proved: 21.6 (§9).
-const PARAMETER: f32 = 24.0;
-
-/// What underflow may take from a cross product: nothing that is computed there loses more than
-/// 2^-147.
-pub(crate) const UNDERFLOW: f32 = f32::MIN_POSITIVE;
-
-/// A component of a direction, grid units, that counts as 0: the way along it is lost in any
-/// rounding (2^-80).
-pub const STILL: f32 = TREE_TINY / (1u32 << 20) as f32;
 
 /// A segment as fans see it, grid units: a line, sheared into the third axis, and a range of
 /// parameters from 0.
@@ -120,8 +104,8 @@ impl FanRay {
             shear: [pick(direction, u) * along, pick(direction, v) * along],
             inverse: along,
             // √3, rounded up: what the shear may stretch a length by.
-            doubt: 1.7321 * surface + (SHEAR * U32 * size + TREE_TINY),
-            slack: (surface + (4.0 * U32 * size + TREE_TINY)) * along.abs(),
+            doubt: 1.7321 * surface + (FAN_SHEAR * U32 * size + LEAST_DENOMINATOR),
+            slack: (surface + (4.0 * U32 * size + LEAST_DENOMINATOR)) * along.abs(),
             end,
         }
     }
@@ -181,7 +165,10 @@ impl FanRay {
     #[inline(always)]
     fn side(&self, a: Shadow, b: Shadow) -> Side {
         let (x, y) = (b.x - a.x, b.y - a.y);
-        Side { area: a.x * y - a.y * x, doubt: self.doubt * (x.abs() + y.abs()) + UNDERFLOW }
+        Side {
+            area: a.x * y - a.y * x,
+            doubt: self.doubt * (x.abs() + y.abs()) + PRODUCT_UNDERFLOW,
+        }
     }
 
     /// Which side of the triangle the segment comes from: 1 if corners in counter-clockwise order
@@ -207,7 +194,7 @@ impl FanRay {
             return None;
         }
         let (first, last) = (less(less(a.t, b.t), c.t), greater(greater(a.t, b.t), c.t));
-        let rounding = PARAMETER * U32 * greater(first.abs(), last.abs()) + self.slack;
+        let rounding = FAN_PARAMETER * U32 * greater(first.abs(), last.abs()) + self.slack;
         let (mut lower, mut upper) = (first - rounding, last + rounding);
         if upper < 0.0 || lower > self.end {
             return None;

@@ -5,7 +5,8 @@
 //! its bits (a test holds both to it). Few are flagged, so what decides about them is scalar.
 
 use super::lanes::WIDTH;
-use super::ray::{FanRay, UNDERFLOW};
+use super::ray::FanRay;
+use crate::num::tolerance::PRODUCT_UNDERFLOW;
 
 /// Ring vertices of the triangles of a patch, grid units, in the order of [`FanRay::axes`].
 /// `[axis][lane]`.
@@ -46,13 +47,13 @@ pub fn ray_patch8(ray: &FanRay, ring: &Ring8, first: &[u32; WIDTH], used: &[u32;
         let (bx, by) = ((nx[i] - ox) - sx * z, (ny[i] - oy) - sy * z);
         let (ex, ey) = (ax - cx, ay - cy);
         let a = cx * ey - cy * ex;
-        let a_doubt = doubt * (ex.abs() + ey.abs()) + UNDERFLOW;
+        let a_doubt = doubt * (ex.abs() + ey.abs()) + PRODUCT_UNDERFLOW;
         let (ex, ey) = (bx - cx, by - cy);
         let b = cx * ey - cy * ex;
-        let b_doubt = doubt * (ex.abs() + ey.abs()) + UNDERFLOW;
+        let b_doubt = doubt * (ex.abs() + ey.abs()) + PRODUCT_UNDERFLOW;
         let (ex, ey) = (bx - ax, by - ay);
         let rim = ax * ey - ay * ex;
-        let rim_doubt = doubt * (ex.abs() + ey.abs()) + UNDERFLOW;
+        let rim_doubt = doubt * (ex.abs() + ey.abs()) + PRODUCT_UNDERFLOW;
         let positive = (a >= -a_doubt) & (b <= b_doubt) & (rim >= -rim_doubt);
         let negative = (a <= a_doubt) & (b >= -b_doubt) & (rim <= rim_doubt);
         let met = if positive | negative { 1u32 << i } else { 0 };

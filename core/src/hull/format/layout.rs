@@ -11,3 +11,19 @@ pub const LEAF_FLAG: u8 = 0x80;
 pub const BASE_GROUP: u32 = 16;
 /// Most ring vertices of a split.
 pub const MAX_RING: usize = 255;
+
+/// Offsets in a record of the level table.
+pub mod level {
+    /// u32.
+    pub const FACES: usize = 0;
+    /// u32.
+    pub const SPLITS: usize = 4;
+    /// u32.
+    pub const NODES: usize = 8;
+    /// f32.
+    pub const HULL_TO_SURFACE: usize = 12;
+    /// f32.
+    pub const SURFACE_TO_HULL: usize = 16;
+    /// f32.
+    pub const VOID_RATIO: usize = 20;
+}

@@ -6,7 +6,7 @@
 //! its byte offset wraps on a 32-bit target, some record), and no path can panic.
 
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-use super::layout::{LEAF_FLAG, LEVEL_BYTES};
+use super::layout::{LEAF_FLAG, LEVEL_BYTES, level};
 use crate::format::layout::{FLAG_CUT, VertexFormat, none};
 use crate::format::{Bytes, Header};
 use crate::num::{Radius8, Radius16, exp2};
@@ -408,12 +408,12 @@ impl<'a> Model<'a> {
     pub fn level(&self, index: u32) -> Option<Level> {
         let at = (index as usize).checked_mul(LEVEL_BYTES)?;
         Some(Level {
-            faces: self.levels.u32(at)?,
-            splits: self.levels.u32(at + 4)?,
-            nodes: self.levels.u32(at + 8)?,
-            hull_to_surface: self.levels.f32(at + 12)?,
-            surface_to_hull: self.levels.f32(at + 16)?,
-            void_ratio: self.levels.f32(at + 20)?,
+            faces: self.levels.u32(at + level::FACES)?,
+            splits: self.levels.u32(at + level::SPLITS)?,
+            nodes: self.levels.u32(at + level::NODES)?,
+            hull_to_surface: self.levels.f32(at + level::HULL_TO_SURFACE)?,
+            surface_to_hull: self.levels.f32(at + level::SURFACE_TO_HULL)?,
+            void_ratio: self.levels.f32(at + level::VOID_RATIO)?,
         })
     }
 

@@ -1,6 +1,6 @@
 //! Opening the tight hulls of a blob, and what is made sure of.
 
-use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED};
+use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED, field};
 use super::view::{TightHulls, read};
 use crate::bvh::format::Bvh;
 use crate::format::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind};
@@ -41,7 +41,8 @@ impl<'a> TightHulls<'a> {
         let malformed = OpenError::Section { index };
         let (head, rest) = data.split_at_checked(TIGHT_BYTES).ok_or(malformed)?;
         let head = Bytes(head);
-        let (count, flags) = (head.u32(0).ok_or(malformed)?, head.u32(4).ok_or(malformed)?);
+        let (count, flags) =
+            (head.u32(field::COUNT).ok_or(malformed)?, head.u32(field::FLAGS).ok_or(malformed)?);
         if flags & !TIGHT_NESTED != 0 {
             return Err(OpenError::Reserved);
         }

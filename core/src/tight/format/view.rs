@@ -5,7 +5,7 @@
 //! accepts, has as many triangles as the hull has faces, and every distance is finite and at least
 //! 0. Accessors still return `Option`, and no path can panic.
 
-use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED};
+use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED, record};
 use crate::bvh::format::Bvh;
 use crate::format::Bytes;
 use crate::num::Radius16;
@@ -55,13 +55,13 @@ pub(crate) struct Place {
 
 /// A record of the table.
 pub(crate) fn read(record: &[u8; TIGHT_HULL_BYTES]) -> Option<(Place, TightRecord)> {
-    let record = Bytes(record);
-    let place = Place { offset: record.u32(0)?, bytes: record.u32(4)? };
+    let bytes = Bytes(record);
+    let place = Place { offset: bytes.u32(record::OFFSET)?, bytes: bytes.u32(record::BYTES)? };
     let of = TightRecord {
-        faces: record.u32(8)?,
-        slack: record.f32(12)?,
-        depth: record.f32(16)?,
-        void_ratio: record.f32(20)?,
+        faces: bytes.u32(record::FACES)?,
+        slack: bytes.f32(record::SLACK)?,
+        depth: bytes.f32(record::DEPTH)?,
+        void_ratio: bytes.f32(record::VOID_RATIO)?,
     };
     Some((place, of))
 }

@@ -1,7 +1,7 @@
 //! Opening the tribox hierarchy of a blob, and what is made sure of.
 
 use super::layout::{
-    MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOXES_BYTES,
+    MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOXES_BYTES, level,
 };
 use super::view::{Triboxes, TriboxesHeader, UNSPLIT};
 use crate::format::layout::{MAX_LEVELS, SectionKind};
@@ -175,10 +175,10 @@ impl<'a> Triboxes<'a> {
         let mut before = 0;
         for record in self.levels {
             let record = Bytes(record);
-            let triboxes = record.u32(0).unwrap_or(0);
+            let triboxes = record.u32(level::TRIBOXES).unwrap_or(0);
             let fine = |at: usize| record.f32(at).is_some_and(|x| x >= 0.0 && x.is_finite());
-            let void = record.f32(12).is_some_and(f32::is_finite);
-            if triboxes <= before || !fine(4) || !fine(8) || !void {
+            let void = record.f32(level::VOID_RATIO).is_some_and(f32::is_finite);
+            if triboxes <= before || !fine(level::DISTANCE) || !fine(level::ERROR) || !void {
                 return Err(OpenError::Counts { what: "levels of triboxes" });
             }
             before = triboxes;

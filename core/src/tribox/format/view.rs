@@ -7,7 +7,8 @@
 //! `Option`, and no path can panic.
 
 use super::layout::{
-    TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES, TRIBOXES_SOLID,
+    TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES, TRIBOXES_SOLID, field,
+    level,
 };
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError};
@@ -42,17 +43,21 @@ impl TriboxesHeader {
     pub(crate) fn read(bytes: Bytes<'_>) -> Result<TriboxesHeader, OpenError> {
         let short = OpenError::Record { section: SectionKind::Triboxes, index: 0 };
         let word = |at: usize| bytes.u32(at).ok_or(short);
-        let flags = word(0)?;
+        let flags = word(field::FLAGS)?;
         if flags & !TRIBOXES_SOLID != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(TriboxesHeader {
             flags,
-            grid_exponent: word(4)?.cast_signed(),
-            grid_origin: [word(8)?.cast_signed(), word(12)?.cast_signed(), word(16)?.cast_signed()],
-            nodes: word(20)?,
-            levels: word(24)?,
-            depth: word(28)?,
+            grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
+            grid_origin: [
+                word(field::GRID_ORIGIN)?.cast_signed(),
+                word(field::GRID_ORIGIN + 4)?.cast_signed(),
+                word(field::GRID_ORIGIN + 8)?.cast_signed(),
+            ],
+            nodes: word(field::NODES)?,
+            levels: word(field::LEVELS)?,
+            depth: word(field::DEPTH)?,
         })
     }
 
@@ -256,10 +261,10 @@ impl<'a> Triboxes<'a> {
     pub fn level(&self, index: u32) -> Option<TriboxLevel> {
         let record = Bytes(self.levels.get(index as usize)?);
         Some(TriboxLevel {
-            triboxes: record.u32(0)?,
-            distance: self.in_input_units(record.f32(4)?),
-            error: self.in_input_units(record.f32(8)?),
-            void_ratio: record.f32(12)?,
+            triboxes: record.u32(level::TRIBOXES)?,
+            distance: self.in_input_units(record.f32(level::DISTANCE)?),
+            error: self.in_input_units(record.f32(level::ERROR)?),
+            void_ratio: record.f32(level::VOID_RATIO)?,
         })
     }
 
