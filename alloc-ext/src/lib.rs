@@ -19,9 +19,16 @@ pub mod mesh;
 pub mod surface;
 pub mod tight;
 pub mod tribox;
-pub mod wrap;
 
 // Paths of before, until their users are moved.
 pub use bvh as tree;
 pub use bvh::fans as fan;
 pub use surface as precision;
+
+/// The names of [`tight`] under which the program and the tests use one hull.
+pub mod wrap {
+    pub use crate::tight::{
+        Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
+        Surface, WrapError, parts, share, wrap, wrap_all,
+    };
+}
