@@ -20,6 +20,7 @@ mod duplicate;
 mod edges;
 mod error;
 mod hash;
+mod input;
 mod manifold;
 mod nesting;
 mod obj;
@@ -42,6 +43,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) use edges::UnionFind;
 pub use error::{EdgePlace, MeshError};
+pub use input::Input;
 pub use manifold::require_closed_manifold;
 pub(crate) use nesting::Part as Enclosure;
 pub use read::{read, read_bytes};
