@@ -130,7 +130,6 @@ fn build_tight(
         faces: args.tight.iter().map(|&faces| faces as usize).collect(),
         goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
         margin: widened(args.margin.unwrap_or(0.0), loaded),
-        nested: args.nested,
         effort: args.effort.unwrap_or(1.0),
         vertex_bits: args.vertex_bits.format(),
         closest: asked(HullServes::Closest),
@@ -238,15 +237,6 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
 
 /// What the table of tight hulls does not say.
 fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
-    if let (Ok(void), Some(free)) = (report.void, report.free_void) {
-        writeln!(
-            out,
-            "  tight hull of {}: {} % void space, {} % if it did not enclose the finer ones",
-            Counted(report.wrapped.faces, "face"),
-            describe::Percent(void * 100.0),
-            describe::Percent(free * 100.0)
-        )?;
-    }
     if let Goal::Faces(asked) = report.asked
         && report.wrapped.faces > asked
     {
