@@ -8,3 +8,13 @@ pub mod golden;
 pub mod measure;
 pub mod oracle;
 pub mod race;
+
+/// The Rust of `README.md`, run as it stands.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}
+
+/// The recipes of the guide.
+#[cfg(doctest)]
+#[doc = include_str!("../../core/docs/guide.md")]
+mod guide {}
