@@ -1,9 +1,8 @@
 //! How far wires are from the surface: what a hull hierarchy carries in its surface error.
 
-use crate::emit;
+use crate::bvh::{self, TreeOptions};
 use crate::hausdorff::{Nearest, farthest};
 use crate::mesh::Mesh;
-use crate::tree::{self, TreeOptions};
 use glam::DVec3;
 use meshsweep_core::Bvh;
 use meshsweep_core::query::Budget;
@@ -28,7 +27,7 @@ pub fn wires_off_surface(mesh: &Mesh) -> f64 {
         Mesh { source: (0..mesh.triangles.len() as u32).collect(), ..mesh.without_wires() };
     let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
     let surface = Mesh { rounding: 0.0, ..surface };
-    let bytes = emit::blob(None, Some(&tree::build(&surface, 0.0, 0, &options).0));
+    let bytes = bvh::build(surface.as_input(), &options).0.to_bytes();
     let tree = Bvh::open(&bytes).expect("just built");
     let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
     let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));

@@ -28,18 +28,14 @@ pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
         let (triangle, [lower, upper]) = surface.nearest(p)?;
         Some(Nearest { lower, upper, triangle: Some(triangle) })
     };
-    let slack = farthest(corners(hull), 0.0, |p| to(&mesh_surface, p));
+    let slack = farthest(hull.corners_f64(), 0.0, |p| to(&mesh_surface, p));
     let enough = slack.lower * FINE;
-    let slacks = corners(hull)
+    let slacks = hull
+        .corners_f64()
         .map(|face| {
             farthest(std::iter::once(face), enough, |p| to(&mesh_surface, p)).upper.min(slack.upper)
         })
         .collect();
-    let depth = farthest(corners(mesh), 0.0, |p| to(&hull_surface, p));
+    let depth = farthest(mesh.all_corners_f64(), 0.0, |p| to(&hull_surface, p));
     Distances { slacks, slack, depth }
-}
-
-fn corners(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> + '_ {
-    mesh.all_triangles()
-        .map(|corners| corners.map(|v| DVec3::from(mesh.positions[v as usize].map(f64::from))))
 }

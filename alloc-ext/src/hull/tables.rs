@@ -81,33 +81,6 @@ pub struct Tables {
     pub is_cut: bool,
 }
 
-impl Default for Tables {
-    /// Nothing at all: what a blob without a hull hierarchy says of it.
-    fn default() -> Self {
-        Tables {
-            scale_exponent: 0,
-            grid: Grid::F32,
-            surface_error: 0.0,
-            vertices: Vec::new(),
-            base_vertices: 0,
-            base: Vec::new(),
-            groups: Vec::new(),
-            splits: Vec::new(),
-            rings: Vec::new(),
-            radii: Vec::new(),
-            splits_with: Vec::new(),
-            nodes: Vec::new(),
-            surface: Vec::new(),
-            source: Vec::new(),
-            input_triangles: 0,
-            surface_box: Aabb { min: Vec3::ZERO, max: Vec3::ZERO },
-            levels: Vec::new(),
-            queue_capacity: 0,
-            is_cut: false,
-        }
-    }
-}
-
 impl Tables {
     /// Box of all vertices.
     pub fn hull_box(&self) -> Aabb {
