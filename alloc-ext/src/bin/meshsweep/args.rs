@@ -9,14 +9,12 @@ mod given;
 mod values;
 
 pub use asking::{
-    ClosestArgs, ClosestEngine, CullArgs, FieldArgs, NearestArgs, OverlapArgs, PointArgs,
-    SearchArgs, SegmentArgs, SegmentEngine, SignedArgs, WithinArgs,
+    ClosestArgs, CullArgs, Engine, FieldArgs, NearestArgs, OverlapArgs, SearchArgs, SegmentArgs,
+    SignedArgs, WithinArgs,
 };
-pub use bounding::TriboxArgs;
-pub use building::{
-    BuildArgs, CutArgs, HullArgs, HullServes, InfoArgs, StoredBits, slack_within_margin,
-};
-pub use given::{Given, number};
+pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
+pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
+pub use given::{Given, files, names};
 pub use values::Margin;
 
 use clap::{Parser, Subcommand};
@@ -32,7 +30,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Those that the program was called with; ends it if they are wrong.
+    /// The arguments of the program. Wrong ones end it.
     pub fn of_the_program() -> Self {
         Self::parse_from(std::env::args_os().map(given::shielded))
     }

@@ -1,9 +1,9 @@
-//! `meshsweep` without a command: what it does, shown on a part that is built in.
+//! `meshsweep` without a command: a demonstration on a built-in part.
 
-use super::failure::{Failure, Place};
-use super::output::Output;
-use super::signed::name;
-use super::{blob_file, describe};
+use crate::failure::{Failure, Place};
+use crate::output::Output;
+use crate::signed::name;
+use crate::{blob_file, describe};
 use meshsweep::tree::{self, TreeOptions};
 use meshsweep::{emit, mesh};
 use meshsweep_core::query::tree::{
@@ -12,7 +12,7 @@ use meshsweep_core::query::tree::{
 use meshsweep_core::query::{Budget, Ended};
 use std::path::Path;
 
-/// A copy of `fixtures/bracket.stl`, which a package would not contain.
+/// A copy of `fixtures/bracket.stl`, because a package holds no file outside of its folder.
 const BRACKET: &[u8] = include_bytes!("demo/bracket.stl");
 
 pub fn run() -> Result<(), Failure> {
@@ -41,7 +41,7 @@ pub fn run() -> Result<(), Failure> {
              bytes of RAM.",
             bytes.len(),
             bytes.len() as f64 / triangles as f64,
-            describe::stack_bytes(&tree)
+            describe::tree::stack_bytes(&tree)
         )?;
         writeln!(
             out,
@@ -72,8 +72,7 @@ pub fn run() -> Result<(), Failure> {
     })
 }
 
-/// How the program is called: by `cargo run`, which says so in the environment, or by the name that
-/// it was called by now.
+/// The words that call the program: `cargo run`, which sets a variable, or the program's name.
 fn program() -> String {
     if std::env::var_os("CARGO_MANIFEST_DIR").is_some() {
         return "cargo run --release --".to_owned();

@@ -15,10 +15,10 @@
 //! | `build`, `info`, `closest`, `field`, `segment`, `overlap`, `cull`, `hull`, `cut`, `tribox`, `demo` | one command each |
 
 mod args;
+mod ask;
 mod blob_file;
 mod build;
 mod closest;
-mod csv;
 mod cull;
 mod cut;
 mod demo;
@@ -26,25 +26,25 @@ mod describe;
 mod failure;
 mod field;
 mod hull;
+mod hull_report;
 mod info;
 mod mesh_file;
 mod nearest;
+mod need;
+mod number;
 mod output;
 mod overlap;
-mod points;
 mod progress;
 mod queries;
 mod segment;
 mod served;
 mod signed;
-mod stop;
-mod threads;
 mod tribox;
+mod unmet;
 mod within;
 
 use args::{Arguments, Command};
 use failure::Failure;
-use meshsweep::counted;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

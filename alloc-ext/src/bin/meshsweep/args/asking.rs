@@ -5,7 +5,7 @@ use super::values::{Margin, direction, margin, point, size, threads, tolerance, 
 use clap::{Args, ValueEnum};
 use meshsweep_core::query::tree::{Facing, Sight};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Where answers go, and what limits a search.
 #[derive(Debug, Args)]
@@ -33,16 +33,8 @@ pub struct PointArgs {
     /// Blob file
     pub blob: PathBuf,
     /// Query points: x,y,z each, or files of them
-    #[arg(required = true, value_parser = given::points())]
+    #[arg(required = true, value_parser = given::queries::<3>())]
     pub points: Vec<Given<3>>,
-}
-
-impl PointArgs {
-    /// Files that are read.
-    pub fn files(&self) -> Vec<&Path> {
-        let points = self.points.iter().filter_map(Given::file);
-        std::iter::once(self.blob.as_path()).chain(points).collect()
-    }
 }
 
 #[derive(Debug, Args)]
@@ -55,23 +47,16 @@ pub struct ClosestArgs {
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
     #[arg(long, value_name = "ABS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
     pub abs: f32,
-    /// tree, the box tree; or cover (hull does as well), the hull hierarchy's cover tree [default:
-    /// tree if the blob has one]
+    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
+    /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
-    pub engine: Option<ClosestEngine>,
+    pub engine: Option<Engine>,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// within [default: the finest of all, if the blob knows distances by nothing else]
+    /// inside it [default: the finest of all, if the blob knows distances by nothing else]
     #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "engine")]
     pub tight: Option<u32>,
     #[command(flatten)]
     pub search: SearchArgs,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ClosestEngine {
-    Tree,
-    #[value(alias = "hull")]
-    Cover,
 }
 
 #[derive(Debug, Args)]
@@ -86,7 +71,7 @@ pub struct WithinArgs {
     #[arg(long)]
     pub all: bool,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// within [default: the finest of all, if the blob knows distances by nothing else]
+    /// inside it [default: the finest of all, if the blob knows distances by nothing else]
     #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "all")]
     pub tight: Option<u32>,
     #[command(flatten)]
@@ -145,7 +130,7 @@ pub struct SegmentArgs {
     /// Blob file
     pub blob: PathBuf,
     /// Query segments: ax,ay,az,bx,by,bz each, or files of them
-    #[arg(required = true, value_parser = given::segments())]
+    #[arg(required = true, value_parser = given::queries::<6>())]
     pub segments: Vec<Given<6>>,
     /// All hits, one on a line, with the number of the query (from 0) in front
     #[arg(long, conflicts_with = "steps")]
@@ -154,23 +139,15 @@ pub struct SegmentArgs {
     /// corners run counter-clockwise [default: both]
     #[arg(long, value_enum)]
     pub facing: Option<FacingName>,
-    /// tree, the box tree; cover, the hull hierarchy's cover tree; or hull, the selectively
-    /// refined hull, for first hits of segments that start outside (others use the cover
-    /// tree), without --all, --steps and --queue [default: tree if the blob has one, else
-    /// cover]
+    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
+    /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
-    pub engine: Option<SegmentEngine>,
+    pub engine: Option<Engine>,
     #[command(flatten)]
     pub search: SearchArgs,
 }
 
 impl SegmentArgs {
-    /// Files that are read.
-    pub fn files(&self) -> Vec<&Path> {
-        let segments = self.segments.iter().filter_map(Given::file);
-        std::iter::once(self.blob.as_path()).chain(segments).collect()
-    }
-
     /// Which sides of triangles count.
     pub fn facing(&self) -> Facing {
         match self.facing {
@@ -189,10 +166,9 @@ pub enum FacingName {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SegmentEngine {
+pub enum Engine {
     Tree,
     Cover,
-    Hull,
 }
 
 #[derive(Debug, Args)]
@@ -203,7 +179,7 @@ pub struct OverlapArgs {
     pub second: PathBuf,
     /// Where the second mesh is: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was
     /// built]
-    #[arg(long, value_name = "POSE", num_args = 1.., allow_negative_numbers = true, value_parser = given::poses())]
+    #[arg(long, value_name = "POSE", num_args = 1.., allow_negative_numbers = true, value_parser = given::queries::<7>())]
     pub pose: Vec<Given<7>>,
     /// The same as three rows of a matrix, each with its translation:
     /// m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z each, or files
@@ -213,7 +189,7 @@ pub struct OverlapArgs {
         num_args = 1..,
         conflicts_with = "pose",
         allow_negative_numbers = true,
-        value_parser = given::matrices()
+        value_parser = given::queries::<12>()
     )]
     pub matrix: Vec<Given<12>>,
     /// All pairs of triangles that meet, one on a line
@@ -221,19 +197,6 @@ pub struct OverlapArgs {
     pub all: bool,
     #[command(flatten)]
     pub search: SearchArgs,
-}
-
-impl OverlapArgs {
-    /// Files that are read.
-    pub fn files(&self) -> Vec<&Path> {
-        let poses = self.pose.iter().filter_map(Given::file);
-        let matrices = self.matrix.iter().filter_map(Given::file);
-        [self.first.as_path(), self.second.as_path()]
-            .into_iter()
-            .chain(poses)
-            .chain(matrices)
-            .collect()
-    }
 }
 
 #[derive(Debug, Args)]

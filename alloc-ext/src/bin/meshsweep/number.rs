@@ -1,56 +1,71 @@
-//! Lengths and other numbers for people: few digits, and what is a bound stays one.
+//! Numbers as text: read to the nearest f32, printed in few digits. A printed bound stays a bound.
 
 use std::fmt;
 
-/// Digits of a number that was measured, after the first.
+/// Digits of a measured number after the first one.
 const DIGITS: u8 = 5;
 
-/// A number that is not below the true one: rounded up.
+/// An upper bound: rounded up.
 pub struct AtMost<T>(pub T);
 
-/// A number that is not above the true one: rounded down.
+/// A lower bound: rounded down.
 pub struct AtLeast<T>(pub T);
 
-/// A number that is no bound: rounded to the nearest.
+/// A measured number that is no bound: rounded to the nearest.
 pub struct About<T>(pub T);
 
-/// A percentage: three decimals where they tell it, else few digits that are not below it.
+/// A percentage: three decimals where they suffice, else few digits, rounded up.
 pub struct Percent<T>(pub T);
 
-/// Percentages that three decimals tell: smaller ones would read as nothing, larger ones be all
-/// digits.
+/// Percentages that three decimals suffice for. A smaller one would read as 0.
 const THREE_DECIMALS: std::ops::Range<f64> = 1e-3..1e6;
 
-/// A number that somebody gave: as many digits as it has.
-pub struct Given<T>(pub T);
+/// A number of the command line: all its digits.
+pub struct Typed<T>(pub T);
 
-impl<T: Copy + Into<f64>> fmt::Display for AtMost<T> {
+/// An f32 in the fewest characters that read back as the same f32. Large and small numbers have an
+/// exponent.
+pub struct Short(pub f32);
+
+/// The f32 nearest to a decimal number, or the reason why there is none.
+pub fn parse(field: &str) -> Result<f32, &'static str> {
+    let exact: f64 = field.parse().map_err(|_| "is not a number; write it like -1.25 or 3e-4")?;
+    if !exact.is_finite() {
+        return Err("is not finite; remove the query");
+    }
+    // From the text, not from the f64: two roundings could miss the nearest f32.
+    field
+        .parse::<f32>()
+        .ok()
+        .filter(|x| x.is_finite())
+        .ok_or("is beyond f32 (3.4e38); choose a larger unit")
+}
+
+impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let x = self.0.into();
-        f.pad(&text(rounded(x, |short| short >= x), is_everyday(x)))
+        let Short(x) = *self;
+        let is_everyday = x == 0.0 || !x.is_finite() || (1e-5..1e16).contains(&x.abs());
+        if is_everyday { write!(f, "{x}") } else { write!(f, "{x:e}") }
     }
 }
 
-impl<T: Copy + Into<f64>> fmt::Display for AtLeast<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let x = self.0.into();
-        f.pad(&text(rounded(x, |short| short <= x), is_everyday(x)))
-    }
+/// Prints `$kind(x)` as the decimal that `$decimal` makes of `x`.
+macro_rules! display {
+    ($kind:ident, $decimal:expr) => {
+        impl<T: Copy + Into<f64>> fmt::Display for $kind<T> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let x: f64 = self.0.into();
+                let decimal: fn(f64) -> String = $decimal;
+                f.pad(&text(decimal(x), is_everyday(x)))
+            }
+        }
+    };
 }
 
-impl<T: Copy + Into<f64>> fmt::Display for About<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let x = self.0.into();
-        f.pad(&text(rounded(x, |_| true), is_everyday(x)))
-    }
-}
-
-impl<T: Copy + Into<f64>> fmt::Display for Given<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let x = self.0.into();
-        f.pad(&text(format!("{x:e}"), is_everyday(x)))
-    }
-}
+display!(AtMost, |x| rounded(x, |short| short >= x));
+display!(AtLeast, |x| rounded(x, |short| short <= x));
+display!(About, |x| rounded(x, |_| true));
+display!(Typed, |x| format!("{x:e}"));
 
 impl<T: Copy + Into<f64>> fmt::Display for Percent<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -63,13 +78,12 @@ impl<T: Copy + Into<f64>> fmt::Display for Percent<T> {
     }
 }
 
-/// Sizes that are written without an exponent.
+/// Whether a number is written without an exponent.
 fn is_everyday(x: f64) -> bool {
     x == 0.0 || !x.is_finite() || (1e-3..1e7).contains(&x.abs())
 }
 
-/// The decimal of few digits that is nearest to `x` among those that are `fine`: that next to it,
-/// or a neighbour.
+/// The decimal of few digits that is nearest to `x` among the `fine` ones.
 fn rounded(x: f64, fine: impl Fn(f64) -> bool) -> String {
     let nearest = format!("{x:.*e}", usize::from(DIGITS));
     let read = |text: &str| text.parse().unwrap_or(x);
@@ -78,26 +92,51 @@ fn rounded(x: f64, fine: impl Fn(f64) -> bool) -> String {
     }
     let Some((digits, exponent)) = nearest.split_once('e') else { return nearest };
     let Ok(digits) = digits.replace('.', "").parse::<i64>() else { return nearest };
-    // One more carries over, one less may leave a digit fewer: both read as they should.
+    // One more may carry over, one less may leave fewer digits: both are read correctly.
     let beside = [digits + 1, digits - 1].map(|digits| format!("{digits}e{}", power(exponent)));
     beside.into_iter().find(|text| fine(read(text))).unwrap_or(nearest)
 }
 
-/// The exponent of a number whose digits are read as a whole one.
+/// The exponent of a number whose digits are read as an integer.
 fn power(exponent: &str) -> i32 {
     exponent.parse::<i32>().unwrap_or(0) - i32::from(DIGITS)
 }
 
-/// A decimal with an exponent as it is read best, without zeros at its end.
+/// A decimal with or without an exponent, without zeros at its end.
 fn text(decimal: String, is_everyday: bool) -> String {
     let x: f64 = decimal.parse().unwrap_or(f64::NAN);
-    // The shortest that reads back: no more digits than were left.
+    // The shortest text that reads back has no more digits than the decimal.
     if is_everyday { format!("{x}") } else { format!("{x:e}") }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn short_numbers_read_back() {
+        for (x, wanted) in [
+            (0.0, "0"),
+            (-0.0, "-0"),
+            (20.0, "20"),
+            (-1.25, "-1.25"),
+            (1e38, "1e38"),
+            (-3.402_823_5e38, "-3.4028235e38"),
+            (1e-38, "1e-38"),
+            (1e-45, "1e-45"),
+            (1.5e-5, "0.000015"),
+            (f32::INFINITY, "inf"),
+            (f32::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(Short(x).to_string(), wanted);
+        }
+        let mut x = f32::from_bits(1);
+        while x.is_finite() {
+            assert_eq!(Short(x).to_string().parse(), Ok(x));
+            assert!(Short(x).to_string().len() <= 18, "{x}");
+            x *= 1.7;
+        }
+    }
 
     #[test]
     fn bounds_stay_bounds_and_are_short() {
@@ -137,7 +176,7 @@ mod tests {
         );
         assert_eq!(About(1.234_567_8e9).to_string(), "1.23457e9");
         assert_eq!(
-            (Given(0.000_123_456_789).to_string(), Given(0.1).to_string()),
+            (Typed(0.000_123_456_789).to_string(), Typed(0.1).to_string()),
             ("1.23456789e-4".into(), "0.1".into())
         );
         assert_eq!(format!("{:>8}|{:>8}", AtMost(2.5), AtLeast(0.0)), "     2.5|       0");
