@@ -80,7 +80,7 @@ fn answers_do_not_depend_on_the_number_of_threads() {
         ("signed", &tree, &points, &[]),
         ("segment", &tree, &segments, &[]),
         ("segment", &tree, &segments, &["--all"]),
-        ("segment", &hull, &segments, &["--engine", "hull"]),
+        ("segment", &hull, &segments, &[]),
     ] {
         let on = |threads: &str| {
             ok([&[command, arg(blob), arg(queries), "--threads", threads], options].concat())

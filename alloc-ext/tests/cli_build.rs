@@ -115,7 +115,6 @@ fn build_honours_its_options() {
         )
     };
     assert_eq!(faces(&["--base", "400"]).0, 400);
-    assert_eq!(faces(&["--base", "400", "--priority", "span"]).0, 400);
     assert_eq!(faces(&["--vertex-bits", "16"]).1, "16-bit grid");
     assert_eq!(faces(&["--vertex-bits", "24"]).1, "24-bit grid");
     assert_eq!(faces(&["--vertex-bits", "32"]).1, "f32");

@@ -27,12 +27,10 @@ fn wrong_usage_is_status_2() {
         &["closest", "a.msw", "p.csv", "--abs", "inf"],
         &["closest", "a.msw", "p.csv", "--queue", "0"],
         &["segment", "a.msw", "s.csv", "--all", "--steps", "3"],
-        &["segment", "a.msw", "s.csv", "--engine", "hull", "--queue", "3"],
         &["segment", "a.msw", "s.csv", "--engine", "tree", "--steps", "3"],
-        &["segment", "a.msw", "s.csv", "--engine", "hull", "--all"],
         &["build", "a.stl", "-o", "-"],
         &["build", "a.stl", "-o", "b", "--base", "100"],
-        &["build", "a.stl", "-o", "b", "--for", "closest", "--priority", "span"],
+        &["build", "a.stl", "-o", "b", "--for", "closest", "--max-valence", "9"],
         &["build", "a.stl", "-o", "b", "--for", "flying"],
         &["within", "a.msw", "p.csv"],
         &["within", "a.msw", "p.csv", "--distance=-1"],
@@ -174,9 +172,7 @@ fn what_a_blob_was_not_built_for_is_refused_with_what_to_build() {
     for (args, wanted) in [
         (&["segment", arg(&tree), arg(&segments)][..], "--for segment"),
         (&["segment", arg(&tree), arg(&segments), "--engine", "cover"], "--for hull"),
-        (&["segment", arg(&tree), arg(&segments), "--engine", "hull"], "--for hull"),
         (&["closest", arg(&tree), arg(&points), "--engine", "cover"], "or use --engine tree"),
-        (&["closest", arg(&tree), arg(&points), "--engine", "hull"], "--for hull"),
         (&["closest", arg(&hull), arg(&points), "--engine", "tree"], "or use --engine cover"),
         (&["segment", arg(&hull), arg(&segments), "--engine", "tree"], "--for segment"),
         (&["within", arg(&hull), arg(&points), "-d", "1"], "--for closest"),
@@ -277,7 +273,6 @@ fn answers_before_a_query_that_is_refused_are_printed_but_make_no_file() {
         ("segment", &tree, &segments, "0 0 0 1e38 0 0", &[]),
         ("segment", &tree, &segments, "0 0 0 1e38 0 0", &["--all", "--threads", "3"]),
         ("segment", &hull, &segments, "0 0 0 1e38 0 0", &[]),
-        ("segment", &hull, &segments, "0 0 0 1e38 0 0", &["--engine", "hull"]),
         ("segment", &tree, &segments, "0 0 0 1", &[]),
     ] {
         fs::write(&good, queries).unwrap();
@@ -359,20 +354,6 @@ fn malformed_raw_queries_are_named_by_number() {
     refused(&run(["closest", arg(&path), arg(&raw)]), 1, "p.f32: 25 bytes");
     fs::write(&raw, [0; 36]).unwrap();
     refused(&run(["segment", arg(&path), arg(&raw)]), 1, "p.f32: 36 bytes");
-}
-
-#[test]
-fn the_hull_engine_refuses_blobs_it_can_say_nothing_about() {
-    let directory = scratch("hull_engine");
-    let path = hull_blob(&directory, "torus.ply", &[]);
-    let cut = directory.join("cut.msw");
-    ok(["cut", arg(&path), "--level", "1", "-o", arg(&cut)]);
-    let segments = file(&directory, "s.csv", "9 9 9 0 0 0\n");
-    let line =
-        refused(&run(["segment", arg(&cut), arg(&segments), "--engine", "hull"]), 1, "cut.msw");
-    assert!(line.contains("--engine cover"), "{line}");
-    let coarse = hull_blob(&directory, "torus.ply", &["--vertex-bits", "16"]);
-    refused(&run(["segment", arg(&coarse), arg(&segments), "--engine", "hull"]), 1, "torus.msw");
 }
 
 #[test]

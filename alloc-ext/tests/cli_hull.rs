@@ -31,19 +31,9 @@ fn void_percent(text: &str) -> f64 {
 fn a_nested_hull_has_the_faces_and_the_void_that_are_printed() {
     let directory = scratch("hull_of_mesh");
     let out = directory.join("hull.ply");
-    for (name, priority) in [("bracket.stl", "lp"), ("torus.ply", "span"), ("groove.obj", "lp")] {
+    for name in ["bracket.stl", "torus.ply", "groove.obj"] {
         let mesh = fixture(name);
-        let text = ok([
-            "hull",
-            arg(&mesh),
-            "--progressive",
-            "--faces",
-            "150",
-            "--priority",
-            priority,
-            "-o",
-            arg(&out),
-        ]);
+        let text = ok(["hull", arg(&mesh), "--progressive", "--faces", "150", "-o", arg(&out)]);
         let (faces, volume) = closed(&out);
         assert!(text.contains(&format!(": {faces} faces, ")), "{text}");
         assert!(faces <= 150, "{text}");
@@ -381,9 +371,9 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
     );
     assert!(line.contains("is a mesh") && line.contains("--for hull"), "{line}");
     let line = cli_support::refused(
-        &run(["hull", arg(&mesh), "--priority", "span", "-o", arg(&out)]),
+        &run(["hull", arg(&mesh), "--max-valence", "9", "-o", arg(&out)]),
         2,
-        "--priority",
+        "--max-valence",
     );
     assert!(line.contains("--progressive"), "{line}");
     for pair in [["--progressive", "--parts"], ["--void=3", "--slack=2"], ["--faces=9", "--void=3"]]
