@@ -5,18 +5,17 @@ use crate::describe;
 use crate::failure::Failure;
 use crate::hull_report::{require_met, why_stuck, write_margin, write_no_void, write_start};
 use crate::mesh_file::{self, Loaded};
-use crate::number::{About, AtMost, Percent};
+use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
 use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
+use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::counted::Counted;
 use meshsweep::emit::{self, Parts};
 use meshsweep::hull::{self, BuildError, BuildReport, Built};
-use meshsweep::precision::VertexBits;
-use meshsweep::tight::{self, ChainOptions, HullReport, Stage, TightTables};
-use meshsweep::tree::{self, TreeOptions};
+use meshsweep::surface::VertexBits;
+use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage, TightTables};
 use meshsweep::tribox::{self, TriboxReport, TriboxTables};
-use meshsweep::wrap::Goal;
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::VertexFormat;
 use std::io::{self, Write};
@@ -47,12 +46,12 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         ..TreeOptions::default()
     };
     let triangles = loaded.mesh.triangles.len();
-    if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > tree::MAX_TRIANGLES {
+    if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > bvh::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
     let tree = wanted
         .tree()
-        .then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
+        .then(|| bvh::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
     let triboxes = if wanted.triboxes { Some(build_triboxes(args, &loaded)?) } else { None };
     let tight = if wanted.tight { Some(build_tight(args, &loaded)?) } else { None };
     let bytes = emit::assemble(&Parts {
@@ -122,7 +121,6 @@ fn build_tight(
         faces: args.tight.iter().map(|&faces| faces as usize).collect(),
         goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
         margin: loaded.widened(args.margin),
-        nested: args.nested,
         effort: args.effort.unwrap_or(1.0),
         vertex_bits: args.vertex_bits.format(),
         closest: asked(HullServes::Closest),
@@ -224,15 +222,6 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
 
 /// Adds to the table of tight hulls.
 fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
-    if let (Ok(void), Some(free)) = (report.void, report.free_void) {
-        writeln!(
-            out,
-            "  tight hull of {}: {} % void space, {} % if it did not enclose the finer ones",
-            Counted(report.wrapped.faces, "face"),
-            Percent(void * 100.0),
-            Percent(free * 100.0)
-        )?;
-    }
     if let Goal::Faces(asked) = report.asked
         && report.wrapped.faces > asked
     {

@@ -4,7 +4,7 @@ use crate::failure::{Failure, Place};
 use crate::output::Output;
 use crate::signed::name;
 use crate::{blob_file, describe};
-use meshsweep::tree::{self, TreeOptions};
+use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::{emit, mesh};
 use meshsweep_core::query::tree::{
     Facing, ScratchEntry, closest_point, first_hit, signed_distance,
@@ -21,7 +21,7 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = tree::build(&mesh, 0.0, triangles, &TreeOptions::default());
+    let (tables, _) = bvh::build(&mesh, 0.0, triangles, &TreeOptions::default());
     let bytes = emit::blob(None, Some(&tables));
     let tree = blob_file::open_tree(file, &bytes)?;
     let entries = tree.header().stack_entries as usize;

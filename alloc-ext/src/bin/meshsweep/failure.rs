@@ -6,7 +6,7 @@ use meshsweep::counted::Counted;
 use meshsweep::emit::CutError;
 use meshsweep::hull::BuildError;
 use meshsweep::mesh::MeshError;
-use meshsweep::wrap::WrapError;
+use meshsweep::tight::WrapError;
 use meshsweep_core::tribox::TriboxError;
 use meshsweep_core::{OpenError, QueryError};
 use std::fmt;
@@ -234,7 +234,7 @@ impl fmt::Display for Failure {
                 f,
                 "{}: {triangles} triangles are more than the {} that a box tree holds; split the mesh",
                 file.display(),
-                meshsweep::tree::MAX_TRIANGLES
+                meshsweep::bvh::MAX_TRIANGLES
             ),
             Failure::GridTooLarge { file } => write!(
                 f,

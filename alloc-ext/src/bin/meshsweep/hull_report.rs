@@ -6,7 +6,7 @@ use crate::number::{About, AtMost, Typed};
 use crate::unmet::Tightness;
 use meshsweep::collapse::Stuck;
 use meshsweep::counted::Counted;
-use meshsweep::wrap::{Report, Start};
+use meshsweep::tight::{Report, Start};
 use std::io::{self, Write};
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use meshsweep::mesh::{self, Mesh, RawMesh, RepairReport};
-use meshsweep::precision::{VertexBits, snap};
+use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::blob::layout::MAGIC;
 use std::io::Read;
 use std::path::Path;

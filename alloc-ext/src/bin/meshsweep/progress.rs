@@ -1,7 +1,7 @@
 //! Progress bars, on a terminal only.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use meshsweep::wrap::{Progress, Stage};
+use meshsweep::tight::{HullStage as Stage, Progress};
 use std::io::IsTerminal;
 
 /// A bar that is cleared when it is dropped.

@@ -6,9 +6,9 @@ use crate::failure::Failure;
 use crate::mesh_file::{self, Loaded};
 use crate::number::{About, AtLeast, AtMost, Percent};
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
+use meshsweep::bvh;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::tree;
 use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
 use meshsweep_core::Bvh;
 use serde_json::{Value, json};
@@ -23,7 +23,7 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
     }
     let loaded = mesh_file::load(&args.mesh)?;
     let triangles = loaded.mesh.triangles.len();
-    if triangles > tree::MAX_TRIANGLES {
+    if triangles > bvh::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
     let started = Instant::now();

@@ -1,7 +1,7 @@
 //! Whether a hull is as tight as asked for. Lengths are in the mesh's unit.
 
 use crate::number::{AtMost, Typed};
-use meshsweep::wrap::{Outcome, Report};
+use meshsweep::tight::{Outcome, Report};
 use std::fmt;
 
 /// How tight a hull has to be.

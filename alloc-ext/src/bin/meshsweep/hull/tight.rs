@@ -10,7 +10,7 @@ use crate::progress::StageBars;
 use crate::unmet::Tightness;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::wrap::{Goal, Hull, Options, Outcome, Report, parts, share, wrap_all};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Report, parts, share, wrap_all};
 use std::io::{self, Write};
 use std::time::Duration;
 
