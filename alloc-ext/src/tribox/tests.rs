@@ -9,7 +9,7 @@ use std::path::Path;
 type Point = [f64; 3];
 
 fn fixture(name: &str) -> Mesh {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
     repair(read(&path).unwrap()).unwrap().0
 }
 

@@ -1,11 +1,9 @@
 //! `build --for tight` and who asks it: what is said of the mesh by a hull alone is true of the
 //! mesh.
 
-mod cli_support;
-
-use cli_support::{
-    arg, blob, distance, fixture, info, number, ok, parse_csv, random_queries, refused, run,
-    scratch, triangles, wide, write_csv,
+use crate::support::{
+    Triangle, arg, blob, distance, fixture, info, number, ok, parse_csv, random_queries, refused,
+    run, scratch, triangles, wide, write_csv,
 };
 use serde_json::Value;
 use std::fs;
@@ -67,12 +65,7 @@ fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
 
 /// Whether lower and upper ends of closest points, and verdicts for a distance, are true of a
 /// surface; how many are yes and no.
-fn checked(
-    path: &Path,
-    surface: &[cli_support::Triangle],
-    points: &[[f32; 3]],
-    distance_of: f64,
-) -> [usize; 2] {
+fn checked(path: &Path, surface: &[Triangle], points: &[[f32; 3]], distance_of: f64) -> [usize; 2] {
     let file = path.with_extension("csv");
     write_csv(&file, points);
     let rows = parse_csv(
@@ -206,8 +199,8 @@ fn a_blob_tells_its_hulls_and_gives_them_back() {
     assert!(fs::metadata(&small).unwrap().len() < fs::metadata(&path).unwrap().len() / 2);
 }
 
-fn volume(triangles: &[cli_support::Triangle]) -> f64 {
-    let of = |&[[a, b, c], [d, e, f], [g, h, i]]: &cli_support::Triangle| {
+fn volume(triangles: &[Triangle]) -> f64 {
+    let of = |&[[a, b, c], [d, e, f], [g, h, i]]: &Triangle| {
         (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
     };
     triangles.iter().map(of).sum()

@@ -1,9 +1,9 @@
 //! `meshsweep tribox`: what is printed is true of what is written, and what is written holds the
 //! mesh.
 
-mod cli_support;
-
-use cli_support::{Point, Triangle, arg, distance, fixture, ok, refused, run, scratch, triangles};
+use crate::support::{
+    Point, Triangle, arg, distance, fixture, ok, refused, run, scratch, triangles,
+};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

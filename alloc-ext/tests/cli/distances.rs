@@ -1,8 +1,6 @@
 //! `meshsweep within`, `nearest`, `signed` and `field` against brute force.
 
-mod cli_support;
-
-use cli_support::{
+use crate::support::{
     Point, Triangle, arg, blob, distance, fixture, number, ok, parse_csv, random_queries, refused,
     run, scratch, to_triangle, triangles, wide, write_csv,
 };

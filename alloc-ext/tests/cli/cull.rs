@@ -1,8 +1,6 @@
 //! `meshsweep cull` against the normals of the mesh file.
 
-mod cli_support;
-
-use cli_support::{
+use crate::support::{
     Point, Triangle, arg, ascent, blob, fixture, info, ok, parse_csv, run, scratch, triangles,
 };
 use std::fs;

@@ -1,8 +1,8 @@
 //! What is refused: with which exit status, in one line, leaving what was there.
 
-mod cli_support;
-
-use cli_support::{arg, blob, fixture, hull_blob, meshsweep, ok, refused, run, scratch, write_raw};
+use crate::support::{
+    arg, blob, fixture, hull_blob, meshsweep, ok, refused, run, scratch, write_raw,
+};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;

@@ -1,10 +1,8 @@
 //! `meshsweep closest` and `segment` against brute force.
 
-mod cli_support;
-
-use cli_support::{
+use crate::support::{
     arg, ascent, blob, distance, first_crossing, fixture, hull_blob, meshsweep, number, ok,
-    parse_csv, random_queries, run, scratch, triangles, wide, write_csv, write_raw,
+    parse_csv, random_queries, run, scratch, to_triangle, triangles, wide, write_csv, write_raw,
 };
 use std::fs;
 use std::io::Write;
@@ -54,7 +52,7 @@ fn the_interval_contains_the_distance_to_the_file() {
                 // The witness is in the triangle that is named, and at most `upper` away.
                 let witness = [5, 6, 7].map(|k| number(&answer[k]));
                 let named = mesh[answer[8].parse::<usize>().unwrap()];
-                assert!(cli_support::to_triangle(witness, named) <= 1e-3, "{engine} {answer:?}");
+                assert!(to_triangle(witness, named) <= 1e-3, "{engine} {answer:?}");
             }
         }
     }

@@ -1,8 +1,6 @@
 //! `meshsweep overlap` against brute force over the triangles of the mesh files.
 
-mod cli_support;
-
-use cli_support::{
+use crate::support::{
     Triangle, arg, blob, first_crossing, fixture, info, ok, parse_csv, refused, run, scratch,
     triangles, write_csv,
 };

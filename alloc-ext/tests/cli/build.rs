@@ -1,8 +1,9 @@
 //! `meshsweep build` and `info`, and the program without a command.
 
-mod cli_support;
-
-use cli_support::{arg, blob, distance, fixture, hull_blob, info, ok, run, scratch, triangles};
+use crate::support::{
+    Triangle, arg, blob, distance, fixture, hull_blob, info, number, ok, refused, run, scratch,
+    triangles, write_csv,
+};
 use std::fs;
 
 #[test]
@@ -204,7 +205,7 @@ fn every_evil_fixture_is_built_or_refused_in_one_line_and_leaves_nothing_behind(
             if output.status.success() {
                 fs::remove_file(&out).unwrap();
             } else {
-                cli_support::refused(&output, 1, mesh.file_name().unwrap().to_str().unwrap());
+                refused(&output, 1, mesh.file_name().unwrap().to_str().unwrap());
             }
             assert_eq!(fs::read_dir(&directory).unwrap().count(), 0, "{}", mesh.display());
             output.status.success()
@@ -265,7 +266,7 @@ fn one_of_a_thing_is_in_the_singular() {
 fn the_half_width_that_is_promised_is_that_of_the_answers() {
     let directory = scratch("half_width");
     let mesh = triangles(&fixture("bracket.stl"));
-    let middle = |t: &cli_support::Triangle| -> [f64; 3] {
+    let middle = |t: &Triangle| -> [f64; 3] {
         core::array::from_fn(|k| (t[0][k] + t[1][k] + t[2][k]) / 3.0)
     };
     let points = directory.join("p.csv");
@@ -288,12 +289,12 @@ fn the_half_width_that_is_promised_is_that_of_the_answers() {
         let aside = [[high[0] + diagonal, low[1], low[2]], [low[0], high[1] + diagonal, high[2]]];
         let aside = aside.map(|p| p.map(|x| x as f32));
         for (rows, promised) in [(at(0.1), near), (aside.to_vec(), far)] {
-            cli_support::write_csv(&points, &rows);
+            write_csv(&points, &rows);
             let text = ok(["closest", arg(&path), arg(&points)]);
             let mut widths: Vec<f64> = text
                 .lines()
                 .skip(1)
-                .map(|line| line.split(',').map(cli_support::number).collect::<Vec<_>>())
+                .map(|line| line.split(',').map(number).collect::<Vec<_>>())
                 .map(|row| (row[4] - row[3]) / 2.0)
                 .collect();
             widths.sort_by(f64::total_cmp);

@@ -1,8 +1,6 @@
 //! How queries are given, on how many threads they are asked, and that the help says what is true.
 
-mod cli_support;
-
-use cli_support::{
+use crate::support::{
     Triangle, arg, blob, fixture, hull_blob, meshsweep, ok, random_queries, scratch, triangles,
     write_csv, write_raw,
 };

@@ -1,8 +1,6 @@
 //! `meshsweep hull` and `cut`: what is written is a closed hull, a blob, and whole.
 
-mod cli_support;
-
-use cli_support::{arg, blob, fixture, hull_blob, info, ok, run, scratch};
+use crate::support::{arg, blob, fixture, hull_blob, info, ok, refused, run, scratch};
 use meshsweep::mesh;
 use std::fs;
 use std::path::Path;
@@ -91,7 +89,7 @@ fn a_hull_that_is_looser_than_asked_for_is_not_written_and_the_tightest_is_named
     let refuse = |options: &[&str]| {
         let output =
             run([&["hull", arg(&mesh), "--effort", "0", "-o", arg(&out)], options].concat());
-        let line = cli_support::refused(&output, 1, "groove.obj");
+        let line = refused(&output, 1, "groove.obj");
         assert!(!out.exists() && line.contains(" faces; ") && line.contains("--faces"), "{line}");
         line
     };
@@ -120,7 +118,7 @@ fn a_hull_that_is_looser_than_asked_for_is_not_written_and_the_tightest_is_named
     fs::write(&two, SOLIDS).unwrap();
     let output =
         run(["hull", arg(&two), "--parts", "--slack", "1e-30", "--effort", "0", "-o", arg(&out)]);
-    assert!(cli_support::refused(&output, 1, "two.obj").contains("part 0: no hull"));
+    assert!(refused(&output, 1, "two.obj").contains("part 0: no hull"));
     assert!(!out.exists());
 }
 
@@ -194,9 +192,9 @@ fn a_margin_is_printed_and_left_around_the_mesh() {
         );
     }
     let output = run(["hull", arg(&mesh), "--margin", "1e39", "-o", arg(&out)]);
-    assert!(cli_support::refused(&output, 1, "box.obj").contains("range of single precision"));
+    assert!(refused(&output, 1, "box.obj").contains("range of single precision"));
     let output = run(["hull", arg(&mesh), "--margin", "1", "--slack", "1", "-o", arg(&out)]);
-    assert!(cli_support::refused(&output, 2, "--slack 1 ").contains("no more than --margin 1:"));
+    assert!(refused(&output, 2, "--slack 1 ").contains("no more than --margin 1:"));
 }
 
 #[test]
@@ -230,7 +228,7 @@ fn what_keeps_a_mesh_from_having_a_void_is_named() {
         ),
     ] {
         let mesh = fixture("evil").join(name);
-        let line = cli_support::refused(
+        let line = refused(
             &run(["hull", arg(&mesh), "--void", "20", "--effort", "0", "-o", arg(&out)]),
             1,
             name,
@@ -278,7 +276,7 @@ fn a_mesh_that_overlaps_itself_has_no_void_that_could_be_kept() {
     assert!(closed(&out).1 < 14.0 && text.contains(why) && !text.contains("% void"), "{text}");
     fs::remove_file(&out).unwrap();
     let output = run(["hull", arg(&mesh), "--void", "60", "--effort", "0", "-o", arg(&out)]);
-    let line = cli_support::refused(&output, 1, "two.obj");
+    let line = refused(&output, 1, "two.obj");
     assert!(line.contains(why) && !out.exists(), "{line}");
     let path = directory.join("two.msw");
     let build = ["build", arg(&mesh), "--for", "tight", "--tight", "100", "--effort", "0"];
@@ -351,26 +349,15 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
     let directory = scratch("hull_usage");
     let path = hull_blob(&directory, "torus.ply", &[]);
     let out = directory.join("hull.ply");
-    cli_support::refused(&run(["hull", arg(&path), "-o", arg(&out)]), 2, "torus.msw");
-    cli_support::refused(
-        &run(["hull", arg(&path), "--faces", "9", "-o", arg(&out)]),
-        2,
-        "torus.msw",
-    );
+    refused(&run(["hull", arg(&path), "-o", arg(&out)]), 2, "torus.msw");
+    refused(&run(["hull", arg(&path), "--faces", "9", "-o", arg(&out)]), 2, "torus.msw");
     let stl = directory.join("hull.stl");
-    cli_support::refused(
-        &run(["hull", arg(&path), "--level", "0", "-o", arg(&stl)]),
-        2,
-        "hull.stl",
-    );
+    refused(&run(["hull", arg(&path), "--level", "0", "-o", arg(&stl)]), 2, "hull.stl");
     let mesh = fixture("bracket.stl");
-    let line = cli_support::refused(
-        &run(["hull", arg(&mesh), "--level", "1", "-o", arg(&out)]),
-        2,
-        "bracket.stl",
-    );
+    let line =
+        refused(&run(["hull", arg(&mesh), "--level", "1", "-o", arg(&out)]), 2, "bracket.stl");
     assert!(line.contains("is a mesh") && line.contains("--for hull"), "{line}");
-    let line = cli_support::refused(
+    let line = refused(
         &run(["hull", arg(&mesh), "--max-valence", "9", "-o", arg(&out)]),
         2,
         "--max-valence",
@@ -386,7 +373,7 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
         let missing = directory.join("missing.stl");
         let output =
             run(["hull", arg(&missing), "--slack", slack, "--margin", margin, "-o", arg(&out)]);
-        let line = cli_support::refused(&output, 2, "--slack");
+        let line = refused(&output, 2, "--slack");
         assert!(line.contains(&format!("--slack {slack} ")), "{line}");
         assert!(line.contains(&format!("--margin {margin}:")), "{line}");
     }
@@ -437,7 +424,7 @@ fn a_blob_without_hulls_has_no_levels() {
     for (command, out) in [("hull", "out.ply"), ("cut", "out.msw")] {
         let out = directory.join(out);
         let output = run([command, arg(&path), "--level", "0", "-o", arg(&out)]);
-        let line = cli_support::refused(&output, 1, "torus.msw");
+        let line = refused(&output, 1, "torus.msw");
         assert!(line.contains("--for hull") && !out.exists(), "{line}");
     }
 }
