@@ -227,7 +227,8 @@ fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
     {
         writeln!(
             out,
-            "  tight hull of {}: stopped before {}, where no edge may collapse and leave it closed, clear of the mesh and of itself",
+            "  tight hull of {}: stopped before {}, where no edge may collapse and leave it \
+             closed, clear of the mesh and of itself",
             Counted(report.wrapped.faces, "face"),
             asked
         )?;
@@ -243,6 +244,7 @@ fn other_format(wanted: StoredBits, got: VertexFormat) -> Option<&'static str> {
         VertexBits::Auto | VertexBits::F32 => return None,
     };
     (got != wanted_format).then_some(
-        "the mesh is too small or too far from its origin for the hull's grid: its coordinates are stored as f32",
+        "the mesh is too small or too far from its origin for the hull's grid: its coordinates \
+         are stored as f32",
     )
 }

@@ -125,7 +125,7 @@ impl Question<3> for Closest<'_> {
         };
         answers.resize(rows.len(), UNANSWERED);
         let Memory { stack, order, .. } = memory;
-        // Without a hint, so that the work does not depend on the batch that the thread took before.
+        // Without a hint: so the work does not depend on the batch before.
         let mut hint = Hint::NONE;
         let done = closest_points(tree, rows, answers, &self.budget, stack, order, &mut hint);
         done.map_err(|error| {

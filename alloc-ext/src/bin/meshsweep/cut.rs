@@ -1,5 +1,5 @@
-//! `meshsweep cut`: a coarser blob from a finer one. A box tree holds all of the surface or nothing,
-//! so a cut hull hierarchy goes without it.
+//! `meshsweep cut`: a coarser blob from a finer one. A box tree holds all of the surface or
+//! nothing, so it is left out beside a cut hull hierarchy.
 
 use crate::args::CutArgs;
 use crate::failure::Failure;

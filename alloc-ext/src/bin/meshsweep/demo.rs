@@ -33,12 +33,20 @@ pub fn run() -> Result<(), Failure> {
     let (from, to) = ([20.0, 10.0, 90.0], [20.0, 10.0, -90.0]);
     let segment = first_hit(&tree, from, to, &Facing::Both, &mut stack).map_err(place)?;
     Output::stdout().finish(|out| {
-        writeln!(out, "meshsweep answers questions about triangle meshes: distances, hits, signs, outer hulls.")?;
-        writeln!(out, "Every answer is an interval that contains the truth; a blob is read in place, without a heap.")?;
         writeln!(
             out,
-            "Built in: a bracket of {triangles} triangles. Its box tree: a blob of {} bytes, {:.1} a triangle; a query needs {} \
-             bytes of RAM.",
+            "meshsweep answers questions about triangle meshes: distances, hits, signs, \
+            outer hulls."
+        )?;
+        writeln!(
+            out,
+            "Every answer is an interval that contains the truth; a blob is read in \
+            place, without a heap."
+        )?;
+        writeln!(
+            out,
+            "Built in: a bracket of {triangles} triangles. Its box tree: a blob of {} bytes, \
+             {:.1} a triangle; a query needs {} bytes of RAM.",
             bytes.len(),
             bytes.len() as f64 / triangles as f64,
             describe::tree::stack_bytes(&tree)

@@ -46,8 +46,8 @@ pub enum Failure {
     Open { file: PathBuf, error: OpenError },
     /// The blob has no such level.
     Cut { file: PathBuf, error: CutError },
-    /// The blob was built without the part that the question needs. `other` names an engine that has
-    /// it; `served` lists the questions that the blob serves.
+    /// The blob was built without the part that the question needs. `other` names an engine that
+    /// has it; `served` lists the questions that the blob serves.
     NotServed { file: PathBuf, need: Need, other: Option<&'static str>, served: String },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
@@ -227,12 +227,14 @@ impl fmt::Display for Failure {
             ),
             Failure::NotClosed { file } => write!(
                 f,
-                "{}: was built from a mesh that is not closed, so inside and outside are not defined; leave out --signed",
+                "{}: was built from a mesh that is not closed, so inside and outside are not \
+                 defined; leave out --signed",
                 file.display()
             ),
             Failure::TooLarge { file, triangles } => write!(
                 f,
-                "{}: {triangles} triangles are more than the {} that a box tree holds; split the mesh",
+                "{}: {triangles} triangles are more than the {} that a box tree holds; split the \
+                 mesh",
                 file.display(),
                 meshsweep::bvh::MAX_TRIANGLES
             ),
@@ -243,7 +245,8 @@ impl fmt::Display for Failure {
             ),
             Failure::FieldCount { file, line, wanted, found } => write!(
                 f,
-                "{}, line {line}: {}, and the query needs {wanted}; mend the line or begin it with #",
+                "{}, line {line}: {}, and the query needs {wanted}; mend the line or begin it \
+                 with #",
                 file.display(),
                 Counted(*found, "field")
             ),
@@ -253,7 +256,8 @@ impl fmt::Display for Failure {
             }
             Failure::RawLength { file, bytes, record } => write!(
                 f,
-                "{}: {} is no whole number of queries of {record} bytes, the last begins at byte {}; write little-endian f32",
+                "{}: {} is no whole number of queries of {record} bytes, the last begins at byte \
+                 {}; write little-endian f32",
                 file.display(),
                 Counted(*bytes, "byte"),
                 bytes - bytes % record

@@ -22,8 +22,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     if let Some(level) = args.level {
         return if is_mesh {
             usage(format!(
-                "{name}: is a mesh, and --level is for a blob; give --faces, or build a blob first: \
-                 meshsweep build {name} --for hull -o BLOB"
+                "{name}: is a mesh, and --level is for a blob; give --faces, or build a blob \
+                 first: meshsweep build {name} --for hull -o BLOB"
             ))
         } else {
             stored::write_level(args, level)

@@ -44,7 +44,8 @@ pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.crosses {
         writeln!(
             out,
-            "  the mesh crosses or touches itself: its volume counts what overlaps more than once, so that the void may be more than that"
+            "  the mesh crosses or touches itself: its volume counts what overlaps more than \
+             once, so that the void may be more than that"
         )?;
     }
     if let Start::Closure { cell, .. } = report.start {
@@ -81,9 +82,9 @@ pub fn write_repairs(out: &mut dyn Write, file: &Path, loaded: &Loaded) -> io::R
 /// Why a progressive hull has more faces than `wanted`.
 pub fn why_stuck(wanted: u32, stuck: &Stuck) -> String {
     format!(
-        "stopped before {wanted} faces, for no edge may collapse: {} by topology or valence, {} because no vertex is \
-         outside all planes, {} by compactness or normals; --max-valence, --compactness and --max-normal-deviation relax \
-         the conditions",
+        "stopped before {wanted} faces, for no edge may collapse: {} by topology or valence, {} \
+         because no vertex is outside all planes, {} by compactness or normals; --max-valence, \
+         --compactness and --max-normal-deviation relax the conditions",
         stuck.topology, stuck.no_vertex, stuck.shape
     )
 }

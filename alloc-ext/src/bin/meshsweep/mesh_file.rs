@@ -59,8 +59,8 @@ fn read_snapped(file: &Path, bits: VertexBits) -> Result<(RawMesh, f64), Failure
     let mut raw = read(file)?;
     let mut moved = snap(&mut raw.positions, bits);
     if moved > 0.0 && raw.decimal {
-        // Reading rounded the decimals to f64: half a unit in the last place per axis. Repair cannot
-        // see that any more.
+        // Reading rounded the decimals to f64, by half a unit in the last place per axis. Repair
+        // cannot see that any more.
         let largest = raw.positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
         moved += 2.0 * f64::EPSILON * largest;
     }

@@ -78,8 +78,8 @@ impl Output {
         })
     }
 
-    /// The same for answers that may be `stopped` by a failure. The standard output gets the answers
-    /// before it; a file is not written, for it would be incomplete.
+    /// The same for answers that may be `stopped` by a failure. The standard output gets the
+    /// answers before it. A file is not written, for it would be incomplete.
     pub fn finish_until(
         self,
         stopped: Option<Failure>,

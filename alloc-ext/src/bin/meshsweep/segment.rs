@@ -82,7 +82,8 @@ impl Caster<'_> {
                 let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
                 let farthest = f64::from(tolerance::TREE_FAR) * unit;
                 format!(
-                    "the ways along x, y and z to the farthest corner of its box may add up to about {farthest:.1e}"
+                    "the ways along x, y and z to the farthest corner of its box may add up to \
+                     about {farthest:.1e}"
                 )
             }
             None => {

@@ -24,7 +24,8 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
         // A closed standard error does not withhold the answers.
         let _ = writeln!(
             io::stderr(),
-            "{}: was built from a mesh that is not closed, so every side is undefined; distances are not",
+            "{}: was built from a mesh that is not closed, so every side is undefined; distances \
+             are not",
             blob.display()
         );
     }

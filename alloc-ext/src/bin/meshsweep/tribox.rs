@@ -118,7 +118,8 @@ impl Report<'_> {
         }
         writeln!(
             out,
-            "triboxes   faces compression      volume    void %  hull error  largest distance to the mesh"
+            "triboxes   faces compression      volume    void %  hull error  largest distance to \
+             the mesh"
         )?;
         for level in self.levels {
             let void =

@@ -77,7 +77,8 @@ impl fmt::Display for Unmet {
         };
         write!(
             f,
-            ", with {faces} faces; {more}ask for a larger {option}, or choose a number of faces with {}",
+            ", with {faces} faces; {more}ask for a larger {option}, or choose a number of faces \
+             with {}",
             tightness.by_faces
         )
     }

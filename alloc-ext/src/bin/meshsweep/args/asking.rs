@@ -14,13 +14,13 @@ pub struct SearchArgs {
     #[arg(short, long, value_name = "CSV")]
     pub output: Option<PathBuf>,
     /// Stop a query after opening so many nodes
-    #[arg(long, value_name = "NODES", allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
+    #[arg(long, value_name = "NODES", value_parser = whole::<0, { u32::MAX }>)]
     pub steps: Option<u32>,
     /// Stack entries to search with [default: what the blob needs]
-    #[arg(long, value_name = "ENTRIES", allow_negative_numbers = true, value_parser = whole::<1, { 1 << 24 }>)]
+    #[arg(long, value_name = "ENTRIES", value_parser = whole::<1, { 1 << 24 }>)]
     pub queue: Option<u32>,
     /// Threads [default: as many as the machine has processors for]; answers do not depend on it
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
     /// Print nanoseconds per query, and how queries ended, to the standard error
     #[arg(long)]
@@ -42,10 +42,10 @@ pub struct ClosestArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// Stop a query when upper ≤ lower · (1 + REL)
-    #[arg(long, value_name = "REL", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
+    #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
     pub rel: f32,
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
-    #[arg(long, value_name = "ABS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
+    #[arg(long, value_name = "ABS", default_value_t = 0.0, value_parser = tolerance)]
     pub abs: f32,
     /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
     /// one]
@@ -53,7 +53,12 @@ pub struct ClosestArgs {
     pub engine: Option<Engine>,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
     /// inside it [default: the finest of all, if the blob knows distances by nothing else]
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "engine")]
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_parser = whole::<4, { u32::MAX }>,
+        conflicts_with = "engine"
+    )]
     pub tight: Option<u32>,
     #[command(flatten)]
     pub search: SearchArgs,
@@ -64,7 +69,7 @@ pub struct WithinArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// The distance, in the mesh's unit
-    #[arg(short, long, value_name = "D", allow_negative_numbers = true, value_parser = tolerance)]
+    #[arg(short, long, value_name = "D", value_parser = tolerance)]
     pub distance: f32,
     /// All triangles that are within the distance or may be, nearest first, one on a line, with
     /// the number of the query (from 0) in front
@@ -72,7 +77,12 @@ pub struct WithinArgs {
     pub all: bool,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
     /// inside it [default: the finest of all, if the blob knows distances by nothing else]
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "all")]
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_parser = whole::<4, { u32::MAX }>,
+        conflicts_with = "all"
+    )]
     pub tight: Option<u32>,
     #[command(flatten)]
     pub search: SearchArgs,
@@ -83,7 +93,7 @@ pub struct NearestArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// Triangles for each point, nearest first
-    #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { 1 << 20 }>)]
+    #[arg(short = 'n', long, value_name = "N", value_parser = whole::<1, { 1 << 20 }>)]
     pub count: u32,
     #[command(flatten)]
     pub search: SearchArgs,
@@ -105,11 +115,11 @@ pub struct FieldArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Samples along each axis: one number for all, or NX,NY,NZ
-    #[arg(long, value_name = "SIZE", default_value = "64", allow_negative_numbers = true, value_parser = size)]
+    #[arg(long, value_name = "SIZE", default_value = "64", value_parser = size)]
     pub size: Size,
     /// How far the grid reaches beyond the mesh's box: a length, or a percentage of the box's
     /// longest edge
-    #[arg(long, value_name = "MARGIN", default_value = "10%", allow_negative_numbers = true, value_parser = margin)]
+    #[arg(long, value_name = "MARGIN", default_value = "10%", value_parser = margin)]
     pub margin: Margin,
     /// Negative values inside, NaN where the side is not proved; the mesh must be closed
     #[arg(long)]
@@ -118,7 +128,7 @@ pub struct FieldArgs {
     #[arg(long)]
     pub interval: bool,
     /// Threads [default: as many as the machine has processors for]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
 }
 
@@ -179,7 +189,7 @@ pub struct OverlapArgs {
     pub second: PathBuf,
     /// Where the second mesh is: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was
     /// built]
-    #[arg(long, value_name = "POSE", num_args = 1.., allow_negative_numbers = true, value_parser = given::queries::<7>())]
+    #[arg(long, value_name = "POSE", num_args = 1.., value_parser = given::queries::<7>())]
     pub pose: Vec<Given<7>>,
     /// The same as three rows of a matrix, each with its translation:
     /// m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z each, or files
@@ -188,7 +198,6 @@ pub struct OverlapArgs {
         value_name = "MATRIX",
         num_args = 1..,
         conflicts_with = "pose",
-        allow_negative_numbers = true,
         value_parser = given::queries::<12>()
     )]
     pub matrix: Vec<Given<12>>,

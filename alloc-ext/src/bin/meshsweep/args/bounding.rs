@@ -7,6 +7,22 @@ use clap::Args;
 use meshsweep::tribox::SplitOptions;
 use std::path::PathBuf;
 
+/// Options of hulls that are made from a mesh.
+const OF_MESH: [&str; 12] = [
+    "faces",
+    "void",
+    "slack",
+    "margin",
+    "parts",
+    "effort",
+    "seconds",
+    "progressive",
+    "vertex_bits",
+    "max_valence",
+    "compactness",
+    "max_normal_deviation",
+];
+
 #[derive(Debug, Args)]
 pub struct HullArgs {
     /// Mesh file; or blob file, with --level or --tight
@@ -15,27 +31,37 @@ pub struct HullArgs {
     #[arg(short, long, value_name = "PLY")]
     pub output: PathBuf,
     /// Most faces of the hull of a mesh [default: 200]
-    #[arg(long, allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
+    #[arg(long, value_parser = whole::<4, { u32::MAX }>)]
     pub faces: Option<u32>,
     /// Fewest faces found that leave at most this void space, in percent of the mesh's volume
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "progressive"])]
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        value_parser = percent,
+        conflicts_with_all = ["faces", "progressive"]
+    )]
     pub void: Option<f64>,
     /// Fewest faces found of which no point is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["faces", "void", "progressive"])]
+    #[arg(
+        long,
+        value_name = "DISTANCE",
+        value_parser = distance,
+        conflicts_with_all = ["faces", "void", "progressive"]
+    )]
     pub slack: Option<f64>,
     /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are
     /// inside [default: 0]
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length, conflicts_with = "progressive")]
+    #[arg(long, value_name = "DISTANCE", value_parser = length, conflicts_with = "progressive")]
     pub margin: Option<f64>,
     /// One hull for each part of the mesh, all in one file
     #[arg(long, conflicts_with = "progressive")]
     pub parts: bool,
     /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "progressive")]
+    #[arg(long, value_name = "FACTOR", value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
     /// Stop each hull after about so many seconds: with more faces than asked for, if they are not
     /// gone by then
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "progressive")]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
     /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so
     #[arg(long)]
@@ -43,29 +69,29 @@ pub struct HullArgs {
     /// Level of a blob, 0 being the coarsest
     #[arg(
         long,
-        allow_negative_numbers = true,
         value_parser = whole::<0, { u32::MAX }>,
-        conflicts_with_all = [
-            "faces", "void", "slack", "margin", "parts", "effort", "seconds", "progressive", "vertex_bits", "max_valence", "compactness", "max_normal_deviation"
-        ]
+        conflicts_with_all = OF_MESH
     )]
     pub level: Option<u32>,
     /// The finest tight hull of a blob of at most so many faces
     #[arg(
         long,
         value_name = "FACES",
-        allow_negative_numbers = true,
         value_parser = whole::<4, { u32::MAX }>,
-        conflicts_with_all = [
-            "level", "faces", "void", "slack", "margin", "parts", "effort", "seconds", "progressive", "vertex_bits", "max_valence", "compactness",
-            "max_normal_deviation"
-        ]
+        conflicts_with_all = OF_MESH,
+        conflicts_with = "level"
     )]
     pub tight: Option<u32>,
     /// Bits of a coordinate of the hull of a mesh: auto, single precision, or with --progressive
     /// the fewest that hold the mesh exactly; 16 or 24, on a grid, to which the mesh moves;
     /// 32, single precision
-    #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "BITS",
+        default_value_t = StoredBits::Auto,
+        hide_possible_values = true
+    )]
     pub vertex_bits: StoredBits,
     #[command(flatten)]
     pub collapse: CollapseArgs,
@@ -85,8 +111,8 @@ pub fn slack_within_margin(slack: Option<f64>, margin: Option<f64>) -> Option<St
     is_within.then(|| {
         let (slack, margin) = (Typed(slack), Typed(margin));
         format!(
-            "--slack {slack} is no more than --margin {margin}: the hull is farther from the mesh than the margin; ask \
-             for a larger --slack"
+            "--slack {slack} is no more than --margin {margin}: the hull is farther from the mesh \
+             than the margin; ask for a larger --slack"
         )
     })
 }
@@ -99,10 +125,16 @@ pub struct TriboxArgs {
     #[arg(short, long, value_name = "PLY")]
     pub output: Option<PathBuf>,
     /// Levels, of 1, 2, 4, ... triboxes
-    #[arg(long, value_name = "N", default_value_t = 7, allow_negative_numbers = true, value_parser = whole::<1, 12>)]
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = whole::<1, 12>)]
     pub levels: u32,
     /// How far planes may move outward so that small faces vanish, in the mesh's unit
-    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance, hide_default_value = true)]
+    #[arg(
+        long,
+        value_name = "T",
+        default_value_t = 0.0,
+        value_parser = tolerance,
+        hide_default_value = true
+    )]
     pub simplify: f32,
     /// Print one JSON object
     #[arg(long)]

@@ -27,32 +27,43 @@ pub struct BuildArgs {
     )]
     pub serves: Vec<Serves>,
     /// Bits of a stored coordinate (see below)
-    #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "BITS",
+        default_value_t = StoredBits::Auto,
+        hide_possible_values = true
+    )]
     pub vertex_bits: StoredBits,
     /// Faces of the base hull, with --for hull [default: 200]
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
+    #[arg(long, value_name = "FACES", value_parser = whole::<4, { u32::MAX }>)]
     pub base: Option<u32>,
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, MAX_TRIBOXES>)]
+    #[arg(long, value_name = "N", value_parser = whole::<1, MAX_TRIBOXES>)]
     pub triboxes: Option<u32>,
     /// Faces of each tight hull, with --for tight [default: 200]
-    #[arg(long, value_name = "FACES", value_delimiter = ',', allow_negative_numbers = true, value_parser = whole::<4, MAX_TIGHT>)]
+    #[arg(long, value_name = "FACES", value_delimiter = ',', value_parser = whole::<4, MAX_TIGHT>)]
     pub tight: Vec<u32>,
     /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point
     /// is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with = "tight")]
+    #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "tight")]
     pub slack: Option<f64>,
     /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most
     /// this void space, in percent of the mesh's volume
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["tight", "slack"])]
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        value_parser = percent,
+        conflicts_with_all = ["tight", "slack"]
+    )]
     pub void: Option<f64>,
     /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther
     /// are inside [default: 0]
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length)]
+    #[arg(long, value_name = "DISTANCE", value_parser = length)]
     pub margin: Option<f64>,
     /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default:
     /// 1]
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor)]
+    #[arg(long, value_name = "FACTOR", value_parser = factor)]
     pub effort: Option<f64>,
     /// Questions to tight hulls: closest; segment, which no command asks, only the library
     /// [default: closest,segment]
@@ -148,13 +159,13 @@ impl BuildArgs {
 #[derive(Debug, Args)]
 pub struct CollapseArgs {
     /// Largest valence of a hull vertex [default: 12]
-    #[arg(long, value_name = "EDGES", allow_negative_numbers = true, value_parser = whole::<3, 255>)]
+    #[arg(long, value_name = "EDGES", value_parser = whole::<3, 255>)]
     pub max_valence: Option<u32>,
     /// Least ratio of a star's worst compactness after a collapse to that before it [default: 0.8]
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, value_parser = ratio)]
+    #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub compactness: Option<f64>,
     /// Largest change of a face's normal in a collapse, in degrees [default: 45]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
     pub max_normal_deviation: Option<f64>,
 }
 
@@ -235,18 +246,20 @@ pub struct InfoArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(group(ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)))]
+#[command(group(
+    ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)
+))]
 pub struct CutArgs {
     /// Blob file, built --for hull, triboxes or tight
     pub blob: PathBuf,
     /// Finest level of the hull hierarchy to keep, 0 being the coarsest
-    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
+    #[arg(long, value_parser = whole::<0, { u32::MAX }>)]
     pub level: Option<u32>,
     /// Keep the finest level of at most so many triboxes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { u32::MAX }>)]
+    #[arg(long, value_name = "N", value_parser = whole::<1, { u32::MAX }>)]
     pub triboxes: Option<u32>,
     /// Keep the tight hulls of at most so many faces
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
+    #[arg(long, value_name = "FACES", value_parser = whole::<4, { u32::MAX }>)]
     pub tight: Option<u32>,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]

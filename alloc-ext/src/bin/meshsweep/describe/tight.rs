@@ -32,7 +32,8 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     writeln!(out, "  {}: {encloses}", Counted(hulls.count(), "hull"))?;
     writeln!(
         out,
-        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to hull, at most"
+        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to \
+         hull, at most"
     )?;
     for hull in all(hulls) {
         let record = hull.record();

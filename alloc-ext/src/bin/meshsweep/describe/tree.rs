@@ -64,7 +64,8 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         let [near, far] = half_widths(tree, diagonal);
         writeln!(
             out,
-            "  half-width of an exact answer: about {near:.1e} near the surface, {far:.1e} one diagonal of the mesh away"
+            "  half-width of an exact answer: about {near:.1e} near the surface, {far:.1e} one \
+             diagonal of the mesh away"
         )?;
     }
     let closed = if h.is_closed() {

@@ -102,7 +102,8 @@ impl Sampler<'_> {
         all.into_iter().try_fold(NoSign::default(), |sum, one| Ok(sum.add(&one?)))
     }
 
-    /// Row `row`. Neighbouring samples follow each other, so each answer is a good hint for the next.
+    /// Row `row`. Neighbouring samples follow each other, so an answer is a good hint for the next
+    /// sample.
     fn row(
         &self,
         row: usize,

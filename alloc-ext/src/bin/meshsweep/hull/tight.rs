@@ -97,7 +97,8 @@ fn describe(
         (Outcome::Reached, _) => Ok(()),
         (Outcome::Stuck, Goal::Faces(faces)) => writeln!(
             out,
-            "  stopped before {faces} faces: no edge may collapse and leave the hull closed, clear of the mesh and of itself"
+            "  stopped before {faces} faces: no edge may collapse and leave the hull closed, \
+             clear of the mesh and of itself"
         ),
         (Outcome::Stuck, _) => writeln!(out, "  stopped where no edge may collapse any more"),
         // A hull that misses the goal is not written. So the last change met it.
