@@ -3,7 +3,9 @@
 use crate::args::{BuildArgs, FACES, HullServes, StoredBits, slack_within_margin};
 use crate::describe;
 use crate::failure::Failure;
-use crate::hull_report::{require_met, why_stuck, write_margin, write_no_void, write_start};
+use crate::hull_report::{
+    require_met, why_stuck, write_margin, write_no_void, write_start, write_wires,
+};
 use crate::mesh_file::{self, Loaded};
 use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
@@ -45,7 +47,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         single: args.vertex_bits.is_f32(),
         ..TreeOptions::default()
     };
-    let triangles = loaded.mesh.triangles.len();
+    let triangles = loaded.mesh.triangles.len() + loaded.mesh.wires.len();
     if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > bvh::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
@@ -159,6 +161,7 @@ impl Report<'_> {
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
             writeln!(out, "  volume {}", About(report.volume))?;
+            write_wires(out, report.wires)?;
         }
         if loaded.moved > 0.0 {
             writeln!(out, "  vertices moved to the hull's grid by up to {}", AtMost(loaded.moved))?;

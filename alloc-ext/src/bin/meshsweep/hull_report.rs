@@ -79,6 +79,18 @@ pub fn write_repairs(out: &mut dyn Write, file: &Path, loaded: &Loaded) -> io::R
     Ok(())
 }
 
+/// Says how far the points of triangles without area lie off the surface, if any do.
+pub fn write_wires(out: &mut dyn Write, off: f64) -> io::Result<()> {
+    if off <= 0.0 {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "  triangles without area lie up to {} off the surface: hulls may leave them out by as much",
+        AtMost(off)
+    )
+}
+
 /// Why a progressive hull has more faces than `wanted`.
 pub fn why_stuck(wanted: u32, stuck: &Stuck) -> String {
     format!(

@@ -2,13 +2,13 @@
 
 use crate::args::{FACES, HullArgs};
 use crate::failure::Failure;
-use crate::hull_report::{why_stuck, write_repairs};
+use crate::hull_report::{why_stuck, write_repairs, write_wires};
 use crate::mesh_file;
 use crate::number::Percent;
 use crate::output::Output;
 use crate::progress::Bar;
 use meshsweep::counted::Counted;
-use meshsweep::hull::hull_of;
+use meshsweep::hull::{hull_of, wires_off_surface};
 use meshsweep::mesh::write_ply;
 use std::time::Instant;
 
@@ -37,6 +37,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             Percent((void * 100.0).max(0.0)),
             time.as_secs_f64()
         )?;
+        write_wires(out, wires_off_surface(&solid.mesh))?;
         stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", why_stuck(faces, &stuck)))
     })
 }

@@ -3,7 +3,7 @@
 use crate::args::{FACES, HullArgs};
 use crate::failure::Failure;
 use crate::hull_report::{require_met, write_margin, write_no_void, write_repairs, write_start};
-use crate::mesh_file::load_all;
+use crate::mesh_file::load_snapped;
 use crate::number::{AtLeast, AtMost, Percent};
 use crate::output::Output;
 use crate::progress::StageBars;
@@ -28,12 +28,13 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         time_limit: args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX)),
         vertex_bits: args.vertex_bits.format(),
     };
-    let (loaded, left_out) = load_all(&args.input, options.vertex_bits)?;
+    let loaded = load_snapped(&args.input, options.vertex_bits)?;
     options.margin = loaded.widened(args.margin);
     let meshes = if args.parts {
-        share(parts(&loaded.mesh), &left_out)
+        let wires: Vec<[[f32; 3]; 3]> = loaded.mesh.wire_corners().collect();
+        share(parts(&loaded.mesh), &wires)
     } else {
-        vec![(loaded.mesh.clone(), left_out)]
+        vec![(loaded.mesh.clone(), Vec::new())]
     };
     let mut hulls = Vec::new();
     for (mesh, further) in &meshes {
