@@ -8,4 +8,5 @@ pub mod fuzz_targets;
 pub mod generate;
 pub mod golden;
 pub mod oracle;
+pub mod scene;
 pub mod workload;
