@@ -108,9 +108,8 @@ fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
     let surface = triangles(&mesh);
     let solid = volume(&surface);
     let points: Vec<[f32; 3]> = random_queries(&surface, 200);
-    let goals: [(&str, &[&str]); 5] = [
+    let goals: [(&str, &[&str]); 4] = [
         ("margin", &["--margin", "0.25", "--tight", "70,150"]),
-        ("nested", &["--margin", "0.25", "--tight", "70,150", "--nested"]),
         ("slack", &["--slack", "0.4"]),
         ("both", &["--slack", "0.6", "--margin", "0.25"]),
         ("void", &["--void", "30"]),
@@ -165,7 +164,8 @@ fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
         line.contains("a larger --slack") && line.contains("faces with --tight; nothing"),
         "{line}"
     );
-    for pair in [["--slack=1", "--tight=70"], ["--void=9", "--nested"], ["--slack=1", "--void=9"]] {
+    for pair in [["--slack=1", "--tight=70"], ["--void=9", "--tight=70"], ["--slack=1", "--void=9"]]
+    {
         let build = ["build", arg(&mesh), "-o", arg(&out), "--for", "tight"];
         assert_eq!(run([&build[..], &pair].concat()).status.code(), Some(2), "{pair:?}");
     }
@@ -178,7 +178,6 @@ fn a_blob_tells_its_hulls_and_gives_them_back() {
     let served = "  serves closest, within without --all, hull --tight, cut\n";
     assert!(ok(["info", arg(&path)]).contains(served));
     let before = info(&path);
-    assert_eq!(before["tight_hulls"]["is_nested"], false);
     assert_eq!(before["serves"], serde_json::json!(["closest", "within", "hull --tight", "cut"]));
     let faces: Vec<u64> =
         hulls(&before).iter().map(|hull| hull["faces"].as_u64().unwrap()).collect();
@@ -215,21 +214,18 @@ fn volume(triangles: &[cli_support::Triangle]) -> f64 {
 }
 
 #[test]
-fn nested_hulls_say_what_nesting_costs_and_questions_decide_what_is_stored() {
-    let directory = scratch("tight_nested");
-    let (mesh, out) = (fixture("torus.ply"), directory.join("nested.msw"));
+fn questions_decide_what_is_stored() {
+    let directory = scratch("tight_for");
+    let (mesh, out) = (fixture("torus.ply"), directory.join("served.msw"));
     let mut arguments =
-        [&["build", arg(&mesh), "-o", arg(&out), "--nested", "--tight-for", "closest"], &TIGHT[..]];
-    let text = ok(arguments.concat());
-    assert!(text.contains("if it did not enclose the finer ones"), "{text}");
-    let nested = info(&out);
-    assert_eq!(nested["tight_hulls"]["is_nested"], true);
-    assert!(hulls(&nested).iter().all(|hull| hull["serves_segments"] == false));
+        [&["build", arg(&mesh), "-o", arg(&out), "--tight-for", "closest"], &TIGHT[..]];
+    ok(arguments.concat());
+    assert!(hulls(&info(&out)).iter().all(|hull| hull["serves_segments"] == false));
     let segments = ["build", arg(&mesh), "-o", arg(&out), "--tight-for", "segment"];
     arguments[0] = &segments;
     ok(arguments.concat());
     assert!(hulls(&info(&out)).iter().all(|hull| hull["serves_distances"] == false));
-    let line = refused(&run(["closest", arg(&out), "1,2,3"]), 1, "nested.msw");
+    let line = refused(&run(["closest", arg(&out), "1,2,3"]), 1, "served.msw");
     assert!(line.contains("--for"), "{line}");
 }
 
@@ -302,7 +298,6 @@ fn arguments_that_do_not_go_together_are_refused_and_name_the_remedy() {
         &["--slack", "1"],
         &["--void", "1"],
         &["--margin", "1"],
-        &["--nested"],
         &["--effort", "1"],
         &["--tight-for", "closest"],
     ] {

@@ -10,3 +10,13 @@ pub mod golden;
 pub mod oracle;
 pub mod scene;
 pub mod workload;
+
+/// The Rust of `README.md`, run as it stands.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}
+
+/// The recipes of the guide.
+#[cfg(doctest)]
+#[doc = include_str!("../../core/docs/guide.md")]
+mod guide {}

@@ -13,8 +13,8 @@ use meshsweep_core::query::{Budget, Ended, QueryError};
 use meshsweep_core::{Model, TightHull, TightHulls};
 use std::sync::OnceLock;
 
-/// Small valid blobs of tight hulls: one and several, closed and open, nested, on a grid and not,
-/// one beside a box tree.
+/// Small valid blobs of tight hulls: one and several, closed and open, on a grid and not, one
+/// beside a box tree.
 ///
 /// # Panics
 /// If one of them cannot be built.
@@ -30,11 +30,7 @@ pub fn tight_seeds() -> &'static [Vec<u8>] {
         open.1.truncate(50);
         vec![
             blob(&cube(1), &options(&[64]), false),
-            blob(
-                &torus(2.0, 0.75, 10, 6),
-                &ChainOptions { nested: true, ..options(&[64, 76]) },
-                false,
-            ),
+            blob(&torus(2.0, 0.75, 10, 6), &options(&[64, 76]), false),
             blob(&open, &ChainOptions { vertex_bits: VertexBits::F32, ..options(&[64]) }, false),
             blob(&icosphere(1), &options(&[64, 70]), true),
         ]

@@ -66,7 +66,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         single: args.vertex_bits.is_single(),
         ..TreeOptions::default()
     };
-    let triangles = loaded.mesh.triangles.len();
+    let triangles = loaded.mesh.triangles.len() + loaded.mesh.wires.len();
     if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > tree::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
@@ -130,7 +130,6 @@ fn build_tight(
         faces: args.tight.iter().map(|&faces| faces as usize).collect(),
         goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
         margin: widened(args.margin.unwrap_or(0.0), loaded),
-        nested: args.nested,
         effort: args.effort.unwrap_or(1.0),
         vertex_bits: args.vertex_bits.format(),
         closest: asked(HullServes::Closest),
@@ -169,6 +168,7 @@ impl Report<'_> {
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
             writeln!(out, "  volume {}", describe::About(report.volume))?;
+            write_wires(out, report.wires)?;
         }
         if loaded.moved > 0.0 {
             writeln!(
@@ -221,6 +221,18 @@ impl Report<'_> {
     }
 }
 
+/// How far the points of triangles without area are off the hulls' surface.
+pub fn write_wires(out: &mut dyn Write, off: f64) -> io::Result<()> {
+    if off > 0.0 {
+        let off = describe::AtMost(off);
+        writeln!(
+            out,
+            "  triangles without area lie up to {off} off the surface: hulls may leave them out by as much"
+        )?;
+    }
+    Ok(())
+}
+
 /// Which tight hulls are not there.
 fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport]) -> io::Result<()> {
     let mut asked: Vec<u32> = args.tight.clone();
@@ -238,15 +250,6 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
 
 /// What the table of tight hulls does not say.
 fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
-    if let (Ok(void), Some(free)) = (report.void, report.free_void) {
-        writeln!(
-            out,
-            "  tight hull of {}: {} % void space, {} % if it did not enclose the finer ones",
-            Counted(report.wrapped.faces, "face"),
-            describe::Percent(void * 100.0),
-            describe::Percent(free * 100.0)
-        )?;
-    }
     if let Goal::Faces(asked) = report.asked
         && report.wrapped.faces > asked
     {

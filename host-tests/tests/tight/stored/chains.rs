@@ -1,10 +1,11 @@
-//! Chains: hulls of falling numbers of faces, nested or not.
+//! Chains: hulls of falling numbers of faces.
 
 use super::{mesh, of, options};
 use meshsweep::emit::{Keep, Parts, assemble, cut_blob};
 use meshsweep::mesh::Mesh;
 use meshsweep::precision::VertexBits;
 use meshsweep::tight::{ChainOptions, cut, hull_mesh};
+use meshsweep::tribox::volume;
 use meshsweep::wrap::Goal;
 use meshsweep_core::{Model, TightHulls};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
@@ -36,48 +37,23 @@ fn every_stored_hull_encloses_the_mesh_by_the_checker() {
             hulls.iter().for_each(|hull| encloses(hull, &mesh));
             let faces: Vec<usize> = reports.iter().map(|report| report.wrapped.faces).collect();
             assert_eq!(faces, [hulls[0].triangles.len(), hulls[1].triangles.len()]);
-            assert!(reports.iter().all(|report| report.free_void.is_none()
-                && matches!(report.asked, Goal::Faces(most) if report.wrapped.faces <= most)));
+            assert!(reports.iter().all(
+                |report| matches!(report.asked, Goal::Faces(most) if report.wrapped.faces <= most)
+            ));
         }
     }
 }
 
 #[test]
-fn nested_hulls_enclose_each_other_and_say_what_that_costs() {
+fn reports_and_records_tell_the_void_of_each_hull() {
     let mesh = mesh(&rough_sphere(3, 0.3, 1));
-    let options = ChainOptions { nested: true, ..options(&[64, 120, 300]) };
-    let (bytes, reports) = of(&mesh, 0.0, &options);
-    let hulls = stored(&bytes);
-    assert!(TightHulls::open(&bytes).expect("opens").is_nested());
-    assert_eq!(hulls.len(), 3);
-    encloses(&hulls[2], &mesh);
-    encloses(&hulls[1], &hulls[2]);
-    encloses(&hulls[0], &hulls[1]);
-    let volume = |mesh: &Mesh| {
-        let corners = (0..mesh.triangles.len()).filter_map(|t| mesh.corners(t));
-        corners
-            .map(|triangle| {
-                let [a, b, c] = triangle.map(|p| p.map(f64::from));
-                a[0] * (b[1] * c[2] - b[2] * c[1])
-                    + a[1] * (b[2] * c[0] - b[0] * c[2])
-                    + a[2] * (b[0] * c[1] - b[1] * c[0])
-            })
-            .sum::<f64>()
-            / 6.0
-    };
-    let hulls_in_blob = TightHulls::open(&bytes).expect("opens");
-    for ((hull, report), record) in hulls.iter().zip(&reports).zip(hulls_in_blob.records()) {
+    let (bytes, reports) = of(&mesh, 0.0, &options(&[64, 120, 300]));
+    let hulls = TightHulls::open(&bytes).expect("opens");
+    for ((hull, report), record) in stored(&bytes).iter().zip(&reports).zip(hulls.records()) {
         let void = volume(hull) / volume(&mesh) - 1.0;
         assert!((report.void.expect("a solid") - void).abs() < 1e-9, "{void}");
         assert!((f64::from(record.void_ratio) - void).abs() < 1e-6);
     }
-    let free = |index: usize| reports[index].free_void;
-    assert!(free(2).is_none());
-    assert!(
-        (0..2)
-            .all(|index| free(index)
-                .is_some_and(|free| free < reports[index].void.expect("a solid")))
-    );
 }
 
 #[test]

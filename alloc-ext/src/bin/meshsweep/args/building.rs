@@ -37,19 +37,16 @@ pub struct BuildArgs {
     pub tight: Vec<u32>,
     /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point
     /// is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["tight", "nested"])]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with = "tight")]
     pub slack: Option<f64>,
     /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most
     /// this void space, in percent of the mesh's volume
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["tight", "nested", "slack"])]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["tight", "slack"])]
     pub void: Option<f64>,
     /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther
     /// are inside [default: 0]
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length)]
     pub margin: Option<f64>,
-    /// Each tight hull encloses all finer ones
-    #[arg(long)]
-    pub nested: bool,
     /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default:
     /// 1]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor)]
@@ -131,7 +128,6 @@ impl BuildArgs {
             ("--slack", self.slack.is_some()),
             ("--void", self.void.is_some()),
             ("--margin", self.margin.is_some()),
-            ("--nested", self.nested),
             ("--effort", self.effort.is_some()),
             ("--tight-for", !self.tight_for.is_empty()),
         ]

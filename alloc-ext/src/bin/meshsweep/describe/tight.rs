@@ -27,7 +27,6 @@ pub fn void(record: &TightRecord) -> Option<f32> {
 pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<()> {
     let encloses = match hulls.count() {
         1 => "it encloses the mesh",
-        _ if hulls.is_nested() => "each encloses the next, and all the mesh",
         _ => "each encloses the mesh",
     };
     writeln!(out, "tight hulls")?;
@@ -70,5 +69,5 @@ pub fn as_json(hulls: &TightHulls<'_>) -> Value {
             "stack_bytes": stack_bytes(hull.tree()),
         })
     };
-    json!({ "is_nested": hulls.is_nested(), "hulls": all(hulls).map(hull).collect::<Vec<_>>() })
+    json!({ "hulls": all(hulls).map(hull).collect::<Vec<_>>() })
 }

@@ -1,0 +1,214 @@
+//! The stages in order, and what they report.
+
+use super::cones::cones;
+use super::encode::{self, TreeTables};
+use super::fans::{self, Fan, FanLeaf, Weights};
+use super::nodes::fit::{axis_aligned_boxes, shared_frames};
+use super::nodes::frame::FrameOptions;
+use super::nodes::order::{TopologyOptions, topology_with};
+use super::source;
+use super::store::{OnGrid, store};
+use crate::mesh::{Mesh, Wire};
+use glam::DVec3;
+use meshsweep_core::blob::BvhHeader;
+use meshsweep_core::blob::layout::{LINK_BYTES, SectionKind, TREE_CLOSED, TREE_SINGLE, WIDTH};
+use meshsweep_core::num::up_to_f32;
+use std::time::{Duration, Instant};
+
+/// What to build.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TreeOptions {
+    /// Boxes in shared frames, which closest points are found with.
+    pub closest: bool,
+    /// Axis-aligned boxes, which segments need.
+    pub segments: bool,
+    /// Normal cones, which culling needs.
+    pub cull: bool,
+    /// Vertices as exact f32 instead of 16 bits on a grid.
+    pub single: bool,
+    /// Weights of the fan decomposition.
+    pub weights: Weights,
+    /// What the topology minimises.
+    pub topology: TopologyOptions,
+    /// How frames are chosen.
+    pub frames: FrameOptions,
+}
+
+impl Default for TreeOptions {
+    fn default() -> Self {
+        TreeOptions {
+            closest: true,
+            segments: true,
+            cull: false,
+            single: false,
+            weights: Weights::default(),
+            topology: TopologyOptions::default(),
+            frames: FrameOptions::default(),
+        }
+    }
+}
+
+/// What building took and gave.
+#[derive(Clone, Debug)]
+pub struct TreeReport {
+    /// Triangles.
+    pub triangles: usize,
+    /// Leaves.
+    pub patches: usize,
+    /// Nodes.
+    pub nodes: usize,
+    /// Children per node.
+    pub mean_children: f64,
+    /// Nodes on the longest path from the root.
+    pub depth: usize,
+    /// Time in all.
+    pub time: Duration,
+}
+
+/// Most triangles of a tree: with more, node numbers and the offsets of source numbers could
+/// outgrow the format.
+pub const MAX_TRIANGLES: usize = 1 << 24;
+
+/// Builds the box tree of any triangle soup.
+///
+/// `moved` is the distance, in input units, that vertices were moved before (see
+/// [`snap`](crate::surface::snap)), 0 if none were. Every triangle is kept, also one that the
+/// grid makes degenerate. Each [`Wire`] is kept as a triangle with a repeated corner, in a leaf of
+/// its own. Cost: O(n log n), about a microsecond a triangle and step.
+///
+/// # Panics
+/// On a mesh of more than [`MAX_TRIANGLES`].
+pub fn build(
+    mesh: &Mesh,
+    moved: f64,
+    input_triangles: usize,
+    options: &TreeOptions,
+) -> (TreeTables, TreeReport) {
+    let triangles = mesh.triangles.len() + mesh.wires.len();
+    assert!(triangles <= MAX_TRIANGLES, "more than 2^24 triangles");
+    let started = Instant::now();
+    let grid = store(mesh, moved, options.single);
+    let mut patches = fans::pack(&mesh.triangles, &grid.positions);
+    patches.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
+    let points: Vec<Vec<DVec3>> = patches.iter().map(|patch| points(patch, &grid)).collect();
+    let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
+    let bounds: Vec<(DVec3, DVec3)> = points.iter().map(|points| bounds(points)).collect();
+    let topology = topology_with(&bounds, &options.topology);
+    let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &patches))];
+    if options.closest || !options.segments {
+        let frames = shared_frames(&topology, &views, &options.frames);
+        sections.push((SectionKind::TreeFrames, encode::frames(&frames, grid.origin)));
+    }
+    if options.segments {
+        sections.push((
+            SectionKind::TreeBoxes,
+            encode::boxes(&axis_aligned_boxes(&topology, &views), grid.origin),
+        ));
+    }
+    sections
+        .push((SectionKind::TreeFans, encode::fans(&topology, &patches, &grid, options.single)));
+    let sources: Vec<u32> = mesh.all_sources().collect();
+    let numbers: Vec<u32> = topology
+        .leaf_order
+        .iter()
+        .flat_map(|&item| patches[item as usize].triangles())
+        .map(|t| sources[t as usize])
+        .collect();
+    sections.push((SectionKind::TreeSource, source::pack(&numbers)));
+    if options.cull {
+        sections.push((SectionKind::TreeCones, cones(&topology, &patches, &grid.positions)));
+    }
+    let header = header(mesh, &grid, &patches, &bounds, options, topology.stack_entries);
+    let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
+    sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
+    debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
+    let children: usize = topology.nodes.iter().map(|node| node.child_count()).sum();
+    let report = TreeReport {
+        triangles,
+        patches: patches.len(),
+        nodes: topology.nodes.len(),
+        mean_children: children as f64 / topology.nodes.len().max(1) as f64,
+        depth: topology.depth,
+        time: started.elapsed(),
+    };
+    let most = numbers.iter().map(|&n| n as usize + 1).max().unwrap_or(0);
+    let input_triangles = input_triangles.max(most) as u32;
+    (TreeTables { scale_exponent: grid.scale_exponent, input_triangles, header, sections }, report)
+}
+
+/// The leaf of a wire. From its first end both spokes lead to the second: so the kernels see two
+/// equal edges, and find the closest point of the segment in the way of an edge.
+fn wire_leaf((number, wire): (u32, &Wire)) -> FanLeaf {
+    let [centre, end] = wire.ends;
+    let ring = vec![end; 2];
+    FanLeaf { first: Fan { centre, ring, triangles: vec![number], reversed: false }, second: None }
+}
+
+fn points(patch: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {
+    let (centres, ring) = encode::vertices(patch);
+    let origin = DVec3::from(grid.origin.map(f64::from));
+    centres.iter().chain(&ring).map(|&v| grid.positions[v as usize] - origin).collect()
+}
+
+fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
+    points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)))
+}
+
+fn header(
+    mesh: &Mesh,
+    grid: &OnGrid,
+    patches: &[FanLeaf],
+    bounds: &[(DVec3, DVec3)],
+    options: &TreeOptions,
+    stack_entries: usize,
+) -> BvhHeader {
+    let norm = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
+    let mut reach = 0f64;
+    for patch in patches {
+        for fan in std::iter::once(&patch.first).chain(&patch.second) {
+            let spoke =
+                |v: u32| norm(grid.positions[v as usize] - grid.positions[fan.centre as usize]);
+            for pair in fan.ring.windows(2) {
+                reach = reach.max(spoke(pair[0]) + spoke(pair[1]));
+            }
+        }
+    }
+    let (low, high) = bounds
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
+    let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
+    let vertices: usize = patches.iter().map(|patch| encode::tag(patch).vertices()).sum();
+    let closed = if is_closed(&mesh.triangles) { TREE_CLOSED } else { 0 };
+    BvhHeader {
+        flags: closed | if options.single { TREE_SINGLE } else { 0 },
+        grid_exponent: grid.exponent,
+        grid_origin: grid.origin,
+        nodes: 0,
+        leaves: patches.len() as u32,
+        vertices: vertices as u32,
+        triangles: (mesh.triangles.len() + mesh.wires.len()) as u32,
+        stack_entries: (stack_entries + WIDTH) as u32,
+        surface_error: up_to_f32(grid.surface_error),
+        // Spokes are rounded when they are f32.
+        reach: up_to_f32(reach * (1.0 + 1e-6)),
+        low: short(low.floor()),
+        high: short(high.ceil()),
+    }
+}
+
+/// Whether as many triangles run through every edge in one direction as in the other: then the
+/// surface bounds a volume. Wires bound none.
+fn is_closed(triangles: &[[u32; 3]]) -> bool {
+    if triangles.is_empty() {
+        return false;
+    }
+    let mut edges: Vec<(u32, u32, i32)> = triangles
+        .iter()
+        .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+        .map(|(a, b)| if a < b { (a, b, 1) } else { (b, a, -1) })
+        .collect();
+    edges.sort_unstable();
+    edges
+        .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
+        .all(|edge| edge.iter().map(|e| e.2).sum::<i32>() == 0)
+}

@@ -1,0 +1,24 @@
+//! The box tree: triangle fans, an 8-wide tree over them, quantised boxes, and their bytes.
+//!
+//! ```text
+//! mesh ─ store (grid) ─ fan (patches) ─ sah ─ collapse ─ order ─ fit (frames, boxes) ─ encode ─ sections
+//! ```
+//!
+//! Any triangle soup will do: nothing here asks for a closed or manifold mesh.
+
+mod batch;
+mod build;
+mod cones;
+mod encode;
+pub mod fans;
+mod nodes;
+mod source;
+mod store;
+
+pub use batch::closest_points;
+pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
+pub use encode::TreeTables;
+pub use nodes::boxes::{LANES, NodeBoxes, axis_aligned};
+pub use nodes::fit::{axis_aligned_boxes, shared_frames};
+pub use nodes::frame::{FrameOptions, shared_frame, shared_frame_with};
+pub use nodes::order::{Topology, TopologyOptions, WideNode, topology, topology_with};

@@ -1,0 +1,142 @@
+//! What a move would cut off the hull, in floating point: where the planes of a program come from.
+//! Nothing is proved here.
+
+use crate::tight::proof::boxes::Bounds;
+use crate::tight::proof::predicates::Triangle;
+use arrayvec::ArrayVec;
+use glam::DVec3;
+
+/// A plane and the side of it that counts: `normal · p >= offset`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    pub normal: DVec3,
+    pub offset: f64,
+}
+
+impl Plane {
+    #[inline]
+    fn height(&self, p: DVec3) -> f64 {
+        self.normal.dot(p) - self.offset
+    }
+
+    /// Whether a point is on that side.
+    #[inline]
+    pub fn holds(&self, p: DVec3) -> bool {
+        self.normal.dot(p) >= self.offset
+    }
+
+    /// Whether a box has a point on that side.
+    #[inline]
+    pub fn reaches(&self, bounds: &Bounds) -> bool {
+        bounds.support(self.normal) >= self.offset
+    }
+}
+
+/// A tetrahedron between a face and an apex behind it.
+#[derive(Clone, Debug)]
+pub(crate) struct Tetrahedron {
+    planes: ArrayVec<Plane, 4>,
+    corners: [DVec3; 4],
+    bounds: Bounds,
+}
+
+/// Triangles whose corners are nearly on a line have no plane: those with less than this part of
+/// their edges' squares as area.
+const FLAT: f64 = 1e-10;
+
+/// Corners of a triangle that was cut by four planes: each adds at most one.
+type Polygon = ArrayVec<DVec3, 8>;
+
+impl Tetrahedron {
+    /// Of a face's corners and an apex. A side without a plane is left out.
+    pub fn new(face: &Triangle, apex: DVec3) -> Self {
+        let [a, b, c] = *face;
+        let corners = [a, b, c, apex];
+        let mut planes = ArrayVec::new();
+        for (i, &opposite) in corners.iter().enumerate() {
+            let [p, q, r] = [1, 2, 3].map(|k| corners[(i + k) % 4]);
+            let (u, v) = (q - p, r - p);
+            let normal = u.cross(v);
+            let length = normal.length();
+            if length <= FLAT * (u.length_squared() + v.length_squared()) {
+                continue;
+            }
+            let mut normal = normal / length;
+            if normal.dot(opposite - p) < 0.0 {
+                normal = -normal;
+            }
+            planes.push(Plane { normal, offset: normal.dot(p) });
+        }
+        Self { planes, corners, bounds: Bounds::of(&corners) }
+    }
+
+    /// What its points satisfy.
+    pub fn planes(&self) -> &[Plane] {
+        &self.planes
+    }
+
+    /// Its box.
+    pub fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// Whether a box may have a point of it.
+    pub fn may_meet(&self, bounds: &Bounds) -> bool {
+        bounds.meets(&self.bounds) && self.planes.iter().all(|p| p.reaches(bounds))
+    }
+
+    /// Whether a box may have a point that is no farther from it than `distance`.
+    #[inline]
+    pub fn may_come_near(&self, bounds: &Bounds, distance: f64) -> bool {
+        bounds.meets(&self.bounds.grown(distance))
+            && self.planes.iter().all(|p| bounds.support(p.normal) >= p.offset - distance)
+    }
+
+    /// Whether a point is in it.
+    #[inline]
+    pub fn holds(&self, p: DVec3) -> bool {
+        self.planes.iter().all(|plane| plane.holds(p))
+    }
+
+    /// Whether all of a triangle is on the wrong side of a plane, or all of the tetrahedron on one
+    /// side of the triangle.
+    #[inline]
+    fn misses(&self, triangle: &Triangle) -> bool {
+        let [a, b, c] = *triangle;
+        if self.planes.iter().any(|plane| !plane.holds(a) && !plane.holds(b) && !plane.holds(c)) {
+            return true;
+        }
+        let normal = (b - a).cross(c - a);
+        let heights = self.corners.map(|p| normal.dot(p - a));
+        heights.iter().all(|&h| h > 0.0) || heights.iter().all(|&h| h < 0.0)
+    }
+
+    /// Calls `visit` with the corners of the part of a triangle that is in it.
+    #[inline]
+    pub fn clip(&self, triangle: &Triangle, visit: impl FnMut(DVec3)) {
+        if self.misses(triangle) {
+            return;
+        }
+        let mut polygons = [Polygon::new(), Polygon::new()];
+        let [polygon, cut] = &mut polygons;
+        let (mut polygon, mut cut) = (polygon, cut);
+        polygon.extend(*triangle);
+        for plane in &self.planes {
+            cut.clear();
+            let Some(&last) = polygon.last() else { return };
+            let (mut p, mut of_p) = (last, plane.height(last));
+            for &q in polygon.iter() {
+                let of_q = plane.height(q);
+                if (of_p > 0.0 && of_q < 0.0) || (of_p < 0.0 && of_q > 0.0) {
+                    let _ = cut.try_push(p + (q - p) * (of_p / (of_p - of_q)));
+                }
+                if of_q >= 0.0 {
+                    let _ = cut.try_push(q);
+                }
+                (p, of_p) = (q, of_q);
+            }
+            std::mem::swap(&mut polygon, &mut cut);
+        }
+        polygon.iter().copied().for_each(visit);
+    }
+}

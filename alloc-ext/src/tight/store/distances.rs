@@ -1,0 +1,45 @@
+//! Certified distances both ways between a hull and the mesh within.
+
+use crate::hausdorff::{Farthest, Nearest, farthest};
+use crate::mesh::Mesh;
+use crate::tight::proof::surface::Surface;
+use glam::DVec3;
+
+/// How far a hull and the mesh within are from each other, in their unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distances {
+    /// For each face of the hull a distance from the mesh that none of its points exceeds.
+    pub slacks: Vec<f64>,
+    /// The largest distance from a point of the hull to the mesh.
+    pub slack: Farthest,
+    /// The largest distance from a point of the mesh to the hull.
+    pub depth: Farthest,
+}
+
+/// Part of the largest slack to which all are found: finer than what two bytes hold of the large
+/// ones.
+const FINE: f64 = 1.0 / 512.0;
+
+/// Distances of `hull` and `mesh`, which may be any triangles and wires. Cost: see [`farthest`], for each
+/// face of the hull and once for all of the mesh.
+pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
+    let (hull_surface, mesh_surface) = (Surface::new(hull), Surface::new(mesh));
+    let to = |surface: &Surface, p: DVec3| {
+        let (triangle, [lower, upper]) = surface.nearest(p)?;
+        Some(Nearest { lower, upper, triangle: Some(triangle) })
+    };
+    let slack = farthest(corners(hull), 0.0, |p| to(&mesh_surface, p));
+    let enough = slack.lower * FINE;
+    let slacks = corners(hull)
+        .map(|face| {
+            farthest(std::iter::once(face), enough, |p| to(&mesh_surface, p)).upper.min(slack.upper)
+        })
+        .collect();
+    let depth = farthest(corners(mesh), 0.0, |p| to(&hull_surface, p));
+    Distances { slacks, slack, depth }
+}
+
+fn corners(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+    mesh.all_triangles()
+        .map(|corners| corners.map(|v| DVec3::from(mesh.positions[v as usize].map(f64::from))))
+}
