@@ -128,8 +128,7 @@ pub(super) fn claims(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
     }
     edges.sort_unstable();
     let balanced = |edge: &[(u32, u32, i32)]| edge.iter().map(|(_, _, way)| way).sum::<i32>() == 0;
-    let closed = !edges.is_empty()
-        && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced);
+    let closed = !edges.is_empty() && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced);
     if closed == tree.closed {
         Ok(())
     } else {
