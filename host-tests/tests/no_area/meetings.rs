@@ -13,14 +13,17 @@ use std::cmp::Ordering::{Greater, Less};
 
 type Segment = [[f32; 3]; 2];
 
+/// Parts of the size that segments pass points of the input by.
+const OFF: [f64; 5] = [0.0, 0.0, 1e-6, 1e-3, 0.1];
+
 /// Segments through points of the input, past them, along them, of no length.
-fn segments(scene: &Scene, count: usize, seed: u64) -> Vec<Segment> {
+fn segments(scene: &Scene, count: usize, seed: u64, off: &[f64]) -> Vec<Segment> {
     let rng = &mut Rng::new(seed);
     let size = scene.length();
     (0..count)
         .map(|i| {
             let (on, other) = (scene.on(rng), scene.on(rng));
-            let off = [0.0, 0.0, 1e-6, 1e-3, 0.1][i % 5] * size;
+            let off = off[i % off.len()] * size;
             let (aside, way) = (rng.direction(), rng.direction());
             let middle: [f64; 3] = std::array::from_fn(|k| on[k] + off * f64::from(aside[k]));
             let long = [0.5, 3.0, 1e3][i % 3] * size;
@@ -48,7 +51,7 @@ fn no_segment_is_wrongly_clear_and_no_hit_is_wrongly_certain() {
     for scene in scenes() {
         let (tree, mut stack) = (scene.tree(), scene.stack());
         let mut hits = vec![Hit::EMPTY; 4 * scene.corners.len() + 64];
-        for [a, b] in segments(&scene, 140, 21) {
+        for [a, b] in segments(&scene, 140, 21, &OFF) {
             let [from, to] = [a, b].map(|p| p.map(f64::from));
             let truth: Vec<_> =
                 scene.corners.iter().filter_map(|t| first_meeting(from, to, t)).collect();
@@ -95,7 +98,7 @@ fn segments_past_a_wire_are_proved_clear() {
         let scene = Scene::new("wires", &wires(40, 1), kind);
         let (tree, mut stack) = (scene.tree(), scene.stack());
         let (mut clear, mut told) = (0, 0);
-        for [a, b] in segments(&scene, 500, 22) {
+        for [a, b] in segments(&scene, 500, 22, &[0.003, 0.1]) {
             let [from, to] = [a, b].map(|p| p.map(f64::from));
             if scene.corners.iter().all(|t| first_meeting(from, to, t).is_none()) {
                 clear += 1;
@@ -103,8 +106,8 @@ fn segments_past_a_wire_are_proved_clear() {
                 told += usize::from(answer == AnyHit::Clear);
             }
         }
-        // Of those that pass by a millionth of the size many cannot be told.
-        assert!(clear > 200 && told * 10 > clear * 6, "{kind:?}: {told} of {clear}");
+        // Some begin on a wire, or run along one.
+        assert!(clear > 300 && told * 10 > clear * 7, "{kind:?}: {told} of {clear}");
     }
 }
 

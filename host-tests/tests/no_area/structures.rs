@@ -57,7 +57,7 @@ fn tight_hulls_enclose_wires_and_points_and_their_answers_hold() {
     for (name, raw) in inputs().iter().filter(|(name, _)| chosen.contains(name)) {
         for kind in KINDS {
             let scene = Scene::new(name, raw, kind);
-            let bytes = hulls_of(&scene.mesh, scene.moved, 60);
+            let bytes = hulls_of(&scene.mesh, scene.moved, 100);
             let model = Model::open(&bytes).expect("opens");
             let hulls: TightHulls<'_> = model.tight_hulls().expect("has hulls");
             let hull = hulls.get(0).expect("a hull");
