@@ -11,7 +11,9 @@ mod cover;
 mod forest;
 mod groups;
 mod swept;
+mod wires;
 
 pub use build::{BuildError, BuildOptions, BuildReport, Built, build, hull_of};
+pub use wires::wires_off_surface;
 // Paths of before, until their users are moved.
 pub use crate::hausdorff::{Farthest, Nearest, farthest, hull_to_surface, is_within};

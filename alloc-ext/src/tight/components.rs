@@ -7,7 +7,7 @@ use glam::Vec3;
 use rustc_hash::FxHashMap;
 
 /// Splits a mesh into its connected parts, by shared vertices; what lies inside a closed part stays
-/// with it, as cavities do. In the order of their first triangles; `source` refers to what the
+/// with it, as cavities do. In the order of their first triangles; wires are in none. `source` refers to what the
 /// mesh's refers to.
 ///
 /// Cost: n log n, and one test of a point for each part and each closed part whose box holds that
@@ -26,7 +26,7 @@ pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
         loose[*part].push(triangle);
     }
     if loose.len() < 2 {
-        return vec![mesh.clone()];
+        return if loose.is_empty() { Vec::new() } else { vec![mesh.without_wires()] };
     }
     let mut select = Selection::of(mesh);
     let closed: Vec<(usize, Enclosure)> = loose

@@ -11,6 +11,7 @@ use crate::tight::search::faces::{Builder, Done};
 use glam::DVec3;
 use meshsweep_core::num::exp2;
 use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// A hull and what is known of it.
@@ -37,9 +38,8 @@ pub fn wrap(
     wrap_all(mesh, &[], options, on_progress)
 }
 
-/// As [`wrap`], of a mesh and further triangles, by their corners: those without area that
-/// [`repair`](crate::mesh::repair) leaves out, and that are segments or points. They are enclosed
-/// as the mesh is, and have no part in what bounds a volume.
+/// As [`wrap`], of a mesh and further triangles, by their corners. They are enclosed as the mesh and
+/// its [wires](crate::mesh::Wire) are, and, like wires, have no part in what bounds a volume.
 ///
 /// # Errors
 /// [`WrapError`].
@@ -50,6 +50,7 @@ pub fn wrap_all(
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Hull, WrapError> {
     let started = Instant::now();
+    let (mesh, further) = &without_wires(mesh, further);
     if mesh.triangles.is_empty() {
         return Err(WrapError::Empty);
     }
@@ -128,6 +129,24 @@ pub fn wrap_all(
         time: started.elapsed(),
     };
     Ok(Hull { mesh: hull, report })
+}
+
+/// The mesh without wires, and these among the further triangles. Wires alone are the mesh.
+fn without_wires<'m>(
+    mesh: &'m Mesh,
+    further: &[[[f32; 3]; 3]],
+) -> (Cow<'m, Mesh>, Vec<[[f32; 3]; 3]>) {
+    let mut further = further.to_vec();
+    if mesh.wires.is_empty() {
+        (Cow::Borrowed(mesh), further)
+    } else if mesh.triangles.is_empty() {
+        let rounding = mesh.rounding;
+        let alone = Mesh::new(mesh.positions.clone(), mesh.all_triangles().collect());
+        (Cow::Owned(Mesh { rounding, ..alone }), further)
+    } else {
+        further.extend(mesh.wire_corners());
+        (Cow::Owned(mesh.without_wires()), further)
+    }
 }
 
 /// Positions and triangles with further ones, which share the vertices that are at the same place.

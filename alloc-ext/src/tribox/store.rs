@@ -60,7 +60,7 @@ pub fn store(
     let started = Instant::now();
     let error = mesh.rounding + moved;
     let lattice = Lattice::of(mesh, error)?;
-    if mesh.triangles.is_empty() {
+    if mesh.triangles.is_empty() && mesh.wires.is_empty() {
         let scale_exponent = lattice.scale_exponent;
         let (bounds, section) = ([[0.0; 3]; 2], Vec::new());
         let tables = TriboxTables {
@@ -93,7 +93,7 @@ pub fn store(
     let corner = |of: &[f32; 9]| [of[0], of[1], of[2]].map(|x| (f64::from(x) * local) as f32);
     let tables = TriboxTables {
         scale_exponent: lattice.scale_exponent,
-        input_triangles: input_triangles.max(mesh.triangles.len()) as u32,
+        input_triangles: input_triangles.max(mesh.all_triangles().count()) as u32,
         surface_error: up_to_f32(lattice.padding * local),
         bounds: [corner(&whole.low), corner(&whole.high)],
         section: section(&hierarchy, &lattice, &records.collect::<Vec<_>>()),

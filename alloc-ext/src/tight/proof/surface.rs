@@ -9,11 +9,12 @@ use glam::DVec3;
 pub struct Surface(Obstacle);
 
 impl Surface {
-    /// Of a mesh, in its unit. Cost: O(n log n).
+    /// Of a mesh and its wires, in its unit. Cost: O(n log n).
     pub fn new(mesh: &Mesh) -> Self {
         let positions: Vec<DVec3> =
             mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
-        Self(Obstacle::new(&positions, &mesh.triangles))
+        let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
+        Self(Obstacle::new(&positions, &triangles))
     }
 
     /// Corners of the triangle nearest to a point, and bounds of the distance to all; `None` if

@@ -20,7 +20,7 @@ pub struct Distances {
 /// ones.
 const FINE: f64 = 1.0 / 512.0;
 
-/// Distances of `hull` and `mesh`, which may be any triangles. Cost: see [`farthest`], for each
+/// Distances of `hull` and `mesh`, which may be any triangles and wires. Cost: see [`farthest`], for each
 /// face of the hull and once for all of the mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
     let (hull_surface, mesh_surface) = (Surface::new(hull), Surface::new(mesh));
@@ -40,8 +40,6 @@ pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
 }
 
 fn corners(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> + '_ {
-    let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));
-    (0..mesh.triangles.len())
-        .filter_map(|t| mesh.corners(t))
-        .map(move |triangle| triangle.map(wide))
+    mesh.all_triangles()
+        .map(|corners| corners.map(|v| DVec3::from(mesh.positions[v as usize].map(f64::from))))
 }

@@ -98,7 +98,7 @@ impl TightTables {
         let high = bound(f32::max, f32::NEG_INFINITY, up_to_f32);
         TightTables {
             scale_exponent: exponent,
-            input_triangles: input_triangles.max(mesh.triangles.len()) as u32,
+            input_triangles: input_triangles.max(mesh.all_triangles().count()) as u32,
             surface_error: up_to_f32((mesh.rounding + moved) * local),
             bounds: [low, high],
             section: section(hulls),

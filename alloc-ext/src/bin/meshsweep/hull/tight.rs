@@ -4,7 +4,7 @@ use super::super::args::HullArgs;
 use super::super::counted::Counted;
 use super::super::describe::{About, AtLeast, AtMost, Given, Percent};
 use super::super::failure::Failure;
-use super::super::mesh_file::{Loaded, load_all};
+use super::super::mesh_file::{Loaded, load_snapped};
 use super::super::output::Output;
 use super::super::progress::Bar;
 use super::unmet::{Tightness, require_met};
@@ -30,12 +30,13 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         time_limit: args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX)),
         vertex_bits: args.vertex_bits.format(),
     };
-    let (loaded, left_out) = load_all(&args.input, options.vertex_bits)?;
+    let loaded = load_snapped(&args.input, options.vertex_bits)?;
     options.margin = widened(options.margin, &loaded);
     let meshes = if args.parts {
-        share(parts(&loaded.mesh), &left_out)
+        let wires: Vec<[[f32; 3]; 3]> = loaded.mesh.wire_corners().collect();
+        share(parts(&loaded.mesh), &wires)
     } else {
-        vec![(loaded.mesh, left_out)]
+        vec![(loaded.mesh, Vec::new())]
     };
     let mut hulls = Vec::new();
     for (mesh, further) in &meshes {
