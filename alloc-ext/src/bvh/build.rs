@@ -10,6 +10,7 @@ use super::source;
 use super::store::{OnGrid, store};
 use crate::emit::Sections;
 use crate::mesh::{Input, Mesh, Wire};
+use crate::surface::{EdgeTable, ends};
 use glam::DVec3;
 use meshsweep_core::blob::BvhHeader;
 use meshsweep_core::blob::layout::{LINK_BYTES, SectionKind, TREE_CLOSED, TREE_SINGLE, WIDTH};
@@ -176,7 +177,7 @@ fn header(
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = patches.iter().map(|patch| encode::tag(patch).vertices()).sum();
-    let closed = if is_closed(&mesh.triangles) { TREE_CLOSED } else { 0 };
+    let closed = if is_closed(mesh.positions.len(), &mesh.triangles) { TREE_CLOSED } else { 0 };
     BvhHeader {
         flags: closed | if options.single { TREE_SINGLE } else { 0 },
         grid_exponent: grid.exponent,
@@ -196,17 +197,15 @@ fn header(
 
 /// Whether as many triangles run through every edge in one direction as in the other: then the
 /// surface bounds a volume. Wires bound none.
-fn is_closed(triangles: &[[u32; 3]]) -> bool {
+fn is_closed(vertex_count: usize, triangles: &[[u32; 3]]) -> bool {
     if triangles.is_empty() {
         return false;
     }
-    let mut edges: Vec<(u32, u32, i32)> = triangles
-        .iter()
-        .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
-        .map(|(a, b)| if a < b { (a, b, 1) } else { (b, a, -1) })
-        .collect();
-    edges.sort_unstable();
-    edges
-        .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
-        .all(|edge| edge.iter().map(|e| e.2).sum::<i32>() == 0)
+    let is_up = |&&(_, half_edge): &&(u32, u32)| {
+        let [from, to] = ends(triangles, half_edge);
+        from < to
+    };
+    EdgeTable::new(vertex_count, triangles)
+        .edges()
+        .all(|edge| 2 * edge.iter().filter(is_up).count() == edge.len())
 }

@@ -4,6 +4,7 @@ use super::lattice::Lattice;
 use super::level::{Level, box_tree, level};
 use super::split::{Hierarchy, Node, SplitOptions};
 use crate::emit::Sections;
+use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
 use crate::surface::SignedVolume;
 use glam::Vec3;
@@ -14,7 +15,7 @@ use meshsweep_core::blob::layout::{
 use meshsweep_core::blob::{TriboxLevel, TriboxesHeader};
 use meshsweep_core::geom::Aabb;
 use meshsweep_core::num::{Radius16, exp2, up_to_f32};
-use meshsweep_core::tribox::{FACES, TriboxError};
+use meshsweep_core::tribox::FACES;
 use meshsweep_core::{Bvh, Model};
 use std::time::{Duration, Instant};
 
@@ -39,7 +40,7 @@ pub struct TriboxReport {
 ///
 /// # Panics
 /// On a mesh of more than [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
-pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), TriboxError> {
+pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), BuildError> {
     let started = Instant::now();
     let mesh = input.mesh;
     let lattice = Lattice::of(mesh, input.error())?;

@@ -21,7 +21,7 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
     }
     let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
     let cut = meshsweep::cut::cut_blob(&model, &keep)
-        .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
+        .map_err(|error| Failure::Build { file: args.blob.clone(), error })?;
     // A blob that does not open must not be written.
     let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
