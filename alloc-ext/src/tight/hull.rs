@@ -7,7 +7,7 @@ use crate::tight::options::{Goal, Options, Outcome, Progress, Report, WrapError}
 use crate::tight::proof::boxes::Bounds;
 use crate::tight::proof::obstacle::Obstacle;
 use crate::tight::proof::volume::{Solid, crosses_itself};
-use crate::tight::search::faces::{Builder, Done};
+use crate::tight::search::faces::{CandidateHull, HullSearch};
 use glam::DVec3;
 use meshsweep_core::num::exp2;
 use rustc_hash::FxHashMap;
@@ -85,7 +85,7 @@ pub fn wrap_all(
     // it is.
     let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
     let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
-    let mut builder = Builder {
+    let mut builder = HullSearch {
         obstacle: &obstacle,
         volume: solid.ok().map(|solid| solid.volume),
         solid: solid.ok(),
@@ -95,17 +95,18 @@ pub fn wrap_all(
         is_hurried: false,
         on_progress: &mut on_progress,
     };
-    let Done { mut work, start, filled, mut stop } = builder.build(mesh, &stored, &around)?;
-    work.drop_swallowed();
+    let CandidateHull { mut editor, start, filled, mut stop } =
+        builder.build(mesh, &stored, &around)?;
+    editor.drop_enclosed();
     if builder.is_hurried && stop == Outcome::Reached {
         stop = Outcome::OutOfTime;
     }
-    let (at, triangles) = work.shell.compact();
-    let hull_volume = work.shell.volume();
-    let mut slack = slack(&work.shell, &obstacle);
+    let (at, triangles) = editor.shell.compact();
+    let hull_volume = editor.shell.volume();
+    let mut slack = slack(&editor.shell, &obstacle);
     // Every face was bounded by the slack that was asked for, one by one.
     if let Goal::Slack(most) = options.goal
-        && work.reach <= most
+        && editor.reach <= most
     {
         slack.upper = slack.upper.min(most).max(slack.lower);
     }
@@ -119,12 +120,12 @@ pub fn wrap_all(
         crosses,
         slack,
         start,
-        filled: filled + work.swallowed,
+        filled: filled + editor.enclosed,
         stop,
-        stars: work.placer.stars,
-        programs: work.placer.programs,
-        proofs: work.proofs,
-        refused: work.refused,
+        stars: editor.placer.stars,
+        programs: editor.placer.programs,
+        proofs: editor.proofs,
+        refused: editor.refused,
         time: started.elapsed(),
     };
     Ok(Hull { mesh: hull, report })

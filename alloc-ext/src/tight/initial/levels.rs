@@ -22,7 +22,7 @@ use meshsweep_core::num::exp2;
 use std::time::Instant;
 
 /// A hull to start from.
-pub(crate) struct First {
+pub(crate) struct InitialHull {
     pub shell: Shell,
     pub start: Start,
     /// Parts dropped.
@@ -31,7 +31,7 @@ pub(crate) struct First {
 
 /// Where first hulls are looked for, and until when.
 #[derive(Clone, Copy)]
-pub(crate) struct Place<'a> {
+pub(crate) struct InitialInput<'a> {
     /// Frame and grid.
     pub stored: &'a Stored,
     pub obstacle: &'a Obstacle,
@@ -56,16 +56,16 @@ const LEAST_FACES: usize = 40;
 #[derive(Default)]
 pub(crate) struct Levels {
     /// The first of [`LEVELS`] that proves to be one: the choice where the mesh is round.
-    pub plenty: Option<First>,
+    pub plenty: Option<InitialHull>,
     /// The level with the wanted faces, if it proves to be one: the choice where that is the solid
     /// itself, as it may be on blocks with few flat faces.
-    pub wanted: Option<First>,
+    pub wanted: Option<InitialHull>,
 }
 
 /// The levels of the progressive hull that are hulls to start from, if they are found before the
 /// deadline.
-pub(crate) fn first_levels(
-    &Place { stored, obstacle, rounding, deadline }: &Place<'_>,
+pub(crate) fn lifted_levels(
+    &InitialInput { stored, obstacle, rounding, deadline }: &InitialInput<'_>,
     mesh: &Mesh,
     wanted: usize,
     on_progress: &mut dyn FnMut(Progress),
@@ -83,7 +83,7 @@ pub(crate) fn first_levels(
             lift(&mut shell, &rounding, obstacle.margin());
             let (shell, filled) = keep_outermost(shell);
             let start = Start::Progressive { faces };
-            defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+            defects(&shell, obstacle).is_empty().then_some(InitialHull { shell, start, filled })
         };
         let tried = if thins { &LEVELS[..1] } else { &LEVELS };
         Levels { wanted: first(None), plenty: tried.iter().find_map(|&level| first(Some(level))) }
@@ -95,13 +95,13 @@ pub(crate) fn first_levels(
 
 /// The closure of the mesh from a grid of so many cubes, or the first of its progressive hull's
 /// levels that does not meet itself, if it is found before the deadline.
-pub(crate) fn first_closure(
-    &Place { stored, obstacle, rounding, deadline }: &Place<'_>,
+pub(crate) fn closure_hull(
+    &InitialInput { stored, obstacle, rounding, deadline }: &InitialInput<'_>,
     cells: usize,
     wanted: usize,
     conditions: Conditions,
     on_progress: &mut dyn FnMut(Progress),
-) -> Option<First> {
+) -> Option<InitialHull> {
     let mut closure = closure(obstacle, cells, deadline)?;
     if obstacle.margin() > 0.0 {
         closure.positions =
@@ -116,7 +116,7 @@ pub(crate) fn first_closure(
     let from = Surface { positions: &positions, triangles: &closure.triangles, stored, conditions };
     let hull = |(positions, triangles): Faces| {
         let (shell, filled) = keep_outermost(Shell::new(positions, &triangles));
-        defects(&shell, obstacle).is_empty().then_some(First { shell, start, filled })
+        defects(&shell, obstacle).is_empty().then_some(InitialHull { shell, start, filled })
     };
     // In narrow places levels grow into each other.
     for thins in if from.is_thinned(wanted) { &[true, false][..] } else { &[false] } {
@@ -138,7 +138,7 @@ pub(crate) fn first_closure(
 }
 
 /// The mesh's box, a few steps of the grid larger.
-pub(crate) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<First> {
+pub(crate) fn grown_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<InitialHull> {
     let bounds = obstacle.bounds().grown(obstacle.margin());
     let size = bounds.low.abs().max(bounds.high.abs()).max_element();
     LIFTS.into_iter().find_map(|lift| {
@@ -153,7 +153,7 @@ pub(crate) fn first_box(obstacle: &Obstacle, rounding: &Rounding) -> Option<Firs
         let triangles: Vec<[u32; 3]> =
             quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
         let shell = Shell::new((0..8).map(corner).collect(), &triangles);
-        defects(&shell, obstacle).is_empty().then_some(First {
+        defects(&shell, obstacle).is_empty().then_some(InitialHull {
             shell,
             start: Start::Box,
             filled: 0,
@@ -469,7 +469,7 @@ pub(crate) fn defects(shell: &Shell, obstacle: &Obstacle) -> Defects {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tight::moves::kick::Dice;
+    use crate::tight::moves::kick::SplitMix;
 
     /// Tetrahedra at the points of a lattice, every third with another in it, and every sixth with
     /// one in that.
@@ -483,7 +483,7 @@ mod tests {
                 [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3u32]].map(|t| t.map(|v| v + first)),
             );
         };
-        let mut dice = Dice::new(3);
+        let mut dice = SplitMix::new(3);
         let mut within = 0;
         for n in 0..side.pow(3) {
             let at = [n % side, n / side % side, n / side / side].map(|x| 2.0 * x as f64);

@@ -23,7 +23,7 @@
 //! every edge is exact in single precision.
 
 use crate::precision::split_exponent;
-use crate::tight::initial::voxels_met::{Block, visit_met};
+use crate::tight::initial::voxels_met::{Block, visit_voxels};
 use crate::tight::proof::boxes::Bounds;
 use crate::tight::proof::obstacle::Obstacle;
 use crate::tight::proof::predicates::Triangle;
@@ -34,7 +34,7 @@ use std::time::Instant;
 
 /// A surface around triangles, and the grid that it came from.
 #[derive(Clone, Debug)]
-pub(crate) struct Closure {
+pub(crate) struct VoxelClosure {
     pub positions: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
     /// Edge of a cube.
@@ -60,7 +60,7 @@ pub(crate) fn closure(
     obstacle: &Obstacle,
     cells: usize,
     deadline: Option<Instant>,
-) -> Option<Closure> {
+) -> Option<VoxelClosure> {
     let bounds = obstacle.bounds().grown(obstacle.margin());
     let extent = (bounds.high - bounds.low).max_element();
     let farthest = bounds.low.abs().max(bounds.high.abs()).max_element();
@@ -90,7 +90,7 @@ pub(crate) fn closure(
         Some(level) => crossing(obstacle, level, inner, outer),
         None => (inner + outer) * 0.5,
     });
-    Some(Closure {
+    Some(VoxelClosure {
         positions,
         triangles,
         cell,
@@ -155,7 +155,7 @@ impl Grid {
                 .map(|(p, more)| ((p / self.cell).floor().as_i64vec3() + more).to_array());
             let at = |axis: usize, x: i64| (x - self.first[axis]).clamp(0, self.corners[axis] - 2);
             let around = [0, 1, 2].map(|axis| [at(axis, low[axis]), at(axis, high[axis])]);
-            visit_met(
+            visit_voxels(
                 triangle,
                 around,
                 |block| self.grown(block),
@@ -339,7 +339,7 @@ mod tests {
         Obstacle::new(&corners, &numbers)
     }
 
-    fn volume(surface: &Closure) -> f64 {
+    fn volume(surface: &VoxelClosure) -> f64 {
         let at = |v: u32| surface.positions[v as usize];
         surface.triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
     }

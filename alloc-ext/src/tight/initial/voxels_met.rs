@@ -15,7 +15,7 @@ pub(crate) type Block = [[i64; 2]; 3];
 
 /// Calls `visit` with every cube of a block that a triangle meets, and no others but for rounding.
 /// `grown` is the box of a block, larger than it is by more than rounding.
-pub(crate) fn visit_met(
+pub(crate) fn visit_voxels(
     triangle: &Triangle,
     of: Block,
     grown: impl Fn(Block) -> Bounds,
@@ -103,7 +103,7 @@ impl Sheet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tight::moves::kick::Dice;
+    use crate::tight::moves::kick::SplitMix;
 
     /// Unit cubes.
     fn grown(block: Block) -> Bounds {
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn cubes_are_met_if_what_is_cut_of_the_triangle_at_their_planes_is_not_empty() {
-        let mut dice = Dice::new(11);
+        let mut dice = SplitMix::new(11);
         let mut counts = [0; 2];
         for kind in 0..60 {
             let mut point = || {
@@ -147,7 +147,7 @@ mod tests {
             };
             let triangle = [point(), point(), point()];
             let mut found = Vec::new();
-            visit_met(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
+            visit_voxels(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
             found.sort_unstable();
             for cube in (0..22i64.pow(3)).map(|n| [n % 22 - 11, n / 22 % 22 - 11, n / 484 - 11]) {
                 let is_found = found.binary_search(&cube).is_ok();
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn halving_leaves_out_no_cube_that_is_met() {
-        let mut dice = Dice::new(7);
+        let mut dice = SplitMix::new(7);
         for size in [1e-9, 0.5, 3.0, 20.0] {
             for kind in 0..3 {
                 let mut point = || {
@@ -186,7 +186,7 @@ mod tests {
                     }
                 }
                 let mut found = Vec::new();
-                visit_met(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
+                visit_voxels(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
                 found.sort_unstable();
                 wanted.sort_unstable();
                 assert!(!wanted.is_empty() && found == wanted, "{triangle:?}");

@@ -1,8 +1,8 @@
 //! Edge collapses, cheapest first, each placed against the original mesh.
 
-use crate::tight::moves::editor::Work;
+use crate::tight::moves::editor::HullEditor;
 use crate::tight::moves::memo::{Key, Question};
-use crate::tight::moves::placement::{StarFace, Wish};
+use crate::tight::moves::placement::{PlacementObjective, StarFace};
 use crate::tight::moves::vertex::CLEARANCES;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -10,14 +10,14 @@ use std::collections::BinaryHeap;
 
 /// A collapse that is worth trying.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Candidate {
+pub(crate) struct EdgeMove {
     pub cost: f64,
     pub ends: [u32; 2],
     pub time: u32,
     pub position: DVec3,
 }
 
-impl Ord for Candidate {
+impl Ord for EdgeMove {
     /// The cheapest is the greatest; the ends decide between equals, so that the order is one.
     fn cmp(&self, other: &Self) -> Ordering {
         other
@@ -27,17 +27,17 @@ impl Ord for Candidate {
             .then(self.time.cmp(&other.time))
     }
 }
-impl PartialOrd for Candidate {
+impl PartialOrd for EdgeMove {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl PartialEq for Candidate {
+impl PartialEq for EdgeMove {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
-impl Eq for Candidate {}
+impl Eq for EdgeMove {}
 
 /// Weight of the second term of a collapse's program; a collapse may turn faces more than a vertex
 /// move.
@@ -47,7 +47,7 @@ const PULL: f64 = 0.05;
 /// staying in the middle of the star more.
 const STRONGER_PULLS: [f64; 2] = [1.0, 100.0];
 
-impl Work<'_> {
+impl HullEditor<'_> {
     /// Collapses until at most `target` faces are left, or no collapse is legal or the time is up:
     /// then false.
     pub fn decimate(&mut self, target: usize, mut on_progress: impl FnMut(usize)) -> bool {
@@ -71,7 +71,7 @@ impl Work<'_> {
                 }
                 continue;
             };
-            let Candidate { ends: [a, b], time, position, .. } = candidate;
+            let EdgeMove { ends: [a, b], time, position, .. } = candidate;
             if !self.shell.mesh.neighbours(a).any(|v| v == b) {
                 continue;
             }
@@ -96,7 +96,7 @@ impl Work<'_> {
     }
 
     /// What an edge's collapse would cost; `None` if it is not legal.
-    pub(crate) fn evaluate(&mut self, a: u32, b: u32, time: u32) -> Option<Candidate> {
+    pub(crate) fn evaluate(&mut self, a: u32, b: u32, time: u32) -> Option<EdgeMove> {
         let star = self.edge_star(a, b)?;
         let key = Key::new(Question::Collapse, self.salt(), &star);
         let answer = match self.memo.get(key) {
@@ -110,7 +110,7 @@ impl Work<'_> {
             }
         };
         self.star = star;
-        answer.map(|(position, cost)| Candidate { cost, ends: [a, b], time, position })
+        answer.map(|(position, cost)| EdgeMove { cost, ends: [a, b], time, position })
     }
 
     fn edge_star(&mut self, a: u32, b: u32) -> Option<Vec<StarFace>> {
@@ -139,7 +139,7 @@ impl Work<'_> {
     ) -> Option<DVec3> {
         let centre = (self.shell.position(a) + self.shell.position(b)) * 0.5;
         let (clearance, upright) = (self.clearance(star, steps), self.shape.upright);
-        let wish = Wish { second_term, tilt: DVec3::ZERO, upright, clearance };
+        let wish = PlacementObjective { second_term, tilt: DVec3::ZERO, upright, clearance };
         let x = self.placer.place(self.obstacle, star, centre, &wish)?;
         let x = self.rounding.round(x)?;
         self.is_shapely(star, x).then_some(x)
@@ -153,12 +153,12 @@ impl Work<'_> {
         steps: f64,
         x: DVec3,
     ) -> Option<DVec3> {
-        if self.is_star_in_reach(star, x) {
+        if self.is_star_within_limit(star, x) {
             return Some(x);
         }
         for pull in STRONGER_PULLS {
             let nearer = self.place_collapse(star, ends, steps, pull);
-            if let Some(nearer) = nearer.filter(|&x| self.is_star_in_reach(star, x)) {
+            if let Some(nearer) = nearer.filter(|&x| self.is_star_within_limit(star, x)) {
                 return Some(nearer);
             }
         }

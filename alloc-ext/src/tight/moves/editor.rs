@@ -9,7 +9,7 @@
 //! whole, so that its witness decides. The number of times that the surface winds around the
 //! witness changes only if it lies in one of the tetrahedra between old faces and the new vertex,
 //! and falls only for one that is cut off. Where it rises, the new hull encloses a part of itself,
-//! which is [dropped](Work::drop_swallowed) at the end of each stage.
+//! which is [dropped](Work::drop_enclosed) at the end of each stage.
 
 use crate::tight::initial::levels::keep_outermost;
 use crate::tight::moves::memo::{GOLDEN, Memo};
@@ -17,7 +17,7 @@ use crate::tight::moves::placement::{Placer, StarFace};
 use crate::tight::moves::rounding::Rounding;
 use crate::tight::moves::shell::Shell;
 use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::distance_field::Field;
+use crate::tight::proof::distance_field::DistanceField;
 use crate::tight::proof::obstacle::Obstacle;
 use crate::tight::proof::predicates::{Face, Triangle, are_apart, is_degenerate};
 use glam::DVec3;
@@ -44,7 +44,7 @@ const KEPT_COMPACTNESS: f64 = 0.8;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub(crate) struct Work<'a> {
+pub(crate) struct HullEditor<'a> {
     pub obstacle: &'a Obstacle,
     pub shell: Shell,
     pub placer: Placer,
@@ -63,12 +63,12 @@ pub(crate) struct Work<'a> {
     pub star: Vec<StarFace>,
     pub dead: Vec<u32>,
     pub memo: Memo,
-    /// Parts that [`drop_swallowed`](Self::drop_swallowed) dropped.
-    pub swallowed: usize,
+    /// Parts that [`drop_enclosed`](Self::drop_enclosed) dropped.
+    pub enclosed: usize,
     /// Distance from the mesh that no point of a new face exceeds.
     pub reach: f64,
     /// What is known of distances.
-    pub field: Field,
+    pub field: DistanceField,
     /// Where vertices may go.
     room: Bounds,
 }
@@ -79,7 +79,7 @@ fn room(obstacle: &Obstacle) -> Bounds {
     bounds.grown((bounds.high - bounds.low).max_element() + 2.0 * obstacle.margin())
 }
 
-impl<'a> Work<'a> {
+impl<'a> HullEditor<'a> {
     pub fn new(obstacle: &'a Obstacle, shell: Shell, rounding: Rounding, shape: Shape) -> Self {
         Self {
             obstacle,
@@ -95,9 +95,9 @@ impl<'a> Work<'a> {
             star: Vec::new(),
             dead: Vec::new(),
             memo: Memo::default(),
-            swallowed: 0,
+            enclosed: 0,
             reach: f64::INFINITY,
-            field: Field::new(f64::INFINITY),
+            field: DistanceField::new(f64::INFINITY),
             room: room(obstacle),
         }
     }
@@ -105,10 +105,10 @@ impl<'a> Work<'a> {
     /// Drops parts of the hull that have come to lie inside of another. No move lets the mesh out,
     /// but an outward one may sweep over all of a smaller part of the hull; its faces would
     /// then be taken for an outside that they are not.
-    pub fn drop_swallowed(&mut self) {
-        let (shell, swallowed) = keep_outermost(self.shell.clone());
-        if swallowed > 0 {
-            (self.shell, self.swallowed) = (shell, self.swallowed + swallowed);
+    pub fn drop_enclosed(&mut self) {
+        let (shell, enclosed) = keep_outermost(self.shell.clone());
+        if enclosed > 0 {
+            (self.shell, self.enclosed) = (shell, self.enclosed + enclosed);
         }
     }
 

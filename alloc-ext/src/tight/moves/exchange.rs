@@ -1,24 +1,28 @@
 //! Splits, and exchanges: a split where the hull is loose for a collapse where it is not.
 
-use crate::tight::moves::collapse::Candidate;
-use crate::tight::moves::editor::Work;
+use crate::tight::moves::collapse::EdgeMove;
+use crate::tight::moves::editor::HullEditor;
 use crate::tight::moves::flip::LEAST_GAIN;
 use crate::tight::moves::memo::{Key, Question};
-use crate::tight::moves::placement::{StarFace, Wish};
+use crate::tight::moves::placement::{PlacementObjective, StarFace};
 use crate::tight::moves::vertex::CLEARANCES;
 use glam::DVec3;
 
 /// As a collapse: new faces may stand steeply on the old ones.
-const SPLIT: Wish =
-    Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.05), clearance: 0.0 };
+const SPLIT: PlacementObjective = PlacementObjective {
+    second_term: 0.05,
+    tilt: DVec3::ZERO,
+    upright: Some(0.05),
+    clearance: 0.0,
+};
 
 /// A split is tried for a collapse if it gains this part of what that costs: the vertices around
 /// both settle afterwards and gain more.
 const HOPE: f64 = 0.5;
 
-impl Work<'_> {
+impl HullEditor<'_> {
     /// What splitting an edge would cost: less than nothing.
-    pub(crate) fn evaluate_split(&mut self, a: u32, b: u32) -> Option<Candidate> {
+    pub(crate) fn evaluate_split(&mut self, a: u32, b: u32) -> Option<EdgeMove> {
         let wings = self.shell.mesh.wings(a, b)?;
         let [c, d] = wings.apexes;
         if [c, d].into_iter().any(|v| self.shell.mesh.at(v).len() >= self.shape.max_valence) {
@@ -36,7 +40,8 @@ impl Work<'_> {
         let answer = match self.memo.get(key) {
             Some(answer) => answer,
             None => {
-                let wish = Wish { clearance: self.clearance(&star, CLEARANCES[0]), ..SPLIT };
+                let wish =
+                    PlacementObjective { clearance: self.clearance(&star, CLEARANCES[0]), ..SPLIT };
                 let placed = self.placer.place(self.obstacle, &star, middle, &wish);
                 let placed = placed.and_then(|x| self.rounding.round(x));
                 let placed = placed.filter(|&x| self.is_shapely(&star, x));
@@ -47,11 +52,11 @@ impl Work<'_> {
             }
         };
         self.star = star;
-        answer.map(|(position, cost)| Candidate { cost, ends: [a, b], time: 0, position })
+        answer.map(|(position, cost)| EdgeMove { cost, ends: [a, b], time: 0, position })
     }
 
     /// Splits an edge, if that can be proved; the new vertex.
-    pub(crate) fn split(&mut self, split: &Candidate) -> Option<u32> {
+    pub(crate) fn split(&mut self, split: &EdgeMove) -> Option<u32> {
         let [a, b] = split.ends;
         let x = split.position;
         let wings = self.shell.mesh.wings(a, b)?;
@@ -61,7 +66,7 @@ impl Work<'_> {
         let new = [[v, c, a], [v, b, c], [v, d, b], [v, a, d]]
             .map(|ids| crate::tight::proof::predicates::Face { ids, at: ids.map(at) });
         let bases = wings.triangles.map(|f| self.shell.triangle(f));
-        if !new.iter().all(|face| self.is_in_reach(&face.at))
+        if !new.iter().all(|face| self.is_within_limit(&face.at))
             || !self.admits(&new, &wings.triangles, &bases, x)
         {
             return None;
@@ -156,7 +161,7 @@ impl Work<'_> {
         kept
     }
 
-    fn swap(&mut self, split: &Candidate, collapse: &Candidate, around_split: &[u32]) -> bool {
+    fn swap(&mut self, split: &EdgeMove, collapse: &EdgeMove, around_split: &[u32]) -> bool {
         let [a, b] = collapse.ends;
         if !self.collapse(a, b, collapse.position) {
             return false;

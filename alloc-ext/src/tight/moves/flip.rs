@@ -1,6 +1,6 @@
 //! Edge flips.
 
-use crate::tight::moves::editor::{Work, compactness};
+use crate::tight::moves::editor::{HullEditor, compactness};
 use crate::tight::moves::memo::{Key, Question};
 use crate::tight::moves::placement::StarFace;
 use crate::tight::proof::predicates::{Face, side};
@@ -12,7 +12,7 @@ const KEPT: f64 = 0.7;
 /// Part of the hull's volume that a change has to gain: more than the rounding of its sum.
 pub(crate) const LEAST_GAIN: f64 = 1e-9;
 
-impl Work<'_> {
+impl HullEditor<'_> {
     /// Flips every convex edge whose flip cuts off a tetrahedron without mesh; how many.
     pub fn flip_all(&mut self) -> usize {
         self.shell.edges().into_iter().filter(|&[a, b]| self.flip_inward(a, b)).count()
@@ -101,7 +101,7 @@ impl Work<'_> {
         if self.memo.get(key).is_some() {
             return false;
         }
-        if !new.iter().all(|f| self.is_in_reach(&f.at)) {
+        if !new.iter().all(|f| self.is_within_limit(&f.at)) {
             self.memo.put(key, None);
             return false;
         }

@@ -1,15 +1,15 @@
 //! Perturb and settle again: what a hull of a given number of faces can still lose.
 
-use crate::tight::moves::editor::Work;
-use crate::tight::moves::placement::Wish;
+use crate::tight::moves::editor::HullEditor;
+use crate::tight::moves::placement::PlacementObjective;
 use crate::tight::moves::vertex::GAIN;
 use glam::DVec3;
 
 /// Chance without chance: the same numbers in every run (Steele, Lea & Flood 2014, SplitMix64).
 #[derive(Clone, Debug)]
-pub(crate) struct Dice(u64);
+pub(crate) struct SplitMix(u64);
 
-impl Dice {
+impl SplitMix {
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -32,7 +32,7 @@ impl Dice {
 /// How far polishing goes: a number of stars, so that the result does not depend on the machine.
 #[derive(Clone, Debug)]
 pub(crate) struct Polish {
-    dice: Dice,
+    dice: SplitMix,
     from: u64,
     until: u64,
 }
@@ -56,30 +56,35 @@ const STRENGTH: f64 = 1.5;
 const FLIP_ROUNDS: usize = 3;
 
 impl Polish {
-    pub fn new(work: &Work<'_>, effort: f64) -> Self {
-        let stars = (STARS + STARS_PER_FACE * work.shell.face_count() as f64) * effort.max(0.0);
-        let from = work.placer.stars;
-        Self { dice: Dice::new(1), from, until: from.saturating_add(stars as u64) }
+    pub fn new(editor: &HullEditor<'_>, effort: f64) -> Self {
+        let stars = (STARS + STARS_PER_FACE * editor.shell.face_count() as f64) * effort.max(0.0);
+        let from = editor.placer.stars;
+        Self { dice: SplitMix::new(1), from, until: from.saturating_add(stars as u64) }
     }
 
     /// Exchanges, flips and kicks in rounds until the stars are used up, the time is, or nothing is
     /// gained. `volume` is what no hull gets below.
-    pub fn run(&mut self, work: &mut Work<'_>, volume: f64, mut on_progress: impl FnMut(u64, u64)) {
-        work.limit = Some(self.until);
-        work.relax(volume, 2e-3, 30);
-        let mut past = vec![work.shell.volume()];
+    pub fn run(
+        &mut self,
+        editor: &mut HullEditor<'_>,
+        volume: f64,
+        mut on_progress: impl FnMut(u64, u64),
+    ) {
+        editor.limit = Some(self.until);
+        editor.relax(volume, 2e-3, 30);
+        let mut past = vec![editor.shell.volume()];
         let mut round = 0;
-        while !work.is_spent() {
-            work.exchange((work.shell.face_count() / 10).clamp(8, 60));
-            work.flip_all();
+        while !editor.is_spent() {
+            editor.exchange((editor.shell.face_count() / 10).clamp(8, 60));
+            editor.flip_all();
             if round % FLIP_ROUNDS == 0 {
-                work.flip_search();
+                editor.flip_search();
             }
-            work.kick_all(&mut self.dice, STRENGTH);
-            work.flip_all();
+            editor.kick_all(&mut self.dice, STRENGTH);
+            editor.flip_all();
             round += 1;
-            on_progress(work.placer.stars.min(self.until) - self.from, self.until - self.from);
-            past.push(work.shell.volume());
+            on_progress(editor.placer.stars.min(self.until) - self.from, self.until - self.from);
+            past.push(editor.shell.volume());
             if let [.., before, _, _, now] = past[..]
                 && round >= IDLE_ROUNDS
                 && before - now <= TOO_LITTLE * (now - volume)
@@ -87,11 +92,11 @@ impl Polish {
                 break;
             }
         }
-        work.limit = None;
+        editor.limit = None;
     }
 }
 
-impl Work<'_> {
+impl HullEditor<'_> {
     /// Sweeps and flips until a round gains less than `least` of the void.
     pub fn relax(&mut self, volume: f64, least: f64, rounds: usize) {
         for _ in 0..rounds {
@@ -107,7 +112,7 @@ impl Work<'_> {
 
     /// Pulls every vertex once in a random direction and lets it and its neighbours settle; keeps
     /// what loses volume. How many did.
-    pub fn kick_all(&mut self, dice: &mut Dice, strength: f64) -> usize {
+    pub fn kick_all(&mut self, dice: &mut SplitMix, strength: f64) -> usize {
         let mut kept = 0;
         for v in 0..self.shell.vertex_slots() {
             if self.is_spent() {
@@ -120,11 +125,11 @@ impl Work<'_> {
         kept
     }
 
-    fn kick(&mut self, v: u32, dice: &mut Dice, strength: f64) -> bool {
+    fn kick(&mut self, v: u32, dice: &mut SplitMix, strength: f64) -> bool {
         let mut around: Vec<u32> = self.shell.mesh.neighbours(v).collect();
         around.push(v);
         let before: Vec<DVec3> = around.iter().map(|&u| self.shell.position(u)).collect();
-        let wish = Wish {
+        let wish = PlacementObjective {
             second_term: 0.3,
             tilt: dice.direction() * strength,
             upright: Some(0.1),

@@ -15,7 +15,7 @@ use crate::lp::HalfSpace;
 use crate::tight::moves::placement::{Frame, StarFace};
 use crate::tight::proof::boxes::Bounds;
 use crate::tight::proof::cells::Frontier;
-use crate::tight::proof::distance::{Nearest, Reach};
+use crate::tight::proof::distance::{Clearance, Nearest};
 use crate::tight::proof::obstacle::Obstacle;
 use crate::tight::proof::predicates::Triangle;
 use crate::tight::proof::region::{Plane, Tetrahedron};
@@ -123,7 +123,7 @@ impl<'a> Sweep<'a> {
 
     /// The plane for the nearest triangle beside the face, once nothing is cut off.
     pub fn beside(&self, near: &Frontier) -> Option<HalfSpace> {
-        let reach = Reach::new(self.obstacle.margin() + HALF * self.clearance);
+        let reach = Clearance::new(self.obstacle.margin() + HALF * self.clearance);
         let bounds = Bounds::of(&self.face);
         self.obstacle.visit_triangles(
             near,

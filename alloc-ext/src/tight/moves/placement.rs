@@ -46,7 +46,7 @@ impl StarFace {
 
 /// What is asked of a placement beside least volume.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wish {
+pub(crate) struct PlacementObjective {
     /// Weight of the second term, which keeps the vertex near the star's centre.
     pub second_term: f64,
     /// Added to the direction of least volume, as a part of its length.
@@ -85,7 +85,7 @@ impl Placer {
         obstacle: &Obstacle,
         star: &[StarFace],
         centre: DVec3,
-        wish: &Wish,
+        wish: &PlacementObjective,
     ) -> Option<DVec3> {
         self.stars += 1;
         let radius_sq = star.iter().flat_map(|f| f.corners).map(|p| (p - centre).length_squared());
@@ -126,7 +126,12 @@ impl Placer {
     }
 
     /// Sets up the constraints that do not depend on the mesh; the objective.
-    fn open(&mut self, star: &[StarFace], frame: &Frame, wish: &Wish) -> Option<DVec3> {
+    fn open(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        wish: &PlacementObjective,
+    ) -> Option<DVec3> {
         self.fixed.clear();
         self.pushes.clear();
         self.cuts.clear();

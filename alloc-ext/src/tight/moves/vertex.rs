@@ -1,8 +1,8 @@
 //! Vertex moves.
 
-use crate::tight::moves::editor::Work;
+use crate::tight::moves::editor::HullEditor;
 use crate::tight::moves::memo::{Key, Question};
-use crate::tight::moves::placement::Wish;
+use crate::tight::moves::placement::PlacementObjective;
 use glam::DVec3;
 
 /// Half-steps of the grid kept from planes, by attempt: rounding moves a vertex by less than two,
@@ -16,10 +16,10 @@ pub(crate) const GAIN: f64 = 1e-6;
 
 /// A plain vertex move: a pull strong enough to slide along planes, weak enough to stay near the
 /// star.
-pub(crate) const SETTLE: Wish =
-    Wish { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.1), clearance: 0.0 };
+pub(crate) const SETTLE: PlacementObjective =
+    PlacementObjective { second_term: 0.05, tilt: DVec3::ZERO, upright: Some(0.1), clearance: 0.0 };
 
-impl Work<'_> {
+impl HullEditor<'_> {
     /// Moves a vertex to where the volume is least; what is gained.
     pub fn settle(&mut self, v: u32) -> Option<f64> {
         let from = self.shell.position(v);
@@ -39,13 +39,13 @@ impl Work<'_> {
 
     /// Moves a vertex where `wish` wants it, whether the volume falls or not; the volume gained,
     /// which may be negative.
-    pub fn disturb(&mut self, v: u32, wish: &Wish) -> Option<f64> {
+    pub fn disturb(&mut self, v: u32, wish: &PlacementObjective) -> Option<f64> {
         self.take_star(v);
         self.propose(v, self.shell.position(v), wish, |_| true)
     }
 
     /// Moves a vertex as `wish` wants it, which is about `centre`; whether it did.
-    pub fn move_to(&mut self, v: u32, centre: DVec3, wish: &Wish) -> bool {
+    pub fn move_to(&mut self, v: u32, centre: DVec3, wish: &PlacementObjective) -> bool {
         self.take_star(v);
         self.propose(v, centre, wish, |_| true).is_some()
     }
@@ -66,18 +66,18 @@ impl Work<'_> {
         &mut self,
         v: u32,
         centre: DVec3,
-        wish: &Wish,
+        wish: &PlacementObjective,
         wanted: impl Fn(f64) -> bool,
     ) -> Option<f64> {
         let star = std::mem::take(&mut self.star);
         let mut outcome = None;
         for steps in CLEARANCES {
             let clearance = self.clearance(&star, steps);
-            let wish = Wish { clearance, ..*wish };
+            let wish = PlacementObjective { clearance, ..*wish };
             let placed = self.placer.place(self.obstacle, &star, centre, &wish);
             let Some(x) = placed.and_then(|x| self.rounding.round(x)) else { break };
             let gain = -star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0;
-            if !wanted(gain) || !self.is_shapely(&star, x) || !self.is_star_in_reach(&star, x) {
+            if !wanted(gain) || !self.is_shapely(&star, x) || !self.is_star_within_limit(&star, x) {
                 break;
             }
             if self.admits_vertex(v, x) {

@@ -1,17 +1,17 @@
 //! How far a hull is from the mesh, and moves that bring it nearer.
 //!
 //! Least volume alone lets a thin spike stand: it costs next to nothing. Where a slack is asked
-//! for, every move keeps the faces that it makes within [`Work::reach`] of the mesh, and a hull
+//! for, every move keeps the faces that it makes within [`HullEditor::reach`] of the mesh, and a hull
 //! that is farther is first brought there: the worst face's corners are pulled towards the mesh,
 //! its edges are collapsed, flipped and split, each time to where the worst of the new faces is
 //! nearer than the worst of the old.
 
 use crate::hull::{Farthest, Nearest, farthest, is_within};
-use crate::tight::moves::collapse::Candidate;
-use crate::tight::moves::editor::Work;
-use crate::tight::moves::placement::{StarFace, Wish};
+use crate::tight::moves::collapse::EdgeMove;
+use crate::tight::moves::editor::HullEditor;
+use crate::tight::moves::placement::{PlacementObjective, StarFace};
 use crate::tight::moves::shell::Shell;
-use crate::tight::proof::distance_field::Field;
+use crate::tight::proof::distance_field::DistanceField;
 use crate::tight::proof::obstacle::Obstacle;
 use crate::tight::proof::predicates::Triangle;
 use glam::DVec3;
@@ -47,12 +47,12 @@ const SPLIT: usize = 2;
 const SPLIT_BESIDES: usize = 500;
 
 /// Pulls a vertex to a place, whatever volume that costs.
-const PULL: Wish =
-    Wish { second_term: 1e3, tilt: DVec3::ZERO, upright: Some(0.01), clearance: 0.0 };
+const PULL: PlacementObjective =
+    PlacementObjective { second_term: 1e3, tilt: DVec3::ZERO, upright: Some(0.01), clearance: 0.0 };
 
-impl Work<'_> {
+impl HullEditor<'_> {
     /// Whether no point of a face is farther from the mesh than [`reach`](Self::reach).
-    pub fn is_in_reach(&mut self, face: &Triangle) -> bool {
+    pub fn is_within_limit(&mut self, face: &Triangle) -> bool {
         let obstacle = self.obstacle;
         self.reach == f64::INFINITY
             || is_within(
@@ -65,17 +65,17 @@ impl Work<'_> {
     }
 
     /// Whether all faces of a star that has its vertex at `x` are in reach.
-    pub fn is_star_in_reach(&mut self, star: &[StarFace], x: DVec3) -> bool {
+    pub fn is_star_within_limit(&mut self, star: &[StarFace], x: DVec3) -> bool {
         self.reach == f64::INFINITY
             || self.field.about(self.obstacle, x)[0] <= self.reach
                 && star
                     .iter()
                     .filter_map(|face| face.ring)
-                    .all(|[a, b]| self.is_in_reach(&[x, a, b]))
+                    .all(|[a, b]| self.is_within_limit(&[x, a, b]))
     }
 
     /// Whether a slack is kept.
-    pub fn is_kept_near(&self) -> bool {
+    pub fn has_distance_limit(&self) -> bool {
         self.reach < f64::INFINITY
     }
 
@@ -85,10 +85,10 @@ impl Work<'_> {
     }
 
     /// From now on no new face has a point farther from the mesh.
-    pub fn stay_within(&mut self, most: f64) {
+    pub fn limit_distance(&mut self, most: f64) {
         self.reach = most;
         if self.field.step() != most / STEPS {
-            self.field = Field::new(most / STEPS);
+            self.field = DistanceField::new(most / STEPS);
         }
     }
 
@@ -101,9 +101,9 @@ impl Work<'_> {
 
     /// Brings every face within a distance of the mesh and keeps it there from then on; false, and
     /// the reach is as before, if some stay outside or the time is up.
-    pub fn come_within(&mut self, most: f64) -> bool {
+    pub fn bring_within(&mut self, most: f64) -> bool {
         let before = self.reach;
-        self.stay_within(most);
+        self.limit_distance(most);
         let is_done = self.bring_all_within(most);
         self.reach = if is_done { most } else { before };
         is_done
@@ -121,7 +121,7 @@ impl Work<'_> {
                 if self.is_late() {
                     return false;
                 }
-                if self.shell.mesh.is_alive(f) && !self.is_in_reach(&self.shell.triangle(f)) {
+                if self.shell.mesh.is_alive(f) && !self.is_within_limit(&self.shell.triangle(f)) {
                     far.push((self.distance(&[f], most), f));
                 }
             }
@@ -177,7 +177,7 @@ impl Work<'_> {
             let mut star = self.shell.mesh.at(u).to_vec();
             star.extend(self.shell.mesh.at(v));
             self.aim(&star, most);
-            if let Some(Candidate { position, .. }) = self.evaluate(u, v, 0)
+            if let Some(EdgeMove { position, .. }) = self.evaluate(u, v, 0)
                 && self.collapse(u, v, position)
             {
                 return Some(self.shell.mesh.at(u).to_vec());

@@ -308,14 +308,14 @@ fn parts(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tight::moves::kick::Dice;
+    use crate::tight::moves::kick::SplitMix;
 
-    fn point(dice: &mut Dice) -> DVec3 {
+    fn point(dice: &mut SplitMix) -> DVec3 {
         DVec3::new(dice.roll(), dice.roll(), dice.roll()).as_vec3().as_dvec3()
     }
 
     /// Boxes of all sizes, some of them points, moved and scaled.
-    fn boxes(dice: &mut Dice, count: usize, scale: f64, shift: DVec3) -> Vec<Bounds> {
+    fn boxes(dice: &mut SplitMix, count: usize, scale: f64, shift: DVec3) -> Vec<Bounds> {
         let mut all = Vec::new();
         for i in 0..count {
             let low = point(dice);
@@ -327,7 +327,7 @@ mod tests {
 
     #[test]
     fn every_box_that_is_reached_is_visited_once_from_the_root_and_from_a_frontier() {
-        let mut dice = Dice::new(3);
+        let mut dice = SplitMix::new(3);
         for (count, scale, shift) in [
             (0, 1.0, 0.0),
             (1, 1.0, 0.0),
@@ -370,7 +370,7 @@ mod tests {
 
     #[test]
     fn what_is_below_a_raised_plane_is_passed_over() {
-        let mut dice = Dice::new(4);
+        let mut dice = SplitMix::new(4);
         let boxes = boxes(&mut dice, 5_000, 1.0, DVec3::ZERO);
         let tree = CellTree::new(&boxes);
         let all = Bounds { low: DVec3::splat(-1.0), high: DVec3::splat(2.0) };

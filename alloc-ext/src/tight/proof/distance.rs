@@ -20,9 +20,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A distance to keep, rounded up so that the tests against it are proofs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reach(f64);
+pub(crate) struct Clearance(f64);
 
-impl Reach {
+impl Clearance {
     pub fn new(distance: f64) -> Self {
         Self((distance * (1.0 + 8.0 * f64::EPSILON)).next_up())
     }
@@ -205,8 +205,10 @@ mod tests {
 
     fn parts(distance: f64, s: &Triangle, t: &Triangle) -> bool {
         let bounds = Bounds::of(s);
-        let found = Reach::new(distance).parts(s, normal(s), t);
-        assert!(found || !Reach::new(distance).parts_box(s, &bounds, normal(s), &Bounds::of(t)));
+        let found = Clearance::new(distance).parts(s, normal(s), t);
+        assert!(
+            found || !Clearance::new(distance).parts_box(s, &bounds, normal(s), &Bounds::of(t))
+        );
         found
     }
 

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 /// Bounds of the distance at each point of the lattice that was asked for. Only ever looked up, so
 /// that its order does not show.
 #[derive(Clone, Debug)]
-pub(crate) struct Field {
+pub(crate) struct DistanceField {
     step: f64,
     known: FxHashMap<[i32; 3], [f64; 2]>,
 }
@@ -19,7 +19,7 @@ const MOST: usize = 1 << 19;
 /// More than the rounding of a bound here, as a part of it.
 const ROUNDING: f64 = 1e-12;
 
-impl Field {
+impl DistanceField {
     /// Of a lattice with so much from point to point.
     pub fn new(step: f64) -> Self {
         Self { step, known: FxHashMap::default() }
@@ -56,7 +56,7 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [1.0, 4.0, 2.0]].map(DVec3::from);
         let obstacle = Obstacle::new(&corners, &[[0, 1, 2]]);
         for step in [1e-30, 1e-3, 0.25, 7.0, 1e30] {
-            let mut field = Field::new(step);
+            let mut field = DistanceField::new(step);
             for i in 0..2000u32 {
                 // Points of a lattice that no step divides, up to where cells have no number.
                 let at = |k: u32| f64::from(i.wrapping_mul(k) % 1013) / 101.3 - 5.0;

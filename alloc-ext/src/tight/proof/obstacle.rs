@@ -4,7 +4,7 @@
 use crate::tight::proof::boxes::{Bounds, BoxTree};
 use crate::tight::proof::cells::{CellTree, Frontier};
 use crate::tight::proof::connected::connected;
-use crate::tight::proof::distance::Reach;
+use crate::tight::proof::distance::Clearance;
 use crate::tight::proof::predicates::{Triangle, in_sunken, meet};
 use crate::tight::proof::region::{Plane, Tetrahedron};
 use glam::DVec3;
@@ -86,7 +86,7 @@ impl Obstacle {
     }
 
     fn is_near(&self, face: &Triangle) -> bool {
-        let reach = Reach::new(self.margin);
+        let reach = Clearance::new(self.margin);
         let bounds = Bounds::of(face);
         let [a, b, c] = *face;
         let normal = (b - a).cross(c - a);

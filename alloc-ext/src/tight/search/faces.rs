@@ -3,8 +3,10 @@
 use crate::collapse::Conditions;
 use crate::mesh::Mesh;
 use crate::precision::Stored;
-use crate::tight::initial::levels::{First, Place, first_box, first_closure, first_levels};
-use crate::tight::moves::editor::{Shape, Work};
+use crate::tight::initial::levels::{
+    InitialHull, InitialInput, closure_hull, grown_box, lifted_levels,
+};
+use crate::tight::moves::editor::{HullEditor, Shape};
 use crate::tight::moves::kick::Polish;
 use crate::tight::moves::rounding::Rounding;
 use crate::tight::options::{Goal, Options, Outcome, Progress, Stage, Start, WrapError};
@@ -62,7 +64,7 @@ const NEARLY_NONE: f64 = 1e-2;
 const STEPS_OFF: f64 = 12.0;
 
 /// What a hull is made of.
-pub(crate) struct From<'m> {
+pub(crate) struct SearchInput<'m> {
     pub mesh: &'m Mesh,
     /// The mesh in the frame of its own coordinates.
     pub stored: &'m Stored,
@@ -86,41 +88,42 @@ impl How {
 }
 
 /// A hull with the wanted number of faces, or as few as can be.
-pub(crate) struct Done<'a> {
-    pub work: Work<'a>,
+pub(crate) struct CandidateHull<'a> {
+    pub editor: HullEditor<'a>,
     pub start: Start,
     pub filled: usize,
     pub stop: Outcome,
 }
 
-impl Done<'_> {
+impl CandidateHull<'_> {
     /// One that reached the goal, then one with fewer faces if either is stuck or a slack is asked
     /// for, then the one nearer to the mesh, or with less volume.
     fn is_better_than(&self, other: &Self) -> bool {
         if let (Outcome::TooLoose, Outcome::TooLoose) = (self.stop, other.stop) {
-            return self.work.slack() < other.work.slack();
+            return self.editor.slack() < other.editor.slack();
         }
         let rank = |done: &Self| match done.stop {
             Outcome::TooLoose => (2, 0),
-            Outcome::Stuck => (1, done.work.shell.face_count()),
-            Outcome::Reached | Outcome::OutOfTime => {
-                (0, if done.work.is_kept_near() { done.work.shell.face_count() } else { 0 })
-            }
+            Outcome::Stuck => (1, done.editor.shell.face_count()),
+            Outcome::Reached | Outcome::OutOfTime => (
+                0,
+                if done.editor.has_distance_limit() { done.editor.shell.face_count() } else { 0 },
+            ),
         };
         let (ours, theirs) = (rank(self), rank(other));
-        ours < theirs || ours == theirs && self.work.shell.volume() < other.work.shell.volume()
+        ours < theirs || ours == theirs && self.editor.shell.volume() < other.editor.shell.volume()
     }
 }
 
 /// Keeps the better of two, and the counts of both.
-pub(crate) fn better<'a>(best: &mut Option<Done<'a>>, mut done: Done<'a>) {
+pub(crate) fn better<'a>(best: &mut Option<CandidateHull<'a>>, mut done: CandidateHull<'a>) {
     match best {
         Some(best) => {
-            done.work.add_counts(&best.work);
+            done.editor.add_counts(&best.editor);
             if done.is_better_than(best) {
                 *best = done;
             } else {
-                best.work.take_counts(&done.work);
+                best.editor.take_counts(&done.editor);
             }
         }
         None => *best = Some(done),
@@ -128,7 +131,7 @@ pub(crate) fn better<'a>(best: &mut Option<Done<'a>>, mut done: Done<'a>) {
 }
 
 /// What is known while a hull is made.
-pub(crate) struct Builder<'a, 'o, 'p> {
+pub(crate) struct HullSearch<'a, 'o, 'p> {
     pub obstacle: &'a Obstacle,
     /// The mesh's volume, if it bounds one.
     pub volume: Option<f64>,
@@ -140,7 +143,7 @@ pub(crate) struct Builder<'a, 'o, 'p> {
     pub on_progress: &'p mut dyn FnMut(Progress),
 }
 
-impl<'a> Builder<'a, '_, '_> {
+impl<'a> HullSearch<'a, '_, '_> {
     /// What relaxing measures its gains against.
     pub fn floor(&self) -> f64 {
         self.volume.unwrap_or(0.0)
@@ -152,8 +155,8 @@ impl<'a> Builder<'a, '_, '_> {
         mesh: &Mesh,
         stored: &Stored,
         around: &Stored,
-    ) -> Result<Done<'a>, WrapError> {
-        let from = From { mesh, stored, around };
+    ) -> Result<CandidateHull<'a>, WrapError> {
+        let from = SearchInput { mesh, stored, around };
         match self.options.goal {
             Goal::Faces(faces) => self.begin(&from, faces, true),
             Goal::Void(most) => self.least_faces_by_void(&from, most),
@@ -177,17 +180,21 @@ impl<'a> Builder<'a, '_, '_> {
     /// tried.
     pub fn begin(
         &mut self,
-        &From { mesh, stored, around }: &From<'_>,
+        &SearchInput { mesh, stored, around }: &SearchInput<'_>,
         wanted: usize,
         descends: bool,
-    ) -> Result<Done<'a>, WrapError> {
+    ) -> Result<CandidateHull<'a>, WrapError> {
         let rounding = Rounding::new(around.grid, around.scale_exponent);
-        let place =
-            Place { stored: around, obstacle: self.obstacle, rounding, deadline: self.deadline };
+        let place = InitialInput {
+            stored: around,
+            obstacle: self.obstacle,
+            rounding,
+            deadline: self.deadline,
+        };
         let how = How { rounding, wanted, descends };
         let is_few = how.is_few();
         let is_small = mesh.triangles.len() <= wanted;
-        let mut best: Option<Done<'a>> = None;
+        let mut best: Option<CandidateHull<'a>> = None;
         let round = self.round_cells();
         if self.volume.is_some() && round.is_none() {
             // The other half of the time is for what there is instead.
@@ -195,8 +202,8 @@ impl<'a> Builder<'a, '_, '_> {
                 let now = Instant::now();
                 now + deadline.saturating_duration_since(now) / 2
             });
-            let first = first_levels(
-                &Place { stored, deadline: half, ..place },
+            let first = lifted_levels(
+                &InitialInput { stored, deadline: half, ..place },
                 mesh,
                 wanted,
                 self.on_progress,
@@ -234,9 +241,9 @@ impl<'a> Builder<'a, '_, '_> {
             }
             let first = match cells {
                 Some(cells) => {
-                    first_closure(&place, cells, wanted, Conditions::PAPER, self.on_progress)
+                    closure_hull(&place, cells, wanted, Conditions::PAPER, self.on_progress)
                 }
-                None => first_box(self.obstacle, &rounding),
+                None => grown_box(self.obstacle, &rounding),
             };
             let Some(first) = first else { continue };
             let done = self.prepare(first, &how);
@@ -251,8 +258,8 @@ impl<'a> Builder<'a, '_, '_> {
 
     /// Whether a hull that reached its goal has next to no void. One that holds less than the
     /// mesh's volume says nothing: parts overlap.
-    fn is_solid_itself(&self, done: &Done<'a>) -> bool {
-        let Work { shell, rounding, .. } = &done.work;
+    fn is_solid_itself(&self, done: &CandidateHull<'a>) -> bool {
+        let HullEditor { shell, rounding, .. } = &done.editor;
         let bounds = self.obstacle.bounds();
         let size = bounds.low.abs().max(bounds.high.abs()).max_element();
         let area = shell.alive().map(|f| {
@@ -277,54 +284,54 @@ impl<'a> Builder<'a, '_, '_> {
     }
 
     /// Settles a first hull and brings it to the wanted number of faces.
-    fn prepare(&mut self, first: First, how: &How) -> Done<'a> {
-        let First { shell, start, filled } = first;
-        let mut work = Work::new(self.obstacle, shell, how.rounding, SHAPE);
-        work.deadline = self.deadline;
+    fn prepare(&mut self, first: InitialHull, how: &How) -> CandidateHull<'a> {
+        let InitialHull { shell, start, filled } = first;
+        let mut editor = HullEditor::new(self.obstacle, shell, how.rounding, SHAPE);
+        editor.deadline = self.deadline;
         for _ in 0..2 {
-            work.sweep();
-            work.flip_all();
+            editor.sweep();
+            editor.flip_all();
         }
         let stop =
-            if how.descends { self.descend(&mut work, how.wanted) } else { Outcome::Reached };
+            if how.descends { self.descend(&mut editor, how.wanted) } else { Outcome::Reached };
         if how.is_few() && start == Start::Box {
-            self.grow(&mut work, how.wanted);
+            self.grow(&mut editor, how.wanted);
         }
-        work.refine(how.wanted);
-        work.relax(self.floor(), 1e-2, 4);
-        let mut done = Done { work, start, filled, stop };
+        editor.refine(how.wanted);
+        editor.relax(self.floor(), 1e-2, 4);
+        let mut done = CandidateHull { editor, start, filled, stop };
         if how.is_few() && stop == Outcome::Reached {
             self.finish(&mut done);
         }
         done
     }
 
-    fn grow(&mut self, work: &mut Work<'a>, wanted: usize) {
+    fn grow(&mut self, editor: &mut HullEditor<'a>, wanted: usize) {
         let mut faces = GROWTH.0;
-        while (faces as usize) < wanted && !work.is_late() {
-            work.refine(faces as usize);
-            work.relax(self.floor(), 1e-2, 4);
-            self.polish(work, self.options.effort);
+        while (faces as usize) < wanted && !editor.is_late() {
+            editor.refine(faces as usize);
+            editor.relax(self.floor(), 1e-2, 4);
+            self.polish(editor, self.options.effort);
             faces *= GROWTH.1;
         }
     }
 
-    fn finish(&mut self, done: &mut Done<'a>) {
-        let polished = self.polish(&mut done.work, self.options.effort);
+    fn finish(&mut self, done: &mut CandidateHull<'a>) {
+        let polished = self.polish(&mut done.editor, self.options.effort);
         if done.stop == Outcome::Reached {
             done.stop = polished;
         }
     }
 
     /// Down to so many faces, or as few as can be, without polish.
-    pub fn descend(&mut self, work: &mut Work<'a>, faces: usize) -> Outcome {
-        let from = work.shell.face_count();
+    pub fn descend(&mut self, editor: &mut HullEditor<'a>, faces: usize) -> Outcome {
+        let from = editor.shell.face_count();
         let mut stop = Outcome::Reached;
-        while work.shell.face_count() > faces {
-            if work.is_late() {
+        while editor.shell.face_count() > faces {
+            if editor.is_late() {
                 return Outcome::OutOfTime;
             }
-            let next = ((work.shell.face_count() as f64 * STAGE) as usize).max(faces);
+            let next = ((editor.shell.face_count() as f64 * STAGE) as usize).max(faces);
             let on_progress = &mut *self.on_progress;
             let mut show = |left: usize| {
                 on_progress(Progress {
@@ -333,30 +340,30 @@ impl<'a> Builder<'a, '_, '_> {
                     of: from.saturating_sub(faces),
                 });
             };
-            let mut reached = work.decimate(next, &mut show);
-            if !reached && work.is_late() {
+            let mut reached = editor.decimate(next, &mut show);
+            if !reached && editor.is_late() {
                 return Outcome::OutOfTime;
             }
-            if !reached && work.shape != LOOSE {
-                work.shape = LOOSE;
-                reached = work.decimate(next, &mut show);
+            if !reached && editor.shape != LOOSE {
+                editor.shape = LOOSE;
+                reached = editor.decimate(next, &mut show);
             }
             if !reached {
                 stop = Outcome::Stuck;
                 break;
             }
-            work.relax(self.floor(), 1e-2, 4);
+            editor.relax(self.floor(), 1e-2, 4);
         }
-        work.drop_swallowed();
+        editor.drop_enclosed();
         stop
     }
 
-    pub fn polish(&mut self, work: &mut Work<'a>, effort: f64) -> Outcome {
+    pub fn polish(&mut self, editor: &mut HullEditor<'a>, effort: f64) -> Outcome {
         let on_progress = &mut *self.on_progress;
-        Polish::new(work, effort).run(work, self.volume.unwrap_or(0.0), |done, of| {
+        Polish::new(editor, effort).run(editor, self.volume.unwrap_or(0.0), |done, of| {
             on_progress(Progress { stage: Stage::Polishing, done: done as usize, of: of as usize });
         });
-        work.drop_swallowed();
-        if work.is_late() { Outcome::OutOfTime } else { Outcome::Reached }
+        editor.drop_enclosed();
+        if editor.is_late() { Outcome::OutOfTime } else { Outcome::Reached }
     }
 }

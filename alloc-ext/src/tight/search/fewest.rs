@@ -6,13 +6,15 @@
 
 use crate::collapse::Conditions;
 use crate::tight::initial::levels::{
-    First, OF_STAIRS, Place, first_box, first_closure, first_levels,
+    InitialHull, InitialInput, OF_STAIRS, closure_hull, grown_box, lifted_levels,
 };
-use crate::tight::moves::editor::Work;
+use crate::tight::moves::editor::HullEditor;
 use crate::tight::moves::rounding::Rounding;
 use crate::tight::options::{Outcome, WrapError};
 use crate::tight::proof::volume::NoVolume;
-use crate::tight::search::faces::{Builder, Done, FEW_FACES, From, SHAPE, STAGE, better};
+use crate::tight::search::faces::{
+    CandidateHull, FEW_FACES, HullSearch, SHAPE, STAGE, SearchInput, better,
+};
 
 /// Faces that a search for a void begins with.
 const FINEST: usize = 2000;
@@ -37,22 +39,22 @@ const NEAR_ENOUGH: usize = 25;
 /// Faces that no closed surface has.
 const TOO_FEW: usize = 3;
 
-impl<'a> Builder<'a, '_, '_> {
+impl<'a> HullSearch<'a, '_, '_> {
     /// See [`Goal::Slack`](crate::tight::options::Goal::Slack).
     pub fn least_faces_by_slack(
         &mut self,
-        from: &From<'_>,
+        from: &SearchInput<'_>,
         most: f64,
-    ) -> Result<Done<'a>, WrapError> {
+    ) -> Result<CandidateHull<'a>, WrapError> {
         let rounding = Rounding::new(from.around.grid, from.around.scale_exponent);
-        let place = Place {
+        let place = InitialInput {
             stored: from.around,
             obstacle: self.obstacle,
             rounding,
             deadline: self.deadline,
         };
-        let mut best: Option<Done<'a>> = None;
-        if let Some(first) = first_box(self.obstacle, &rounding) {
+        let mut best: Option<CandidateHull<'a>> = None;
+        if let Some(first) = grown_box(self.obstacle, &rounding) {
             let done = self.within(first, rounding, most);
             better(&mut best, done);
         }
@@ -71,8 +73,8 @@ impl<'a> Builder<'a, '_, '_> {
         let mut came = false;
         while !came && !self.is_late() {
             if !levels_end {
-                let place = Place { stored: from.stored, ..place };
-                let levels = first_levels(&place, from.mesh, faces, self.on_progress);
+                let place = InitialInput { stored: from.stored, ..place };
+                let levels = lifted_levels(&place, from.mesh, faces, self.on_progress);
                 if let Some(level) = levels.plenty.or(levels.wanted) {
                     any_level = true;
                     let done = self.within(level, rounding, most);
@@ -89,7 +91,7 @@ impl<'a> Builder<'a, '_, '_> {
                     if self.is_late() {
                         break;
                     }
-                    let first = first_closure(&place, cells, faces, conditions, self.on_progress);
+                    let first = closure_hull(&place, cells, faces, conditions, self.on_progress);
                     if let Some(first) = first {
                         let done = self.within(first, rounding, most);
                         came |= done.stop == Outcome::Reached;
@@ -120,64 +122,64 @@ impl<'a> Builder<'a, '_, '_> {
     }
 
     /// The hull of a start that comes down within a slack, or one that is [`Outcome::TooLoose`].
-    fn within(&mut self, first: First, rounding: Rounding, most: f64) -> Done<'a> {
-        let First { shell, start, filled } = first;
-        let mut work = Work::new(self.obstacle, shell, rounding, SHAPE);
-        work.deadline = self.deadline;
-        let mut came = work.come_within(most);
-        if !came && !work.is_late() {
+    fn within(&mut self, first: InitialHull, rounding: Rounding, most: f64) -> CandidateHull<'a> {
+        let InitialHull { shell, start, filled } = first;
+        let mut editor = HullEditor::new(self.obstacle, shell, rounding, SHAPE);
+        editor.deadline = self.deadline;
+        let mut came = editor.bring_within(most);
+        if !came && !editor.is_late() {
             // What is large is also far: the least volume within what it has may let it come
             // nearer.
-            work.stay_within(work.slack());
-            work.relax(self.floor(), 1e-2, 4);
-            came = work.come_within(most);
+            editor.limit_distance(editor.slack());
+            editor.relax(self.floor(), 1e-2, 4);
+            came = editor.bring_within(most);
         }
         if !came {
-            work.drop_swallowed();
-            return Done { work, start, filled, stop: Outcome::TooLoose };
+            editor.drop_enclosed();
+            return CandidateHull { editor, start, filled, stop: Outcome::TooLoose };
         }
-        work.relax(self.floor(), 1e-2, 4);
+        editor.relax(self.floor(), 1e-2, 4);
         let mut faces = usize::MAX;
         loop {
-            self.descend(&mut work, TOO_FEW + 1);
-            let now = work.shell.face_count();
+            self.descend(&mut editor, TOO_FEW + 1);
+            let now = editor.shell.face_count();
             let saved = faces.saturating_sub(now);
             faces = now;
-            if saved < (now / NEAR_ENOUGH).max(2) || work.is_late() {
-                return Done { work, start, filled, stop: Outcome::Reached };
+            if saved < (now / NEAR_ENOUGH).max(2) || editor.is_late() {
+                return CandidateHull { editor, start, filled, stop: Outcome::Reached };
             }
             // Less volume leaves more room for what the next collapses add.
-            self.polish(&mut work, self.options.effort);
+            self.polish(&mut editor, self.options.effort);
         }
     }
 
     /// See [`Goal::Void`](crate::tight::options::Goal::Void).
     pub fn least_faces_by_void(
         &mut self,
-        from: &From<'_>,
+        from: &SearchInput<'_>,
         most: f64,
-    ) -> Result<Done<'a>, WrapError> {
+    ) -> Result<CandidateHull<'a>, WrapError> {
         let mut faces = FINEST;
         let mut done = self.begin(from, faces, false)?;
-        while !self.has_void(&done.work, most)
+        while !self.has_void(&done.editor, most)
             && faces < from.mesh.triangles.len()
-            && !done.work.is_late()
+            && !done.editor.is_late()
         {
             faces = faces.saturating_mul(FINER);
             done = self.begin(from, faces, false)?;
         }
-        if !self.has_void(&done.work, most) {
-            self.polish(&mut done.work, self.options.effort);
-            if !self.has_void(&done.work, most) {
+        if !self.has_void(&done.editor, most) {
+            self.polish(&mut done.editor, self.options.effort);
+            if !self.has_void(&done.editor, most) {
                 done.stop =
-                    if done.work.is_late() { Outcome::OutOfTime } else { Outcome::TooLoose };
+                    if done.editor.is_late() { Outcome::OutOfTime } else { Outcome::TooLoose };
                 return Ok(done);
             }
         }
         let mut too_few = TOO_FEW;
         loop {
-            self.require_measure(&done.work)?;
-            let faces = done.work.shell.face_count();
+            self.require_measure(&done.editor)?;
+            let faces = done.editor.shell.face_count();
             // A hull has an even number of faces.
             let staged = (faces as f64 * STAGE) as usize & !1;
             let next = if staged > too_few { staged } else { usize::midpoint(faces, too_few) & !1 };
@@ -185,18 +187,18 @@ impl<'a> Builder<'a, '_, '_> {
                 done.stop = Outcome::Reached;
                 return Ok(done);
             }
-            let mut trial = Done { work: done.work.clone(), ..done };
-            trial.stop = self.descend(&mut trial.work, next);
-            if trial.stop == Outcome::Reached && !self.has_void(&trial.work, most) {
-                self.polish(&mut trial.work, self.options.effort);
+            let mut trial = CandidateHull { editor: done.editor.clone(), ..done };
+            trial.stop = self.descend(&mut trial.editor, next);
+            if trial.stop == Outcome::Reached && !self.has_void(&trial.editor, most) {
+                self.polish(&mut trial.editor, self.options.effort);
             }
-            let mut found = trial.stop == Outcome::Reached && self.has_void(&trial.work, most);
+            let mut found = trial.stop == Outcome::Reached && self.has_void(&trial.editor, most);
             if !found && next <= FEW_FACES && !self.is_late() {
                 // With few faces the start decides.
                 let mut other = self.begin(from, next, true)?;
-                other.work.add_counts(&trial.work);
+                other.editor.add_counts(&trial.editor);
                 trial = other;
-                found = trial.stop == Outcome::Reached && self.has_void(&trial.work, most);
+                found = trial.stop == Outcome::Reached && self.has_void(&trial.editor, most);
             }
             if self.is_late() {
                 done.stop = Outcome::OutOfTime;
@@ -205,18 +207,18 @@ impl<'a> Builder<'a, '_, '_> {
             if found {
                 done = trial;
             } else {
-                done.work.take_counts(&trial.work);
+                done.editor.take_counts(&trial.editor);
                 too_few = next;
             }
         }
     }
 
     /// That the mesh's volume is not known to count places more than once.
-    fn require_measure(&self, work: &Work<'a>) -> Result<(), WrapError> {
-        let hull: Vec<[[f32; 3]; 3]> = work
+    fn require_measure(&self, editor: &HullEditor<'a>) -> Result<(), WrapError> {
+        let hull: Vec<[[f32; 3]; 3]> = editor
             .shell
             .alive()
-            .map(|f| work.shell.triangle(f).map(|p| p.as_vec3().to_array()))
+            .map(|f| editor.shell.triangle(f).map(|p| p.as_vec3().to_array()))
             .collect();
         match self.solid.filter(|solid| solid.is_more_than(&hull)) {
             Some(_) => Err(WrapError::NoVolume(NoVolume::Overlapping)),
@@ -224,7 +226,7 @@ impl<'a> Builder<'a, '_, '_> {
         }
     }
 
-    fn has_void(&self, work: &Work<'a>, most: f64) -> bool {
-        self.volume.is_some_and(|volume| work.shell.volume() <= volume * (1.0 + most))
+    fn has_void(&self, editor: &HullEditor<'a>, most: f64) -> bool {
+        self.volume.is_some_and(|volume| editor.shell.volume() <= volume * (1.0 + most))
     }
 }
