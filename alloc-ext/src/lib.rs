@@ -8,18 +8,22 @@
 //! them. The kernels are `meshsweep-core`'s, so that builder and reader compute the same bits; the
 //! core opens what was written before it is handed out.
 
+pub mod bvh;
 pub mod collapse;
 pub mod counted;
 pub mod emit;
-pub mod fan;
+pub mod hausdorff;
 pub mod hull;
 pub mod lp;
 pub mod mesh;
-pub mod precision;
-pub mod sweep;
+pub mod surface;
 pub mod tight;
-pub mod tree;
 pub mod tribox;
+
+// Paths of before, until their users are moved.
+pub use bvh as tree;
+pub use bvh::fans as fan;
+pub use surface as precision;
 
 /// The names of [`tight`] under which the program and the tests use one hull.
 pub mod wrap {

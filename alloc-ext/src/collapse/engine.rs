@@ -10,7 +10,7 @@ use super::placement::{Placement, Refusal};
 use super::queue::{Candidate, Queue};
 use super::surface::Surface;
 use super::{Conditions, Priority};
-use crate::precision::Grid;
+use crate::surface::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 

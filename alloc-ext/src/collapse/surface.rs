@@ -4,7 +4,7 @@ use super::Conditions;
 use super::placement::{Facet, Placement, Refusal, StarFace, place};
 use super::star::Connectivity;
 use crate::lp::HalfSpace;
-use crate::precision::Grid;
+use crate::surface::Grid;
 use glam::DVec3;
 
 /// A closed manifold mesh while its edges are collapsed.

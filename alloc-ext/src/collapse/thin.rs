@@ -6,7 +6,7 @@
 
 use super::Conditions;
 use super::surface::Surface;
-use crate::precision::Grid;
+use crate::surface::Grid;
 use glam::DVec3;
 
 /// Part of the edges that a round tries, the cheapest: with more the hull grows into itself in
@@ -121,7 +121,7 @@ impl Costs {
 mod tests {
     use super::*;
     use crate::mesh::{Mesh, require_closed_manifold};
-    use crate::precision::{VertexBits, store};
+    use crate::surface::{VertexBits, store};
     use robust::{Coord3D, orient3d};
 
     /// A lumpy torus around the z-axis.

@@ -1,8 +1,8 @@
 //! Writing a blob. Same tables, same bytes.
 
 use super::tables::Tables;
+use crate::bvh::TreeTables;
 use crate::tight::TightTables;
-use crate::tree::TreeTables;
 use crate::tribox::TriboxTables;
 use glam::Vec3;
 use meshsweep_core::blob::layout::{

@@ -3,7 +3,7 @@
 
 use super::bytes::{Parts, assemble};
 use super::tables::Tables;
-use crate::tree::TreeTables;
+use crate::bvh::TreeTables;
 use crate::{tight, tribox};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::SectionKind;

@@ -8,7 +8,7 @@ use meshsweep_core::blob::{Children, Level, NodeIdx, SplitIdx, TriIdx, VertIdx};
 use meshsweep_core::geom::Aabb;
 use meshsweep_core::num::{Radius8, Radius16};
 
-use crate::precision::Grid;
+use crate::surface::Grid;
 
 /// A vertex split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,13 @@
 //! The stages in order, and what they report.
 
-use super::one_sided::hull_to_surface;
+use super::cover::{Cover, Offspring, plant};
+use super::forest::{Forest, grow};
+use super::groups::{base_groups, sort_base};
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
 use crate::emit::{NodeRecord, SplitRecord, Tables};
+use crate::hausdorff::hull_to_surface;
 use crate::mesh::Mesh;
-use crate::precision::{Stored, VertexBits, store};
-use crate::sweep::{Cover, Forest, Offspring, base_groups, grow, plant, sort_base};
+use crate::surface::{Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::MAX_RING;
@@ -118,7 +120,7 @@ const MAX_TRIANGLES: usize = 20_000_000;
 /// [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::precision::snap)), 0 if none were.
+/// [`snap`](crate::surface::snap)), 0 if none were.
 ///
 /// # Errors
 /// [`BuildError`].

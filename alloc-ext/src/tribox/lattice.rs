@@ -1,7 +1,7 @@
 //! The grid that a blob stores triboxes on.
 
 use crate::mesh::Mesh;
-use crate::precision::scale_exponent;
+use crate::surface::scale_exponent;
 use meshsweep_core::num::exp2;
 use meshsweep_core::tribox::{DIRECTIONS, SLABS, Tribox, TriboxError};
 

@@ -5,10 +5,10 @@ use super::extent::Extent;
 use super::polygons::margin;
 use super::split::Hierarchy;
 use super::union::boundary_of_union;
+use crate::bvh::{self, TreeOptions};
 use crate::emit;
-use crate::hull::{Farthest, Nearest, farthest};
+use crate::hausdorff::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
-use crate::tree::{self, TreeOptions};
 use glam::DVec3;
 use meshsweep_core::Bvh;
 use meshsweep_core::query::Budget;
@@ -59,7 +59,7 @@ pub fn box_tree(mesh: &Mesh) -> Vec<u8> {
     // mended.
     let mesh = Mesh::new(mesh.positions.clone(), mesh.triangles.clone());
     let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
-    let (tables, _) = tree::build(&mesh, 0.0, mesh.triangles.len(), &options);
+    let (tables, _) = bvh::build(&mesh, 0.0, mesh.triangles.len(), &options);
     emit::blob(None, Some(&tables))
 }
 

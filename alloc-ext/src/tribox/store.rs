@@ -41,7 +41,7 @@ pub struct TriboxReport {
 /// Splits a mesh into at most `count` triboxes, and measures unions of 1, 2, 4, … of them.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::precision::snap)), 0 if none were: the triboxes hold the input. Any
+/// [`snap`](crate::surface::snap)), 0 if none were: the triboxes hold the input. Any
 /// triangle soup will do; see [`Hierarchy::new`] for what they hold, and for the cost. Of a mesh
 /// without triangles the section is empty, and the blob does not open.
 ///
@@ -50,7 +50,7 @@ pub struct TriboxReport {
 /// [`Tribox::DOMAIN`](meshsweep_core::tribox::Tribox::DOMAIN).
 ///
 /// # Panics
-/// On a mesh of more than [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES).
+/// On a mesh of more than [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
 pub fn store(
     mesh: &Mesh,
     moved: f64,

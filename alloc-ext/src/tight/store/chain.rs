@@ -3,7 +3,7 @@
 use super::distances::{Distances, distances};
 use super::section::{Stored, TightTables};
 use crate::mesh::Mesh;
-use crate::precision::VertexBits;
+use crate::surface::VertexBits;
 use crate::tight::hull::{Hull, wrap};
 use crate::tight::options::{self, Goal, Options, WrapError};
 use crate::tight::proof::volume::NoVolume;
@@ -88,11 +88,11 @@ pub struct HullReport {
 /// what was asked for and no report names is one of these.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::precision::snap)), 0 if none were. The hulls enclose the mesh where it is now,
+/// [`snap`](crate::surface::snap)), 0 if none were. The hulls enclose the mesh where it is now,
 /// and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull;
 /// some hundred distance queries for each triangle of the hulls, one for each
 /// triangle of the mesh. On a mesh, or hull, of more than
-/// [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES) it panics.
+/// [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES) it panics.
 ///
 /// # Errors
 /// [`WrapError`].

@@ -1,6 +1,6 @@
 //! Certified distances both ways between a hull and the mesh within.
 
-use crate::hull::{Farthest, Nearest, farthest};
+use crate::hausdorff::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
 use crate::tight::proof::surface::Surface;
 use glam::DVec3;

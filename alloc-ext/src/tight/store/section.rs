@@ -1,10 +1,10 @@
 //! Tight hulls as a section of a blob.
 
 use super::chain::{ChainOptions, HullReport};
+use crate::bvh::{self, TreeOptions, TreeTables};
 use crate::emit::{Parts, assemble};
 use crate::mesh::Mesh;
-use crate::precision::{VertexBits, scale_exponent};
-use crate::tree::{self, TreeOptions, TreeTables};
+use crate::surface::{VertexBits, scale_exponent};
 use meshsweep_core::blob::TightRecord;
 use meshsweep_core::blob::layout::{SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES};
 use meshsweep_core::num::{Radius16, down_to_f32, exp2, up_to_f32};
@@ -72,7 +72,7 @@ fn hull_tree(hull: &Mesh, moved: f64, options: &ChainOptions) -> TreeTables {
             single,
             ..Default::default()
         };
-        tree::build(&hull, moved, faces, &options).0
+        bvh::build(&hull, moved, faces, &options).0
     };
     let wide = matches!(options.vertex_bits, VertexBits::Grid24 | VertexBits::F32);
     let single = wide || of(false, 0.0, 0.0).header.surface_error > 0.0;

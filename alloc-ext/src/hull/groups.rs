@@ -1,6 +1,6 @@
 //! Bounds of sixteen base triangles at a time, for segments that meet few of them.
 
-use super::crown::best_cover;
+use super::swept::best_cover;
 use crate::collapse::History;
 use glam::DVec3;
 use meshsweep_core::blob::layout::BASE_GROUP;

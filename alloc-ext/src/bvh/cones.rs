@@ -1,7 +1,7 @@
 //! Cones of normals for all leaves.
 
-use super::order::Topology;
-use crate::fan::FanLeaf;
+use super::fans::FanLeaf;
+use super::nodes::order::Topology;
 use glam::DVec3;
 use meshsweep_core::fan::NormalCone;
 

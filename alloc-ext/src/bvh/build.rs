@@ -2,12 +2,12 @@
 
 use super::cones::cones;
 use super::encode::{self, TreeTables};
-use super::fit::{axis_aligned_boxes, shared_frames};
-use super::frame::FrameOptions;
-use super::order::{TopologyOptions, topology_with};
+use super::fans::{self, FanLeaf, Weights};
+use super::nodes::fit::{axis_aligned_boxes, shared_frames};
+use super::nodes::frame::FrameOptions;
+use super::nodes::order::{TopologyOptions, topology_with};
 use super::source;
 use super::store::{OnGrid, store};
-use crate::fan::{self, FanLeaf, Weights};
 use crate::mesh::Mesh;
 use glam::DVec3;
 use meshsweep_core::blob::BvhHeader;
@@ -72,7 +72,7 @@ pub const MAX_TRIANGLES: usize = 1 << 24;
 /// Builds the box tree of any triangle soup.
 ///
 /// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::precision::snap)), 0 if none were. Every triangle is kept, also one that the
+/// [`snap`](crate::surface::snap)), 0 if none were. Every triangle is kept, also one that the
 /// grid makes degenerate. Cost: O(n log n), about a microsecond a triangle and step.
 ///
 /// # Panics
@@ -86,7 +86,7 @@ pub fn build(
     assert!(mesh.triangles.len() <= MAX_TRIANGLES, "more than 2^24 triangles");
     let started = Instant::now();
     let grid = store(mesh, moved, options.single);
-    let patches = fan::pack(&mesh.triangles, &grid.positions);
+    let patches = fans::pack(&mesh.triangles, &grid.positions);
     let points: Vec<Vec<DVec3>> = patches.iter().map(|patch| points(patch, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
     let bounds: Vec<(DVec3, DVec3)> = points.iter().map(|points| bounds(points)).collect();

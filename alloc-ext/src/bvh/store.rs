@@ -1,7 +1,7 @@
 //! The tree's grid: vertices in grid units, and how far they moved.
 
 use crate::mesh::Mesh;
-use crate::precision::{scale_exponent, split_exponent};
+use crate::surface::{scale_exponent, split_exponent};
 use glam::DVec3;
 use meshsweep_core::num::exp2;
 

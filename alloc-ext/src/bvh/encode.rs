@@ -1,9 +1,9 @@
 //! The tree's sections as bytes, through the constants of `meshsweep_core::blob`.
 
-use super::boxes::NodeBoxes;
-use super::order::Topology;
+use super::fans::FanLeaf;
+use super::nodes::boxes::NodeBoxes;
+use super::nodes::order::Topology;
 use super::store::OnGrid;
-use crate::fan::FanLeaf;
 use glam::DVec3;
 use meshsweep_core::blob::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES, SectionKind};
 use meshsweep_core::blob::{BvhHeader, LeafShape, Links};

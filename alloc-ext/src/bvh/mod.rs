@@ -7,24 +7,18 @@
 //! Any triangle soup will do: nothing here asks for a closed or manifold mesh.
 
 mod batch;
-mod boxes;
 mod build;
-mod collapse;
 mod cones;
 mod encode;
-mod extremes;
-mod fit;
-mod frame;
-mod order;
-mod rotation;
-mod sah;
+pub mod fans;
+mod nodes;
 mod source;
 mod store;
 
 pub use batch::closest_points;
-pub use boxes::{LANES, NodeBoxes, axis_aligned};
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
 pub use encode::TreeTables;
-pub use fit::{axis_aligned_boxes, shared_frames};
-pub use frame::{FrameOptions, shared_frame, shared_frame_with};
-pub use order::{Topology, TopologyOptions, WideNode, topology, topology_with};
+pub use nodes::boxes::{LANES, NodeBoxes, axis_aligned};
+pub use nodes::fit::{axis_aligned_boxes, shared_frames};
+pub use nodes::frame::{FrameOptions, shared_frame, shared_frame_with};
+pub use nodes::order::{Topology, TopologyOptions, WideNode, topology, topology_with};

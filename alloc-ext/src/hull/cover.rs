@@ -6,8 +6,8 @@
 //! of nodes that hardly bound better than their parent are skipped, and above the base hull nodes
 //! are made from its vertices.
 
-use super::crown::best_cover;
 use super::forest::{Forest, NO_PARENT, cover_radius};
+use super::swept::best_cover;
 use crate::collapse::{History, VertexOrder};
 use glam::DVec3;
 
