@@ -11,6 +11,7 @@
 pub mod bvh;
 pub mod collapse;
 pub mod counted;
+pub mod cut;
 pub mod emit;
 pub mod hausdorff;
 pub mod hull;

@@ -40,13 +40,34 @@
 #![forbid(unsafe_code)]
 
 pub mod blob;
-pub mod fan;
+mod bvh;
+mod format;
 pub mod geom;
+mod hull;
 pub mod num;
 pub mod query;
-pub mod refine;
-pub mod tree;
+#[doc(hidden)]
+pub mod tight;
 pub mod tribox;
 
-pub use blob::{Bvh, Model, OpenError, TightHull, TightHulls, Triboxes};
-pub use query::{QueryError, QueueEntry};
+// Old paths, until the callers have moved.
+#[doc(hidden)]
+pub mod fan {
+    pub use crate::geom::fan::*;
+    pub use crate::num::tolerance::STILL;
+}
+#[doc(hidden)]
+pub mod tree {
+    pub use crate::bvh::node::*;
+}
+#[doc(hidden)]
+pub mod refine {
+    pub use crate::hull::{Face, HullFace, Refined, RefinedHull, hull_faces};
+}
+
+pub use bvh::Bvh;
+pub use format::OpenError;
+pub use hull::{Model, QueueEntry};
+pub use query::QueryError;
+pub use tight::{TightHull, TightHulls};
+pub use tribox::Triboxes;

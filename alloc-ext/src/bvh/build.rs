@@ -1,14 +1,15 @@
 //! The stages in order, and what they report.
 
 use super::cones::cones;
-use super::encode::{self, TreeTables};
+use super::encode;
 use super::fans::{self, FanLeaf, Weights};
 use super::nodes::fit::{axis_aligned_boxes, shared_frames};
 use super::nodes::frame::FrameOptions;
 use super::nodes::order::{TopologyOptions, topology_with};
 use super::source;
 use super::store::{OnGrid, store};
-use crate::mesh::Mesh;
+use crate::emit::Sections;
+use crate::mesh::{Input, Mesh};
 use glam::DVec3;
 use meshsweep_core::blob::BvhHeader;
 use meshsweep_core::blob::layout::{LINK_BYTES, SectionKind, TREE_CLOSED, TREE_SINGLE, WIDTH};
@@ -61,6 +62,8 @@ pub struct TreeReport {
     pub mean_children: f64,
     /// Nodes on the longest path from the root.
     pub depth: usize,
+    /// The tree's header.
+    pub header: BvhHeader,
     /// Time in all.
     pub time: Duration,
 }
@@ -71,21 +74,17 @@ pub const MAX_TRIANGLES: usize = 1 << 24;
 
 /// Builds the box tree of any triangle soup.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::surface::snap)), 0 if none were. Every triangle is kept, also one that the
-/// grid makes degenerate. Cost: O(n log n), about a microsecond a triangle and step.
+/// Every triangle is kept, also one that the grid makes degenerate.
+///
+/// Cost: O(n log n), about a microsecond a triangle and step.
 ///
 /// # Panics
 /// On a mesh of more than [`MAX_TRIANGLES`].
-pub fn build(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
-    options: &TreeOptions,
-) -> (TreeTables, TreeReport) {
+pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) {
+    let mesh = input.mesh;
     assert!(mesh.triangles.len() <= MAX_TRIANGLES, "more than 2^24 triangles");
     let started = Instant::now();
-    let grid = store(mesh, moved, options.single);
+    let grid = store(input, options.single);
     let patches = fans::pack(&mesh.triangles, &grid.positions);
     let points: Vec<Vec<DVec3>> = patches.iter().map(|patch| points(patch, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
@@ -125,11 +124,10 @@ pub fn build(
         nodes: topology.nodes.len(),
         mean_children: children as f64 / topology.nodes.len().max(1) as f64,
         depth: topology.depth,
+        header,
         time: started.elapsed(),
     };
-    let most = numbers.iter().map(|&n| n as usize + 1).max().unwrap_or(0);
-    let input_triangles = input_triangles.max(most) as u32;
-    (TreeTables { scale_exponent: grid.scale_exponent, input_triangles, header, sections }, report)
+    (encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections), report)
 }
 
 fn points(patch: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {

@@ -3,11 +3,11 @@
 use super::cover::{Cover, Offspring, plant};
 use super::forest::{Forest, grow};
 use super::groups::{base_groups, sort_base};
+use super::tables::{NodeRecord, SplitRecord, Tables};
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
-use crate::emit::{NodeRecord, SplitRecord, Tables};
 use crate::hausdorff::hull_to_surface;
-use crate::mesh::Mesh;
-use crate::surface::{Stored, VertexBits, store};
+use crate::mesh::{Input, Mesh};
+use crate::surface::{SignedVolume, Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::Model;
 use meshsweep_core::blob::layout::MAX_RING;
@@ -119,18 +119,14 @@ const MAX_TRIANGLES: usize = 20_000_000;
 /// points negatively, its hulls do not enclose it; distances and
 /// [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::surface::snap)), 0 if none were.
-///
 /// # Errors
 /// [`BuildError`].
 pub fn build(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     options: &BuildOptions,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Built, BuildError> {
+    let mesh = input.mesh;
     if mesh.triangles.len() > MAX_TRIANGLES {
         return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
     }
@@ -147,8 +143,7 @@ pub fn build(
     let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
-    let mut tables =
-        assemble(&stored, mesh, moved, input_triangles, &history, &order, &forest, &cover);
+    let mut tables = assemble(&stored, input, &history, &order, &forest, &cover);
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
     let bytes = tables.to_bytes();
@@ -193,7 +188,8 @@ pub fn hull_of(
 
 /// Volume in the local frame, which void is measured against.
 fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
-    let volume = signed_volume(&stored.positions, &mesh.triangles);
+    let corners = mesh.triangles.iter().map(|t| t.map(|v| stored.positions[v as usize]));
+    let volume = SignedVolume::of(corners).value;
     let scale = meshsweep_core::num::exp2(stored.scale_exponent);
     if volume > 0.0 {
         Ok(volume)
@@ -221,14 +217,6 @@ fn collapse(
     let mut history = engine.finish();
     sort_base(&mut history);
     (history, stuck, programs)
-}
-
-fn signed_volume(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    // Around a vertex of the mesh, so that a part far from the origin loses nothing to
-    // cancellation.
-    let Some(&origin) = positions.first() else { return 0.0 };
-    let at = |v: u32| positions[v as usize] - origin;
-    triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
 }
 
 /// Split counts of the levels: the base hull, then every doubling of the faces, then all.
@@ -266,12 +254,9 @@ fn levels(history: &History, cover: &Cover, level_splits: &[u32], volume: f64) -
         .collect()
 }
 
-#[expect(clippy::too_many_arguments, reason = "the one place where all stages meet")]
 fn assemble(
     stored: &Stored,
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     history: &History,
     order: &VertexOrder,
     forest: &Forest,
@@ -325,7 +310,7 @@ fn assemble(
     Tables {
         scale_exponent: stored.scale_exponent,
         grid: stored.grid,
-        surface_error: up_to_f32((stored.surface_error + moved * scale) * (1.0 + 1e-15)),
+        surface_error: up_to_f32((stored.surface_error + input.moved * scale) * (1.0 + 1e-15)),
         vertices: order.label.iter().map(|&l| single(history.positions[l as usize])).collect(),
         base_vertices: order.base,
         base: history.base.iter().map(|t| t.map(index)).collect(),
@@ -343,10 +328,8 @@ fn assemble(
             .iter()
             .map(|&t| history.original_triangles[t as usize].map(index))
             .collect(),
-        source: cover.triangles.iter().map(|&t| mesh.source[t as usize]).collect(),
-        input_triangles: input_triangles
-            .max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0))
-            as u32,
+        source: cover.triangles.iter().map(|&t| input.mesh.source[t as usize]).collect(),
+        input_triangles: input.triangle_count(),
         surface_box: Aabb { min: low, max: high },
         levels: Vec::new(),
         queue_capacity: cover.queue_capacity,

@@ -54,6 +54,5 @@ pub use options::{Goal, Options, Outcome, Progress, Report, Stage as HullStage, 
 pub use proof::surface::Surface;
 pub use proof::volume::NoVolume;
 pub use store::{
-    ChainOptions, Distances, HullReport, MAX_HULLS, Stage, TightTables, chain, cut, distances,
-    hull_mesh,
+    ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,
 };

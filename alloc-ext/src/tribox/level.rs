@@ -6,7 +6,6 @@ use super::polygons::margin;
 use super::split::Hierarchy;
 use super::union::boundary_of_union;
 use crate::bvh::{self, TreeOptions};
-use crate::emit;
 use crate::hausdorff::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -59,8 +58,8 @@ pub fn box_tree(mesh: &Mesh) -> Vec<u8> {
     // mended.
     let mesh = Mesh::new(mesh.positions.clone(), mesh.triangles.clone());
     let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
-    let (tables, _) = bvh::build(&mesh, 0.0, mesh.triangles.len(), &options);
-    emit::blob(None, Some(&tables))
+    let (tables, _) = bvh::build(mesh.as_input(), &options);
+    tables.to_bytes()
 }
 
 /// The proxies of a level with at most `count` triboxes.

@@ -5,7 +5,7 @@
 //! turns into four-lane arithmetic; a Cortex-M would pay for all branches, so it gets the scalar
 //! one. Both evaluate the same formulas in the same order.
 
-use super::swept_triangle::Support;
+use super::support::Support;
 use glam::Vec3;
 
 /// Triangles bounded at a time.

@@ -6,7 +6,7 @@
 //! that two triangles which share an edge agree on its side, and the closed test with a proved
 //! margin leaves no gap along edges and at vertices. Derivation: `core/docs/rounding.md` §5.
 
-use super::point_triangle;
+use super::point_triangle::point_triangle;
 use crate::num::tolerance::{COPLANAR_TOUCH, TRIPLE_PRODUCT, U64};
 use glam::DVec3;
 

@@ -9,6 +9,7 @@
 //! and a sign counts only where it would be the same for all vertices within `doubt`:
 //! `core/docs/rounding.md` §11.
 
+use crate::num::tolerance::{DETERMINANT, U32, U64};
 use core::ops::{Add, Mul, Sub};
 
 /// What is known of two surfaces.
@@ -29,8 +30,7 @@ pub trait Real:
 {
     /// Zero.
     const ZERO: Self;
-    /// Rounding of a determinant, as a part of the product of its vectors' 1-norms. Proved: 10 unit
-    /// roundoffs; here 16.
+    /// Rounding of a determinant, as a part of the product of its vectors' 1-norms.
     const DETERMINANT: Self;
     /// More than what underflow takes from a determinant and its bound.
     const UNDERFLOW: Self;
@@ -40,7 +40,7 @@ pub trait Real:
 
 impl Real for f32 {
     const ZERO: f32 = 0.0;
-    const DETERMINANT: f32 = 8.0 * f32::EPSILON;
+    const DETERMINANT: f32 = DETERMINANT * U32;
     // Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than
     // 2^38.
     const UNDERFLOW: f32 = 1.0 / (1u128 << 100) as f32;
@@ -52,7 +52,7 @@ impl Real for f32 {
 
 impl Real for f64 {
     const ZERO: f64 = 0.0;
-    const DETERMINANT: f64 = 8.0 * f64::EPSILON;
+    const DETERMINANT: f64 = DETERMINANT as f64 * U64;
     const UNDERFLOW: f64 = f64::MIN_POSITIVE;
     #[inline(always)]
     fn abs(self) -> f64 {

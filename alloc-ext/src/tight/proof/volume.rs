@@ -2,7 +2,7 @@
 //! none.
 
 use crate::counted::Counted;
-use crate::mesh::{self, EdgePlace, Enclosure, Mesh, MeshError, Volume, require_closed_manifold};
+use crate::mesh::{EdgePlace, Enclosure, Mesh, MeshError, SignedVolume, require_closed_manifold};
 use crate::tight::proof::boxes::{Bounds, BoxTree};
 use crate::tight::proof::connected::connected;
 use crate::tight::proof::predicates::{Face, are_apart, is_degenerate};
@@ -202,8 +202,8 @@ impl Solid {
         let (mut volume, mut bound) = (0.0, 0.0);
         let mut faces_out = Vec::new();
         for part in &parts {
-            volume += signed(part);
-            let of_part = mesh::volume(part);
+            let of_part = signed_volume(part);
+            volume += of_part.value;
             // As many roundings more as there are parts to add.
             bound +=
                 of_part.bound + (parts.len() as f64 + 2.0) * f64::EPSILON * of_part.value.abs();
@@ -221,7 +221,7 @@ impl Solid {
     /// Whether there is certainly more than a closed surface holds that encloses the mesh: then it
     /// overlaps. The surface by its triangles.
     pub fn is_more_than(&self, hull: &[[[f32; 3]; 3]]) -> bool {
-        let Volume { value, bound } = mesh::volume(hull);
+        let SignedVolume { value, bound } = signed_volume(hull);
         value + bound < self.least
     }
 
@@ -238,6 +238,10 @@ impl Solid {
     }
 }
 
+fn signed_volume(triangles: &[[[f32; 3]; 3]]) -> SignedVolume {
+    SignedVolume::of(triangles.iter().map(|t| t.map(|p| DVec3::from(p.map(f64::from)))))
+}
+
 /// The triangles of each connected part, by their corners.
 fn parts(mesh: &Mesh) -> Vec<Vec<[[f32; 3]; 3]>> {
     let least = connected(mesh.positions.len(), &mesh.triangles);
@@ -252,18 +256,6 @@ fn parts(mesh: &Mesh) -> Vec<Vec<[[f32; 3]; 3]>> {
         parts[*part].push(triangle.map(|v| mesh.positions[v as usize]));
     }
     parts
-}
-
-/// Signed volume of a closed part.
-fn signed(part: &[[[f32; 3]; 3]]) -> f64 {
-    let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));
-    // Around a vertex, so that nothing cancels far from the origin.
-    let origin = part.first().map_or(DVec3::ZERO, |&[a, ..]| wide(a));
-    let six = part.iter().map(|triangle| {
-        let [a, b, c] = triangle.map(|p| wide(p) - origin);
-        a.dot(b.cross(c))
-    });
-    six.sum::<f64>() / 6.0
 }
 
 /// Whether parts that do not meet lie in each other so that the mesh winds around a place other

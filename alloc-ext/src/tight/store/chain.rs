@@ -1,8 +1,9 @@
 //! From a mesh to the hulls of a chain.
 
 use super::distances::{Distances, distances};
-use super::section::{Stored, TightTables};
-use crate::mesh::Mesh;
+use super::section::{Stored, sections};
+use crate::emit::Sections;
+use crate::mesh::Input;
 use crate::surface::VertexBits;
 use crate::tight::hull::{Hull, wrap};
 use crate::tight::options::{self, Goal, Options, WrapError};
@@ -87,22 +88,20 @@ pub struct HullReport {
 /// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out:
 /// what was asked for and no report names is one of these.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::surface::snap)), 0 if none were. The hulls enclose the mesh where it is now,
-/// and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull;
-/// some hundred distance queries for each triangle of the hulls, one for each
-/// triangle of the mesh. On a mesh, or hull, of more than
-/// [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES) it panics.
+/// The hulls enclose the mesh where it is now, and the blob's answers hold for where it was in the
+/// input. On a mesh, or hull, of more than [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES) it panics.
+///
+/// Cost: that of [`wrap()`] for each hull; some hundred distance queries for each triangle of the
+/// hulls, one for each triangle of the mesh.
 ///
 /// # Errors
 /// [`WrapError`].
 pub fn chain(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     options: &ChainOptions,
     mut on_progress: impl FnMut(Stage),
-) -> Result<(TightTables, Vec<HullReport>), WrapError> {
+) -> Result<(Sections, Vec<HullReport>), WrapError> {
+    let Input { mesh, moved, .. } = input;
     let mut faces = options.faces.clone();
     faces.sort_unstable();
     faces.dedup();
@@ -174,7 +173,7 @@ pub fn chain(
             stored
         })
         .collect();
-    let tables = TightTables::new(mesh, moved, input_triangles, &stored);
+    let tables = sections(input, &stored);
     Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
 }
 

@@ -28,20 +28,14 @@ pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
         let (triangle, [lower, upper]) = surface.nearest(p)?;
         Some(Nearest { lower, upper, triangle: Some(triangle) })
     };
-    let slack = farthest(corners(hull), 0.0, |p| to(&mesh_surface, p));
+    let slack = farthest(hull.corners_f64(), 0.0, |p| to(&mesh_surface, p));
     let enough = slack.lower * FINE;
-    let slacks = corners(hull)
+    let slacks = hull
+        .corners_f64()
         .map(|face| {
             farthest(std::iter::once(face), enough, |p| to(&mesh_surface, p)).upper.min(slack.upper)
         })
         .collect();
-    let depth = farthest(corners(mesh), 0.0, |p| to(&hull_surface, p));
+    let depth = farthest(mesh.corners_f64(), 0.0, |p| to(&hull_surface, p));
     Distances { slacks, slack, depth }
-}
-
-fn corners(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> + '_ {
-    let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));
-    (0..mesh.triangles.len())
-        .filter_map(|t| mesh.corners(t))
-        .map(move |triangle| triangle.map(wide))
 }

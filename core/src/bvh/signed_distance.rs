@@ -1,0 +1,414 @@
+//! Signed distance.
+//!
+//! *What the sign means.* A closed mesh, whose every edge is run through as often in one direction
+//! as in the other, has a winding number at every point off the surface, which rises by one where a
+//! triangle is crossed from its front to its back. `Inside` says that the surface next to the point
+//! has its back to it, `Outside` its front. For a mesh that bounds a solid (winding number 1 in it,
+//! 0 elsewhere) that is what it sounds like. For an inverted one the sides are exchanged: the solid
+//! is all the rest of space. Parts that *overlap* are not united: a point within one part whose
+//! nearest surface is that of another, which it is not in, is outside of that other. Parts within
+//! parts (cavities) are as their winding says.
+//!
+//! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from where
+//! it was to where it is stored. Every point of every triangle moves by `surface_error` at most, so
+//! a point farther than that from the stored surface is never touched, and its winding number
+//! cannot change. At a lesser distance the side is undefined.
+//!
+//! *How it is found.* Let q be the closest point, and w₀ the winding number where the query p is:
+//! no surface is nearer than q, so it is the same all over a half-space's worth of directions about
+//! q. Let triangles i about q have unit normals nᵢ and angles αᵢ at q (π where q lies on an edge,
+//! 2π within a face). The divergence theorem on a small ball about q gives Σ αᵢ·nᵢ = −2·∫(w(x) −
+//! w₀)·x over the directions x, for any arrangement of triangles, manifold or not; and only
+//! directions with x·(p − q) ≤ 0 contribute. So (p − q)·Σ αᵢ·nᵢ is positive if the winding number
+//! is greater behind q than at p: outside. (Bærentzen & Aanæs, *Signed Distance Computation Using
+//! the Angle Weighted Pseudonormal*, 2005, prove it for manifolds.)
+//!
+//! *Rounding.* Which triangle is the closest is not certain in f32. So all are considered that may
+//! be: if every one of them clearly has its front to p, all terms of the sum at the true q are
+//! positive, wherever it is; likewise for backs. That decides faces, smooth edges and vertices, and
+//! ties. Else [`pseudonormal`](super::pseudonormal) sums about the feature that they all share.
+//! Where rounding leaves that open, too, the question is asked from a place nearer the surface,
+//! within the ball about p that it does not enter: far above a face and next to its edge the face
+//! beyond the edge is as near as rounding can tell, and from a sixteenth of the distance it is not.
+//! If that does not help either, the side is undefined. A point outside of the model's box is asked
+//! about from a place nearer by: all points outside of the box are on one side.
+
+use super::closest_point::closest_point;
+use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
+use super::leaf_distance::nearest_triangle;
+use super::point_query::{PointQuery, bounds};
+use super::pseudonormal::{Candidates, Facing, facing, side_of_shared_feature};
+use super::side_search::{Search, Side};
+use super::triangle_bounds::{each_triangle, limit_of, lower_of, lower_of_box, witness};
+use crate::bvh::format::Bvh;
+use crate::num::sqrt_approx;
+use crate::num::tolerance::{EVERYTHING_SQ, FAN_DISTANCE, U32};
+use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+use glam::Vec3;
+
+/// Signed distance: positive outside, negative inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignedDistance {
+    /// Not above the signed distance to the input mesh, input units. If the side is undefined:
+    /// `-upper` of the closest point.
+    pub lower: f32,
+    /// Not below it. If the side is undefined: `upper` of the closest point.
+    pub upper: f32,
+    /// The side, proved, or undefined.
+    pub side: Side,
+    /// The closest point and the interval of the distance without sign. `work` and `ended` are of
+    /// all that was done: [`Ended::Level`] if the mesh is closed and the stored surface or
+    /// rounding leaves the side open.
+    pub closest: ClosestPoint,
+}
+
+impl SignedDistance {
+    fn new(closest: ClosestPoint, side: Side) -> Self {
+        let (lower, upper) = match side {
+            Side::Outside => (closest.lower, closest.upper),
+            Side::Inside => (-closest.upper, -closest.lower),
+            Side::Undefined => (-closest.upper, closest.upper),
+        };
+        SignedDistance { lower, upper, side, closest }
+    }
+}
+
+/// Signed distance of `point` (input units), negative inside: where the nearest surface has its
+/// back to the point.
+///
+/// Of a mesh that bounds a solid that is what it sounds like; of an inverted one the sides are
+/// exchanged. Parts that overlap are not united: the nearest surface decides, and where surfaces of
+/// several are equally near up to rounding and the surface error, one of these. Cavities are as
+/// their winding says.
+///
+/// The side is undefined if the mesh is not closed and consistently wound
+/// ([`BvhHeader::is_closed`](crate::bvh::format::BvhHeader::is_closed)), if the distance is not clear of
+/// the stored surface's error and of rounding, next to walls and gaps thinner than these, next to
+/// slivers so flat that they have no certain normal, and where triangles without area alone are
+/// near. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps`
+/// too few, the side is undefined, too. The tolerances of [`Budget`] do not apply: a side needs the
+/// closest point itself.
+///
+/// Triangle and point are those of [`closest_point`]; equidistant ones: the least in blob order.
+///
+/// Cost: about that of the closest point; twice to three times that next to sharp edges and
+/// vertices, and for points far outside; up to four times more where the side has to be found from
+/// nearer by, above a face and next to its edge.
+///
+/// # Errors
+/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`],
+/// [`QueryError::NotServed`].
+pub fn signed_distance(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
+) -> Result<SignedDistance, QueryError> {
+    stop.check()?;
+    if stack.is_empty() {
+        return Err(QueryError::NoQueue);
+    }
+    let query = PointQuery::new(tree, point)?;
+    let closed = tree.header().is_closed();
+    let mut search = Search { tree, steps: stop.steps, stack, work: Work::default(), cut: None };
+    let survey = if query.far { None } else { Some(search.survey(&query)?) };
+    let mut closest = match &survey {
+        Some(survey) => survey.closest(&search, point)?,
+        None => closest_point(
+            tree,
+            point,
+            &Budget { relative: 0.0, absolute: 0.0, ..*stop },
+            search.stack,
+        )?,
+    };
+    let clear = closed && closest.lower > 0.0;
+    let mut side = match &survey {
+        Some(survey) if clear => search.side(survey)?,
+        _ => Side::Undefined,
+    };
+    if side == Side::Undefined
+        && clear
+        && search.cut.is_none()
+        && let Some(nearby) = outside_of_box(tree, &query)
+    {
+        let survey = search.survey(&nearby)?;
+        side = search.side(&survey)?;
+    }
+    if side == Side::Undefined
+        && clear
+        && search.cut.is_none()
+        && let Some(survey) = &survey
+    {
+        side = search.side_from_nearer(survey)?;
+    }
+    closest.work = search.work;
+    if let Some(cut) = search.cut {
+        closest.ended = cut;
+    } else if side == Side::Undefined && closed {
+        closest.ended = Ended::Level;
+    }
+    Ok(SignedDistance::new(closest, side))
+}
+
+/// How often a side is asked about from nearer by: each time the distance falls to a sixteenth.
+const NEARER: usize = 3;
+
+/// For a point outside of the model's box another one, a quarter of the model's size off it.
+fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
+    let (low, high) = bounds(tree);
+    let size = (high - low).max_element();
+    let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
+    let out = |p: Vec3| (p - high).max(low - p).to_array();
+    let most = out(query.p).into_iter().fold(0f32, |most, x| if x > most { x } else { most });
+    let mut near = [0f32; 3];
+    let mut moved = false;
+    let axes = query.p.to_array().into_iter().zip(low.to_array().into_iter().zip(high.to_array()));
+    for (slot, (x, (low, high))) in near.iter_mut().zip(axes) {
+        let farthest = !moved && (x - high == most || low - x == most) && most > 0.0;
+        moved |= farthest;
+        *slot = match (farthest, x > high, x < low) {
+            (true, true, _) => high + gap,
+            (true, ..) => low - gap,
+            (_, true, _) => high,
+            (_, _, true) => low,
+            _ => x,
+        };
+    }
+    let near = PointQuery::new(tree, query.units.point(Vec3::from_array(near))).ok()?;
+    let still_outside = out(near.p).into_iter().any(|x| x > 0.0);
+    (moved && still_outside && !near.far).then_some(near)
+}
+
+impl Search<'_, '_> {
+    fn survey<'p>(&mut self, query: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
+        let tree = *self.tree;
+        let margin = FAN_DISTANCE * U32 * tree.header().reach;
+        let mut sides = Sides {
+            tree: &tree,
+            query,
+            margin,
+            best: Place::NOWHERE,
+            solid: Place::NOWHERE,
+            seen: [Place::NOWHERE; 3],
+            limit: EVERYTHING_SQ,
+            least: [f32::INFINITY; 4],
+        };
+        let descent = descend(&tree, query.p, self.stack, self.steps, &mut sides, &mut self.work)?;
+        let Sides { best, solid, seen, least, .. } = sides;
+        let mut missed = f32::INFINITY;
+        if let Descent::Truncated { least, steps } = descent {
+            missed = least;
+            self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
+        }
+        Ok(Survey { query, margin, best, solid, seen, least, missed })
+    }
+
+    /// The side that points on the ways to the surface have: there is none of it in the ball about
+    /// the surveyed point that touches it, so the winding number is the same in all of the
+    /// ball. What two features' distances differ by grows as the inverse of the distance. Where
+    /// parts overlap, surfaces that are equally near may have different sides of it: the ways
+    /// to the closest triangles of either facing have to agree.
+    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
+        let band = Candidates::new(survey.query, survey.margin, survey.solid.distance_sq).band;
+        let mut agreed = None;
+        for (place, lower) in survey.seen.into_iter().zip(survey.least) {
+            if place.node == u32::MAX || lower > band {
+                continue;
+            }
+            let side = self.side_on_the_way(survey, place)?;
+            if side == Side::Undefined || agreed.is_some_and(|agreed| agreed != side) {
+                return Ok(Side::Undefined);
+            }
+            agreed = Some(side);
+        }
+        Ok(agreed.unwrap_or(Side::Undefined))
+    }
+
+    /// The side of the first point on the way to a triangle, and from there to what is closest,
+    /// that has one.
+    fn side_on_the_way(&mut self, survey: &Survey<'_>, place: Place) -> Result<Side, QueryError> {
+        let mut nearer = survey.nearer(self.tree, place);
+        for _ in 0..NEARER {
+            let Some(query) = nearer else { break };
+            let survey = self.survey(&query)?;
+            let side = self.side(&survey)?;
+            if side != Side::Undefined || self.cut.is_some() {
+                return Ok(side);
+            }
+            nearer = survey.nearer(self.tree, survey.best);
+        }
+        Ok(Side::Undefined)
+    }
+
+    /// The side of the surveyed point, which is known to be clear of the surface.
+    fn side(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
+        let Survey { query, margin, solid, least, .. } = *survey;
+        if self.cut.is_some() || solid.node == u32::MAX {
+            return Ok(Side::Undefined);
+        }
+        let candidates = Candidates::new(query, margin, solid.distance_sq);
+        let [front, back, unclear, _] = least.map(|lower| lower <= candidates.band);
+        match (front, back, unclear) {
+            (true, false, false) => Ok(Side::Outside),
+            (false, true, false) => Ok(Side::Inside),
+            _ => {
+                let leaf = self.tree.leaf(solid.node, solid.child).ok_or(QueryError::Model)?;
+                side_of_shared_feature(self, &candidates, leaf.corners(solid.lane))
+            }
+        }
+    }
+}
+
+/// Where a triangle is.
+#[derive(Clone, Copy)]
+struct Place {
+    distance_sq: f32,
+    node: u32,
+    child: u32,
+    lane: usize,
+}
+
+impl Place {
+    const NOWHERE: Place = Place { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lane: 0 };
+
+    fn number(&self, tree: &Bvh<'_>) -> Option<u32> {
+        Some(tree.links(self.node)?.triangle(self.child).wrapping_add(self.lane as u32))
+    }
+
+    /// Takes the nearer one; of two that are equally near the one with the lesser number.
+    fn improve(&mut self, tree: &Bvh<'_>, other: Place) {
+        if other.distance_sq < self.distance_sq
+            || (other.distance_sq == self.distance_sq && other.number(tree) < self.number(tree))
+        {
+            *self = other;
+        }
+    }
+}
+
+/// What is near a point.
+struct Survey<'p> {
+    query: &'p PointQuery,
+    margin: f32,
+    /// The closest triangle.
+    best: Place,
+    /// The closest one with an area.
+    solid: Place,
+    /// The closest triangle that has its front to the point, its back, that leaves it open.
+    seen: [Place; 3],
+    /// For each [`Facing`] the least lower bound of a triangle that faces so, grid units.
+    least: [f32; 4],
+    /// Squared box bound of what was not looked at.
+    missed: f32,
+}
+
+impl Survey<'_> {
+    /// Not above the distance to the input mesh, input units; what was missed is not counted.
+    fn lower(&self) -> f32 {
+        let distance = sqrt_approx(self.best.distance_sq);
+        self.query.lower(
+            self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }),
+        )
+    }
+
+    /// A point on the way to a triangle, a sixteenth of the distance off it and within the ball
+    /// about this one that is proved to be empty.
+    fn nearer(&self, tree: &Bvh<'_>, to: Place) -> Option<PointQuery> {
+        let query = self.query;
+        let leaf = tree.leaf(to.node, to.child)?;
+        let place = query.p + (witness(query, &leaf, to.lane) - query.p) * 0.9375;
+        let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
+        let way = nearer.p - query.p;
+        let empty = query.units.inward(self.lower());
+        (way.dot(way) < empty * empty * (1.0 - 64.0 * U32)).then_some(nearer)
+    }
+
+    fn closest(
+        &self,
+        search: &Search<'_, '_>,
+        point: [f32; 3],
+    ) -> Result<ClosestPoint, QueryError> {
+        let Survey { query, best, .. } = *self;
+        let tree = search.tree;
+        let ended = search.cut.unwrap_or(Ended::Exact);
+        if best.node == u32::MAX {
+            // No step was allowed, or there was room for nothing: the box of the model.
+            let none = Budget { steps: 0, ..Budget::EXACT };
+            let closest = closest_point(tree, point, &none, &mut [ScratchEntry::EMPTY])?;
+            return Ok(ClosestPoint { ended, ..closest });
+        }
+        let distance = sqrt_approx(best.distance_sq);
+        let mut lower = self.lower();
+        if self.missed < f32::INFINITY {
+            let missed = lower_of_box(query, self.missed);
+            lower = if missed < lower { missed } else { lower };
+        }
+        let leaf = tree.leaf(best.node, best.child).ok_or(QueryError::Model)?;
+        let number = best.number(tree).ok_or(QueryError::Model)?;
+        Ok(ClosestPoint {
+            lower,
+            upper: query.upper(distance),
+            point: query.units.point(witness(query, &leaf, best.lane)),
+            triangle: tree.source(number),
+            work: search.work,
+            ended,
+        })
+    }
+}
+
+/// Looks for the closest triangle and for how all those face that may be it.
+struct Sides<'a, 't> {
+    tree: &'a Bvh<'t>,
+    query: &'a PointQuery,
+    margin: f32,
+    best: Place,
+    solid: Place,
+    seen: [Place; 3],
+    limit: f32,
+    least: [f32; 4],
+}
+
+impl LeafVisitor for Sides<'_, '_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
+        if near.lower_bound_sq <= self.limit {
+            self.look(visit);
+        }
+        Some(true)
+    }
+}
+
+impl Sides<'_, '_> {
+    #[inline(never)]
+    fn look(&mut self, visit: &LeafVisit<'_>) {
+        let (leaf, p) = (&visit.leaf, self.query.p);
+        each_triangle(self.query, leaf, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit {
+                return;
+            }
+            let here = Place { distance_sq, node: visit.node, child: visit.lane, lane };
+            self.best.improve(self.tree, here);
+            let facing = facing(leaf, lane, p);
+            if facing != Facing::Flat && distance_sq <= self.solid.distance_sq {
+                self.solid.improve(self.tree, here);
+                let band = Candidates::new(self.query, self.margin, self.solid.distance_sq).band;
+                let limit = limit_of(self.query, band);
+                self.limit = if limit < self.limit { limit } else { self.limit };
+            }
+            if let Some(seen) = self.seen.get_mut(facing as usize) {
+                seen.improve(self.tree, here);
+            }
+            let lower = lower_of(leaf, lane, p, distance_sq, lower_bound_sq);
+            if let Some(least) = self.least.get_mut(facing as usize)
+                && lower < *least
+            {
+                *least = lower;
+            }
+        });
+    }
+}
