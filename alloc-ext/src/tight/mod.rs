@@ -51,8 +51,7 @@ mod store;
 pub use components::{parts, share};
 pub use hull::{Hull, wrap, wrap_all};
 pub use options::{Goal, Options, Outcome, Progress, Report, Stage as HullStage, Start, WrapError};
-pub use proof::surface::Surface;
-pub use proof::volume::NoVolume;
+pub use proof::NoVolume;
 pub use store::{
     ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,
 };

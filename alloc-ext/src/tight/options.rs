@@ -1,8 +1,8 @@
 //! What is asked of a hull, and what is said about it.
 
-use crate::hull::Farthest;
-use crate::precision::VertexBits;
-use crate::tight::proof::volume::NoVolume;
+use crate::hausdorff::Farthest;
+use crate::surface::VertexBits;
+use crate::tight::proof::NoVolume;
 use std::time::Duration;
 
 /// What a hull has to reach.
@@ -89,8 +89,6 @@ pub enum Outcome {
 pub struct Report {
     /// Faces.
     pub faces: usize,
-    /// The margin that was asked for.
-    pub margin: f64,
     /// Volume, in the mesh's unit.
     pub volume: f64,
     /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that
@@ -112,10 +110,6 @@ pub struct Report {
     pub stars: u64,
     /// Linear programs solved for them.
     pub programs: u64,
-    /// Moves put to the exact proof.
-    pub proofs: u64,
-    /// Moves that were not proved, and not made.
-    pub refused: u64,
     /// Time.
     pub time: Duration,
 }

@@ -7,7 +7,7 @@ use crate::mesh::Input;
 use crate::surface::VertexBits;
 use crate::tight::hull::{Hull, wrap};
 use crate::tight::options::{self, Goal, Options, WrapError};
-use crate::tight::proof::volume::NoVolume;
+use crate::tight::proof::NoVolume;
 use meshsweep_core::blob::layout::MAX_LEVELS;
 use meshsweep_core::num::Radius16;
 use std::time::{Duration, Instant};

@@ -2,7 +2,7 @@
 
 use crate::hausdorff::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
-use crate::tight::proof::surface::Surface;
+use crate::tight::proof::Obstacle;
 use glam::DVec3;
 
 /// How far a hull and the mesh within are from each other, in their unit.
@@ -23,8 +23,8 @@ const FINE: f64 = 1.0 / 512.0;
 /// Distances of `hull` and `mesh`, which may be any triangles. Cost: see [`farthest`], for each
 /// face of the hull and once for all of the mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
-    let (hull_surface, mesh_surface) = (Surface::new(hull), Surface::new(mesh));
-    let to = |surface: &Surface, p: DVec3| {
+    let (hull_surface, mesh_surface) = (Obstacle::of(hull), Obstacle::of(mesh));
+    let to = |surface: &Obstacle, p: DVec3| {
         let (triangle, [lower, upper]) = surface.nearest(p)?;
         Some(Nearest { lower, upper, triangle: Some(triangle) })
     };
