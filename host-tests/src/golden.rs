@@ -1,7 +1,10 @@
-//! Blobs and answers that are committed: whoever computes other bits, another machine or a later
-//! version, is noticed.
+//! Blobs and answers that are committed. A machine or a version that computes other bits is noticed.
+
+use std::fs;
+use std::path::Path;
 
 use meshsweep::emit::{self, Parts};
+use meshsweep::hull::BuildOptions;
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tree::{TreeOptions, build};
@@ -10,7 +13,43 @@ use meshsweep_suite::ask::{Refused, Subject, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
+use crate::generate::fixtures::write_fixtures;
 use crate::generate::{bracket, groove_block, torus};
+use crate::workload;
+
+/// Writes the committed fixtures: meshes by their generators, blobs by the builder, then answers.
+///
+/// # Errors
+/// A file that cannot be written, or a blob that the core refuses.
+pub fn write(folder: &Path) -> Result<(), String> {
+    let put = |name: &str, bytes: &[u8]| {
+        let file = folder.join(name);
+        fs::write(&file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
+    };
+    write_fixtures(folder)
+        .map_err(|error| format!("cannot write {}: {error}", folder.display()))?;
+    let hull = bracket_model(folder)?;
+    let (tree, triboxes, tight) = (groove_tree(), torus_triboxes(), bracket_hulls());
+    put("bracket.msw", &hull)?;
+    put("groove.msw", &tree)?;
+    put("torus.msw", &triboxes)?;
+    put("hulls.msw", &tight)?;
+    let refused = |refused| format!("the core refuses the blob: {refused:?}");
+    let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
+        + &tree_answers("groove.msw", &tree).map_err(refused)?
+        + &tribox_answers("torus.msw", &triboxes).map_err(refused)?
+        + &tight_answers("hulls.msw", &tight).map_err(refused)?;
+    put("answers.txt", answers.as_bytes())
+}
+
+/// The blob of `bracket.stl` with the builder's defaults.
+///
+/// # Errors
+/// The file is missing.
+pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
+    let subject = workload::Subject::load(&folder.join("bracket.stl"))?;
+    Ok(subject.build_with(&BuildOptions::default())?.bytes)
+}
 
 /// The box tree of `groove_block()`, with every section that a tree can have.
 #[must_use]

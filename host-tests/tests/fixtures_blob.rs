@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use meshsweep::hull::BuildOptions;
 use meshsweep_core::Model;
-use meshsweep_host_tests::measure::Subject;
+use meshsweep_host_tests::golden::bracket_model;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
@@ -12,14 +11,9 @@ fn folder() -> PathBuf {
 
 #[test]
 fn committed_blob_is_what_the_builder_makes() {
-    let subject =
-        Subject::load(&folder().join("bracket.stl")).expect("the fixture is a closed mesh");
-    let built = subject.build_with(&BuildOptions::default()).expect("a blob");
+    let built = bracket_model(&folder()).expect("the fixture is a closed mesh");
     let committed = std::fs::read(folder().join("bracket.msw")).unwrap_or_default();
-    assert!(
-        committed == built.bytes,
-        "fixtures/bracket.msw is out of date: run `cargo xtask fixtures`"
-    );
+    assert!(committed == built, "fixtures/bracket.msw is out of date: run `cargo xtask fixtures`");
 }
 
 #[test]

@@ -2,14 +2,14 @@
 
 use super::cones::cones;
 use super::encode;
-use super::fans::{self, FanLeaf, Weights};
+use super::fans::{self, Fan, FanLeaf, Weights};
 use super::nodes::fit::{axis_aligned_boxes, shared_frames};
 use super::nodes::frame::FrameOptions;
 use super::nodes::order::{TopologyOptions, topology_with};
 use super::source;
 use super::store::{OnGrid, store};
 use crate::emit::Sections;
-use crate::mesh::{Input, Mesh};
+use crate::mesh::{Input, Mesh, Wire};
 use glam::DVec3;
 use meshsweep_core::blob::BvhHeader;
 use meshsweep_core::blob::layout::{LINK_BYTES, SectionKind, TREE_CLOSED, TREE_SINGLE, WIDTH};
@@ -74,7 +74,8 @@ pub const MAX_TRIANGLES: usize = 1 << 24;
 
 /// Builds the box tree of any triangle soup.
 ///
-/// Every triangle is kept, also one that the grid makes degenerate.
+/// Every triangle is kept, also one that the grid makes degenerate. Each [`Wire`] is kept as a
+/// triangle with a repeated corner, in a leaf of its own.
 ///
 /// Cost: O(n log n), about a microsecond a triangle and step.
 ///
@@ -82,10 +83,12 @@ pub const MAX_TRIANGLES: usize = 1 << 24;
 /// On a mesh of more than [`MAX_TRIANGLES`].
 pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) {
     let mesh = input.mesh;
-    assert!(mesh.triangles.len() <= MAX_TRIANGLES, "more than 2^24 triangles");
+    let triangles = mesh.triangles.len() + mesh.wires.len();
+    assert!(triangles <= MAX_TRIANGLES, "more than 2^24 triangles");
     let started = Instant::now();
     let grid = store(input, options.single);
-    let patches = fans::pack(&mesh.triangles, &grid.positions);
+    let mut patches = fans::pack(&mesh.triangles, &grid.positions);
+    patches.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
     let points: Vec<Vec<DVec3>> = patches.iter().map(|patch| points(patch, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
     let bounds: Vec<(DVec3, DVec3)> = points.iter().map(|points| bounds(points)).collect();
@@ -103,11 +106,12 @@ pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) 
     }
     sections
         .push((SectionKind::TreeFans, encode::fans(&topology, &patches, &grid, options.single)));
+    let sources: Vec<u32> = mesh.all_sources().collect();
     let numbers: Vec<u32> = topology
         .leaf_order
         .iter()
         .flat_map(|&item| patches[item as usize].triangles())
-        .map(|t| mesh.source[t as usize])
+        .map(|t| sources[t as usize])
         .collect();
     sections.push((SectionKind::TreeSource, source::pack(&numbers)));
     if options.cull {
@@ -119,7 +123,7 @@ pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) 
     debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
     let children: usize = topology.nodes.iter().map(|node| node.child_count()).sum();
     let report = TreeReport {
-        triangles: mesh.triangles.len(),
+        triangles,
         patches: patches.len(),
         nodes: topology.nodes.len(),
         mean_children: children as f64 / topology.nodes.len().max(1) as f64,
@@ -128,6 +132,14 @@ pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) 
         time: started.elapsed(),
     };
     (encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections), report)
+}
+
+/// The leaf of a wire. From its first end both spokes lead to the second: so the kernels see two
+/// equal edges, and find the closest point of the segment in the way of an edge.
+fn wire_leaf((number, wire): (u32, &Wire)) -> FanLeaf {
+    let [centre, end] = wire.ends;
+    let ring = vec![end; 2];
+    FanLeaf { first: Fan { centre, ring, triangles: vec![number], reversed: false }, second: None }
 }
 
 fn points(patch: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {
@@ -172,7 +184,7 @@ fn header(
         nodes: 0,
         leaves: patches.len() as u32,
         vertices: vertices as u32,
-        triangles: mesh.triangles.len() as u32,
+        triangles: (mesh.triangles.len() + mesh.wires.len()) as u32,
         stack_entries: (stack_entries + WIDTH) as u32,
         surface_error: up_to_f32(grid.surface_error),
         // Spokes are rounded when they are f32.
@@ -183,8 +195,11 @@ fn header(
 }
 
 /// Whether as many triangles run through every edge in one direction as in the other: then the
-/// surface bounds a volume.
+/// surface bounds a volume. Wires bound none.
 fn is_closed(triangles: &[[u32; 3]]) -> bool {
+    if triangles.is_empty() {
+        return false;
+    }
     let mut edges: Vec<(u32, u32, i32)> = triangles
         .iter()
         .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])

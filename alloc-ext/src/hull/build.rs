@@ -4,6 +4,7 @@ use super::cover::{Cover, Offspring, plant};
 use super::forest::{Forest, grow};
 use super::groups::{base_groups, sort_base};
 use super::tables::{NodeRecord, SplitRecord, Tables};
+use super::wires::wires_off_surface;
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
 use crate::hausdorff::hull_to_surface;
 use crate::mesh::{Input, Mesh};
@@ -57,6 +58,8 @@ pub struct BuildReport {
     pub certify_time: Duration,
     /// Volume of the mesh, input units.
     pub volume: f64,
+    /// What the surface error carries of wires, input units; see [`wires_off_surface`].
+    pub wires: f64,
 }
 
 /// A blob and how it came about.
@@ -119,6 +122,9 @@ const MAX_TRIANGLES: usize = 20_000_000;
 /// points negatively, its hulls do not enclose it; distances and
 /// [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
 ///
+/// How far [wires](crate::mesh::Wire) are from the triangles with an area is part of the surface
+/// error: the hulls need not enclose them.
+///
 /// # Errors
 /// [`BuildError`].
 pub fn build(
@@ -130,8 +136,9 @@ pub fn build(
     if mesh.triangles.len() > MAX_TRIANGLES {
         return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
     }
-    let stored = store(mesh, options.vertex_bits);
+    let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
+    let wires = wires_off_surface(mesh);
     let started = Instant::now();
     let (history, stuck, programs) =
         collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
@@ -143,6 +150,7 @@ pub fn build(
     let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
+    let input = Input { moved: input.moved + wires, ..input };
     let mut tables = assemble(&stored, input, &history, &order, &forest, &cover);
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
@@ -157,12 +165,24 @@ pub fn build(
         sweep_time,
         certify_time: started.elapsed(),
         volume: volume * scale * scale * scale,
+        wires,
     };
     Ok(Built { tables, bytes, report })
 }
 
+/// Vertices that only wires use do not count, but for the frame, which all structures of a blob
+/// share.
+fn store_solid(mesh: &Mesh, bits: VertexBits) -> Stored {
+    let mut stored = store(mesh, bits);
+    let used = mesh.triangles.iter().flatten().fold(0, |most, &v| most.max(v as usize + 1));
+    if !mesh.wires.is_empty() {
+        stored.positions.truncate(used);
+    }
+    stored
+}
+
 /// A hull alone: its triangles in input units, the void it adds as a part of the mesh's volume, and
-/// why it stopped early.
+/// why it stopped early. It encloses the mesh without its wires.
 ///
 /// # Errors
 /// [`BuildError::NotPositive`].
@@ -172,8 +192,9 @@ pub fn hull_of(
     options: &BuildOptions,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
-    let stored = store(mesh, options.vertex_bits);
+    let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
+    let wires = wires_off_surface(mesh);
     let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
     let order = VertexOrder::new(&history);
     let scale = meshsweep_core::num::exp2(stored.scale_exponent);

@@ -20,10 +20,12 @@ impl Input<'_> {
         self.mesh.rounding + self.moved
     }
 
-    /// Triangles of the input file, above every number in [`Mesh::source`].
+    /// Triangles of the input file, above the number of every triangle and wire.
     pub(crate) fn triangle_count(&self) -> u32 {
-        let numbered = self.mesh.source.iter().map(|&number| number as usize + 1).max();
-        self.input_triangles.max(numbered.unwrap_or(0)) as u32
+        let wires = self.mesh.wires.iter().map(|wire| wire.source);
+        let numbered = self.mesh.source.iter().copied().chain(wires).max();
+        let above = numbered.map_or(0, |number| number as usize + 1);
+        self.input_triangles.max(above).max(self.mesh.all_triangles().count()) as u32
     }
 }
 
@@ -31,6 +33,6 @@ impl Mesh {
     /// The mesh as an input file of its own: no vertex was moved, no triangle dropped.
     #[must_use]
     pub fn as_input(&self) -> Input<'_> {
-        Input { mesh: self, moved: 0.0, input_triangles: self.triangles.len() }
+        Input { mesh: self, moved: 0.0, input_triangles: self.all_triangles().count() }
     }
 }

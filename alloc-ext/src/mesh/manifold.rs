@@ -15,7 +15,7 @@ use super::{EdgePlace, Mesh, MeshError};
 /// That triangles do not cross each other is not checked.
 ///
 /// # Errors
-/// In this order: an array that breaks [`Mesh`]'s promise, boundary edges (as holes), non-manifold
+/// In this order: an array that breaks [`Mesh`]'s promise, no triangle with an area, boundary edges (as holes), non-manifold
 /// edges, non-manifold vertices, one-sided parts, inconsistent winding, a part without volume,
 /// inside-out parts. The last four kinds but one-sided parts and zero volume cannot occur after
 /// [`repair`](super::repair()).
@@ -86,6 +86,9 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
 fn check_arrays(mesh: &Mesh) -> Result<(), MeshError> {
     let invalid = |reason: String| Err(MeshError::Invalid { reason });
     let vertex_count = mesh.positions.len();
+    if mesh.triangles.is_empty() && !mesh.wires.is_empty() {
+        return Err(MeshError::NoArea { count: mesh.wires.len() });
+    }
     if mesh.triangles.is_empty() {
         return invalid("no triangles".into());
     }

@@ -1,20 +1,25 @@
 //! Splits a mesh into the components that get a hull each.
 
-use crate::mesh::{Mesh, require_closed_manifold};
+use crate::mesh::{Mesh, Wire, require_closed_manifold};
 use crate::surface::{Enclosures, components};
 use rustc_hash::FxHashMap;
 
 /// Splits a mesh into its connected components, by shared vertices. Everything inside a closed
-/// component stays with it, as cavities do. In the order of their first triangles; `source` refers
-/// to the same numbers as the mesh's.
+/// component stays with it, as cavities do. A wire goes to the first component that has a vertex at
+/// one of its ends. In the order of their first triangles, then wires that no component has.
 ///
 /// Cost: n log n, and one point test for each component and each closed component whose box holds
 /// that point.
 #[must_use]
 pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
+    let parts = triangle_parts(mesh);
+    if mesh.wires.is_empty() { parts } else { distribute(mesh, parts) }
+}
+
+fn triangle_parts(mesh: &Mesh) -> Vec<Mesh> {
     let all = components(mesh.positions.len(), &mesh.triangles);
     if all.len() < 2 {
-        return vec![mesh.clone()];
+        return all.iter().map(|_| mesh.without_wires()).collect();
     }
     let mut select = Selection::of(mesh);
     let closed: Vec<usize> =
@@ -54,42 +59,56 @@ fn bounds_a_volume(component: &Mesh) -> bool {
     require_closed_manifold(component).is_ok() || require_closed_manifold(&turned).is_ok()
 }
 
-/// A mesh and further triangles, by their corners, that its hull has to enclose.
-pub type Shared = (Mesh, Vec<[[f32; 3]; 3]>);
-
-/// Gives each further triangle, by its corners, to the first component that has a vertex at the same
-/// place. The others form components of their own, at the end.
-#[must_use]
-pub fn share(parts: Vec<Mesh>, further: &[[[f32; 3]; 3]]) -> Vec<Shared> {
-    // Both zeros are the same place.
-    let place = |p: &[f32; 3]| p.map(|x| (x + 0.0).to_bits());
+/// Adds the mesh's wires to its parts.
+fn distribute(mesh: &Mesh, mut parts: Vec<Mesh>) -> Vec<Mesh> {
     let mut home: FxHashMap<[u32; 3], usize> = FxHashMap::default();
     for (i, part) in parts.iter().enumerate() {
-        for p in &part.positions {
+        for &p in &part.positions {
             home.entry(place(p)).or_insert(i);
         }
     }
-    let mut shared: Vec<Shared> = parts.into_iter().map(|part| (part, Vec::new())).collect();
-    let mut loose = Mesh::default();
-    let mut number: FxHashMap<[u32; 3], u32> = FxHashMap::default();
-    for corners in further {
-        match corners.iter().find_map(|p| home.get(&place(p))) {
-            Some(&i) => shared[i].1.push(*corners),
-            None => {
-                loose.source.push(loose.triangles.len() as u32);
-                loose.triangles.push(corners.map(|p| {
-                    *number.entry(place(&p)).or_insert_with(|| {
-                        loose.positions.push(p);
-                        loose.positions.len() as u32 - 1
-                    })
-                }));
-            }
+    let at = |v: u32| place(mesh.positions[v as usize]);
+    let mut wires: Vec<Vec<Wire>> = vec![Vec::new(); parts.len()];
+    let mut loose: Vec<Wire> = Vec::new();
+    for wire in &mesh.wires {
+        match wire.ends.iter().find_map(|&v| home.get(&at(v))) {
+            Some(&i) => wires[i].push(*wire),
+            None => loose.push(*wire),
         }
     }
-    if !loose.triangles.is_empty() {
-        shared.extend(self::parts(&loose).into_iter().map(|part| (part, Vec::new())));
+    let triangles: Vec<[u32; 3]> = loose.iter().map(Wire::triangle).collect();
+    for component in components(mesh.positions.len(), &triangles) {
+        parts.push(Mesh { rounding: mesh.rounding, ..Mesh::default() });
+        wires.push(component.into_iter().map(|i| loose[i as usize]).collect());
     }
-    shared
+    for (part, wires) in parts.iter_mut().zip(&wires).filter(|(_, wires)| !wires.is_empty()) {
+        add_wires(part, mesh, wires);
+    }
+    parts
+}
+
+/// Adds wires of a mesh to a part of it.
+fn add_wires(part: &mut Mesh, mesh: &Mesh, wires: &[Wire]) {
+    let mut number: FxHashMap<[u32; 3], u32> = FxHashMap::default();
+    for (v, &p) in (0u32..).zip(&part.positions) {
+        number.entry(place(p)).or_insert(v);
+    }
+    let Mesh { positions, wires: all, .. } = part;
+    all.extend(wires.iter().map(|wire| {
+        let ends = wire.ends.map(|v| {
+            let p = mesh.positions[v as usize];
+            *number.entry(place(p)).or_insert_with(|| {
+                positions.push(p);
+                positions.len() as u32 - 1
+            })
+        });
+        Wire { ends, ..*wire }
+    }));
+}
+
+/// Bits of a position. Both zeros are the same place.
+fn place(p: [f32; 3]) -> [u32; 3] {
+    p.map(|x| (x + 0.0).to_bits())
 }
 
 /// Takes components out of a mesh, each in time that does not depend on the mesh's size. There may be

@@ -9,7 +9,7 @@ use crate::surface::Bounds;
 use crate::surface::{Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::num::exp2;
-use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// A tight hull and its measures.
@@ -21,7 +21,8 @@ pub struct Hull {
     pub report: Report,
 }
 
-/// A tight hull of any triangles. The [module](crate::tight) says what is proved of it.
+/// A tight hull of any triangles and [wires](crate::mesh::Wire). The [module](crate::tight) says
+/// what is proved of it. Wires bound no volume.
 ///
 /// If vertices were moved to a grid before (see [`snap`](crate::surface::snap)), the hull encloses
 /// their places in `mesh`.
@@ -31,25 +32,11 @@ pub struct Hull {
 pub fn wrap(
     mesh: &Mesh,
     options: &Options,
-    on_progress: impl FnMut(Progress),
-) -> Result<Hull, WrapError> {
-    wrap_all(mesh, &[], options, on_progress)
-}
-
-/// As [`wrap`], of a mesh and further triangles, by their corners. These are the triangles without
-/// area that [`repair`](crate::mesh::repair) leaves out, which are segments or points. They are
-/// enclosed as the mesh is, and bound no volume.
-///
-/// # Errors
-/// [`WrapError`].
-pub fn wrap_all(
-    mesh: &Mesh,
-    further: &[[[f32; 3]; 3]],
-    options: &Options,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Hull, WrapError> {
     let started = Instant::now();
-    if mesh.triangles.is_empty() {
+    let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
+    if triangles.is_empty() {
         return Err(WrapError::Empty);
     }
     if !(options.margin >= 0.0 && options.margin.is_finite()) {
@@ -59,6 +46,17 @@ pub fn wrap_all(
         return Err(WrapError::SlackWithinMargin { margin: options.margin });
     }
     let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
+    let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
+    // The surface that the search starts from has no wires, unless the mesh has only wires.
+    let surface = if mesh.wires.is_empty() {
+        Cow::Borrowed(mesh)
+    } else if mesh.triangles.is_empty() {
+        let Mesh { rounding, .. } = *mesh;
+        Cow::Owned(Mesh { rounding, ..Mesh::new(mesh.positions.clone(), triangles) })
+    } else {
+        Cow::Owned(mesh.without_wires())
+    };
+    let mesh = &*surface;
     let solid = Solid::of(mesh);
     if let (Goal::Void(_), Err(why)) = (options.goal, solid) {
         return Err(WrapError::NoVolume(why));
@@ -72,9 +70,8 @@ pub fn wrap_all(
         bits => bits,
     };
     let stored = store(mesh, bits);
-    let (positions, triangles) = joined(positions, &mesh.triangles, further);
-    let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
-    let around = if further.is_empty() && options.margin <= 0.0 {
+    let is_whole = mesh.positions.len() == positions.len();
+    let around = if is_whole && options.margin <= 0.0 {
         stored.clone()
     } else {
         around(&positions, options.margin, bits)?
@@ -128,34 +125,6 @@ pub fn wrap_all(
 
 fn single(positions: &[DVec3]) -> Vec<[f32; 3]> {
     positions.iter().map(|p| p.as_vec3().to_array()).collect()
-}
-
-/// Positions and triangles together with further triangles. Vertices at the same place are shared.
-fn joined(
-    mut positions: Vec<DVec3>,
-    triangles: &[[u32; 3]],
-    further: &[[[f32; 3]; 3]],
-) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let mut triangles = triangles.to_vec();
-    if further.is_empty() {
-        return (positions, triangles);
-    }
-    // Both zeros are the same place.
-    let place = |p: DVec3| (p + 0.0).to_array().map(f64::to_bits);
-    let mut number: FxHashMap<[u64; 3], u32> = FxHashMap::default();
-    for (v, &p) in positions.iter().enumerate() {
-        number.entry(place(p)).or_insert(v as u32);
-    }
-    for corners in further {
-        triangles.push(corners.map(|[x, y, z]| {
-            let p = Vec3::new(x, y, z).as_dvec3();
-            *number.entry(place(p)).or_insert_with(|| {
-                positions.push(p);
-                positions.len() as u32 - 1
-            })
-        }));
-    }
-    (positions, triangles)
 }
 
 /// The frame and the coordinate format that hold all positions, or with a margin their box enlarged

@@ -48,8 +48,8 @@ mod proof;
 mod search;
 mod store;
 
-pub use components::{parts, share};
-pub use hull::{Hull, wrap, wrap_all};
+pub use components::parts;
+pub use hull::{Hull, wrap};
 pub use options::{Goal, Options, Outcome, Progress, Report, Stage as HullStage, Start, WrapError};
 pub use proof::NoVolume;
 pub use store::{

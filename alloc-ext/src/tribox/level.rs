@@ -7,7 +7,7 @@ use super::split::Hierarchy;
 use super::union::boundary_of_union;
 use crate::bvh::{self, TreeOptions};
 use crate::hausdorff::{Farthest, Nearest, farthest};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Wire};
 use glam::DVec3;
 use meshsweep_core::Bvh;
 use meshsweep_core::query::Budget;
@@ -56,7 +56,12 @@ impl Level {
 pub fn box_tree(mesh: &Mesh) -> Vec<u8> {
     // Not the numbers of the file, of which two triangles may share one where a flat one was
     // mended.
-    let mesh = Mesh::new(mesh.positions.clone(), mesh.triangles.clone());
+    let count = mesh.triangles.len() as u32;
+    let renumber = |(wire, number): (&Wire, u32)| Wire { source: number, ..*wire };
+    let mesh = Mesh {
+        wires: mesh.wires.iter().zip(count..).map(renumber).collect(),
+        ..Mesh::new(mesh.positions.clone(), mesh.triangles.clone())
+    };
     let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
     let (tables, _) = bvh::build(mesh.as_input(), &options);
     tables.to_bytes()
@@ -92,6 +97,7 @@ pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Bvh<'_>) -
 
 fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
     let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    let all: Vec<[u32; 3]> = mesh.all_triangles().collect();
     let largest = |most: f64, x: f32| most.max(f64::from(x).abs());
     let size = triboxes
         .iter()
@@ -106,11 +112,13 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
         let asked = point.as_vec3();
         let offset = (asked.as_dvec3() - point).length();
         let answer = closest_point(tree, asked.to_array(), &Budget::EXACT, &mut stack).ok()?;
-        let corners = answer.triangle.and_then(|triangle| mesh.corners(triangle as usize));
+        let corners = answer.triangle.and_then(|triangle| all.get(triangle as usize));
         Some(Nearest {
             lower: f64::from(answer.lower) - offset,
             upper: f64::from(answer.upper) + offset,
-            triangle: corners.map(|corners| corners.map(|p| DVec3::from(p.map(f64::from)))),
+            triangle: corners.map(|corners| {
+                corners.map(|v| DVec3::from(mesh.positions[v as usize].map(f64::from)))
+            }),
         })
     };
     let Farthest { lower, upper } = farthest(triangles, 0.0, nearest);

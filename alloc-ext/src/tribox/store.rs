@@ -43,7 +43,7 @@ pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), T
     let started = Instant::now();
     let mesh = input.mesh;
     let lattice = Lattice::of(mesh, input.error())?;
-    if mesh.triangles.is_empty() {
+    if mesh.triangles.is_empty() && mesh.wires.is_empty() {
         let bounds = Aabb { min: Vec3::ZERO, max: Vec3::ZERO };
         let tables = sections(lattice.scale_exponent, 0.0, 0, bounds, Vec::new());
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));

@@ -84,8 +84,8 @@ impl SignedDistance {
 /// The side is undefined if the mesh is not closed and consistently wound
 /// ([`BvhHeader::is_closed`](crate::bvh::format::BvhHeader::is_closed)), if the distance is not clear of
 /// the stored surface's error and of rounding, next to walls and gaps thinner than these, next to
-/// slivers so flat that they have no certain normal, and where triangles without area alone are
-/// near. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps`
+/// slivers so flat that they have no certain normal, and where a triangle without area is certainly
+/// nearer than every other: it has no sides. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps`
 /// too few, the side is undefined, too. The tolerances of [`Budget`] do not apply: a side needs the
 /// closest point itself.
 ///
@@ -121,7 +121,7 @@ pub fn signed_distance(
             search.stack,
         )?,
     };
-    let clear = closed && closest.lower > 0.0;
+    let clear = closed && closest.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
     let mut side = match &survey {
         Some(survey) if clear => search.side(survey)?,
         _ => Side::Undefined,
@@ -302,6 +302,13 @@ struct Survey<'p> {
 }
 
 impl Survey<'_> {
+    /// Whether a triangle with an area may be the closest one.
+    fn has_sides(&self) -> bool {
+        let band = Candidates::new(self.query, self.margin, self.best.distance_sq).band;
+        let [front, back, unclear, _] = self.least;
+        front <= band || back <= band || unclear <= band
+    }
+
     /// Not above the distance to the input mesh, input units; what was missed is not counted.
     fn lower(&self) -> f32 {
         let distance = sqrt_approx(self.best.distance_sq);

@@ -9,10 +9,10 @@ use meshsweep_core::tribox::{Pose, Tribox};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, rough_sphere, scaled, torus,
 };
-use meshsweep_host_tests::measure::Subject;
-use meshsweep_host_tests::measure::bounds::contact::Surface;
-use meshsweep_host_tests::measure::triboxes::{by_vertices, exact, poses, sphere};
 use meshsweep_host_tests::oracle::polytope::{HalfSpace, Polytope};
+use meshsweep_host_tests::workload::Subject;
+use meshsweep_host_tests::workload::contact::Surface;
+use meshsweep_host_tests::workload::pose::{Pose as Exact, by_vertices, poses, sphere};
 use std::collections::HashSet;
 
 const DIRECTIONS: [[i64; 3]; 9] = [
@@ -119,7 +119,7 @@ fn surfaces_that_touch_are_never_apart() {
         let subject = subject(&triangles);
         let bytes = blob(&subject.mesh, 16);
         let all = Triboxes::open(&bytes).expect("opens");
-        let surface = Surface::new(&subject).expect("a mesh");
+        let surface = Surface::new(&subject);
         let mut stack = vec![NodePair::EMPTY; stack_entries(&all, &all)];
         let (mut proved, mut touching) = (0, 0);
         for (pose, core) in poses(&sphere(&subject), 60) {
@@ -142,12 +142,12 @@ fn surfaces_that_touch_are_never_apart() {
                 });
                 moved
             };
-            if !surface.meets_moved(&exact(&at(1.0), &pose)) {
+            if !surface.meets_moved(&Exact::exact(&at(1.0), &pose)) {
                 continue;
             }
             for _ in 0..40 {
                 let middle = 0.5 * (clear + near);
-                if surface.meets_moved(&exact(&at(middle), &pose)) {
+                if surface.meets_moved(&Exact::exact(&at(middle), &pose)) {
                     near = middle
                 } else {
                     clear = middle

@@ -66,7 +66,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         single: args.vertex_bits.is_single(),
         ..TreeOptions::default()
     };
-    let triangles = loaded.mesh.triangles.len();
+    let triangles = loaded.mesh.triangles.len() + loaded.mesh.wires.len();
     if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > tree::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
@@ -168,6 +168,7 @@ impl Report<'_> {
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
             writeln!(out, "  volume {}", describe::About(report.volume))?;
+            write_wires(out, report.wires)?;
         }
         if loaded.moved > 0.0 {
             writeln!(
@@ -218,6 +219,18 @@ impl Report<'_> {
         }
         writeln!(out)
     }
+}
+
+/// How far the points of triangles without area are off the hulls' surface.
+pub fn write_wires(out: &mut dyn Write, off: f64) -> io::Result<()> {
+    if off > 0.0 {
+        let off = describe::AtMost(off);
+        writeln!(
+            out,
+            "  triangles without area lie up to {off} off the surface: hulls may leave them out by as much"
+        )?;
+    }
+    Ok(())
 }
 
 /// Which tight hulls are not there.

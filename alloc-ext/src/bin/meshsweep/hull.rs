@@ -2,7 +2,7 @@
 
 use super::args::{HullArgs, slack_within_margin};
 use super::blob_file;
-use super::build::{FACES, why_stuck};
+use super::build::{FACES, why_stuck, write_wires};
 use super::counted::Counted;
 use super::describe::{AtMost, Percent, tight_void};
 use super::failure::Failure;
@@ -10,7 +10,7 @@ use super::output::{Output, refuse_same_file};
 use super::progress::Bar;
 use super::{mesh_file, served};
 use meshsweep::emit::CutError;
-use meshsweep::hull::{BuildOptions, hull_of};
+use meshsweep::hull::{BuildOptions, hull_of, wires_off_surface};
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::tight::hull_mesh as tight_mesh;
 use meshsweep_core::Model;
@@ -133,6 +133,7 @@ fn of_mesh(args: &HullArgs, faces: u32) -> Result<(), Failure> {
             Percent((void * 100.0).max(0.0)),
             time.as_secs_f64()
         )?;
+        write_wires(out, wires_off_surface(&solid.mesh))?;
         stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", why_stuck(faces, &stuck)))
     })
 }

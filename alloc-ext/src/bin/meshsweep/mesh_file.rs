@@ -28,22 +28,11 @@ pub fn load(file: &Path) -> Result<Loaded, Failure> {
     repaired(file, read(file)?, 0.0, started)
 }
 
-/// Corners of a triangle.
-pub type Corners = [[f32; 3]; 3];
-
-/// Reads, moves to the hull's grid, and repairs; and the file's triangles that are not in the mesh:
-/// without area, or there twice.
-pub fn load_all(file: &Path, bits: VertexBits) -> Result<(Loaded, Vec<Corners>), Failure> {
+/// Reads, moves to the hull's grid, and repairs any triangle soup.
+pub fn load_snapped(file: &Path, bits: VertexBits) -> Result<Loaded, Failure> {
     let started = Instant::now();
     let (raw, moved) = read_snapped(file, bits)?;
-    let (positions, triangles) = (raw.positions.clone(), raw.triangles.clone());
-    let loaded = repaired(file, raw, moved, started)?;
-    let mut is_in = vec![false; triangles.len()];
-    loaded.mesh.source.iter().for_each(|&t| is_in[t as usize] = true);
-    let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize].map(|x| x as f32));
-    let left_out =
-        triangles.iter().zip(is_in).filter(|(_, is_in)| !is_in).map(|(t, _)| corners(t)).collect();
-    Ok((loaded, left_out))
+    repaired(file, raw, moved, started)
 }
 
 /// A file's mesh on the hull's grid, and how far its vertices were moved for it.
@@ -66,9 +55,7 @@ pub fn load_solid(
     bits: VertexBits,
     instead: Option<&'static str>,
 ) -> Result<Loaded, Failure> {
-    let started = Instant::now();
-    let (raw, moved) = read_snapped(file, bits)?;
-    let loaded = repaired(file, raw, moved, started)?;
+    let loaded = load_snapped(file, bits)?;
     match mesh::require_closed_manifold(&loaded.mesh) {
         Ok(()) => Ok(loaded),
         Err(error) => {

@@ -51,11 +51,11 @@ impl Obstacle {
         }
     }
 
-    /// Of a mesh.
+    /// Of a mesh and its wires.
     pub fn of(mesh: &Mesh) -> Self {
         let positions: Vec<DVec3> =
             mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
-        Self::new(&positions, &mesh.triangles)
+        Self::new(&positions, &mesh.all_triangles().collect::<Vec<_>>())
     }
 
     /// The same with a margin: a distance within which no face may come.

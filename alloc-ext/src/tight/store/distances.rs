@@ -20,7 +20,7 @@ pub struct Distances {
 /// ones.
 const FINE: f64 = 1.0 / 512.0;
 
-/// Distances of `hull` and `mesh`, which may be any triangles. Cost: see [`farthest`], for each
+/// Distances of `hull` and `mesh`, which may be any triangles and wires. Cost: see [`farthest`], for each
 /// face of the hull and once for all of the mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
     let (hull_surface, mesh_surface) = (Obstacle::of(hull), Obstacle::of(mesh));
@@ -36,6 +36,6 @@ pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
             farthest(std::iter::once(face), enough, |p| to(&mesh_surface, p)).upper.min(slack.upper)
         })
         .collect();
-    let depth = farthest(mesh.corners_f64(), 0.0, |p| to(&hull_surface, p));
+    let depth = farthest(mesh.all_corners_f64(), 0.0, |p| to(&hull_surface, p));
     Distances { slacks, slack, depth }
 }

@@ -4,15 +4,13 @@ use super::super::args::HullArgs;
 use super::super::counted::Counted;
 use super::super::describe::{About, AtLeast, AtMost, Given, Percent};
 use super::super::failure::Failure;
-use super::super::mesh_file::{Loaded, load_all};
+use super::super::mesh_file::{Loaded, load_snapped};
 use super::super::output::Output;
 use super::super::progress::Bar;
 use super::unmet::{Tightness, require_met};
 use super::write_hull;
 use meshsweep::mesh::Mesh;
-use meshsweep::wrap::{
-    Goal, Hull, Options, Outcome, Progress, Report, Stage, Start, parts, share, wrap_all,
-};
+use meshsweep::wrap::{Goal, Hull, Options, Outcome, Progress, Report, Stage, Start, parts, wrap};
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -30,17 +28,13 @@ pub fn run(args: &HullArgs, faces: u32) -> Result<(), Failure> {
         time_limit: args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX)),
         vertex_bits: args.vertex_bits.format(),
     };
-    let (loaded, left_out) = load_all(&args.input, options.vertex_bits)?;
+    let loaded = load_snapped(&args.input, options.vertex_bits)?;
     options.margin = widened(options.margin, &loaded);
-    let meshes = if args.parts {
-        share(parts(&loaded.mesh), &left_out)
-    } else {
-        vec![(loaded.mesh, left_out)]
-    };
+    let meshes = if args.parts { parts(&loaded.mesh) } else { vec![loaded.mesh] };
     let mut hulls = Vec::new();
-    for (mesh, further) in &meshes {
+    for mesh in &meshes {
         let mut bars = WrapBars::default();
-        let hull = wrap_all(mesh, further, &options, |progress| bars.show(progress));
+        let hull = wrap(mesh, &options, |progress| bars.show(progress));
         hulls.push(hull.map_err(|error| Failure::Wrap { file: args.input.clone(), error })?);
     }
     let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--faces" };
