@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use meshsweep::hull::{BuildOptions, hull_of};
-use meshsweep::mesh::{Mesh, RawMesh, read_bytes, repair};
+use meshsweep::mesh::{Mesh, RawMesh, Wire, read_bytes, repair};
 use meshsweep::wrap::{Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, parts, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
