@@ -1,6 +1,6 @@
 //! A coarser blob out of a finer one: each structure cuts its own sections.
 
-use crate::emit::{Sections, assemble};
+use crate::emit::assemble;
 use crate::{bvh, hull, tight, tribox};
 use meshsweep_core::Model;
 
@@ -75,7 +75,7 @@ pub fn cut_blob(model: &Model<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
     let triboxes = tribox::cut(model, keep.triboxes.unwrap_or(u32::MAX));
     let tight = tight::cut(model, keep.tight.unwrap_or(u32::MAX));
     let structures = [hierarchy.map(|tables| tables.sections()), tree, triboxes, tight];
-    Ok(assemble(&structures.iter().flatten().collect::<Vec<&Sections>>()))
+    Ok(assemble(structures.iter().flatten()))
 }
 
 /// Tables of the model's hull hierarchy after level `index`: see [`hull::cut()`].

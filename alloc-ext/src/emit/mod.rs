@@ -55,7 +55,7 @@ impl Sections {
     /// A blob of this structure alone.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        assemble(&[self])
+        assemble([self])
     }
 }
 
@@ -64,9 +64,9 @@ impl Sections {
 ///
 /// The header is that of a hull hierarchy, or of the first structure if there is none.
 #[must_use]
-pub fn assemble(structures: &[&Sections]) -> Vec<u8> {
+pub fn assemble<'a>(structures: impl IntoIterator<Item = &'a Sections>) -> Vec<u8> {
     let place = |kind: SectionKind| SectionKind::ALL.iter().position(|&other| other == kind);
-    let mut structures = structures.to_vec();
+    let mut structures: Vec<&Sections> = structures.into_iter().collect();
     structures.sort_by_key(|of| of.bodies.first().and_then(|&(kind, _)| place(kind)));
     let bare =
         Sections::new(0, 0.0, 0, Aabb { min: [0.0; 3].into(), max: [0.0; 3].into() }, vec![]);

@@ -14,7 +14,7 @@ use meshsweep_core::Model;
 use meshsweep_core::blob::layout::MAX_RING;
 use meshsweep_core::blob::{Children, Level, NodeIdx, OpenError};
 use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius8, Radius16, up_to_f32};
+use meshsweep_core::num::{Radius8, Radius16, sum_up, up_to_f32};
 use std::time::{Duration, Instant};
 
 /// What to build.
@@ -150,10 +150,14 @@ pub fn build(
     let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
-    let input = Input { moved: input.moved + wires, ..input };
     let mut tables = assemble(&stored, input, &history, &order, &forest, &cover);
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
+    // Levels were measured to the triangles with an area, without it.
+    if wires > 0.0 {
+        let off = wires * meshsweep_core::num::exp2(-stored.scale_exponent);
+        tables.surface_error = sum_up(tables.surface_error, up_to_f32(off));
+    }
     let bytes = tables.to_bytes();
     Model::open(&bytes).map_err(BuildError::Reopen)?;
     let scale = meshsweep_core::num::exp2(stored.scale_exponent);
