@@ -198,7 +198,6 @@ pub fn hull_of(
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
     let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
-    let wires = wires_off_surface(mesh);
     let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
     let order = VertexOrder::new(&history);
     let scale = meshsweep_core::num::exp2(stored.scale_exponent);
