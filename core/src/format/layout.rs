@@ -21,9 +21,10 @@ pub const MAX_SECTIONS: usize = 32;
 /// blob.
 pub const FLAG_CUT: u32 = 1;
 
-/// What a section holds.
+/// The contents of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
+#[non_exhaustive]
 pub enum SectionKind {
     /// Coordinates, base vertices first, then two for each split.
     Vertices = 1,
@@ -100,8 +101,20 @@ impl SectionKind {
     }
 
     /// Whether the section belongs to the box tree.
-    pub fn is_tree(self) -> bool {
+    pub fn is_bvh(self) -> bool {
         !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32
+    }
+
+    /// The value of `meshsweep build --for` that writes the section.
+    pub fn build_for(self) -> &'static str {
+        match self {
+            SectionKind::TreeBoxes => "segment",
+            SectionKind::TreeCones => "cull",
+            SectionKind::Triboxes => "triboxes",
+            SectionKind::TightHulls => "tight",
+            _ if self.is_hull() => "hull",
+            _ => "closest",
+        }
     }
 
     /// The kind's name as `info` prints it.
