@@ -5,13 +5,14 @@ use crate::tight::TightTables;
 use crate::tree::TreeTables;
 use crate::tribox::TriboxTables;
 use glam::Vec3;
-use meshsweep_core::blob::layout::{
-    FLAG_CUT, HEADER_BYTES, HEADER_CRC_AT, LEAF_FLAG, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES,
-    SectionKind, VertexFormat, none,
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::format::layout::{
+    FLAG_CUT, HEADER_BYTES, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, VertexFormat, field, none,
 };
-use meshsweep_core::blob::{Header, section_crc};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{down_to_f32, exp2, up_to_f32};
+use meshsweep_core::internal::format::{Header, section_crc};
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::hull::format::layout::LEAF_FLAG;
+use meshsweep_core::internal::num::{down_to_f32, exp2, up_to_f32};
 
 /// What a blob is to hold, all of the same mesh.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,8 +76,6 @@ fn bare_header(
     input_triangles: u32,
     bounds: [[f32; 3]; 2],
 ) -> Header {
-    let [min, max] = bounds.map(Vec3::from_array);
-    let bounds = Aabb { min, max };
     Header {
         scale_exponent,
         surface_error,
@@ -96,10 +95,8 @@ fn tree_header(tree: &TreeTables) -> Header {
         let x = units * exp2(h.grid_exponent);
         if down { down_to_f32(x) } else { up_to_f32(x) }
     };
-    let corner = |stored: [u16; 3], down: bool| {
-        Vec3::from_array([0, 1, 2].map(|axis| at(stored, axis, down)))
-    };
-    let bounds = Aabb { min: corner(h.low, true), max: corner(h.high, false) };
+    let corner = |stored: [u16; 3], down: bool| [0, 1, 2].map(|axis| at(stored, axis, down));
+    let bounds = [corner(h.low, true), corner(h.high, false)];
     Header {
         scale_exponent: tree.scale_exponent,
         surface_error: h.surface_error,
@@ -126,9 +123,9 @@ fn join(mut header: Header, bodies: &[(SectionKind, Vec<u8>)]) -> Vec<u8> {
     header.total_bytes = out.len() as u32;
     out[..HEADER_BYTES].copy_from_slice(&header.write());
     out[HEADER_BYTES..table_bytes].copy_from_slice(&table);
-    let mut covered = out[..HEADER_CRC_AT].to_vec();
-    covered.extend(&out[HEADER_CRC_AT + 4..table_bytes]);
-    out[HEADER_CRC_AT..HEADER_CRC_AT + 4].copy_from_slice(&section_crc(&covered).to_le_bytes());
+    let mut covered = out[..field::CRC].to_vec();
+    covered.extend(&out[field::CRC + 4..table_bytes]);
+    out[field::CRC..field::CRC + 4].copy_from_slice(&section_crc(&covered).to_le_bytes());
     out
 }
 
@@ -158,8 +155,8 @@ impl Tables {
             levels: self.levels.len() as u32,
             input_triangles: self.input_triangles,
             surface_error: self.surface_error,
-            hull_box: self.hull_box(),
-            surface_box: self.surface_box,
+            hull_box: self.hull_box().corners(),
+            surface_box: self.surface_box.corners(),
             queue_capacity: self.queue_capacity,
             dependency_depth: self.dependency_depth(),
         }

@@ -5,8 +5,7 @@ use super::bytes::{Parts, assemble};
 use super::tables::Tables;
 use crate::tree::TreeTables;
 use crate::{tight, tribox};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::SectionKind;
+use meshsweep_core::{Blob, Hull, SectionKind};
 
 /// Why a blob was not cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,21 +62,22 @@ pub struct Keep {
 ///
 /// # Errors
 /// [`CutError`] if there is nothing of the kind to cut.
-pub fn cut_blob(model: &Model<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
-    let hull = match keep.level {
-        Some(level) => Some(cut(model, level)?),
-        None if model.has_hull() => Some(Tables::from_model(model).ok_or(CutError::Model)?),
-        None => None,
+pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
+    let hull = match (keep.level, blob.hull()) {
+        (Some(level), Ok(hull)) => Some(cut(&hull, level)?),
+        (Some(wanted), Err(_)) => return Err(CutError::NoLevel { wanted, levels: 0 }),
+        (None, Ok(hull)) => Some(Tables::from_model(&hull).ok_or(CutError::Model)?),
+        (None, Err(_)) => None,
     };
-    let tree = if keep.level.is_none() { tree(model) } else { None };
-    if keep.triboxes.is_some() && model.triboxes().is_none() {
+    let tree = if keep.level.is_none() { tree(blob) } else { None };
+    if keep.triboxes.is_some() && blob.triboxes().is_err() {
         return Err(CutError::NoTriboxes);
     }
-    if keep.tight.is_some() && model.tight_hulls().is_none() {
+    if keep.tight.is_some() && blob.tight_hulls().is_err() {
         return Err(CutError::NoTightHulls);
     }
-    let triboxes = tribox::cut(model, keep.triboxes.unwrap_or(u32::MAX));
-    let tight = tight::cut(model, keep.tight.unwrap_or(u32::MAX));
+    let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
+    let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
     Ok(assemble(&Parts {
         hull: hull.as_ref(),
         tree: tree.as_ref(),
@@ -87,14 +87,12 @@ pub fn cut_blob(model: &Model<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
 }
 
 /// The box tree as it stands in a blob.
-fn tree(model: &Model<'_>) -> Option<TreeTables> {
-    let tree = model.tree()?;
-    let sections =
-        model.sections().filter(|section| section.kind.is_tree()).filter_map(|section| {
-            let bytes =
-                model.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
-            Some((section.kind, bytes.to_vec()))
-        });
+fn tree(blob: &Blob<'_>) -> Option<TreeTables> {
+    let tree = blob.bvh().ok()?;
+    let sections = blob.sections().filter(|section| section.kind.is_bvh()).filter_map(|section| {
+        let bytes = blob.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
+        Some((section.kind, bytes.to_vec()))
+    });
     let sections: Vec<(SectionKind, Vec<u8>)> = sections.collect();
     let (scale_exponent, input_triangles) = (tree.scale_exponent(), tree.input_triangles());
     Some(TreeTables { scale_exponent, input_triangles, header: *tree.header(), sections })
@@ -105,7 +103,7 @@ fn tree(model: &Model<'_>) -> Option<TreeTables> {
 ///
 /// # Errors
 /// [`CutError::NoLevel`].
-pub fn cut(model: &Model<'_>, index: u32) -> Result<Tables, CutError> {
+pub fn cut(model: &Hull<'_>, index: u32) -> Result<Tables, CutError> {
     let level = model
         .level(index)
         .ok_or(CutError::NoLevel { wanted: index, levels: model.header().levels })?;

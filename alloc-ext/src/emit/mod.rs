@@ -1,4 +1,4 @@
-//! Tables to bytes, through the constants of `meshsweep_core::blob::layout`, and back.
+//! Tables to bytes, through the constants of `meshsweep_core::internal::format::layout`, and back.
 
 mod bytes;
 mod cut;

@@ -2,11 +2,12 @@
 //! written.
 
 use glam::Vec3;
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::BASE_GROUP;
-use meshsweep_core::blob::{Children, Level, NodeIdx, SplitIdx, TriIdx, VertIdx};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius8, Radius16};
+use meshsweep_core::Hull;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
+use meshsweep_core::internal::hull::format::{Children, NodeIdx, SplitIdx, TriIdx};
+use meshsweep_core::internal::num::{Radius8, Radius16};
+use meshsweep_core::{Level, VertIdx};
 
 use crate::precision::Grid;
 
@@ -143,7 +144,7 @@ impl Tables {
     }
 
     /// The tables of an opened blob. `None` cannot happen for a model that was opened.
-    pub fn from_model(model: &Model<'_>) -> Option<Tables> {
+    pub fn from_model(model: &Hull<'_>) -> Option<Tables> {
         let h = model.header();
         let mut rings = Vec::with_capacity(h.rings as usize);
         let mut splits = Vec::with_capacity(h.splits as usize);
@@ -211,7 +212,7 @@ impl Tables {
                 .map(|t| model.source(TriIdx(t)))
                 .collect::<Option<_>>()?,
             input_triangles: h.input_triangles,
-            surface_box: h.surface_box,
+            surface_box: Aabb::of(h.surface_box),
             levels: model.levels().collect(),
             queue_capacity: h.queue_capacity,
             is_cut: model.is_cut(),

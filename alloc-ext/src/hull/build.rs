@@ -7,11 +7,12 @@ use crate::mesh::Mesh;
 use crate::precision::{Stored, VertexBits, store};
 use crate::sweep::{Cover, Forest, Offspring, base_groups, grow, plant, sort_base};
 use glam::{DVec3, Vec3};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::MAX_RING;
-use meshsweep_core::blob::{Children, Level, NodeIdx, OpenError};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius8, Radius16, up_to_f32};
+use meshsweep_core::Hull;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::hull::format::layout::MAX_RING;
+use meshsweep_core::internal::hull::format::{Children, NodeIdx};
+use meshsweep_core::internal::num::{Radius8, Radius16, up_to_f32};
+use meshsweep_core::{Level, OpenError};
 use std::time::{Duration, Instant};
 
 /// What to build.
@@ -150,8 +151,8 @@ pub fn build(
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
     let bytes = tables.to_bytes();
-    Model::open(&bytes).map_err(BuildError::Reopen)?;
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    Hull::open(&bytes).map_err(BuildError::Reopen)?;
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let report = BuildReport {
         base_faces: tables.base.len(),
         stuck,
@@ -179,7 +180,7 @@ pub fn hull_of(
     let volume = positive_volume(&stored, mesh)?;
     let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
     let order = VertexOrder::new(&history);
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let positions = order.label[..order.base as usize]
         .iter()
         .map(|&l| (history.positions[l as usize] * scale).as_vec3().to_array())
@@ -192,7 +193,7 @@ pub fn hull_of(
 /// Volume in the local frame, which void is measured against.
 fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
     let volume = signed_volume(&stored.positions, &mesh.triangles);
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     if volume > 0.0 {
         Ok(volume)
     } else {
@@ -319,7 +320,7 @@ fn assemble(
     let single = |p: DVec3| p.as_vec3();
     let low = stored.positions.iter().fold(Vec3::INFINITY, |m, &p| m.min(single(p)));
     let high = stored.positions.iter().fold(Vec3::NEG_INFINITY, |m, &p| m.max(single(p)));
-    let scale = meshsweep_core::num::exp2(-stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(-stored.scale_exponent);
     Tables {
         scale_exponent: stored.scale_exponent,
         grid: stored.grid,
@@ -356,7 +357,7 @@ fn assemble(
 /// model.
 fn certify(tables: &mut Tables) -> Result<(), OpenError> {
     let bytes = tables.to_bytes();
-    let model = Model::open(&bytes)?;
+    let model = Hull::open(&bytes)?;
     let corners_of: rustc_hash::FxHashMap<u32, [u32; 3]> =
         tables.source.iter().copied().zip(tables.surface.iter().copied()).collect();
     let at = |v: u32| tables.vertices[v as usize].as_dvec3();

@@ -5,8 +5,8 @@ use super::store::{Stored, TightTables};
 use crate::mesh::Mesh;
 use crate::precision::VertexBits;
 use crate::wrap::{self, Goal, Hull, NoVolume, Options, Solid, WrapError, wrap};
-use meshsweep_core::blob::layout::MAX_LEVELS;
-use meshsweep_core::num::Radius16;
+use meshsweep_core::internal::format::layout::MAX_LEVELS;
+use meshsweep_core::internal::num::Radius16;
 use std::time::{Duration, Instant};
 
 /// Most hulls of a blob.

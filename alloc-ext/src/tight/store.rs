@@ -5,12 +5,13 @@ use crate::emit::{Parts, assemble};
 use crate::mesh::Mesh;
 use crate::precision::{VertexBits, scale_exponent};
 use crate::tree::{self, TreeOptions, TreeTables};
-use meshsweep_core::blob::TightRecord;
-use meshsweep_core::blob::layout::{
-    SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED,
+use meshsweep_core::TightRecord;
+use meshsweep_core::internal::format::layout::SECTION_ALIGNMENT;
+use meshsweep_core::internal::num::{Radius16, down_to_f32, exp2, up_to_f32};
+use meshsweep_core::internal::tight::format::layout::{
+    TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED,
 };
-use meshsweep_core::num::{Radius16, down_to_f32, exp2, up_to_f32};
-use meshsweep_core::{Model, TightHull, TightHulls};
+use meshsweep_core::{Blob, TightHull, TightHulls};
 use std::collections::BTreeMap;
 
 /// Everything that a blob holds of tight hulls.
@@ -130,16 +131,16 @@ fn section(nested: bool, hulls: &[Stored]) -> Vec<u8> {
 /// The tight hulls of a blob that have at most so many faces, or the coarsest; `None` if it has
 /// none.
 #[must_use]
-pub fn cut(model: &Model<'_>, faces: u32) -> Option<TightTables> {
-    let hulls = model.tight_hulls()?;
+pub fn cut(blob: &Blob<'_>, faces: u32) -> Option<TightTables> {
+    let hulls = blob.tight_hulls().ok()?;
     let count = hulls.records().take_while(|record| record.faces <= faces).count().max(1);
     let kept: Option<Vec<Stored>> = (0..count as u32).map(|index| stored(&hulls, index)).collect();
-    let h = model.header();
+    let h = blob.header();
     Some(TightTables {
         scale_exponent: h.scale_exponent,
         input_triangles: h.input_triangles,
         surface_error: h.surface_error,
-        bounds: [h.surface_box.min.to_array(), h.surface_box.max.to_array()],
+        bounds: h.surface_box,
         section: section(hulls.is_nested(), &kept?),
     })
 }
@@ -156,7 +157,7 @@ fn stored(hulls: &TightHulls<'_>, index: u32) -> Option<Stored> {
 /// A stored hull as a mesh in its unit, vertices exactly as stored; faces in their own order.
 #[must_use]
 pub fn hull_mesh(hull: &TightHull<'_>) -> Mesh {
-    let tree = hull.tree();
+    let tree = hull.bvh();
     // A power of two: exact. Zeros lose their sign, by which no two corners differ.
     let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
     let in_input_units = |p: glam::Vec3| p.to_array().map(|x| (f64::from(x) * unit) as f32 + 0.0);
@@ -165,7 +166,7 @@ pub fn hull_mesh(hull: &TightHull<'_>) -> Mesh {
         let Some(links) = tree.links(node) else { continue };
         for child in links.inner..links.count {
             let Some(patch) = tree.leaf(node, child) else { continue };
-            for lane in 0..patch.tag().triangles() {
+            for lane in 0..patch.shape().triangles() {
                 let number = tree.source(links.triangle(child).wrapping_add(lane as u32));
                 let corners = patch.corners(lane).map(in_input_units);
                 faces.extend(number.map(|number| (number, corners)));

@@ -1,13 +1,14 @@
-//! The tree's sections as bytes, through the constants of `meshsweep_core::blob`.
+//! The tree's sections as bytes, through the constants of `meshsweep_core::internal::format`.
 
 use super::boxes::NodeBoxes;
 use super::order::Topology;
 use super::store::OnGrid;
 use crate::fan::FanLeaf;
 use glam::DVec3;
-use meshsweep_core::blob::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES, SectionKind};
-use meshsweep_core::blob::{BvhHeader, LeafShape, Links};
-use meshsweep_core::num::{down_to_f32, exp2};
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES};
+use meshsweep_core::internal::bvh::format::{BvhHeader, LeafShape, Links};
+use meshsweep_core::internal::num::{down_to_f32, exp2};
 
 /// Everything that a blob holds of a box tree.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,10 +10,11 @@ use crate::hull::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
 use crate::tree::{self, TreeOptions};
 use glam::DVec3;
+use meshsweep_core::Budget;
 use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::{ScratchEntry, closest_point};
-use meshsweep_core::tribox::{FACES, Tribox};
+use meshsweep_core::ScratchEntry;
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::FACES;
 
 /// A union of triboxes that covers a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,11 +107,11 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
         // The query is rounded to f32: the distance to what was asked is part of the bound.
         let asked = point.as_vec3();
         let offset = (asked.as_dvec3() - point).length();
-        let answer = closest_point(tree, asked.to_array(), &Budget::EXACT, &mut stack).ok()?;
+        let answer = tree.closest_point(asked.to_array(), Budget::EXACT, &mut stack).ok()?;
         let corners = answer.triangle.and_then(|triangle| mesh.corners(triangle as usize));
         Some(Nearest {
-            lower: f64::from(answer.lower) - offset,
-            upper: f64::from(answer.upper) + offset,
+            lower: f64::from(answer.distance.lower) - offset,
+            upper: f64::from(answer.distance.upper) + offset,
             triangle: corners.map(|corners| corners.map(|p| DVec3::from(p.map(f64::from)))),
         })
     };

@@ -20,7 +20,7 @@ use super::predicates::Triangle;
 use super::region::{Plane, Tetrahedron};
 use crate::lp::HalfSpace;
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 use std::cell::Cell;
 
 /// Weights below this are rounding: the point does not move with the vertex.

@@ -28,7 +28,7 @@ use super::obstacle::Obstacle;
 use super::predicates::Triangle;
 use crate::precision::split_exponent;
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 use rustc_hash::FxHashMap;
 use std::time::Instant;
 

@@ -13,7 +13,7 @@
 use super::boxes::Bounds;
 use super::predicates::Triangle;
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 /// See the module.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

@@ -9,7 +9,7 @@ use super::volume::{Solid, crosses_itself};
 use crate::mesh::Mesh;
 use crate::precision::{Stored, VertexBits, store};
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 use rustc_hash::FxHashMap;
 use std::time::Instant;
 

@@ -8,7 +8,7 @@ use super::distance::Reach;
 use super::predicates::{Triangle, in_sunken, meet};
 use super::region::{Plane, Tetrahedron};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 /// Any set of triangles, in its own unit.
 #[derive(Clone, Debug)]

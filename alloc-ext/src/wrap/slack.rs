@@ -15,7 +15,7 @@ use super::shell::Shell;
 use super::work::Work;
 use crate::hull::{Farthest, Nearest, farthest, is_within};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 fn nearest(obstacle: &Obstacle, p: DVec3) -> Option<Nearest> {
     let (triangle, [lower, upper]) = obstacle.nearest(p)?;

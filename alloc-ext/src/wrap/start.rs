@@ -18,7 +18,7 @@ use crate::lp::{HalfSpace, minimise_bounded};
 use crate::mesh::{Enclosure, Mesh};
 use crate::precision::Stored;
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 use std::time::Instant;
 
 /// A hull to start from.

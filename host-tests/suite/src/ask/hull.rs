@@ -1,13 +1,10 @@
 //! Questions to the split hierarchy.
 
-pub use meshsweep_core::Model;
-use meshsweep_core::QueueEntry;
-use meshsweep_core::blob::Header;
-use meshsweep_core::query::{
-    Budget, Hit, Search, all_hits as core_all_hits, closest_point, first_hit as core_first_hit,
-    outer_hits as core_outer_hits,
-};
-use meshsweep_core::refine::{Face, RefinedHull, hull_faces};
+pub use meshsweep_core::Hull;
+use meshsweep_core::ScratchEntry;
+use meshsweep_core::internal::format::Header;
+use meshsweep_core::{Budget, Hit, Search};
+use meshsweep_core::{Face, RefinedHull};
 
 use super::{Refused, Subject, timed};
 use crate::fold::Fold;
@@ -23,7 +20,7 @@ const FRONT_WORDS: usize = 64;
 /// What the queries need beside the model, 4 KiB in all.
 #[derive(Debug)]
 pub struct Scratch {
-    queue: [QueueEntry; QUEUE],
+    queue: [ScratchEntry; QUEUE],
     hits: [Hit; 16],
     performed: [u32; FRONT_WORDS],
     swept: [u32; FRONT_WORDS],
@@ -35,7 +32,7 @@ impl Scratch {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            queue: [QueueEntry::EMPTY; QUEUE],
+            queue: [ScratchEntry::EMPTY; QUEUE],
             hits: [Hit::EMPTY; 16],
             performed: [0; FRONT_WORDS],
             swept: [0; FRONT_WORDS],
@@ -50,7 +47,7 @@ impl Default for Scratch {
     }
 }
 
-impl<'t> Subject<'t> for Model<'t> {
+impl<'t> Subject<'t> for Hull<'t> {
     type Scratch = Scratch;
 
     fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
@@ -118,13 +115,13 @@ impl<'t> Subject<'t> for Model<'t> {
 ///
 /// # Errors
 /// The core's refusal.
-pub fn open(bytes: &[u8]) -> Result<Model<'_>, Refused> {
-    Model::open(bytes).map_err(Refused::of)
+pub fn open(bytes: &[u8]) -> Result<Hull<'_>, Refused> {
+    Hull::open(bytes).map_err(Refused::of)
 }
 
 /// The surface's box in input units.
 #[must_use]
-pub fn bounds(model: &Model<'_>) -> Bounds {
+pub fn bounds(model: &Hull<'_>) -> Bounds {
     let Header { surface_box, .. } = *model.header();
     // A power of two: exact unless the box leaves f32's normal range, and then rounded alike
     // everywhere.
@@ -134,7 +131,7 @@ pub fn bounds(model: &Model<'_>) -> Bounds {
 }
 
 /// Sections, levels and the faces of every hull.
-pub fn contents(model: &Model<'_>, fold: &mut Fold) {
+pub fn contents(model: &Hull<'_>, fold: &mut Fold) {
     for section in model.sections() {
         fold.word(section.kind as u32);
         fold.word(section.crc);
@@ -142,7 +139,7 @@ pub fn contents(model: &Model<'_>, fold: &mut Fold) {
     for level in model.levels() {
         fold.word(level.faces);
         fold.f32(level.hull_to_surface);
-        for face in hull_faces(model, &level) {
+        for face in model.faces(&level) {
             fold.f32(face.radius);
             for corner in face.corners {
                 if let Some(position) = model.position(corner) {
@@ -155,13 +152,13 @@ pub fn contents(model: &Model<'_>, fold: &mut Fold) {
 
 /// Closest point; returns the witness.
 pub fn closest(
-    model: &Model<'_>,
+    model: &Hull<'_>,
     point: [f32; 3],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(model, point, &Budget::EXACT, &mut scratch.queue)) {
+    match timed(clock, || model.closest_point(point, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => {
             super::closest_point(fold, &answer);
             answer.point
@@ -175,13 +172,13 @@ pub fn closest(
 
 /// First point of the segment from `a` to `b` on the surface.
 pub fn first_hit(
-    model: &Model<'_>,
+    model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_first_hit(model, a, b, &Budget::EXACT, &mut scratch.queue)) {
+    match timed(clock, || model.first_hit(a, b, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => super::segment_hit(fold, &answer),
         Err(error) => super::refusal(fold, error),
     }
@@ -189,13 +186,15 @@ pub fn first_hit(
 
 /// Every point of the segment from `a` to `b` on the surface.
 pub fn all_hits(
-    model: &Model<'_>,
+    model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_all_hits(model, a, b, &mut scratch.queue, &mut scratch.hits)) {
+    match timed(clock, || {
+        model.all_hits(a, b, &mut scratch.hits, Budget::EXACT, &mut scratch.queue)
+    }) {
         Ok(answer) => {
             super::hits(fold, scratch.hits.get(..answer.stored).unwrap_or_default());
             fold.word(answer.dropped);
@@ -207,7 +206,7 @@ pub fn all_hits(
 
 /// The hits of the segment from `a` to `b` that the refined hull finds from outside.
 pub fn outer_hits(
-    model: &Model<'_>,
+    model: &Hull<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
@@ -216,7 +215,7 @@ pub fn outer_hits(
     let Scratch { hits: found, performed, swept, candidates, .. } = scratch;
     let mut ask = |search| {
         let mut front = RefinedHull::new(performed, swept, candidates);
-        match core_outer_hits(model, a, b, search, &mut front, found) {
+        match model.outer_hits(a, b, search, &mut front, found, Budget::EXACT) {
             Ok(answer) => {
                 fold.f32(answer.lower);
                 fold.f32(answer.upper);

@@ -12,7 +12,7 @@ pub mod tribox;
 pub mod triboxes;
 
 use meshsweep_core::OpenError;
-use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, SegmentHit, Work};
+use meshsweep_core::{ClosestPoint, Ended, FirstHit, Hit, QueryError, Work};
 
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
@@ -100,7 +100,7 @@ fn closest_point(fold: &mut Fold, answer: &ClosestPoint) {
     how(fold, answer.work, answer.ended);
 }
 
-fn segment_hit(fold: &mut Fold, answer: &SegmentHit) {
+fn segment_hit(fold: &mut Fold, answer: &FirstHit) {
     fold.f32(answer.lower);
     fold.f32(answer.upper);
     hits(fold, answer.hit.as_slice());

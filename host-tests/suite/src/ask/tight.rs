@@ -1,10 +1,9 @@
 //! Questions to the finest tight hull of a blob, about the mesh within.
 
+use meshsweep_core::Budget;
 pub use meshsweep_core::TightHull;
 use meshsweep_core::TightHulls;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tight::{closest_point, is_within as core_is_within};
-use meshsweep_core::query::tree::{ScratchEntry, Verdict};
+use meshsweep_core::{ScratchEntry, Verdict};
 
 use super::{Refused, Subject, closest_point as fold_answer, how, refusal, timed, tree};
 use crate::fold::Fold;
@@ -140,7 +139,7 @@ pub fn closest(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(&hulls.finest, point, &Budget::EXACT, &mut scratch.stack)) {
+    match timed(clock, || hulls.finest.closest_point(point, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold_answer(fold, &answer);
             answer.point
@@ -164,15 +163,15 @@ pub fn stopped(
     fold: &mut Fold,
 ) {
     let coarsest = hulls.all.get(0).unwrap_or(hulls.finest);
-    let tolerant = Budget { absolute: distance, ..Budget::EXACT };
-    let brief = Budget { steps: 2, ..Budget::EXACT };
+    let tolerant = Budget::EXACT.with_absolute(distance);
+    let brief = Budget::EXACT.with_steps(2);
     for (hull, stop, entries) in [
         (&coarsest, tolerant, STACK),
         (&hulls.finest, brief, STACK),
         (&hulls.finest, Budget::EXACT, 4),
     ] {
         let stack = scratch.stack.get_mut(..entries).unwrap_or_default();
-        match timed(clock, || closest_point(hull, point, &stop, stack)) {
+        match timed(clock, || hull.closest_point(point, stop, stack)) {
             Ok(answer) => fold_answer(fold, &answer),
             Err(error) => refusal(fold, error),
         }
@@ -189,14 +188,12 @@ pub fn is_within(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || {
-        core_is_within(&hulls.finest, point, distance, &Budget::EXACT, &mut scratch.stack)
-    }) {
+    match timed(clock, || hulls.finest.within(point, distance, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold.word(match answer.verdict {
                 Verdict::Yes { .. } => 1,
                 Verdict::No => 2,
-                Verdict::Unknown => 3,
+                Verdict::Undecided(_) => 3,
             });
             how(fold, answer.work, answer.ended);
         }

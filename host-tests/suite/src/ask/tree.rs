@@ -5,10 +5,8 @@ mod meeting;
 mod sight;
 
 pub use meshsweep_core::Bvh;
-use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{
-    CoherentQuery, Hint, Neighbor, PairEntry, ScratchEntry, TrianglePair,
-};
+use meshsweep_core::Hit;
+use meshsweep_core::{CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
 use super::{Refused, Subject};
 use crate::fold::Fold;
@@ -33,7 +31,7 @@ pub struct Scratch<'t> {
     hint: Hint,
     session: CoherentQuery<'t>,
     facing: [u32; 64],
-    pairs: [PairEntry; PairEntry::ENOUGH],
+    pairs: [ScratchEntry; ScratchEntry::ENOUGH],
     meeting: [TrianglePair; 8],
 }
 
@@ -48,7 +46,7 @@ impl Scratch<'_> {
             hint: Hint::NONE,
             session: CoherentQuery::new(),
             facing: [0; 64],
-            pairs: [PairEntry::EMPTY; PairEntry::ENOUGH],
+            pairs: [ScratchEntry::EMPTY; ScratchEntry::ENOUGH],
             meeting: [TrianglePair::EMPTY; 8],
         }
     }
@@ -172,7 +170,7 @@ pub fn contents(tree: &Bvh<'_>, fold: &mut Fold) {
         fold.word(word);
     }
     fold.f32(header.surface_error);
-    fold.f32(header.reach);
+    fold.f32(header.star_radius);
     let mut leaf = 0;
     for node in 0..header.nodes {
         let boxes = tree.boxes(node).into_iter().flatten();

@@ -1,9 +1,8 @@
 //! The model and its moved copy.
 
-use meshsweep_core::query::tree::{
-    Contact, all_overlaps as core_all_overlaps, overlap as core_overlap,
-};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::Budget;
+use meshsweep_core::Pose;
+use meshsweep_core::internal::geom::Contact;
 
 use super::{Bvh, Scratch};
 use crate::Clock;
@@ -26,7 +25,7 @@ pub fn overlap(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_overlap(tree, tree, pose, u32::MAX, &mut scratch.pairs)) {
+    match timed(clock, || tree.overlap(tree, *pose, Budget::EXACT, &mut scratch.pairs)) {
         Ok(answer) => {
             fold.word(match answer.contact {
                 Contact::Apart => 1,
@@ -58,7 +57,9 @@ pub fn all_overlaps(
     fold: &mut Fold,
 ) {
     let Scratch { pairs, meeting, .. } = scratch;
-    match timed(clock, || core_all_overlaps(tree, tree, pose, STEPS, meeting, pairs)) {
+    match timed(clock, || {
+        tree.overlaps(tree, *pose, meeting, Budget::EXACT.with_steps(STEPS), pairs)
+    }) {
         Ok(answer) => {
             for pair in meeting.iter().take(answer.stored) {
                 pair.triangles.into_iter().for_each(|number| fold.word(number));
