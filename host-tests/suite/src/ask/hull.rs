@@ -1,15 +1,18 @@
 //! Questions to the split hierarchy.
 
-pub use meshsweep_core::Hull;
-use meshsweep_core::ScratchEntry;
-use meshsweep_core::internal::format::Header;
-use meshsweep_core::{Budget, Hit, Search};
-use meshsweep_core::{Face, RefinedHull};
+use meshsweep_core::{Blob, Budget, Face, Hit, Hull, RefinedHull, ScratchEntry, Search};
 
 use super::{Refused, Subject, timed};
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
+
+/// A blob, and its hull hierarchy.
+#[derive(Clone, Copy, Debug)]
+pub struct Model<'t> {
+    blob: Blob<'t>,
+    hull: Hull<'t>,
+}
 
 /// Entries of the queue.
 const QUEUE: usize = 256;
@@ -47,7 +50,7 @@ impl Default for Scratch {
     }
 }
 
-impl<'t> Subject<'t> for Hull<'t> {
+impl<'t> Subject<'t> for Model<'t> {
     type Scratch = Scratch;
 
     fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
@@ -59,8 +62,7 @@ impl<'t> Subject<'t> for Hull<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        let needed = self.capacities();
-        needed.queue <= QUEUE && needed.front_words <= FRONT_WORDS
+        self.hull.scratch_entries() <= QUEUE && self.hull.refined_words() <= FRONT_WORDS
     }
 
     fn memory(&self) -> usize {
@@ -115,34 +117,31 @@ impl<'t> Subject<'t> for Hull<'t> {
 ///
 /// # Errors
 /// The core's refusal.
-pub fn open(bytes: &[u8]) -> Result<Hull<'_>, Refused> {
-    Hull::open(bytes).map_err(Refused::of)
+pub fn open(bytes: &[u8]) -> Result<Model<'_>, Refused> {
+    let blob = Blob::open(bytes).map_err(Refused::of)?;
+    let hull = blob.hull().map_err(|_| Refused::NO_SECTION)?;
+    Ok(Model { blob, hull })
 }
 
 /// The surface's box in input units.
 #[must_use]
-pub fn bounds(model: &Hull<'_>) -> Bounds {
-    let Header { surface_box, .. } = *model.header();
-    // A power of two: exact unless the box leaves f32's normal range, and then rounded alike
-    // everywhere.
-    let scale = model.scale();
-    [surface_box.min, surface_box.max]
-        .map(|corner| corner.as_dvec3().to_array().map(|x| (x * scale) as f32))
+pub fn bounds(model: &Model<'_>) -> Bounds {
+    model.hull.bounds()
 }
 
 /// Sections, levels and the faces of every hull.
-pub fn contents(model: &Hull<'_>, fold: &mut Fold) {
-    for section in model.sections() {
+pub fn contents(model: &Model<'_>, fold: &mut Fold) {
+    for section in model.blob.sections() {
         fold.word(section.kind as u32);
         fold.word(section.crc);
     }
-    for level in model.levels() {
+    for level in model.hull.levels() {
         fold.word(level.faces);
         fold.f32(level.hull_to_surface);
-        for face in model.faces(&level) {
+        for face in model.hull.faces(&level) {
             fold.f32(face.radius);
             for corner in face.corners {
-                if let Some(position) = model.position(corner) {
+                if let Some(position) = model.hull.position(corner) {
                     fold.point(position.to_array());
                 }
             }
@@ -152,13 +151,13 @@ pub fn contents(model: &Hull<'_>, fold: &mut Fold) {
 
 /// Closest point; returns the witness.
 pub fn closest(
-    model: &Hull<'_>,
+    model: &Model<'_>,
     point: [f32; 3],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || model.closest_point(point, Budget::EXACT, &mut scratch.queue)) {
+    match timed(clock, || model.hull.closest_point(point, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => {
             super::closest_point(fold, &answer);
             answer.point
@@ -172,13 +171,13 @@ pub fn closest(
 
 /// First point of the segment from `a` to `b` on the surface.
 pub fn first_hit(
-    model: &Hull<'_>,
+    model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || model.first_hit(a, b, Budget::EXACT, &mut scratch.queue)) {
+    match timed(clock, || model.hull.first_hit(a, b, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => super::segment_hit(fold, &answer),
         Err(error) => super::refusal(fold, error),
     }
@@ -186,14 +185,14 @@ pub fn first_hit(
 
 /// Every point of the segment from `a` to `b` on the surface.
 pub fn all_hits(
-    model: &Hull<'_>,
+    model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
     match timed(clock, || {
-        model.all_hits(a, b, &mut scratch.hits, Budget::EXACT, &mut scratch.queue)
+        model.hull.all_hits(a, b, &mut scratch.hits, Budget::EXACT, &mut scratch.queue)
     }) {
         Ok(answer) => {
             super::hits(fold, scratch.hits.get(..answer.stored).unwrap_or_default());
@@ -206,7 +205,7 @@ pub fn all_hits(
 
 /// The hits of the segment from `a` to `b` that the refined hull finds from outside.
 pub fn outer_hits(
-    model: &Hull<'_>,
+    model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
     scratch: &mut Scratch,
     clock: &mut impl Clock,
@@ -214,11 +213,11 @@ pub fn outer_hits(
 ) {
     let Scratch { hits: found, performed, swept, candidates, .. } = scratch;
     let mut ask = |search| {
-        let mut front = RefinedHull::new(performed, swept, candidates);
-        match model.outer_hits(a, b, search, &mut front, found, Budget::EXACT) {
+        let mut refined = RefinedHull::new(performed, swept, candidates);
+        match model.hull.outer_hits(a, b, search, &mut refined, found, Budget::EXACT) {
             Ok(answer) => {
-                fold.f32(answer.lower);
-                fold.f32(answer.upper);
+                fold.f32(answer.t.lower);
+                fold.f32(answer.t.upper);
                 super::hits(fold, found.get(..answer.stored).unwrap_or_default());
                 fold.word(answer.dropped);
                 fold.word(u32::from(answer.starts_inside));

@@ -5,7 +5,7 @@ pub use meshsweep_core::TightHull;
 use meshsweep_core::TightHulls;
 use meshsweep_core::{ScratchEntry, Verdict};
 
-use super::{Refused, Subject, closest_point as fold_answer, how, refusal, timed, tree};
+use super::{Refused, Subject, closest_point as fold_answer, refusal, timed, tree, verdict};
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
@@ -52,12 +52,12 @@ impl<'t> Subject<'t> for Hulls<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        self.finest.tree().header().stack_entries as usize <= STACK
+        self.finest.scratch_entries() <= STACK
     }
 
     /// The opened hull, and the entries that it asks for.
     fn memory(&self) -> usize {
-        let entries = self.finest.tree().header().stack_entries as usize;
+        let entries = self.finest.scratch_entries();
         size_of::<TightHull<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
@@ -110,7 +110,7 @@ pub fn open(bytes: &[u8]) -> Result<Hulls<'_>, Refused> {
 /// The finest hull's box.
 #[must_use]
 pub fn bounds(hulls: &Hulls<'_>) -> Bounds {
-    tree::bounds(hulls.finest.tree())
+    tree::bounds(hulls.finest.bvh())
 }
 
 /// What the table says of each hull, its tree, and its distances.
@@ -123,7 +123,7 @@ pub fn contents(hulls: &Hulls<'_>, fold: &mut Fold) {
     }
     for index in 0..hulls.all.count() {
         let Some(hull) = hulls.all.get(index) else { continue };
-        tree::contents(hull.tree(), fold);
+        tree::contents(hull.bvh(), fold);
         (0..hull.record().faces)
             .filter_map(|face| hull.slack(face))
             .for_each(|slack| fold.f32(slack));
@@ -195,7 +195,7 @@ pub fn is_within(
                 Verdict::No => 2,
                 Verdict::Undecided(_) => 3,
             });
-            how(fold, answer.work, answer.ended);
+            verdict(fold, answer.work, answer.verdict);
         }
         Err(error) => refusal(fold, error),
     }

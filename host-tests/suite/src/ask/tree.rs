@@ -31,7 +31,7 @@ pub struct Scratch<'t> {
     hint: Hint,
     session: CoherentQuery<'t>,
     facing: [u32; 64],
-    pairs: [ScratchEntry; ScratchEntry::ENOUGH],
+    pairs: [ScratchEntry; Bvh::OVERLAP_ENTRIES],
     meeting: [TrianglePair; 8],
 }
 
@@ -46,7 +46,7 @@ impl Scratch<'_> {
             hint: Hint::NONE,
             session: CoherentQuery::new(),
             facing: [0; 64],
-            pairs: [ScratchEntry::EMPTY; ScratchEntry::ENOUGH],
+            pairs: [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES],
             meeting: [TrianglePair::EMPTY; 8],
         }
     }
@@ -70,12 +70,12 @@ impl<'t> Subject<'t> for Bvh<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        self.header().stack_entries as usize <= STACK
+        self.scratch_entries() <= STACK
     }
 
     /// The opened tree, and the entries that it asks for.
     fn memory(&self) -> usize {
-        let entries = self.header().stack_entries as usize;
+        let entries = self.scratch_entries();
         size_of::<Bvh<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
@@ -130,8 +130,8 @@ impl<'t> Subject<'t> for Bvh<'t> {
                 batch(self, &core::array::from_fn(|_| place.far()), scratch, clock, fold)
             }
             Kind::Cull => cull(self, place.far(), scratch, clock, fold),
-            Kind::Overlap => overlap(self, &pose(place.motion()), scratch, clock, fold),
-            Kind::AllOverlaps => all_overlaps(self, &pose(place.motion()), scratch, clock, fold),
+            Kind::Overlap => overlap(self, pose(place.motion()), scratch, clock, fold),
+            Kind::AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, clock, fold),
         }
     }
 }
@@ -181,10 +181,10 @@ pub fn contents(tree: &Bvh<'_>, fold: &mut Fold) {
         for lane in 0..links.count {
             let child = links.child(lane);
             fold.word(child.at);
-            fold.byte(child.tag.0);
+            fold.byte(child.shape.0);
             let Some(patch) = tree.leaf(node, lane) else { continue };
             let first = links.triangle(lane);
-            for triangle in 0..child.tag.triangles() {
+            for triangle in 0..child.shape.triangles() {
                 for corner in patch.corners(triangle) {
                     fold.point(corner.to_array());
                 }

@@ -17,20 +17,15 @@ const STACK: usize = 64;
 /// What the queries need beside the triboxes.
 #[derive(Debug)]
 pub struct Scratch {
-    pairs: [NodePair; STACK],
+    stack: [ScratchEntry; STACK],
     found: [NodePair; 16],
-    stack: [ScratchEntry; STACK / 2],
 }
 
 impl Scratch {
     /// Scratch that no query has used.
     #[must_use]
     pub const fn new() -> Self {
-        Self {
-            pairs: [NodePair::EMPTY; STACK],
-            found: [NodePair::EMPTY; 16],
-            stack: [ScratchEntry::EMPTY; STACK / 2],
-        }
+        Self { stack: [ScratchEntry::EMPTY; STACK], found: [NodePair::EMPTY; 16] }
     }
 }
 
@@ -52,13 +47,13 @@ impl<'t> Subject<'t> for Triboxes<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        self.separation_entries(self) <= STACK && self.depth() as usize + 2 <= STACK / 2
+        self.separation_entries(self) <= STACK && self.scratch_entries() <= STACK
     }
 
     /// The opened hierarchy, and the pairs that two of them ask for.
     fn memory(&self) -> usize {
         size_of::<Triboxes<'_>>()
-            + self.separation_entries(self).saturating_mul(size_of::<NodePair>())
+            + self.separation_entries(self).saturating_mul(size_of::<ScratchEntry>())
     }
 
     fn suits(kind: Kind) -> bool {
@@ -146,7 +141,7 @@ pub fn reject(
     fold: &mut Fold,
 ) {
     let pose = pose(motion);
-    match timed(clock, || triboxes.separation(triboxes, pose, Budget::EXACT, &mut scratch.pairs)) {
+    match timed(clock, || triboxes.separation(triboxes, pose, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             pairs(fold, answer.may_meet.as_slice());
             how(fold, answer.work, answer.ended);
@@ -165,7 +160,7 @@ pub fn candidates(
     fold: &mut Fold,
 ) {
     let pose = pose(motion);
-    let Scratch { pairs: stack, found, .. } = scratch;
+    let Scratch { stack, found } = scratch;
     match timed(clock, || triboxes.candidates(triboxes, pose, found, Budget::EXACT, stack)) {
         Ok(answer) => {
             pairs(fold, found.get(..answer.stored).unwrap_or_default());

@@ -1,6 +1,6 @@
 //! Distances: closest points, one and many, with a tolerance and with a sign.
 
-use meshsweep_core::{Budget, ClosestPoint, Ended, Work};
+use meshsweep_core::{Budget, ClosestPoint};
 use meshsweep_core::{Neighbor, QueryError, Side, Verdict};
 
 use super::{Bvh, Scratch};
@@ -55,7 +55,7 @@ pub fn session<'t>(
     fold: &mut Fold,
 ) {
     let Scratch { stack, session, .. } = scratch;
-    match timed(clock, || session.closest_point(tree, point, &Budget::EXACT, stack)) {
+    match timed(clock, || session.closest_point(tree, point, Budget::EXACT, stack)) {
         Ok(answer) => {
             ask::closest_point(fold, &answer.closest);
             fold.f32(answer.safe_radius);
@@ -100,13 +100,13 @@ pub fn is_within(
     match timed(clock, || tree.within(point, distance, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             let [kind, triangle] = match answer.verdict {
-                Verdict::Yes { triangle } => [1, triangle.unwrap_or(u32::MAX)],
+                Verdict::Yes => [1, answer.triangle.unwrap_or(u32::MAX)],
                 Verdict::No => [2, 0],
                 Verdict::Undecided(_) => [3, 0],
             };
             fold.word(kind);
             fold.word(triangle);
-            ask::how(fold, answer.work, answer.ended);
+            ask::verdict(fold, answer.work, answer.verdict);
         }
         Err(error) => ask::refusal(fold, error),
     }
@@ -165,8 +165,8 @@ pub fn signed(
 ) {
     match timed(clock, || tree.signed_distance(point, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
-            fold.f32(answer.lower);
-            fold.f32(answer.upper);
+            fold.f32(answer.distance.lower);
+            fold.f32(answer.distance.upper);
             fold.word(match answer.side {
                 Side::Outside => 1,
                 Side::Inside => 2,
@@ -190,31 +190,28 @@ pub fn batch<'t>(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    const NONE: ClosestPoint = ClosestPoint {
-        lower: 0.0,
-        upper: 0.0,
-        point: [0.0; 3],
-        triangle: None,
-        work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
-        ended: Ended::Exact,
-    };
-    let Scratch { stack, hint, .. } = scratch;
-    let (mut answers, mut order) = ([NONE; BATCH], [0u64; 2 * BATCH]);
-    match timed(clock, || tree.closest_points(points, hint, &mut answers, Budget::EXACT, stack)) {
+    // The longer memory: what is left behind the stack puts the queries in order.
+    let Scratch { pairs, hint, .. } = scratch;
+    let mut answers = [ClosestPoint::EMPTY; BATCH];
+    match timed(clock, || tree.closest_points(points, hint, &mut answers, Budget::EXACT, pairs)) {
         Ok(()) => answers.iter().for_each(|answer| ask::closest_point(fold, answer)),
-        Err(QueryError::Query { index, error }) => {
-            fold.word(index as u32);
+        Err(QueryError::AnswerCount { .. }) => fold.word(u32::MAX),
+        Err(error) => {
+            fold.word(if let QueryError::PointNotFinite { index } = error {
+                index as u32
+            } else {
+                0
+            });
             ask::refusal(fold, error);
         }
-        Err(QueryError::Length { .. }) => fold.word(u32::MAX),
     }
 }
 
 fn found(fold: &mut Fold, triangles: &[Neighbor]) {
     for near in triangles {
-        fold.f32(near.lower);
-        fold.f32(near.upper);
-        fold.point(near.point);
-        fold.word(near.triangle);
+        fold.f32(near.distance().lower);
+        fold.f32(near.distance().upper);
+        fold.point(near.point());
+        fold.word(near.triangle());
     }
 }

@@ -1,7 +1,6 @@
 //! Segments, and what faces an eye.
 
-use meshsweep_core::Budget;
-use meshsweep_core::{AnyHit, Eye, Facing, FrontFacing};
+use meshsweep_core::{Budget, Eye, Facing, FrontFacing, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::Clock;
@@ -58,10 +57,10 @@ pub fn any_hit(
     fold: &mut Fold,
 ) {
     match timed(clock, || tree.any_hit(a, b, Facing::Both, Budget::EXACT, &mut scratch.stack)) {
-        Ok(answer) => fold.word(match answer {
+        Ok(answer) => fold.word(match answer.verdict {
             Verdict::Yes => 1,
             Verdict::No => 2,
-            AnyHit::Unknown => 3,
+            Verdict::Undecided(_) => 3,
         }),
         Err(error) => ask::refusal(fold, error),
     }
