@@ -14,14 +14,14 @@ use crate::query::{Ended, QueryError, ScratchEntry, Work};
 /// A point or a segment that is prepared for the descent.
 pub(crate) trait NodeQuery {
     /// Keys of the children of a node: lower bounds, not below `bound`, with the lane in the low
-    /// bits. Children beyond `limit` may have any greater key.
+    /// bits. Children beyond the visitor's limit may have any greater key.
     fn keys(
         &self,
         tree: &Bvh<'_>,
         node: u32,
         count: u32,
         bound: f32,
-        limit: f32,
+        visitor: &impl LeafVisitor,
     ) -> Result<[f32; WIDTH], QueryError>;
 }
 
@@ -137,11 +137,11 @@ pub(crate) fn descend(
             return Ok(Descent::Truncated { least: bound.min(stack.least()), ended: Ended::Steps });
         }
         let links = tree.links(node).ok_or(QueryError::Unchecked)?;
-        let limit = visitor.limit();
-        let keys = query.keys(tree, node, links.count, bound, limit)?;
+        let keys = query.keys(tree, node, links.count, bound, visitor)?;
         work.splits += 1;
         work.nodes += links.count;
         let nearest = nearest_lane(&keys);
+        let limit = visitor.limit();
         let mut found = nearest <= limit;
         if found {
             stack.push_children(node, &keys, links.count, nearest, limit);

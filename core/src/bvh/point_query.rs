@@ -1,7 +1,7 @@
 //! A query point in the tree's grid units, and everything that rounding may do to an answer about
 //! it.
 
-use super::descent::NodeQuery;
+use super::descent::{LeafVisitor, NodeQuery};
 use super::node::{NodeFrame, box_distances};
 use crate::bvh::format::Bvh;
 use crate::geom::fan::WIDTH;
@@ -163,7 +163,7 @@ impl NodeQuery for PointQuery {
         node: u32,
         count: u32,
         bound: f32,
-        _limit: f32,
+        _: &impl LeafVisitor,
     ) -> Result<[f32; WIDTH], QueryError> {
         let record = tree.frame(node).ok_or(QueryError::NO_DISTANCES)?;
         Ok(box_distances(record, &NodeFrame::of(record, self.p), count, bound))

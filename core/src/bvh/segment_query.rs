@@ -1,6 +1,6 @@
 //! A segment in the tree's grid units, ready for boxes and fans, and what rounding may do to it.
 
-use super::descent::NodeQuery;
+use super::descent::{LeafVisitor, NodeQuery};
 use super::node::box_entries;
 use super::point_query::{Units, bounds};
 use crate::bvh::format::Bvh;
@@ -130,10 +130,10 @@ impl NodeQuery for SegmentQuery {
         node: u32,
         count: u32,
         bound: f32,
-        limit: f32,
+        visitor: &impl LeafVisitor,
     ) -> Result<[f32; WIDTH], QueryError> {
         let record = tree.boxes(node).ok_or(QueryError::NO_SEGMENTS)?;
-        Ok(box_entries(record, &self.slabs, count, bound, limit))
+        Ok(box_entries(record, &self.slabs, count, bound, visitor.limit()))
     }
 }
 

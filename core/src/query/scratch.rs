@@ -3,31 +3,32 @@
 use core::ops::{Deref, DerefMut};
 
 /// Eight bytes of working memory. Its contents mean nothing between queries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScratchEntry {
-    /// A key: the bits of an f32 that is not negative, or a part of a pair's state.
-    key: u32,
-    /// What the key belongs to.
+    /// A bound, with a lane in its low bits; or the bits of a number below 2^24.
+    key: f32,
+    /// The node that the key belongs to; or any word.
     node: u32,
 }
 
 impl ScratchEntry {
     /// Any value, for filling arrays.
-    pub const EMPTY: ScratchEntry = ScratchEntry { key: 0, node: 0 };
+    pub const EMPTY: ScratchEntry = ScratchEntry { key: 0.0, node: 0 };
 
     #[inline(always)]
     pub(crate) const fn new(key: f32, node: u32) -> ScratchEntry {
-        ScratchEntry { key: key.to_bits(), node }
+        ScratchEntry { key, node }
     }
 
+    /// Two words, the first below 2^24: as an f32 it is a number, whose bits every target keeps.
     #[inline(always)]
-    pub(crate) const fn of_words([key, node]: [u32; 2]) -> ScratchEntry {
-        ScratchEntry { key, node }
+    pub(crate) const fn of_words([small, any]: [u32; 2]) -> ScratchEntry {
+        ScratchEntry { key: f32::from_bits(small), node: any }
     }
 
     #[inline(always)]
     pub(crate) const fn key(self) -> f32 {
-        f32::from_bits(self.key)
+        self.key
     }
 
     #[inline(always)]
@@ -37,7 +38,7 @@ impl ScratchEntry {
 
     #[inline(always)]
     pub(crate) const fn words(self) -> [u32; 2] {
-        [self.key, self.node]
+        [self.key.to_bits(), self.node]
     }
 }
 

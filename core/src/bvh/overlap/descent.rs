@@ -2,8 +2,8 @@
 //! leaves.
 //!
 //! A pair of nodes is settled at once for all pairs of their children, as 64 bits. An entry of the
-//! stack is two scratch entries: the two nodes, and the 64 bits, a byte for each child of the first
-//! node, a bit in it for each child of the second.
+//! stack is two scratch entries: the two nodes, and with each 32 of the bits. The bits are a byte for
+//! each child of the first node, a bit in it for each child of the second.
 
 use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;
@@ -70,7 +70,7 @@ pub(crate) fn descend(
             if left != [0; 2] {
                 match stack.get_mut(waiting) {
                     Some(slot) => {
-                        *slot = [nodes, left].map(ScratchEntry::of_words);
+                        *slot = entry(nodes, left);
                         waiting += 1;
                     }
                     None => missed = Some(Ended::Scratch),
@@ -109,21 +109,27 @@ pub(crate) fn descend(
     }
 }
 
+/// An entry of the stack. Node numbers are below 2^24.
+#[inline(always)]
+fn entry([a, b]: [u32; 2], [low, high]: [u32; 2]) -> [ScratchEntry; 2] {
+    [[a, low], [b, high]].map(ScratchEntry::of_words)
+}
+
 /// Takes the next pair off the stack: its parents, and which children.
 #[inline(always)]
 fn take(stack: &mut [[ScratchEntry; 2]], waiting: &mut usize) -> Option<([u32; 2], [u32; 2])> {
     let top = waiting.checked_sub(1)?;
-    let [nodes, left] = stack.get_mut(top)?;
-    let [low, high] = left.words();
+    let slot = stack.get_mut(top)?;
+    let [[a, low], [b, high]] = slot.map(ScratchEntry::words);
     let (word, base) = if low != 0 { (low, 0) } else { (high, 4) };
     let bit = word.trailing_zeros() & 31;
     let lanes = [base + (bit >> 3), bit & 7];
     let rest = without([low, high], lanes);
-    *left = ScratchEntry::of_words(rest);
+    *slot = entry([a, b], rest);
     if rest == [0; 2] {
         *waiting = top;
     }
-    Some((nodes.words(), lanes))
+    Some(([a, b], lanes))
 }
 
 #[inline(always)]
