@@ -14,14 +14,15 @@ use crate::tribox::format::Triboxes;
 /// is one that its own `open` accepts.
 ///
 /// ```
-/// use meshsweep_core::{Blob, Budget, QueryError, Scratch};
+/// use meshsweep_core::{Blob, Budget, BuildFor, QueryError, Scratch};
 /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
 /// let blob = Blob::open(bytes)?; // checks every byte, once
 /// let part = blob.bvh()?; // a view: nothing is checked again
 /// let mut scratch = Scratch::<64>::new(); // `part.scratch_entries()` says how many are enough
 /// let near = part.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch)?;
 /// assert!(near.distance.lower <= near.distance.upper);
-/// assert_eq!(blob.triboxes().err(), Some(QueryError::NotServed { build_for: "triboxes" }));
+/// let missing = QueryError::NotServed { build_for: BuildFor::Triboxes };
+/// assert_eq!(blob.triboxes().err(), Some(missing));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]

@@ -72,7 +72,7 @@ pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentQuery, Eye, Facing, FrontFacing, Hint,
     KNearest, Neighbor, Overlap, Overlaps, SignedDistance, TrianglePair, Within,
 };
-pub use format::layout::SectionKind;
+pub use format::layout::{BuildFor, SectionKind};
 pub use format::{OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;

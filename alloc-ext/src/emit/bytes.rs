@@ -10,7 +10,6 @@ use meshsweep_core::internal::format::layout::{
     FLAG_CUT, HEADER_BYTES, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, VertexFormat, field, none,
 };
 use meshsweep_core::internal::format::{Header, section_crc};
-use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::LEAF_FLAG;
 use meshsweep_core::internal::num::{down_to_f32, exp2, up_to_f32};
 

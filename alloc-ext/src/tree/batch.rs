@@ -32,7 +32,7 @@ pub fn closest_points(
             tree.closest_points(points, &mut Hint::NONE.clone(), answers, *budget, &mut scratch);
         asked.map_err(|error| match error {
             QueryError::PointNotFinite { index } => {
-                QueryError::PointNotFinite { index: number * run + index }
+                QueryError::PointNotFinite { index: (number * run) as u32 + index }
             }
             other => other,
         })

@@ -48,7 +48,8 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<(), QueryError> {
         if points.len() != answers.len() {
-            return Err(QueryError::AnswerCount { points: points.len(), answers: answers.len() });
+            let [points, answers] = [points.len() as u32, answers.len() as u32];
+            return Err(QueryError::AnswerCount { points, answers });
         }
         if points.is_empty() {
             return Ok(());
@@ -58,7 +59,7 @@ impl Bvh<'_> {
             return Err(QueryError::NoScratch);
         }
         if let Some(index) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-            return Err(QueryError::PointNotFinite { index });
+            return Err(QueryError::PointNotFinite { index: index as u32 });
         }
         let entries = self.scratch_entries();
         let split = scratch.len().min(entries);

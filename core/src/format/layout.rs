@@ -106,14 +106,14 @@ impl SectionKind {
     }
 
     /// The value of `meshsweep build --for` that writes the section.
-    pub fn build_for(self) -> &'static str {
+    pub fn build_for(self) -> BuildFor {
         match self {
-            SectionKind::TreeBoxes => "segment",
-            SectionKind::TreeCones => "cull",
-            SectionKind::Triboxes => "triboxes",
-            SectionKind::TightHulls => "tight",
-            _ if self.is_hull() => "hull",
-            _ => "closest",
+            SectionKind::TreeBoxes => BuildFor::Segment,
+            SectionKind::TreeCones => BuildFor::Cull,
+            SectionKind::Triboxes => BuildFor::Triboxes,
+            SectionKind::TightHulls => BuildFor::Tight,
+            _ if self.is_hull() => BuildFor::Hull,
+            _ => BuildFor::Closest,
         }
     }
 
@@ -141,6 +141,37 @@ impl SectionKind {
             SectionKind::Triboxes => "triboxes",
             SectionKind::TightHulls => "tight hulls",
         }
+    }
+}
+
+/// A value of `meshsweep build --for`: what a blob is built for. It prints as that value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BuildFor {
+    /// Distances on the box tree.
+    Closest,
+    /// Segments and overlaps on the box tree.
+    Segment,
+    /// The hull hierarchy.
+    Hull,
+    /// Normal cones of the box tree's leaves.
+    Cull,
+    /// Triboxes.
+    Triboxes,
+    /// Tight hulls.
+    Tight,
+}
+
+impl core::fmt::Display for BuildFor {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            BuildFor::Closest => "closest",
+            BuildFor::Segment => "segment",
+            BuildFor::Hull => "hull",
+            BuildFor::Cull => "cull",
+            BuildFor::Triboxes => "triboxes",
+            BuildFor::Tight => "tight",
+        })
     }
 }
 

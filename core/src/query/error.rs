@@ -1,6 +1,8 @@
 //! Why a query was refused.
 
-/// Why a query was refused. Nothing was computed.
+use crate::format::layout::BuildFor;
+
+/// Why a query was refused. Nothing was computed. Twelve bytes, so that answers cost no more by it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum QueryError {
@@ -9,14 +11,14 @@ pub enum QueryError {
     /// A coordinate of one query of a batch is NaN or infinite.
     PointNotFinite {
         /// The first such query.
-        index: usize,
+        index: u32,
     },
     /// There are not as many places for answers as queries.
     AnswerCount {
         /// Queries.
-        points: usize,
+        points: u32,
         /// Places for answers.
-        answers: usize,
+        answers: u32,
     },
     /// A tolerance or a distance is negative, NaN or infinite.
     Tolerance,
@@ -34,19 +36,23 @@ pub enum QueryError {
     /// The blob was built without the sections that this question needs.
     NotServed {
         /// The value of `meshsweep build --for` that writes them.
-        build_for: &'static str,
+        build_for: BuildFor,
     },
     /// The view does not fit its bytes. No view that an `open` of this crate returned does that.
     Unchecked,
 }
 
 impl QueryError {
-    pub(crate) const NO_DISTANCES: QueryError = QueryError::NotServed { build_for: "closest" };
-    pub(crate) const NO_SEGMENTS: QueryError = QueryError::NotServed { build_for: "segment" };
-    pub(crate) const NO_CONES: QueryError = QueryError::NotServed { build_for: "cull" };
-    pub(crate) const NO_HULL: QueryError = QueryError::NotServed { build_for: "hull" };
-    pub(crate) const NO_TRIBOXES: QueryError = QueryError::NotServed { build_for: "triboxes" };
-    pub(crate) const NO_TIGHT_HULLS: QueryError = QueryError::NotServed { build_for: "tight" };
+    pub(crate) const NO_DISTANCES: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Closest };
+    pub(crate) const NO_SEGMENTS: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Segment };
+    pub(crate) const NO_CONES: QueryError = QueryError::NotServed { build_for: BuildFor::Cull };
+    pub(crate) const NO_HULL: QueryError = QueryError::NotServed { build_for: BuildFor::Hull };
+    pub(crate) const NO_TRIBOXES: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Triboxes };
+    pub(crate) const NO_TIGHT_HULLS: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Tight };
 }
 
 impl core::fmt::Display for QueryError {
