@@ -1,9 +1,12 @@
 //! A segment in the tree's grid units, ready for boxes and fans, and what rounding may do to it.
 
+use super::descent::{LeafVisitor, NodeQuery};
+use super::node::box_entries;
 use super::point_query::{Units, bounds};
 use crate::bvh::format::Bvh;
 use crate::bvh::node::Slabs;
 use crate::geom::fan::FanRay;
+use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
 use crate::num::two_sum;
 use crate::query::{Hit, QueryError};
@@ -116,6 +119,21 @@ impl SegmentQuery {
         let whole = self.start + t;
         let whole = if whole < 1.0 { whole } else { 1.0 };
         Hit { t: if self.still { 0.0 } else { whole }, point, triangle }
+    }
+}
+
+impl NodeQuery for SegmentQuery {
+    #[inline(always)]
+    fn keys(
+        &self,
+        tree: &Bvh<'_>,
+        node: u32,
+        count: u32,
+        bound: f32,
+        visitor: &impl LeafVisitor,
+    ) -> Result<[f32; WIDTH], QueryError> {
+        let record = tree.boxes(node).ok_or(QueryError::NO_SEGMENTS)?;
+        Ok(box_entries(record, &self.slabs, count, bound, visitor.limit()))
     }
 }
 
