@@ -90,6 +90,8 @@ impl Bvh<'_> {
     }
 }
 
+/// Without a hint: one function for all callers.
+#[inline(never)]
 pub(crate) fn closest_point(
     tree: &Bvh<'_>,
     point: [f32; 3],
@@ -99,7 +101,7 @@ pub(crate) fn closest_point(
     closest_point_from(tree, point, &mut Hint::NONE.clone(), budget, scratch)
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn closest_point_from(
     tree: &Bvh<'_>,
     point: [f32; 3],

@@ -13,8 +13,12 @@ use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// A point or a segment that is prepared for the descent.
 pub(crate) trait NodeQuery {
+    /// Refuses a tree without the boxes that the query needs.
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;
+
     /// Keys of the children of a node: lower bounds, not below `bound`, with the lane in the low
-    /// bits. Children beyond the visitor's limit may have any greater key.
+    /// bits. Children beyond the visitor's limit may have any greater key. `None` says that the tree
+    /// is unchecked.
     fn keys(
         &self,
         tree: &Bvh<'_>,
@@ -22,7 +26,7 @@ pub(crate) trait NodeQuery {
         count: u32,
         bound: f32,
         visitor: &impl LeafVisitor,
-    ) -> Result<[f32; WIDTH], QueryError>;
+    ) -> Option<[f32; WIDTH]>;
 }
 
 /// A leaf that a descent has reached.
@@ -121,22 +125,39 @@ impl Stack<'_> {
 /// Visits every leaf within the visitor's limit. At most `steps` nodes are opened, those that `work`
 /// counts already included.
 #[inline(always)]
-pub(crate) fn descend(
+pub(crate) fn descend<Q: NodeQuery>(
+    tree: &Bvh<'_>,
+    query: &Q,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    visitor: &mut impl LeafVisitor,
+    work: &mut Work,
+) -> Result<Descent, QueryError> {
+    Q::check_served(tree)?;
+    walk(tree, query, steps, scratch, visitor, work).ok_or(QueryError::Unchecked)
+}
+
+/// The descent. It has one error, so that the loop carries no error values.
+#[inline(always)]
+fn walk(
     tree: &Bvh<'_>,
     query: &impl NodeQuery,
     steps: u32,
     scratch: &mut [ScratchEntry],
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
-) -> Result<Descent, QueryError> {
+) -> Option<Descent> {
     let mut stack = Stack { entries: scratch, waiting: 0, dropped: f32::INFINITY };
     let mut node = 0u32;
     let mut bound = 0f32;
     loop {
         if work.splits >= steps {
-            return Ok(Descent::Truncated { least: bound.min(stack.least()), ended: Ended::Steps });
+            return Some(Descent::Truncated {
+                least: bound.min(stack.least()),
+                ended: Ended::Steps,
+            });
         }
-        let links = tree.links(node).ok_or(QueryError::Unchecked)?;
+        let links = tree.links(node)?;
         let keys = query.keys(tree, node, links.count, bound, visitor)?;
         work.splits += 1;
         work.nodes += links.count;
@@ -158,30 +179,30 @@ pub(crate) fn descend(
                     break;
                 }
                 work.triangles += child.shape.triangles() as u32;
-                let leaf = tree.leaf_at(child.at, child.shape).ok_or(QueryError::Unchecked)?;
+                let leaf = tree.leaf_at(child.at, child.shape)?;
                 let lane = entry.key().to_bits() & LANE_MASK;
                 let visit = LeafVisit { leaf, key: bound, node: entry.node(), lane };
-                if !visitor.leaf(&visit).ok_or(QueryError::Unchecked)? {
-                    return Ok(Descent::Answered);
+                if !visitor.leaf(&visit)? {
+                    return Some(Descent::Answered);
                 }
             }
             found = true;
             loop {
                 let Some(top) = stack.waiting.checked_sub(1) else {
-                    return Ok(if stack.dropped <= visitor.limit() {
+                    return Some(if stack.dropped <= visitor.limit() {
                         Descent::Truncated { least: stack.dropped, ended: Ended::Scratch }
                     } else {
                         Descent::Done
                     });
                 };
                 stack.waiting = top;
-                entry = stack.entries.get(top).copied().ok_or(QueryError::Unchecked)?;
+                entry = stack.entries.get(top).copied()?;
                 if entry.key() <= visitor.limit() {
                     break;
                 }
             }
             let lane = entry.key().to_bits() & LANE_MASK;
-            child = tree.child(entry.node(), lane).ok_or(QueryError::Unchecked)?;
+            child = tree.child(entry.node(), lane)?;
         }
     }
 }

@@ -157,6 +157,11 @@ impl PointQuery {
 
 impl NodeQuery for PointQuery {
     #[inline(always)]
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
+        if tree.serves_distances() { Ok(()) } else { Err(QueryError::NO_DISTANCES) }
+    }
+
+    #[inline(always)]
     fn keys(
         &self,
         tree: &Bvh<'_>,
@@ -164,9 +169,9 @@ impl NodeQuery for PointQuery {
         count: u32,
         bound: f32,
         _: &impl LeafVisitor,
-    ) -> Result<[f32; WIDTH], QueryError> {
-        let record = tree.frame(node).ok_or(QueryError::NO_DISTANCES)?;
-        Ok(box_distances(record, &NodeFrame::of(record, self.p), count, bound))
+    ) -> Option<[f32; WIDTH]> {
+        let record = tree.frame(node)?;
+        Some(box_distances(record, &NodeFrame::of(record, self.p), count, bound))
     }
 }
 

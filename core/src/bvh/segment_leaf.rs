@@ -4,7 +4,7 @@
 //! segment decides. The fan kernels flag the triangles that may be met. Only flagged triangles are
 //! looked at one by one, with the interval of parameters in which the *input's* triangle can be met.
 
-use super::descent::{LeafVisit, LeafVisitor};
+use super::descent::{LeafVisit, LeafVisitor, NodeQuery};
 use super::node::WIDE;
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -33,9 +33,7 @@ pub(crate) fn prepare(
     b: [f32; 3],
     scratch: &[ScratchEntry],
 ) -> Result<Option<SegmentQuery>, QueryError> {
-    if !tree.serves_segments() {
-        return Err(QueryError::NO_SEGMENTS);
-    }
+    SegmentQuery::check_served(tree)?;
     if scratch.is_empty() {
         return Err(QueryError::NoScratch);
     }

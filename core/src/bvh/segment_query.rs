@@ -124,6 +124,11 @@ impl SegmentQuery {
 
 impl NodeQuery for SegmentQuery {
     #[inline(always)]
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
+        if tree.serves_segments() { Ok(()) } else { Err(QueryError::NO_SEGMENTS) }
+    }
+
+    #[inline(always)]
     fn keys(
         &self,
         tree: &Bvh<'_>,
@@ -131,9 +136,9 @@ impl NodeQuery for SegmentQuery {
         count: u32,
         bound: f32,
         visitor: &impl LeafVisitor,
-    ) -> Result<[f32; WIDTH], QueryError> {
-        let record = tree.boxes(node).ok_or(QueryError::NO_SEGMENTS)?;
-        Ok(box_entries(record, &self.slabs, count, bound, visitor.limit()))
+    ) -> Option<[f32; WIDTH]> {
+        let record = tree.boxes(node)?;
+        Some(box_entries(record, &self.slabs, count, bound, visitor.limit()))
     }
 }
 

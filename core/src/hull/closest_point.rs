@@ -38,38 +38,52 @@ impl Hull<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`].
+    #[inline]
     pub fn closest_point(
         &self,
         point: [f32; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        let model = self;
         budget.check()?;
-        if !model.has_hull() {
-            return Err(QueryError::NO_HULL);
-        }
-        let frame = Frame::of(model.header());
-        let p = frame.local(point)?;
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let mut sweep = Sweep::new(model, p);
-        let ended = if p.abs().max_element() > HULL_FAR {
-            sweep.far()?;
-            if model.is_cut() { Ended::Resolution } else { Ended::Exact }
-        } else {
-            let queue = SweepQueue::new(scratch, model.scratch_entries());
-            sweep.run(queue, &budget, frame.length(budget.absolute))?
-        };
-        if sweep.best.is_none() {
-            // Stopped before any triangle was reached: only the box is known.
-            let lower = sweep.lower;
-            sweep.far()?;
-            sweep.lower = sweep.lower.max(lower.min(sweep.upper));
-        }
-        Ok(sweep.answer(&frame, ended))
+        let Budget { relative, absolute, steps } = budget;
+        closest_point(self, point, [relative, absolute], steps, scratch)
     }
+}
+
+/// Numbers and no budget: a program whose tolerances are constants links no code for others.
+fn closest_point(
+    hull: &Hull<'_>,
+    point: [f32; 3],
+    [relative, absolute]: [f32; 2],
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+) -> Result<ClosestPoint, QueryError> {
+    if !hull.has_hull() {
+        return Err(QueryError::NO_HULL);
+    }
+    let frame = Frame::of(hull.header());
+    let p = frame.local(point)?;
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
+    }
+    let mut sweep = Sweep::new(hull, p);
+    let ended = if p.abs().max_element() > HULL_FAR {
+        sweep.far()?;
+        if hull.is_cut() { Ended::Resolution } else { Ended::Exact }
+    } else {
+        let queue = SweepQueue::new(scratch, hull.scratch_entries());
+        let tolerant = relative > 0.0 || absolute > 0.0;
+        let (relative, absolute) = (f64::from(relative), frame.length(absolute));
+        sweep.run(queue, tolerant, [relative, absolute], steps).ok_or(QueryError::Unchecked)?
+    };
+    if sweep.best.is_none() {
+        // Stopped before any triangle was reached: only the box is known.
+        let lower = sweep.lower;
+        sweep.far()?;
+        sweep.lower = sweep.lower.max(lower.min(sweep.upper));
+    }
+    Ok(sweep.answer(&frame, ended))
 }
 
 /// `first .. first + count` in runs of at most [`LANES`]: where each begins and how long it is.
@@ -127,12 +141,11 @@ impl<'a> Sweep<'a> {
     fn run(
         &mut self,
         mut queue: SweepQueue<'_>,
-        budget: &Budget,
-        absolute: f64,
-    ) -> Result<Ended, QueryError> {
-        let relative = 1.0 + f64::from(budget.relative);
+        tolerant: bool,
+        [relative, absolute]: [f64; 2],
+        steps: u32,
+    ) -> Option<Ended> {
         let surface_error = f64::from(self.model.header().surface_error);
-        let tolerant = budget.relative > 0.0 || budget.absolute > 0.0;
         let mut met_tolerance = false;
         let mut next = Some(ScratchEntry::new(0.0, 0));
         while let Some(Taken { entry, least }) = queue.take(next, self.best.is_none()) {
@@ -143,7 +156,7 @@ impl<'a> Sweep<'a> {
                 // outward.
                 let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
                 let high = (self.upper + surface_error) * (1.0 + REPORTED);
-                high <= low * relative || high - low <= absolute
+                high <= low * (1.0 + relative) || high - low <= absolute
             };
             if beaten || tolerated {
                 if !beaten {
@@ -156,19 +169,18 @@ impl<'a> Sweep<'a> {
                 next = None;
                 continue;
             }
-            if self.work.splits >= budget.steps {
+            if self.work.splits >= steps {
                 self.lower = self.lower.min(key).min(f64::from(queue.lower()));
-                return Ok(Ended::Steps);
+                return Some(Ended::Steps);
             }
-            next =
-                self.open(NodeIdx(entry.node()), key, &mut queue).ok_or(QueryError::Unchecked)?;
+            next = self.open(NodeIdx(entry.node()), key, &mut queue)?;
         }
         let dropped = f64::from(queue.dropped());
         if dropped < self.upper {
             self.lower = self.lower.min(dropped);
-            return Ok(Ended::Scratch);
+            return Some(Ended::Scratch);
         }
-        Ok(if met_tolerance {
+        Some(if met_tolerance {
             Ended::Tolerance
         } else if self.cut {
             Ended::Resolution

@@ -6,7 +6,7 @@
 use super::follow::{Follow, Gap, Nearest};
 use super::front::{Child, Extent, Known, TraversalFront};
 use super::planes::Planes;
-use crate::bvh::closest_point::{Hint, closest_point_from};
+use crate::bvh::closest_point::{Hint, closest_point, closest_point_from};
 use crate::bvh::format::Bvh;
 use crate::bvh::point_query::PointQuery;
 use crate::num::sqrt_approx;
@@ -249,8 +249,7 @@ impl Memory {
         let query = PointQuery::new(tree, point)?;
         let first = tree.frame(0).ok_or(QueryError::NO_DISTANCES)?;
         if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
-            let closest =
-                closest_point_from(tree, point, &mut Hint::NONE.clone(), budget, scratch)?;
+            let closest = closest_point(tree, point, budget, scratch)?;
             return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
