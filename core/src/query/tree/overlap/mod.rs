@@ -88,8 +88,8 @@ pub struct Overlaps {
 /// are, in real arithmetic. Surfaces that touch without passing through each other are
 /// [`Contact::Open`], and so are such as come within rounding and the blobs' surface errors of it.
 /// Surfaces alone count: of closed meshes one may lie inside the other, which
-/// [`signed_distance`](super::signed_distance) of a vertex tells. Triangles without area are never
-/// proved to meet anything.
+/// [`signed_distance`](super::signed_distance) of a vertex tells. Of two triangles
+/// without area it is never proved that they meet.
 ///
 /// It ends at the first pair that is proved to meet; which one that is does not depend on the
 /// target. At most `steps` pairs of nodes are opened. [`PairEntry::ENOUGH`] entries are always
