@@ -1,10 +1,9 @@
 //! Meshes with triangles that have no area, or have none when they are stored.
 
 use super::exact::{Corners, about};
-use meshsweep::emit::blob;
-use meshsweep::mesh::{Mesh, RawMesh, RepairReport, read, repair};
-use meshsweep::precision::{VertexBits, snap};
-use meshsweep::tree::{TreeOptions, build};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::mesh::{Input, Mesh, RawMesh, RepairReport, read, repair};
+use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::ScratchEntry;
 use meshsweep_host_tests::check::check_tree;
@@ -38,8 +37,9 @@ impl Scene {
         let (mesh, moved, _) = repaired(raw, kind);
         let options =
             TreeOptions { cull: true, single: kind == Kind::F32, ..TreeOptions::default() };
-        let (tables, _) = build(&mesh, moved, raw.1.len(), &options);
-        let bytes = blob(None, Some(&tables));
+        let (tables, _) =
+            build(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, &options);
+        let bytes = tables.to_bytes();
         if moved == 0.0 {
             check_tree(&bytes, &mesh).expect("the tree of the mesh and its wires");
         }

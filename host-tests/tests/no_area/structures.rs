@@ -3,9 +3,8 @@
 
 use super::exact::{distance_compared, first_meeting};
 use super::scene::{Kind, Raw, Scene, inputs, joined, pierced_cube, repaired};
-use meshsweep::emit::{Parts, assemble};
 use meshsweep::hull::{self, BuildOptions};
-use meshsweep::mesh::{Mesh, MeshError, require_closed_manifold};
+use meshsweep::mesh::{Input, Mesh, MeshError, require_closed_manifold};
 use meshsweep::tight::{self, ChainOptions, hull_mesh};
 use meshsweep::tribox;
 use meshsweep_core::query::tight::{closest_point as closest_by_hull, is_within};
@@ -46,8 +45,9 @@ fn winding(p: [f64; 3], hull: &Mesh) -> f64 {
 fn hulls_of(mesh: &Mesh, moved: f64, faces: usize) -> Vec<u8> {
     let options = ChainOptions { faces: vec![faces], effort: 0.01, ..ChainOptions::default() };
     let count = mesh.all_triangles().count();
-    let (tables, _) = tight::chain(mesh, moved, count, &options, |_| {}).expect("there is room");
-    assemble(&Parts { tight: Some(&tables), ..Parts::default() })
+    let (tables, _) = tight::chain(Input { mesh, moved, input_triangles: count }, &options, |_| {})
+        .expect("there is room");
+    tables.to_bytes()
 }
 
 #[test]
@@ -107,8 +107,10 @@ fn every_level_of_triboxes_holds_wires_and_points() {
     for (name, raw) in inputs() {
         for kind in KINDS {
             let (mesh, moved, _) = repaired(&raw, kind);
-            let (tables, _) = tribox::store(&mesh, moved, raw.1.len(), 16).expect("in the domain");
-            let bytes = assemble(&Parts { triboxes: Some(&tables), ..Parts::default() });
+            let (tables, _) =
+                tribox::store(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, 16)
+                    .expect("in the domain");
+            let bytes = tables.to_bytes();
             let triboxes = Triboxes::open(&bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
             let size =
                 mesh.positions.iter().flatten().fold(0f64, |m, &x| m.max(f64::from(x).abs()));
@@ -136,7 +138,12 @@ fn a_hull_hierarchy_carries_wires_in_its_surface_error() {
         let scene = Scene::new("pierced cube", &pierced_cube(), kind);
         let options = BuildOptions { base_faces: 12, ..BuildOptions::default() };
         let count = scene.corners.len();
-        let built = hull::build(&scene.mesh, scene.moved, count, &options, |_| {}).expect("a cube");
+        let built = hull::build(
+            Input { moved: scene.moved, input_triangles: count, ..scene.mesh.as_input() },
+            &options,
+            |_| {},
+        )
+        .expect("a cube");
         let model = Model::open(&built.bytes).expect("opens");
         // The wire ends 2 in front of the cube.
         assert!(built.report.wires >= 2.0 && built.report.wires < 2.2, "{}", built.report.wires);

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::{Output, refuse_same_file};
 use crate::{blob_file, served};
 use meshsweep::counted::Counted;
-use meshsweep::emit::{self, Keep};
+use meshsweep::cut::{self, Keep};
 use meshsweep_core::Model;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {
@@ -20,7 +20,7 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         served::require_tight(&args.blob, &model, faces)?;
     }
     let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
-    let cut = emit::cut_blob(&model, &keep)
+    let cut = meshsweep::cut::cut_blob(&model, &keep)
         .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
     // A blob that does not open must not be written.
     let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;

@@ -21,8 +21,8 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = bvh::build(&mesh, 0.0, triangles, &TreeOptions::default());
-    let bytes = emit::blob(None, Some(&tables));
+    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default());
+    let bytes = tables.to_bytes();
     let tree = blob_file::open_tree(file, &bytes)?;
     let entries = tree.header().stack_entries as usize;
     let mut stack = vec![ScratchEntry::EMPTY; entries];
