@@ -3,7 +3,7 @@
 use crate::emit::assemble;
 use crate::error::BuildError;
 use crate::{bvh, hull, tight, tribox};
-use meshsweep_core::Model;
+use meshsweep_core::{Blob, Hull};
 
 /// What to keep of a blob; what nothing is said of stays as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,32 +20,31 @@ pub struct Keep {
 ///
 /// # Errors
 /// [`BuildError`] if there is nothing of the kind to cut.
-pub fn cut_blob(model: &Model<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
-    let hierarchy = match keep.level {
-        Some(level) => Some(cut(model, level)?),
-        None if model.has_hull() => {
-            Some(hull::Tables::from_model(model).ok_or(BuildError::NotOpened)?)
-        }
-        None => None,
+pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
+    let hierarchy = match (keep.level, blob.hull()) {
+        (Some(level), Ok(hull)) => Some(cut(&hull, level)?),
+        (Some(wanted), Err(_)) => return Err(BuildError::NoLevel { wanted, levels: 0 }),
+        (None, Ok(hull)) => Some(hull::Tables::from_hull(&hull).ok_or(BuildError::Unchecked)?),
+        (None, Err(_)) => None,
     };
-    let tree = if keep.level.is_none() { bvh::sections_of(model) } else { None };
-    if keep.triboxes.is_some() && model.triboxes().is_none() {
+    let tree = if keep.level.is_none() { bvh::sections_of(blob) } else { None };
+    if keep.triboxes.is_some() && blob.triboxes().is_err() {
         return Err(BuildError::NoTriboxes);
     }
-    if keep.tight.is_some() && model.tight_hulls().is_none() {
+    if keep.tight.is_some() && blob.tight_hulls().is_err() {
         return Err(BuildError::NoTightHulls);
     }
-    let triboxes = tribox::cut(model, keep.triboxes.unwrap_or(u32::MAX));
-    let tight = tight::cut(model, keep.tight.unwrap_or(u32::MAX));
+    let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
+    let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
     let structures = [hierarchy.map(|tables| tables.sections()), tree, triboxes, tight];
     Ok(assemble(structures.iter().flatten()))
 }
 
-/// Tables of the model's hull hierarchy after level `index`: see [`hull::cut()`].
+/// Tables of a hull hierarchy after level `index`: see [`hull::cut()`].
 ///
 /// # Errors
 /// [`BuildError::NoLevel`].
-pub fn cut(model: &Model<'_>, index: u32) -> Result<hull::Tables, BuildError> {
-    let levels = model.header().levels;
-    hull::cut(model, index).ok_or(BuildError::NoLevel { wanted: index, levels })
+pub fn cut(whole: &Hull<'_>, index: u32) -> Result<hull::Tables, BuildError> {
+    let levels = whole.header().levels;
+    hull::cut(whole, index).ok_or(BuildError::NoLevel { wanted: index, levels })
 }

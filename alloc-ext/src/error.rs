@@ -1,7 +1,6 @@
 //! Why there is no blob.
 
-use meshsweep_core::OpenError;
-use meshsweep_core::tribox::TriboxError;
+use meshsweep_core::{OpenError, TriboxError};
 use std::fmt;
 
 /// Why there is no blob. Each message names what was wanted, what was found, and what to do.
@@ -31,8 +30,8 @@ pub enum BuildError {
     NoTriboxes,
     /// The blob to cut has no tight hulls.
     NoTightHulls,
-    /// The blob to cut was not opened.
-    NotOpened,
+    /// The bytes to cut changed after they were opened as a blob.
+    Unchecked,
     /// The reader refused the blob that was written: a defect of this library.
     Reopen(OpenError),
 }
@@ -61,7 +60,7 @@ impl fmt::Display for BuildError {
             Self::NoTightHulls => {
                 f.write_str("the blob has no tight hulls to cut: build it with --for tight")
             }
-            Self::NotOpened => f.write_str("the blob was not opened: open it first"),
+            Self::Unchecked => f.write_str("the blob changed after it was opened: open it again"),
             Self::Reopen(error) => {
                 write!(f, "internal error: the blob does not open: {error}; please report it")
             }

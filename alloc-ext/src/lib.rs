@@ -48,6 +48,6 @@ pub use surface as precision;
 pub mod wrap {
     pub use crate::tight::{
         Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
-        Surface, WrapError, parts, share, wrap, wrap_all,
+        WrapError, parts, wrap,
     };
 }

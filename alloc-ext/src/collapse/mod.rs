@@ -13,7 +13,6 @@ mod surface;
 mod thin;
 
 pub use engine::{Engine, Progress, Stuck};
-#[expect(unused_imports, reason = "tight hulls take the loop next")]
 pub(crate) use greedy::{Candidate, Collapsing, Schedule, run};
 pub use history::{Collapse, History, VertexOrder};
 pub use star::{Connectivity, MAX_STAR, Wings};

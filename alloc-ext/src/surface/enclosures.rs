@@ -27,12 +27,6 @@ impl Enclosures {
         self.all[surface].triangles[0][0]
     }
 
-    /// Whether a surface holds a point that is not on it. Exact; where it overlaps itself, by
-    /// parity.
-    pub fn holds(&self, surface: usize, p: [f32; 3]) -> bool {
-        self.all[surface].holds(p)
-    }
-
     /// The surfaces that hold a point, `but` one, ascending. Exact for points on none of them.
     pub fn around(&self, p: [f32; 3], but: Option<usize>) -> Vec<usize> {
         let at = DVec3::from(p.map(f64::from));

@@ -15,4 +15,4 @@ pub(crate) use components::{components, least_connected};
 pub(crate) use enclosures::Enclosures;
 pub use precision::{Grid, Stored, VertexBits, snap, store};
 pub(crate) use precision::{scale_exponent, split_exponent};
-pub(crate) use tree::{Frontier, NodeBoxes, Probe, StaticTree, Visitor, spatial_order};
+pub(crate) use tree::{Frontier, StaticTree, spatial_order};

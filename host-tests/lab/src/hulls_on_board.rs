@@ -19,7 +19,6 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
     let options =
         ChainOptions { faces: FACES.to_vec(), segments: false, ..ChainOptions::default() };
-    let count = subject.mesh.triangles.len();
     let (tables, _) =
         chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     let all = tables.to_bytes();

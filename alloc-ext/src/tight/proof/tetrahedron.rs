@@ -1,36 +1,10 @@
-//! What a move would cut off the hull, in floating point: where the planes of a program come from.
-//! Nothing is proved here.
+//! The tetrahedron that an edit cuts off the hull, in floating point. Placements find their planes
+//! in it. Nothing is proved here.
 
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::predicates::Triangle;
+use super::predicates::Triangle;
+use crate::surface::{Bounds, Plane};
 use arrayvec::ArrayVec;
 use glam::DVec3;
-
-/// A plane and the side of it that counts: `normal · p >= offset`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Plane {
-    pub normal: DVec3,
-    pub offset: f64,
-}
-
-impl Plane {
-    #[inline]
-    fn height(&self, p: DVec3) -> f64 {
-        self.normal.dot(p) - self.offset
-    }
-
-    /// Whether a point is on that side.
-    #[inline]
-    pub fn holds(&self, p: DVec3) -> bool {
-        self.normal.dot(p) >= self.offset
-    }
-
-    /// Whether a box has a point on that side.
-    #[inline]
-    pub fn reaches(&self, bounds: &Bounds) -> bool {
-        bounds.support(self.normal) >= self.offset
-    }
-}
 
 /// A tetrahedron between a face and an apex behind it.
 #[derive(Clone, Debug)]
@@ -40,11 +14,11 @@ pub(crate) struct Tetrahedron {
     bounds: Bounds,
 }
 
-/// Triangles whose corners are nearly on a line have no plane: those with less than this part of
-/// their edges' squares as area.
+/// Triangles with less double area than this part of the sum of two squared edges have no plane:
+/// their corners are nearly on a line.
 const FLAT: f64 = 1e-10;
 
-/// Corners of a triangle that was cut by four planes: each adds at most one.
+/// Corners of a triangle that was cut by four planes. Each plane adds at most one corner.
 type Polygon = ArrayVec<DVec3, 8>;
 
 impl Tetrahedron {
@@ -70,7 +44,7 @@ impl Tetrahedron {
         Self { planes, corners, bounds: Bounds::of(&corners) }
     }
 
-    /// What its points satisfy.
+    /// Planes that all of its points are in front of.
     pub fn planes(&self) -> &[Plane] {
         &self.planes
     }
@@ -80,12 +54,12 @@ impl Tetrahedron {
         &self.bounds
     }
 
-    /// Whether a box may have a point of it.
+    /// Whether a box may hold a point of the tetrahedron.
     pub fn may_meet(&self, bounds: &Bounds) -> bool {
         bounds.meets(&self.bounds) && self.planes.iter().all(|p| p.reaches(bounds))
     }
 
-    /// Whether a box may have a point that is no farther from it than `distance`.
+    /// Whether a box may hold a point within `distance` of the tetrahedron.
     #[inline]
     pub fn may_come_near(&self, bounds: &Bounds, distance: f64) -> bool {
         bounds.meets(&self.bounds.grown(distance))
@@ -98,8 +72,7 @@ impl Tetrahedron {
         self.planes.iter().all(|plane| plane.holds(p))
     }
 
-    /// Whether all of a triangle is on the wrong side of a plane, or all of the tetrahedron on one
-    /// side of the triangle.
+    /// Whether a triangle lies behind one plane, or the tetrahedron on one side of the triangle.
     #[inline]
     fn misses(&self, triangle: &Triangle) -> bool {
         let [a, b, c] = *triangle;
@@ -111,7 +84,7 @@ impl Tetrahedron {
         heights.iter().all(|&h| h > 0.0) || heights.iter().all(|&h| h < 0.0)
     }
 
-    /// Calls `visit` with the corners of the part of a triangle that is in it.
+    /// Calls `visit` with the corners of the part of a triangle that lies in the tetrahedron.
     #[inline]
     pub fn clip(&self, triangle: &Triangle, visit: impl FnMut(DVec3)) {
         if self.misses(triangle) {

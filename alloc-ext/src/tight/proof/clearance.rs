@@ -1,42 +1,45 @@
 //! Whether triangles keep a distance, proved in floating point.
 //!
-//! Two convex sets are farther apart than `d` if and only if some direction has them so: `min n·p −
-//! max n·q > d·|n|` over the corners `p` of the one and `q` of the other. Any `n` proves it, so
-//! rounding may choose it; what is left to bound is the test itself. With ε = 2^-53, a coordinate's
-//! difference is off by a part ε of it, its product with `n` by as much again, and a sum of three
-//! adds two: `n·(p − o)` is off by less than 4.1 ε·S, where S sums the products' magnitudes. The
-//! difference of two such numbers is off by less than 11 ε·S, of which [`ROUNDING`] is three times.
-//! `n` is near length 1, so that what underflows is far below the least normal number, which is
-//! added. The length has less than 5 ε, products with the distance one more: less than the part
-//! that [`Reach`] adds to it.
+//! Two convex sets are farther apart than `d` if and only if some direction `n` separates them by
+//! `d`: `min n·p − max n·q > d·|n|` over the corners `p` of the one and `q` of the other. Any `n`
+//! proves it, so that rounding may choose `n`. Only the rounding of the test itself has to be
+//! bounded.
+//!
+//! With ε = 2^-53, the difference of two coordinates is off by a part ε, its product with `n` by as
+//! much again, and a sum of three products adds two: `n·(p − o)` is off by less than 4.1 ε·S, where
+//! S sums the magnitudes of the products. The difference of two such numbers is off by less than 11
+//! ε·S. [`ROUNDING`] is three times that. `n` has about length 1, so that underflow loses far less
+//! than the least normal number, which is added. The length of `n` is off by less than 5 ε, its
+//! product with the distance by one more: less than the part that [`Clearance`] adds to the
+//! distance.
 
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::predicates::Triangle;
+use super::predicates::Triangle;
+use crate::surface::Bounds;
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 /// See the module.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A distance to keep, rounded up so that the tests against it are proofs.
+/// A distance to keep, rounded up so that every test against it is a proof.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reach(f64);
+pub(crate) struct Clearance(f64);
 
-impl Reach {
+impl Clearance {
     pub fn new(distance: f64) -> Self {
         Self((distance * (1.0 + 8.0 * f64::EPSILON)).next_up())
     }
 
-    /// Whether all points of two boxes with `f32` corners are farther apart along one axis.
+    /// Whether two boxes with `f32` corners are farther apart along one axis.
     #[inline]
-    pub fn parts_boxes(&self, a: &Bounds, b: &Bounds) -> bool {
+    pub fn separates_boxes(&self, a: &Bounds, b: &Bounds) -> bool {
         (a.low - b.high).max(b.low - a.high).max_element() > self.0
     }
 
-    /// Whether all points of `above` are farther beyond all of `below` along a direction, which
-    /// need not have length 1.
+    /// Whether all of `above` is farther than the distance beyond all of `below` along a direction
+    /// of any length.
     #[inline]
-    pub fn clears(&self, direction: DVec3, above: &Triangle, below: &Triangle) -> bool {
+    pub fn separates_along(&self, direction: DVec3, above: &Triangle, below: &Triangle) -> bool {
         let Some(n) = unit(direction) else { return false };
         let origin = below[0];
         let mut size = 0f64;
@@ -50,9 +53,9 @@ impl Reach {
         low - high - (ROUNDING * size + f64::MIN_POSITIVE) > self.0 * n.length()
     }
 
-    /// As [`clears`](Self::clears), with a box below.
+    /// As [`separates_along`](Self::separates_along), with a box below.
     #[inline]
-    pub fn clears_box(&self, direction: DVec3, above: &Triangle, below: &Bounds) -> bool {
+    pub fn separates_box_along(&self, direction: DVec3, above: &Triangle, below: &Bounds) -> bool {
         let Some(n) = unit(direction) else { return false };
         let origin = above[0];
         let pick = DVec3::select(n.cmpgt(DVec3::ZERO), below.high, below.low);
@@ -67,56 +70,57 @@ impl Reach {
         low - high - (ROUNDING * size + f64::MIN_POSITIVE) > self.0 * n.length()
     }
 
-    /// Whether a triangle with area is certainly farther from another, which may have none.
-    pub fn parts(&self, face: &Triangle, normal: DVec3, triangle: &Triangle) -> bool {
-        if self.parts_plainly(face, normal, triangle) {
+    /// Whether a triangle with area is certainly farther than the distance from another triangle,
+    /// which may have no area.
+    pub fn separates(&self, face: &Triangle, normal: DVec3, triangle: &Triangle) -> bool {
+        if self.separates_quickly(face, normal, triangle) {
             return true;
         }
         let Some(near) = Nearest::of(face, triangle) else { return false };
-        self.clears(near.direction, face, triangle) || self.clears(near.p - near.q, face, triangle)
+        self.separates_along(near.direction, face, triangle)
+            || self.separates_along(near.p - near.q, face, triangle)
     }
 
-    /// As [`parts`](Self::parts), along two directions that are found at once: those that are far
-    /// apart are told so.
-    pub fn parts_plainly(&self, face: &Triangle, normal: DVec3, triangle: &Triangle) -> bool {
-        if self.clears(normal, face, triangle) {
+    /// As [`separates`](Self::separates), along two directions that cost little. They decide for
+    /// triangles that are far apart.
+    pub fn separates_quickly(&self, face: &Triangle, normal: DVec3, triangle: &Triangle) -> bool {
+        if self.separates_along(normal, face, triangle) {
             return true;
         }
         let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-        self.clears(towards(face, middle), face, triangle)
+        self.separates_along(towards(face, middle), face, triangle)
     }
 
-    /// Whether a triangle is certainly farther from all that a box holds.
+    /// Whether a triangle is certainly farther than the distance from a box.
     #[inline]
-    pub fn parts_box(
+    pub fn separates_box(
         &self,
         face: &Triangle,
         bounds: &Bounds,
         normal: DVec3,
         below: &Bounds,
     ) -> bool {
-        if self.parts_boxes(bounds, below) || self.clears_box(normal, face, below) {
+        if self.separates_boxes(bounds, below) || self.separates_box_along(normal, face, below) {
             return true;
         }
-        self.clears_box(towards(face, (below.low + below.high) * 0.5), face, below)
+        self.separates_box_along(towards(face, (below.low + below.high) * 0.5), face, below)
     }
 }
 
-/// From a point to the nearest of a triangle.
+/// The way from a point to the nearest point of a triangle.
 fn towards([a, b, c]: &Triangle, p: DVec3) -> DVec3 {
     let near = point_triangle(p, *a, *b, *c);
     *a + (b - a) * near.u + (c - a) * near.v - p
 }
 
 fn unit(direction: DVec3) -> Option<DVec3> {
-    // By its largest coordinate first: its square may underflow.
+    // Scaled by its largest coordinate first, because squares may underflow.
     let largest = direction.abs().max_element();
     let scaled = direction / largest;
     (largest > 0.0 && scaled.is_finite()).then(|| scaled / scaled.length())
 }
 
-/// The points of two triangles that are nearest to each other, if the triangles do not cross. Not
-/// exact.
+/// The closest points of two triangles that do not cross. Not exact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     /// On the first triangle, and its weights there.
@@ -125,13 +129,13 @@ pub(crate) struct Nearest {
     /// On the second.
     pub q: DVec3,
     pub distance: f64,
-    /// From the second towards the first, of any length: better than `p − q` where these are close
-    /// together.
+    /// From the second towards the first triangle, of any length. It is more accurate than `p − q`
+    /// where these are close together.
     pub direction: DVec3,
 }
 
 impl Nearest {
-    /// `None` if nothing is a number.
+    /// `None` if no distance is a number.
     pub fn of(s: &Triangle, t: &Triangle) -> Option<Self> {
         let mut best: Option<Self> = None;
         let mut offer = |weights: [f64; 3], q: DVec3, normal: Option<DVec3>| {
@@ -162,7 +166,7 @@ impl Nearest {
             let u = s[j] - s[i];
             for k in 0..3 {
                 let (c, d) = (t[k], t[(k + 1) % 3]);
-                // Where an end is nearest, a corner was offered already.
+                // If an end of an edge is the closest point, it was offered as a corner.
                 if let Some([x, y]) = crossing(s[i] - c, u, d - c) {
                     let mut on_edge = [0.0; 3];
                     (on_edge[i], on_edge[j]) = (1.0 - x, x);
@@ -185,8 +189,8 @@ fn weights(p: DVec3, &[a, b, c]: &Triangle) -> ([f64; 3], bool) {
     (weights, weights.iter().all(|&w| w > 0.0))
 }
 
-/// Where the lines `w + x·u` and `y·v` are nearest to each other, if that is between the ends of
-/// both.
+/// The parameters of the closest points of the lines `w + x·u` and `y·v`, if they lie between the
+/// ends of both.
 fn crossing(w: DVec3, u: DVec3, v: DVec3) -> Option<[f64; 2]> {
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
     let det = uu * vv - uv * uv;
@@ -205,8 +209,10 @@ mod tests {
 
     fn parts(distance: f64, s: &Triangle, t: &Triangle) -> bool {
         let bounds = Bounds::of(s);
-        let found = Reach::new(distance).parts(s, normal(s), t);
-        assert!(found || !Reach::new(distance).parts_box(s, &bounds, normal(s), &Bounds::of(t)));
+        let found = Clearance::new(distance).separates(s, normal(s), t);
+        assert!(
+            found || !Clearance::new(distance).separates_box(s, &bounds, normal(s), &Bounds::of(t))
+        );
         found
     }
 
@@ -227,7 +233,7 @@ mod tests {
             for scale in [2f64.powi(-100), 1.0, 2f64.powi(100)] {
                 let [s, t] = [flat, other].map(|t| t.map(|p| p * scale));
                 let at = distance * scale;
-                // `parts` allows `ROUNDING` of the triangles' size, which is a few times the
+                // `separates` allows `ROUNDING` of the triangles' size, which is a few times the
                 // distance.
                 assert!(parts(at * (1.0 - 1e-12), &s, &t), "{t:?}");
                 assert!(!parts(at, &s, &t) && !parts(at * (1.0 + 1e-14), &s, &t), "{t:?}");

@@ -1,30 +1,30 @@
-//! Which cubes of a grid a triangle meets, found by halving blocks of them: a long triangle meets
-//! few of those that its box does.
+//! Which voxels a triangle meets, found by halving blocks of voxels: a long triangle meets few of
+//! the voxels that its box meets.
 //!
-//! A triangle and a box have no point in common if and only if one of thirteen directions has them
-//! apart (Akenine-Möller 2001): those of the box's edges, the triangle's normal, and the products
-//! of the edges of both. Any direction proves it, so that only the projections' rounding is allowed
-//! for.
+//! A triangle and a box have no point in common if and only if one of thirteen directions separates
+//! them (Akenine-Möller 2001): the directions of the box's edges, the triangle's normal, and the
+//! cross products of the edges of both. Any direction proves separation, so that only the rounding
+//! of the projections has to be allowed for.
 
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::predicates::Triangle;
+use crate::surface::Bounds;
+use crate::tight::proof::Triangle;
 use glam::DVec3;
 
-/// Cubes along each axis: the first and the last.
+/// Voxels along each axis: the first and the last.
 pub(crate) type Block = [[i64; 2]; 3];
 
-/// Calls `visit` with every cube of a block that a triangle meets, and no others but for rounding.
-/// `grown` is the box of a block, larger than it is by more than rounding.
-pub(crate) fn visit_met(
+/// Calls `visit` with every voxel of a block that a triangle meets, and with no others but for
+/// rounding. `grown` is the box of a block, larger than the block by more than rounding.
+pub(crate) fn visit_voxels(
     triangle: &Triangle,
     of: Block,
     grown: impl Fn(Block) -> Bounds,
     mut visit: impl FnMut([i64; 3]),
 ) {
-    let sheet = Sheet::new(triangle);
+    let slabs = TriangleSlabs::new(triangle);
     let mut open = vec![of];
     while let Some(block) = open.pop() {
-        if !sheet.reaches(&grown(block)) {
+        if !slabs.meets(&grown(block)) {
             continue;
         }
         let further = block.map(|[from, to]| to - from);
@@ -44,34 +44,34 @@ pub(crate) fn visit_met(
     }
 }
 
-/// A triangle between the pairs of planes that may part it from a box.
-struct Sheet {
+/// A triangle between the pairs of planes that may separate it from a box.
+struct TriangleSlabs {
     bounds: Bounds,
     corner: DVec3,
-    /// Size of what is projected.
+    /// Longest edge.
     extent: f64,
     slabs: [Slab; 10],
 }
 
-/// What of a direction the triangle takes, from its first corner on.
+/// The interval that the triangle takes along a direction, measured from its first corner.
 #[derive(Clone, Copy, Default)]
 struct Slab {
     normal: DVec3,
     from: f64,
     to: f64,
-    /// Not below the normal's length, nor, where that is itself a difference, the lengths it came
-    /// of.
+    /// Not below the normal's length. Where the normal is a difference: not below the lengths of
+    /// its terms.
     size: f64,
 }
 
-impl Sheet {
+impl TriangleSlabs {
     fn new(triangle: &Triangle) -> Self {
         let [a, b, c] = *triangle;
         let edges = [b - a, c - b, a - c];
         let mut slabs = [Slab::default(); 10];
         let normal = edges[0].cross(c - a);
-        // Its own plane: what rounding makes of the normal moves the corners off it, by less than
-        // the size allows for.
+        // The triangle's own plane. Rounding of the normal moves the corners off the plane by less
+        // than the size allows for.
         slabs[0] = Slab { normal, from: 0.0, to: 0.0, size: edges[0].length() * edges[2].length() };
         let products = edges.into_iter().flat_map(|edge| DVec3::AXES.map(|axis| edge.cross(axis)));
         for (slab, normal) in slabs[1..].iter_mut().zip(products) {
@@ -85,7 +85,7 @@ impl Sheet {
     }
 
     /// Never false for a box that the triangle meets.
-    fn reaches(&self, of: &Bounds) -> bool {
+    fn meets(&self, of: &Bounds) -> bool {
         if !self.bounds.meets(of) {
             return false;
         }
@@ -94,8 +94,8 @@ impl Sheet {
         let rounding = 64.0 * f64::EPSILON * (a.length() + half.length() + self.extent);
         self.slabs.iter().all(|slab| {
             let at = slab.normal.dot(a);
-            let reach = half.dot(slab.normal.abs()) + slab.size * rounding;
-            at + slab.from <= reach && at + slab.to >= -reach
+            let limit = half.dot(slab.normal.abs()) + slab.size * rounding;
+            at + slab.from <= limit && at + slab.to >= -limit
         })
     }
 }
@@ -103,7 +103,7 @@ impl Sheet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tight::moves::kick::Dice;
+    use crate::tight::moves::SplitMix;
 
     /// Unit cubes.
     fn grown(block: Block) -> Bounds {
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn cubes_are_met_if_what_is_cut_of_the_triangle_at_their_planes_is_not_empty() {
-        let mut dice = Dice::new(11);
+        let mut dice = SplitMix::new(11);
         let mut counts = [0; 2];
         for kind in 0..60 {
             let mut point = || {
@@ -147,7 +147,7 @@ mod tests {
             };
             let triangle = [point(), point(), point()];
             let mut found = Vec::new();
-            visit_met(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
+            visit_voxels(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
             found.sort_unstable();
             for cube in (0..22i64.pow(3)).map(|n| [n % 22 - 11, n / 22 % 22 - 11, n / 484 - 11]) {
                 let is_found = found.binary_search(&cube).is_ok();
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn halving_leaves_out_no_cube_that_is_met() {
-        let mut dice = Dice::new(7);
+        let mut dice = SplitMix::new(7);
         for size in [1e-9, 0.5, 3.0, 20.0] {
             for kind in 0..3 {
                 let mut point = || {
@@ -176,17 +176,17 @@ mod tests {
                     1 => [(a + b) * 0.5, a, b],
                     _ => [a, b, (a + b) * 0.5 + (c - a) * 1e-7],
                 };
-                let sheet = Sheet::new(&triangle);
+                let slabs = TriangleSlabs::new(&triangle);
                 let mut wanted = Vec::new();
                 for (i, j, k) in
                     (0..22i64.pow(3)).map(|n| (n % 22 - 11, n / 22 % 22 - 11, n / 484 - 11))
                 {
-                    if sheet.reaches(&grown([[i, i], [j, j], [k, k]])) {
+                    if slabs.meets(&grown([[i, i], [j, j], [k, k]])) {
                         wanted.push([i, j, k]);
                     }
                 }
                 let mut found = Vec::new();
-                visit_met(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
+                visit_voxels(&triangle, [[-11, 10]; 3], grown, |cube| found.push(cube));
                 found.sort_unstable();
                 wanted.sort_unstable();
                 assert!(!wanted.is_empty() && found == wanted, "{triangle:?}");
