@@ -1,7 +1,7 @@
 //! The box tree: triangle fans, an 8-wide tree over them, quantised boxes, and their bytes.
 //!
 //! ```text
-//! mesh ─ store (grid) ─ fan (patches) ─ sah ─ collapse ─ order ─ fit (frames, boxes) ─ encode ─ sections
+//! mesh ─ store (grid) ─ fan (leaves) ─ sah ─ collapse ─ order ─ fit (frames, boxes) ─ encode ─ sections
 //! ```
 //!
 //! Any triangle soup will do: nothing here asks for a closed or manifold mesh.
