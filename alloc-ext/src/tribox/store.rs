@@ -1,8 +1,9 @@
 //! Tribox hierarchies as a section of a blob.
 
 use super::lattice::Lattice;
-use super::level::{Level, box_tree, level};
+use super::level::{Level, level};
 use super::split::{Hierarchy, Node, SplitOptions};
+use crate::bvh::exact_blob;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
@@ -51,7 +52,7 @@ pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), B
         let tables = sections(lattice.scale_exponent, 0.0, 0, bounds, Vec::new());
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
     }
-    let bytes = box_tree(mesh);
+    let bytes = exact_blob(mesh);
     let tree = Bvh::open(&bytes).expect("just built");
     let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
     let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };
