@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 /// A closed part, ready to be asked what lies inside.
-pub(crate) struct Part {
+pub(crate) struct Enclosure {
     /// Its triangles' corners.
     pub triangles: Vec<[[f32; 3]; 3]>,
     pub low: [f32; 3],
@@ -19,7 +19,7 @@ pub(crate) struct Part {
 /// Strips per part: a point needs to look at one only. More would cost long triangles more entries.
 const STRIPS: usize = 64;
 
-impl Part {
+impl Enclosure {
     /// `triangles` must not be empty.
     pub(crate) fn new(triangles: Vec<[[f32; 3]; 3]>) -> Self {
         let mut low = [f32::INFINITY; 3];
