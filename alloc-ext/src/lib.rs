@@ -18,10 +18,11 @@
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`hausdorff`] | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`] | one structure each, as in core |
-//! | [`emit`] | sections to bytes, and cutting a blob |
+//! | [`emit`] | sections to bytes |
+//! | [`cut`](mod@cut) | coarser blobs out of finer ones |
 //!
-//! Arrows: `{lp, mesh} ← surface ← {collapse, bvh, hausdorff} ← {hull, tight, tribox} ← emit` ← the
-//! program. No others.
+//! Arrows: `{lp, mesh} ← surface ← {collapse, bvh, hausdorff} ← {hull, tight, tribox} ← cut` ← the
+//! program. All structures name `emit`, which names none of them. No others.
 
 pub mod bvh;
 pub mod collapse;
