@@ -59,6 +59,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
     /// NaN or infinite; [`QueryError::NoScratch`]; [`QueryError::NotServed`].
+    #[inline]
     pub fn within(
         &self,
         point: [f32; 3],
@@ -66,34 +67,43 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Within, QueryError> {
-        let tree = self;
         budget.check()?;
-        if !(distance >= 0.0 && distance.is_finite()) {
-            return Err(QueryError::Tolerance);
-        }
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let query = PointQuery::new(tree, point)?;
-        if query.far {
-            return from_afar(tree, point, distance, scratch);
-        }
-        let mut work = Work::default();
-        let limit = limit_within(&query, distance);
-        let mut visitor =
-            Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
-        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        if let Some(number) = visitor.near {
-            let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
-            return Ok(Within { verdict: Verdict::Yes, triangle, work });
-        }
-        let verdict = match descent {
-            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-            _ if visitor.doubtful => Verdict::Undecided(Undecided::Resolution),
-            _ => Verdict::No,
-        };
-        Ok(Within { verdict, triangle: None, work })
+        within(self, point, distance, budget.steps, scratch)
     }
+}
+
+fn within(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    distance: f32,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+) -> Result<Within, QueryError> {
+    if !(distance >= 0.0 && distance.is_finite()) {
+        return Err(QueryError::Tolerance);
+    }
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
+    }
+    let query = PointQuery::new(tree, point)?;
+    if query.far {
+        return from_afar(tree, point, distance, scratch);
+    }
+    let mut work = Work::default();
+    let limit = limit_within(&query, distance);
+    let mut visitor =
+        Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
+    let descent = descend(tree, &query, steps, scratch, &mut visitor, &mut work)?;
+    if let Some(number) = visitor.near {
+        let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
+        return Ok(Within { verdict: Verdict::Yes, triangle, work });
+    }
+    let verdict = match descent {
+        Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
+        _ if visitor.doubtful => Verdict::Undecided(Undecided::Resolution),
+        _ => Verdict::No,
+    };
+    Ok(Within { verdict, triangle: None, work })
 }
 
 #[cold]
