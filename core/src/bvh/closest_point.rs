@@ -13,8 +13,8 @@ use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
 
-/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe. A bad
-/// one costs a leaf.
+/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe. A
+/// bad one costs a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hint(u32);
 
@@ -27,9 +27,9 @@ impl Bvh<'_> {
     /// Closest point of the surface to `point`, with an interval that contains the distance to the
     /// input mesh.
     ///
-    /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer the
-    /// interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in input
-    /// units, in the mesh's frame.
+    /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer
+    /// the interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in
+    /// input units, in the mesh's frame.
     ///
     /// Of equidistant triangles the answer is the least in blob order. A point on the surface has a
     /// lower bound of 0. Farther than a million model sizes the model's box gives the interval.

@@ -84,7 +84,8 @@ pub(crate) struct PointQuery {
     margin: f32,
     /// What is added to a squared limit, so that no rounding hides a candidate.
     allowance: f32,
-    /// Square that a certificate may fall short by: [`CERTIFIED_SHORTFALL`], or 0 for exact vertices.
+    /// Square that a certificate may fall short by: [`CERTIFIED_SHORTFALL`], or 0 for exact
+    /// vertices.
     short: f32,
     /// Farther than [`BVH_FAR`]: the box is all that matters.
     pub(crate) far: bool,

@@ -1,14 +1,15 @@
 //! Angle-weighted pseudonormals where no mesh connectivity is stored: what meets at a feature is
 //! found by a descent, by equal coordinates.
 //!
-//! The sum of [`signed_distance`](super::signed_distance) is taken about a vertex (or edge) that all triangles share
-//! which may be the closest. That it is the closest feature itself is not certain, only nearly so.
-//! Let u be the direction from it to the query, and let no triangle about it reach a direction x
-//! with x·u > η. Then the winding number is the same, w₀, wherever x·u > η. What is left of the sum
-//! over 0 < x·u ≤ η is 2·∫x·u ≤ 2πη² about a vertex and, by the same argument in the plane across
-//! it, η² about an edge. Nothing crosses the way from the feature to the query: triangles about the
-//! feature do not contain the direction u, and any other one would be nearer than the feature and
-//! so among those considered. So a product with u beyond that and rounding has the right sign.
+//! The sum of [`signed_distance`](super::signed_distance) is taken about a vertex (or edge) that
+//! all triangles share which may be the closest. That it is the closest feature itself is not
+//! certain, only nearly so. Let u be the direction from it to the query, and let no triangle about
+//! it reach a direction x with x·u > η. Then the winding number is the same, w₀, wherever x·u > η.
+//! What is left of the sum over 0 < x·u ≤ η is 2·∫x·u ≤ 2πη² about a vertex and, by the same
+//! argument in the plane across it, η² about an edge. Nothing crosses the way from the feature to
+//! the query: triangles about the feature do not contain the direction u, and any other one would
+//! be nearer than the feature and so among those considered. So a product with u beyond that and
+//! rounding has the right sign.
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::point_query::PointQuery;

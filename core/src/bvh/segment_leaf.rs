@@ -2,7 +2,8 @@
 //!
 //! A segment visits two nodes and less than one leaf on scanned parts, so the work once for each
 //! segment decides. The fan kernels flag the triangles that may be met. Only flagged triangles are
-//! looked at one by one, with the interval of parameters in which the *input's* triangle can be met.
+//! looked at one by one, with the interval of parameters in which the *input's* triangle can be
+//! met.
 
 use super::descent::{LeafVisit, LeafVisitor, NodeQuery};
 use super::node::WIDE;

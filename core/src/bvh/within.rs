@@ -14,9 +14,9 @@ use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Ve
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Within {
     /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther; of a tight hull,
-    /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the distance
-    /// is so near to the one asked about that the stored surface or rounding leaves it open, or a
-    /// tighter hull may decide.
+    /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the
+    /// distance is so near to the one asked about that the stored surface or rounding leaves it
+    /// open, or a tighter hull may decide.
     pub verdict: Verdict,
     /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
     /// the closest one. `None` of a tight hull, which knows no triangles.

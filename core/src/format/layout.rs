@@ -47,7 +47,7 @@ pub enum SectionKind {
     Source = 9,
     /// Level table, coarse to fine.
     Levels = 10,
-    /// One swept triangle for each [`BASE_GROUP`] triangles of the base hull, which it contains.
+    /// One swept triangle for each group of triangles of the base hull, which it contains.
     BaseGroups = 11,
     /// Counts, grid and error bound of the box tree.
     Bvh = 12,

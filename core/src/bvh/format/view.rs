@@ -206,8 +206,8 @@ impl Bvh<'_> {
         self.header.triangles
     }
 
-    /// No point of the input surface is farther than this from the stored surface, nor the other way
-    /// round. Input units, rounded up.
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round. Input units, rounded up.
     pub fn surface_error(&self) -> f32 {
         let [first, second] = self.scale.outward;
         let error = self.scale.surface_error * first * second;

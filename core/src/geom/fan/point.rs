@@ -213,8 +213,8 @@ pub fn point_leaf(
 /// of its plane and of supporting planes along the residual and along the residual made orthogonal
 /// to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
-/// Holds up to the rounding that `FAN_DISTANCE` covers, whatever the triangle. Cost: five roots, so it
-/// is for the few triangles that need it.
+/// Holds up to the rounding that `FAN_DISTANCE` covers, whatever the triangle. Cost: five roots, so
+/// it is for the few triangles that need it.
 #[inline]
 pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let fan = PointFan::new(s);

@@ -10,7 +10,8 @@
 //! The cross product of a spoke is the term `(s ∧ d)·eₖ` that Galin & Akkouche (2005, 3.1) share
 //! between the triangles beside it. Slips of the paper: `u` and `v` have the wrong sign in 3.1 (3.3
 //! has them right), `(c ∧ b)·a` there is `(b ∧ c)·a`, in 3.2 `n` is `(o − p₀) ∧ d`, and step 2 of
-//! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is settled//! here.
+//! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is
+//! settled//! here.
 //!
 //! What rounding and the surface error leave open: `core/docs/rounding.md` §9.
 
