@@ -1,8 +1,7 @@
-//! Closest points of many queries at once: in an order in which each begins where the one before
-//! ended.
+//! Closest points of many queries at once, each beginning where the one before ended.
 //!
-//! Neighbours in Morton order need the same nodes and leaves, which the cache then holds, and the
-//! last answer's leaf bounds the next distance before the descent begins.
+//! Neighbours in Morton order need the same nodes and leaves, and the cache holds them. The leaf of
+//! the last answer bounds the next distance before the descent begins.
 
 use super::closest_point::{Hint, closest_point, closest_point_from};
 use crate::bvh::format::Bvh;
@@ -98,7 +97,7 @@ impl Bvh<'_> {
     }
 }
 
-/// Cells along an axis of the box of all points, as a power of two: finer ones cost a pass of
+/// Cells along an axis of the box of all points, as a power of two. Finer cells cost a pass of
 /// sorting and gain nothing.
 const CELL_BITS: u32 = 8;
 
@@ -119,7 +118,7 @@ fn in_morton_order<'o>(
             *high = if x > *high { x } else { *high };
         }
     }
-    // Halved, for the difference may leave f32's range. Where it does, or is 0, one cell is all.
+    // Halved, for the difference may leave f32's range. Where it does, or is 0, there is one cell.
     let mut cells = [0f32; 3];
     for (cells, (low, high)) in cells.iter_mut().zip(low.iter().zip(high)) {
         let scale = (1u32 << CELL_BITS) as f32 / (high * 0.5 - low * 0.5);

@@ -1,4 +1,4 @@
-//! The n closest triangles.
+//! The nearest triangles.
 
 use super::closest_point::closest_point;
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};

@@ -50,7 +50,7 @@ pub(crate) struct Place {
     pub(crate) lane: u32,
 }
 
-/// What a question does with triangles that may be met, in any order.
+/// The part of a question that handles triangles that may be met, in any order.
 pub(crate) trait Collect {
     /// Nothing that begins later matters.
     fn limit(&self) -> f32;
@@ -125,7 +125,7 @@ fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
 }
 
 impl<C: Collect> SegmentVisitor<'_, C> {
-    /// Settles the flagged triangles of a leaf.
+    /// Decides about the flagged triangles of a leaf.
     #[inline(never)]
     fn settle(&mut self, visit: &LeafVisit<'_>, flagged: u32) -> Option<()> {
         let (leaf, bound) = (&visit.leaf, visit.key);

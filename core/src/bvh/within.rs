@@ -171,8 +171,8 @@ impl Threshold<'_> {
         Some(first.wrapping_add(lane as u32))
     }
 
-    /// A leaf near the limit: is one of its triangles not certainly beyond the distance? It may be
-    /// a sliver that is certainly within.
+    /// Looks at a leaf near the limit: for a triangle that is not certainly beyond the distance,
+    /// and for a sliver that is certainly within.
     #[cold]
     #[inline(never)]
     fn doubt(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
