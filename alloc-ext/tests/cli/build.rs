@@ -249,7 +249,7 @@ fn one_of_a_thing_is_in_the_singular() {
     );
     for part in [
         "1 triangle kept",
-        "1 zero-area triangle dropped",
+        "1 triangle without area kept",
         "1 triangle with a repeated corner",
         "1 fan of one",
     ] {

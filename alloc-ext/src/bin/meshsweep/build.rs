@@ -18,8 +18,8 @@ use meshsweep::hull::{self, BuildError, BuildReport, Built};
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage, TightTables};
 use meshsweep::tribox::{self, TriboxReport, TriboxTables};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::VertexFormat;
+use meshsweep_core::Blob;
+use meshsweep_core::internal::format::layout::VertexFormat;
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -63,7 +63,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         tight: tight.as_ref().map(|(tables, _)| tables),
     });
     // A blob that does not open must not be written.
-    let model = Model::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
+    let blob = Blob::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
     let report = Report {
         args,
@@ -72,7 +72,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         tree_time: tree.as_ref().map(|(_, report)| report.time),
         tribox_time: triboxes.as_ref().map(|(_, report)| report.time),
         tight: tight.as_ref().map(|(_, reports)| reports.as_slice()),
-        model: &model,
+        blob: &blob,
     };
     Output::stdout().finish(|out| report.write(out))
 }
@@ -151,12 +151,12 @@ struct Report<'a> {
     tree_time: Option<Duration>,
     tribox_time: Option<Duration>,
     tight: Option<&'a [HullReport]>,
-    model: &'a Model<'a>,
+    blob: &'a Blob<'a>,
 }
 
 impl Report<'_> {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Report { args, loaded, hull, tree_time, tribox_time, tight, model } = self;
+        let Report { args, loaded, hull, tree_time, tribox_time, tight, blob } = self;
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
@@ -172,11 +172,11 @@ impl Report<'_> {
             if let Some(stuck) = report.stuck {
                 writeln!(out, "  {}", why_stuck(args.base.unwrap_or(FACES), &stuck))?;
             }
-            if let Some(note) = other_format(args.vertex_bits, model.header().vertex_format) {
+            if let Some(note) = other_format(args.vertex_bits, blob.header().vertex_format) {
                 writeln!(out, "  {note}")?;
             }
         }
-        describe::write_blob(out, model)?;
+        describe::write_blob(out, blob)?;
         if let Some(reports) = tight {
             write_left_out(out, args, reports)?;
             write_margin(out, args.margin, "mesh")?;
