@@ -13,11 +13,11 @@ use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::counted::Counted;
-use meshsweep::emit::{self, Parts};
+use meshsweep::emit::{self, Sections};
 use meshsweep::hull::{self, BuildError, BuildReport, Built};
 use meshsweep::surface::VertexBits;
-use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage, TightTables};
-use meshsweep::tribox::{self, TriboxReport, TriboxTables};
+use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
+use meshsweep::tribox::{self, TriboxReport};
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use std::io::{self, Write};
@@ -51,17 +51,20 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > bvh::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
-    let tree = wanted
-        .tree()
-        .then(|| bvh::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
+    let tree = wanted.tree().then(|| bvh::build(loaded.input(), &options));
     let triboxes = if wanted.triboxes { Some(build_triboxes(args, &loaded)?) } else { None };
     let tight = if wanted.tight { Some(build_tight(args, &loaded)?) } else { None };
-    let bytes = emit::assemble(&Parts {
-        hull: hull.as_ref().map(|hull| &hull.tables),
-        tree: tree.as_ref().map(|(tables, _)| tables),
-        triboxes: triboxes.as_ref().map(|(tables, _)| tables),
-        tight: tight.as_ref().map(|(tables, _)| tables),
-    });
+    let hierarchy = hull.as_ref().map(|hull| hull.tables.sections());
+    let bytes = emit::assemble(
+        [
+            hierarchy.as_ref(),
+            tree.as_ref().map(|(tables, _)| tables),
+            triboxes.as_ref().map(|(tables, _)| tables),
+            tight.as_ref().map(|(tables, _)| tables),
+        ]
+        .into_iter()
+        .flatten(),
+    );
     // A blob that does not open must not be written.
     let blob = Blob::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
@@ -98,38 +101,34 @@ fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
     let options = args.collapse.options(args.base.unwrap_or(FACES), args.vertex_bits);
     let faces = loaded.mesh.triangles.len();
     let bar = Bar::new(faces.saturating_sub(options.base_faces), "collapsing", "faces");
-    hull::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options, |progress| {
+    hull::build(loaded.input(), &options, |progress| {
         bar.show(faces.saturating_sub(progress.faces));
     })
     .map_err(|error| failed(args, error))
 }
 
-fn build_triboxes(
-    args: &BuildArgs,
-    loaded: &Loaded,
-) -> Result<(TriboxTables, TriboxReport), Failure> {
-    let Loaded { mesh, moved, input_triangles, .. } = loaded;
-    tribox::store(mesh, *moved, *input_triangles, args.triboxes.unwrap_or(TRIBOXES))
+fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, TriboxReport), Failure> {
+    tribox::store(loaded.input(), args.triboxes.unwrap_or(TRIBOXES))
         .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })
 }
 
-fn build_tight(
-    args: &BuildArgs,
-    loaded: &Loaded,
-) -> Result<(TightTables, Vec<HullReport>), Failure> {
-    let Loaded { mesh, moved, input_triangles, .. } = loaded;
+fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullReport>), Failure> {
     let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
-    let options = ChainOptions {
-        faces: args.tight.iter().map(|&faces| faces as usize).collect(),
-        goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
-        margin: loaded.widened(args.margin),
-        effort: args.effort.unwrap_or(1.0),
-        vertex_bits: args.vertex_bits.format(),
-        closest: asked(HullServes::Closest),
-        segments: asked(HullServes::Segment),
+    let options = match (args.void, args.slack) {
+        (Some(percent), _) => ChainOptions::of_goal(Goal::Void(percent / 100.0)),
+        (None, Some(slack)) => ChainOptions::of_goal(Goal::Slack(slack)),
+        (None, None) => {
+            let faces: Vec<usize> = args.tight.iter().map(|&faces| faces as usize).collect();
+            ChainOptions::of_faces(&faces)
+        }
     };
+    let options = options
+        .with_margin(loaded.widened(args.margin))
+        .with_effort(args.effort.unwrap_or(1.0))
+        .with_vertex_bits(args.vertex_bits.format())
+        .with_boxes(asked(HullServes::Closest), asked(HullServes::Segment));
     let mut bars = StageBars::default();
-    let made = tight::chain(mesh, *moved, *input_triangles, &options, |stage| match stage {
+    let made = tight::chain(loaded.input(), &options, |stage| match stage {
         Stage::Wrapping { progress, .. } => bars.show(progress),
         Stage::Certifying => bars = StageBars::default(),
     })

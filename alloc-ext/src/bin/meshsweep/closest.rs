@@ -63,19 +63,13 @@ impl Question<3> for Closest<'_> {
     fn memory(&self) -> Self::Memory {
         self.search.scratch(match &self.by {
             // Two entries more for each point sort a batch.
-            By::Engine(Engine::Tree(tree)) => {
-                tree.scratch_entries() + 2 * BATCH.min(self.points)
-            }
+            By::Engine(Engine::Tree(tree)) => tree.scratch_entries() + 2 * BATCH.min(self.points),
             By::Engine(engine) => engine.scratch_entries(),
             By::Tight(hull) => hull.scratch_entries(),
         })
     }
 
-    fn ask(
-        &self,
-        point: [f32; 3],
-        scratch: &mut Self::Memory,
-    ) -> Result<ClosestPoint, QueryError> {
+    fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<ClosestPoint, QueryError> {
         match &self.by {
             By::Engine(Engine::Tree(tree)) => tree.closest_point(point, self.budget, scratch),
             By::Engine(Engine::Cover(hull)) => hull.closest_point(point, self.budget, scratch),
@@ -103,8 +97,8 @@ impl Question<3> for Closest<'_> {
         };
         answers.resize(rows.len(), ClosestPoint::EMPTY);
         // Without a hint: so the work does not depend on the batch before.
-        let done =
-            tree.closest_points(rows, &mut Hint::NONE, answers, self.budget, scratch);
+        let mut hint = Hint::NONE;
+        let done = tree.closest_points(rows, &mut hint, answers, self.budget, scratch);
         done.map_err(|error| {
             answers.clear();
             match error {

@@ -5,7 +5,7 @@ use crate::output::Output;
 use crate::signed::name;
 use crate::{blob_file, describe};
 use meshsweep::bvh::{self, TreeOptions};
-use meshsweep::{emit, mesh};
+use meshsweep::mesh;
 use meshsweep_core::{Budget, Ended, Facing, Interval, ScratchEntry};
 use std::path::Path;
 
@@ -18,8 +18,8 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = bvh::build(&mesh, 0.0, triangles, &TreeOptions::default());
-    let bytes = emit::blob(None, Some(&tables));
+    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default());
+    let bytes = tables.to_bytes();
     let tree = blob_file::open_tree(file, &bytes)?;
     let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let place = |error| Failure::Query { place: Place::BuiltIn, error };

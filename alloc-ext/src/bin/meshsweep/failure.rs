@@ -2,7 +2,7 @@
 
 use crate::unmet::Unmet;
 use meshsweep::counted::Counted;
-use meshsweep::emit::CutError;
+use meshsweep::cut::CutError;
 use meshsweep::hull::BuildError;
 use meshsweep::mesh::MeshError;
 use meshsweep::tight::WrapError;

@@ -1,7 +1,7 @@
 //! From a mesh file to a clean mesh, closed or not, with a report of the repairs.
 
 use crate::failure::Failure;
-use meshsweep::mesh::{self, Mesh, RawMesh, RepairReport};
+use meshsweep::mesh::{self, Input, Mesh, RawMesh, RepairReport};
 use meshsweep::surface::{VertexBits, snap};
 use meshsweep_core::internal::format::layout::MAGIC;
 use std::io::Read;
@@ -23,6 +23,12 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// The mesh as the builders take it.
+    pub fn input(&self) -> Input<'_> {
+        let Self { mesh, moved, input_triangles, .. } = self;
+        Input { mesh, moved: *moved, input_triangles: *input_triangles }
+    }
+
     /// A margin that the file's vertices keep too, before they were rounded and moved.
     pub fn widened(&self, margin: Option<f64>) -> f64 {
         let moved = (self.moved + self.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);

@@ -6,9 +6,7 @@ use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::{
-    BuildFor, Bvh, Ended, KNearest, Neighbor, QueryError, ScratchEntry, Work,
-};
+use meshsweep_core::{BuildFor, Bvh, Ended, KNearest, Neighbor, QueryError, ScratchEntry, Work};
 use std::io::{self, Write};
 
 pub fn run(args: &NearestArgs) -> Result<(), Failure> {

@@ -96,11 +96,7 @@ impl Question<6> for First<'_> {
         self.0.scratch()
     }
 
-    fn ask(
-        &self,
-        segment: [f32; 6],
-        scratch: &mut Self::Memory,
-    ) -> Result<FirstHit, QueryError> {
+    fn ask(&self, segment: [f32; 6], scratch: &mut Self::Memory) -> Result<FirstHit, QueryError> {
         let ([a, b], budget) = (ends(segment), self.0.search.budget());
         match &self.0.engine {
             Engine::Tree(tree) => tree.first_hit(a, b, self.0.facing, budget, scratch),

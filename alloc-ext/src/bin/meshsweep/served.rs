@@ -67,6 +67,7 @@ fn not_served(
         BuildFor::Hull => "hull hierarchy",
         BuildFor::Triboxes => "triboxes",
         BuildFor::Tight => "tight hulls",
+        _ => "such part",
     };
     let (file, build_for) = (file.to_owned(), build_for.to_string());
     Failure::NotServed { file, part, build_for, other, served: listed(blob) }

@@ -143,7 +143,7 @@ pub struct SegmentArgs {
     #[arg(required = true, value_parser = given::queries::<6>())]
     pub segments: Vec<Given<6>>,
     /// All hits, one on a line, with the number of the query (from 0) in front
-    #[arg(long, conflicts_with = "steps")]
+    #[arg(long)]
     pub all: bool,
     /// Only hits of fronts or of backs, on the box tree; the front of a triangle is where its
     /// corners run counter-clockwise [default: both]

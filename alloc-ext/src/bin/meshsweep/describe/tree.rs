@@ -4,9 +4,7 @@ use super::shape::Shape;
 use crate::number::AtMost;
 use meshsweep::counted::Counted;
 use meshsweep_core::internal::num::exp2;
-use meshsweep_core::internal::num::tolerance::{
-    CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, U32,
-};
+use meshsweep_core::internal::num::tolerance::{CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, U32};
 use meshsweep_core::{Bvh, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -22,7 +20,8 @@ fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
     let h = tree.header();
     let unit = exp2(h.grid_exponent + tree.scale_exponent());
     let u = f64::from(U32);
-    let near = f64::from(tree.surface_error()) + f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius) * unit;
+    let near = f64::from(tree.surface_error())
+        + f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius) * unit;
     // Other triangles than slivers are certified to that part of the squared distance: half of it
     // for the distance, a quarter at either end.
     let relative = f64::from(FAN_RELATIVE) * u + (1.0 - f64::from(CERTIFIED_PART)) / 4.0;

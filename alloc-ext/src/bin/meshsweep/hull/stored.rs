@@ -6,7 +6,7 @@ use crate::number::{AtMost, Percent};
 use crate::output::Output;
 use crate::{blob_file, describe, served};
 use meshsweep::counted::Counted;
-use meshsweep::emit::CutError;
+use meshsweep::cut::CutError;
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::tight::hull_mesh;
 use meshsweep_core::{Hull, Level, VertIdx};
