@@ -64,6 +64,8 @@ pub enum NoVolume {
     Overlapping,
     /// Rounding may be all that there is: cavities leave next to nothing.
     Indistinct,
+    /// No triangle has an area.
+    NoArea,
     /// An array breaks what [`Mesh`] promises.
     Invalid,
 }
@@ -93,6 +95,7 @@ impl NoVolume {
             MeshError::ZeroVolume { triangle, at, .. } => {
                 Some(NoVolume::Flat { triangle: *triangle, at: *at })
             }
+            MeshError::NoArea { .. } => Some(NoVolume::NoArea),
             _ => None,
         };
         named.unwrap_or(NoVolume::Invalid)
@@ -110,6 +113,7 @@ impl fmt::Display for NoVolume {
                     Edge(at)
                 )
             }
+            NoVolume::NoArea => f.write_str("no triangle of the mesh has an area"),
             NoVolume::NonManifold { edges, most, at } => write!(
                 f,
                 "the mesh is not manifold: {} with up to {most} triangles, {}",
