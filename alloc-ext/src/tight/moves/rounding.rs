@@ -2,7 +2,7 @@
 
 use crate::surface::Grid;
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 
 /// A grid of the local frame, or single precision, seen from the mesh's own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
