@@ -1,8 +1,9 @@
 //! From any triangles to their tight hull: options are checked, the hull is searched and measured.
 
 use super::moves::slack;
-use super::options::{Goal, Options, Outcome, Progress, Report, WrapError};
+use super::options::{Goal, Options, WrapError};
 use super::proof::{Obstacle, Solid, crosses_itself};
+use super::report::{Outcome, Progress, Report};
 use super::search::{CandidateHull, HullSearch};
 use crate::mesh::Mesh;
 use crate::surface::Bounds;

@@ -322,6 +322,9 @@ struct Survey<'p> {
 impl Survey<'_> {
     /// Whether a triangle with an area may be the closest one.
     fn has_sides(&self) -> bool {
+        if self.solid.distance_sq <= self.best.distance_sq {
+            return true;
+        }
         let band = Candidates::new(self.query, self.margin, self.best.distance_sq).band;
         let [front, back, unclear, _] = self.least;
         front <= band || back <= band || unclear <= band

@@ -185,7 +185,7 @@ fn triangles_of_any_kind_have_a_hull() {
     let triangles = (0..16).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let mesh = mesh_of(&(positions, triangles));
     let hull = proved("soup", &mesh, &options(100));
-    assert!(matches!(hull.report.start, Start::Closure { .. }), "{:?}", hull.report);
+    assert!(matches!(hull.report.start, Start::VoxelClosure { .. }), "{:?}", hull.report);
     assert!(matches!(hull.report.void, Err(NoVolume::Open { edges: 48, .. })));
     let (positions, mut triangles) = torus(1.0, 0.3, 40, 20);
     triangles.truncate(1000);

@@ -48,11 +48,11 @@ pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
              once, so that the void may be more than that"
         )?;
     }
-    if let Start::Closure { cell, .. } = report.start {
+    if let Start::VoxelClosure { edge, .. } = report.start {
         writeln!(
             out,
             "  the hull began as the outside of the cubes of edge {} that its triangles meet",
-            About(cell)
+            About(edge)
         )?;
     }
     if report.start == Start::Box {

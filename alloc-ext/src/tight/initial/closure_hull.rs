@@ -5,7 +5,7 @@ use super::voxel_closure::voxel_closure;
 use super::{InitialHull, InitialInput};
 use crate::collapse::Conditions;
 use crate::tight::moves::Shell;
-use crate::tight::options::{Progress, Start};
+use crate::tight::report::{Progress, Start};
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
 
@@ -38,7 +38,7 @@ pub(crate) fn closure_hull(
     if closure.positions.iter().any(|&p| rounding.round(p) != Some(p)) {
         return None;
     }
-    let start = Start::Closure { cell: closure.edge, cells: closure.voxels };
+    let start = Start::VoxelClosure { edge: closure.edge, voxels: closure.voxels };
     let local = exp2(-stored.scale_exponent);
     let positions: Vec<DVec3> = closure.positions.iter().map(|&p| p * local).collect();
     let surface =

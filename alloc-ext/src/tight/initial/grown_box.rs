@@ -3,7 +3,7 @@
 use super::lifted::LIFTS;
 use super::{InitialHull, InitialInput};
 use crate::tight::moves::Shell;
-use crate::tight::options::Start;
+use crate::tight::report::Start;
 use glam::DVec3;
 
 /// Corners of the box's faces, counter-clockwise seen from outside. Bits of a corner: x, y, z.

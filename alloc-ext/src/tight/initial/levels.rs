@@ -6,7 +6,7 @@
 use super::InitialInput;
 use crate::collapse::{Conditions, Engine, Priority, thin};
 use crate::surface::compact;
-use crate::tight::options::{Progress, Stage};
+use crate::tight::report::{Progress, Stage};
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
 use std::time::Instant;

@@ -9,8 +9,8 @@ use crate::collapse::{Conditions, MAX_STAR};
 use crate::lp::{HalfSpace, minimise_bounded};
 use crate::mesh::Mesh;
 use crate::tight::moves::{Rounding, Shell, StarFace};
-use crate::tight::options::{Progress, Start};
 use crate::tight::proof::side;
+use crate::tight::report::{Progress, Start};
 use glam::DVec3;
 
 /// Initial hulls that come from levels of the progressive hull.

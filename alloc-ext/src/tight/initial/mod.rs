@@ -26,8 +26,8 @@ pub(crate) use lifted::lifted_levels;
 
 use crate::surface::Stored;
 use crate::tight::moves::{Rounding, Shell};
-use crate::tight::options::Start;
 use crate::tight::proof::{Obstacle, is_outer_hull};
+use crate::tight::report::Start;
 use std::time::Instant;
 
 /// A proved hull that a search may start from.

@@ -1,7 +1,7 @@
 //! Hulls that compete for a goal.
 
 use crate::tight::moves::HullEditor;
-use crate::tight::options::{Outcome, Start};
+use crate::tight::report::{Outcome, Start};
 
 /// A hull that was brought to its goal, or as near to it as possible.
 pub(crate) struct CandidateHull<'a> {

@@ -4,7 +4,7 @@ use super::HullSearch;
 use super::polish::Polish;
 use crate::tight::initial::InitialHull;
 use crate::tight::moves::{HullEditor, Shape};
-use crate::tight::options::{Outcome, Progress, Stage};
+use crate::tight::report::{Outcome, Progress, Stage};
 
 /// Conditions of collapses as long as enough edges pass them: the hull keeps room to move.
 const SHAPE: Shape =

@@ -15,7 +15,8 @@ use super::candidate::{CandidateHull, keep_better};
 use crate::collapse::Conditions;
 use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
 use crate::tight::moves::HullEditor;
-use crate::tight::options::{Outcome, Start, WrapError};
+use crate::tight::options::WrapError;
+use crate::tight::report::{Outcome, Start};
 use std::time::Instant;
 
 /// Voxels along the longest side of the closures that are tried after the [`finest`]; `None` is the

@@ -22,8 +22,9 @@ use crate::mesh::Mesh;
 use crate::surface::Stored;
 use crate::tight::initial::InitialInput;
 use crate::tight::moves::Rounding;
-use crate::tight::options::{Goal, Options, Progress, WrapError};
+use crate::tight::options::{Goal, Options, WrapError};
 use crate::tight::proof::{Obstacle, Solid};
+use crate::tight::report::Progress;
 use faces::Target;
 use std::time::Instant;
 

@@ -10,7 +10,8 @@ use crate::collapse::Conditions;
 use crate::tight::initial::{
     InitialHull, InitialInput, STAIR_CONDITIONS, closure_hull, grown_box, lifted_levels,
 };
-use crate::tight::options::{Outcome, WrapError};
+use crate::tight::options::WrapError;
+use crate::tight::report::Outcome;
 
 /// Target faces of the first level. Faces that are too far from the mesh are split; more faces
 /// would have to be collapsed again.

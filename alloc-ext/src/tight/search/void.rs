@@ -8,8 +8,9 @@ use super::candidate::CandidateHull;
 use super::descent::STAGE;
 use super::faces::{FEW_FACES, Target};
 use crate::tight::moves::HullEditor;
-use crate::tight::options::{Outcome, WrapError};
+use crate::tight::options::WrapError;
 use crate::tight::proof::NoVolume;
+use crate::tight::report::Outcome;
 
 /// Faces that the search begins with.
 const FINEST: usize = 2000;

@@ -5,10 +5,10 @@ use crate::mesh::Mesh;
 use crate::tight::proof::Obstacle;
 use glam::DVec3;
 
-/// How far a hull and the mesh within are from each other, in their unit.
+/// Distances between a hull and the mesh within, in their unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distances {
-    /// For each face of the hull a distance from the mesh that none of its points exceeds.
+    /// For each face of the hull an upper bound of the distance of its points from the mesh.
     pub slacks: Vec<f64>,
     /// The largest distance from a point of the hull to the mesh.
     pub slack: Farthest,
@@ -16,12 +16,13 @@ pub struct Distances {
     pub depth: Farthest,
 }
 
-/// Part of the largest slack to which all are found: finer than what two bytes hold of the large
-/// ones.
+/// Accuracy of the slacks as a part of the largest: finer than the steps of two bytes at the large
+/// slacks.
 const FINE: f64 = 1.0 / 512.0;
 
-/// Distances of `hull` and `mesh`, which may be any triangles and wires. Cost: see [`farthest`], for each
-/// face of the hull and once for all of the mesh.
+/// Distances between `hull` and `mesh`, which may be any triangles and wires.
+///
+/// Cost: that of [`farthest`] for each face of the hull, and once for all of the mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
     let (hull_surface, mesh_surface) = (Obstacle::of(hull), Obstacle::of(mesh));
     let to = |surface: &Obstacle, p: DVec3| {

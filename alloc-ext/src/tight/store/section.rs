@@ -1,4 +1,4 @@
-//! Tight hulls as a section of a blob.
+//! The bytes of the section: writing, cutting, and reading a hull back.
 
 use super::chain::{ChainOptions, HullReport};
 use crate::bvh::{self, TreeOptions};
@@ -38,7 +38,7 @@ impl Stored {
             faces: hull.triangles.len() as u32,
             slack: up_to_f32(distances.slack.upper),
             depth: up_to_f32(distances.depth.upper),
-            // A volume that next to vanishes would give a ratio that f32 does not hold.
+            // A mesh of very little volume may give a ratio beyond the range of f32.
             void_ratio: report.void.map_or(0.0, |void| void.min(f64::from(f32::MAX)) as f32),
         };
         Stored { record, blob, slacks: slacks.collect() }
@@ -50,7 +50,7 @@ impl Stored {
     }
 }
 
-/// The blob of the hull's tree: on a grid of 16 bits if that moves no vertex.
+/// The blob of the hull's tree, on a grid of 16 bits if that moves no vertex.
 fn hull_tree(hull: &Mesh, moved: f64, options: &ChainOptions) -> Vec<u8> {
     let of = |single: bool, moved: f64, rounding: f64| {
         let hull = Mesh { rounding, ..hull.clone() };
@@ -106,8 +106,8 @@ fn section(hulls: &[Stored]) -> Vec<u8> {
     out
 }
 
-/// The tight hulls of a blob that have at most so many faces, or the coarsest; `None` if it has
-/// none.
+/// The tight hulls of a blob that have at most `faces` faces, and the coarsest in any case; `None` if
+/// the blob has no tight hulls.
 #[must_use]
 pub fn cut(blob: &Blob<'_>, faces: u32) -> Option<Sections> {
     let hulls = blob.tight_hulls().ok()?;

@@ -59,7 +59,8 @@ impl Bvh<'_> {
     /// Both verdicts are proved, of the input meshes as they were after repair, whatever grids did
     /// to vertices. The numbers of the pose are taken as they are, in real arithmetic. Surfaces that
     /// touch without passing through each other are undecided, and so are surfaces within rounding
-    /// and the surface errors of it. Triangles without area are never proved to meet anything.
+    /// and the surface errors of it. Two triangles without area are
+    /// never proved to meet.
     /// Surfaces alone count: of closed meshes one may lie inside the other, which
     /// [`signed_distance`](Bvh::signed_distance) of a vertex decides.
     ///
