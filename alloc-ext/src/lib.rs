@@ -18,10 +18,12 @@
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`hausdorff`] | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`] | one structure each, as in core |
-//! | [`emit`] | sections to bytes, and cutting a blob |
+//! | [`emit`] | sections to bytes; it knows no builder |
+//! | [`cut`] | a coarser blob out of a finer one |
 //!
-//! Arrows: `{lp, mesh} ← surface ← {collapse, bvh, hausdorff} ← {hull, tight, tribox} ← emit` ← the
-//! program. No others.
+//! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
+//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox}` ← `cut` ← the program. A test keeps that
+//! (`host-tests/tests/house.rs`).
 
 pub mod bvh;
 pub mod collapse;
