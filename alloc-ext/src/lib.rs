@@ -30,6 +30,7 @@ pub mod collapse;
 pub mod counted;
 pub mod cut;
 pub mod emit;
+mod error;
 pub mod hausdorff;
 pub mod hull;
 pub mod lp;
@@ -37,6 +38,8 @@ pub mod mesh;
 pub mod surface;
 pub mod tight;
 pub mod tribox;
+
+pub use error::BuildError;
 
 // Paths of before, until their users are moved.
 pub use bvh as tree;

@@ -11,10 +11,11 @@ use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
 use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
+use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::counted::Counted;
 use meshsweep::emit::{self, Sections};
-use meshsweep::hull::{self, BuildError, BuildReport, Built};
+use meshsweep::hull::{self, BuildReport, Built};
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
 use meshsweep::tribox::{self, TriboxReport};
@@ -109,7 +110,7 @@ fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
 
 fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, TriboxReport), Failure> {
     tribox::store(loaded.input(), args.triboxes.unwrap_or(TRIBOXES))
-        .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })
+        .map_err(|error| Failure::Build { file: args.mesh.clone(), error })
 }
 
 fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullReport>), Failure> {

@@ -1,9 +1,8 @@
 //! What can go wrong. Each variant is one line that names the file, the place and the remedy.
 
 use crate::unmet::Unmet;
+use meshsweep::BuildError;
 use meshsweep::counted::Counted;
-use meshsweep::cut::CutError;
-use meshsweep::hull::BuildError;
 use meshsweep::mesh::MeshError;
 use meshsweep::tight::WrapError;
 use meshsweep_core::{OpenError, QueryError, TriboxError};
@@ -34,7 +33,7 @@ pub enum Failure {
     NotSolid { file: PathBuf, error: Box<MeshError>, instead: Option<&'static str> },
     /// A mesh is wanted, and a blob is given.
     BlobForMesh { file: PathBuf },
-    /// The hull hierarchy cannot be built.
+    /// The blob cannot be built or cut.
     Build { file: PathBuf, error: BuildError },
     /// The tight hull cannot be made.
     Wrap { file: PathBuf, error: WrapError },
@@ -42,8 +41,6 @@ pub enum Failure {
     Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
-    /// The blob has no such level.
-    Cut { file: PathBuf, error: CutError },
     /// The blob was built without the part that the question needs. `other` names an engine that
     /// has it; `served` lists the questions that the blob serves.
     NotServed {
@@ -211,7 +208,6 @@ impl fmt::Display for Failure {
             Failure::Open { file, error } => {
                 write!(f, "{}: {error}; {}", file.display(), remedy(error))
             }
-            Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Tribox { file, error } => {
                 write!(f, "{}: {error}; choose a larger unit", file.display())
             }

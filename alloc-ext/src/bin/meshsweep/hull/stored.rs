@@ -5,8 +5,8 @@ use crate::failure::Failure;
 use crate::number::{AtMost, Percent};
 use crate::output::Output;
 use crate::{blob_file, describe, served};
+use meshsweep::BuildError;
 use meshsweep::counted::Counted;
-use meshsweep::cut::CutError;
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::tight::hull_mesh;
 use meshsweep_core::{Hull, Level, VertIdx};
@@ -33,9 +33,9 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
     let blob = blob_file::open(&args.input, &bytes)?;
     let hierarchy = served::require_hull(&args.input, &blob)?;
     let levels = hierarchy.header().levels;
-    let no_level = || Failure::Cut {
+    let no_level = || Failure::Build {
         file: args.input.clone(),
-        error: CutError::NoLevel { wanted: index, levels },
+        error: BuildError::NoLevel { wanted: index, levels },
     };
     let level = hierarchy.level(index).ok_or_else(no_level)?;
     let hull = level_mesh(&hierarchy, &level);
