@@ -114,15 +114,14 @@ fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Tribox
 
 fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullReport>), Failure> {
     let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
-    let options = ChainOptions {
-        faces: args.tight.iter().map(|&faces| faces as usize).collect(),
-        goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
-        margin: loaded.widened(args.margin),
-        effort: args.effort.unwrap_or(1.0),
-        vertex_bits: args.vertex_bits.format(),
-        closest: asked(HullServes::Closest),
-        segments: asked(HullServes::Segment),
-    };
+    let goal = args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack));
+    let faces: Vec<usize> = args.tight.iter().map(|&faces| faces as usize).collect();
+    let options = goal
+        .map_or_else(|| ChainOptions::of_faces(&faces), ChainOptions::of_goal)
+        .with_margin(loaded.widened(args.margin))
+        .with_effort(args.effort.unwrap_or(1.0))
+        .with_vertex_bits(args.vertex_bits.format())
+        .with_boxes(asked(HullServes::Closest), asked(HullServes::Segment));
     let mut bars = StageBars::default();
     let made = tight::chain(loaded.input(), &options, |stage| match stage {
         Stage::Wrapping { progress, .. } => bars.show(progress),
