@@ -7,7 +7,9 @@ use std::time::Duration;
 
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, RawMesh, Wire, read_bytes, repair};
-use meshsweep::wrap::{Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, parts, wrap};
+use meshsweep::wrap::{
+    Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, split_components, wrap,
+};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
@@ -221,8 +223,10 @@ fn wires_are_enclosed_with_the_mesh() {
             .unwrap();
         assert!(hull.report.void.is_ok(), "the mesh is still a solid");
     }
-    let counts: Vec<_> =
-        parts(&mesh).iter().map(|part| [part.triangles.len(), part.wires.len()]).collect();
+    let counts: Vec<_> = split_components(&mesh)
+        .iter()
+        .map(|part| [part.triangles.len(), part.wires.len()])
+        .collect();
     assert_eq!(counts, [[48, 2], [0, 1], [0, 1], [0, 1]], "three are at no vertex of the cube");
 }
 

@@ -10,7 +10,7 @@ use crate::progress::StageBars;
 use crate::unmet::Tightness;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::tight::{Goal, Hull, Options, Outcome, Report, parts, wrap};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Report, split_components, wrap};
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -28,7 +28,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         .with_effort(args.effort.unwrap_or(1.0))
         .with_time_limit(limit)
         .with_vertex_bits(args.vertex_bits.format());
-    let meshes = if args.parts { parts(&loaded.mesh) } else { vec![loaded.mesh.clone()] };
+    let meshes =
+        if args.parts { split_components(&loaded.mesh) } else { vec![loaded.mesh.clone()] };
     let mut hulls = Vec::new();
     for mesh in &meshes {
         let mut bars = StageBars::default();
