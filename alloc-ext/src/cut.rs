@@ -2,7 +2,7 @@
 
 use crate::emit::assemble;
 use crate::{bvh, hull, tight, tribox};
-use meshsweep_core::Model;
+use meshsweep_core::{Blob, Hull};
 
 /// Why a blob was not cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,8 +18,8 @@ pub enum CutError {
     NoTriboxes,
     /// The blob has no tight hulls.
     NoTightHulls,
-    /// The model is not one that was opened.
-    Model,
+    /// The bytes changed after the blob was opened.
+    Unchecked,
 }
 
 impl std::fmt::Display for CutError {
@@ -37,7 +37,7 @@ impl std::fmt::Display for CutError {
             CutError::NoTightHulls => {
                 write!(f, "the blob has no tight hulls to cut: build it with --for tight")
             }
-            CutError::Model => write!(f, "the blob was not opened"),
+            CutError::Unchecked => write!(f, "the blob changed after it was opened"),
         }
     }
 }
@@ -59,30 +59,31 @@ pub struct Keep {
 ///
 /// # Errors
 /// [`CutError`] if there is nothing of the kind to cut.
-pub fn cut_blob(model: &Model<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
-    let hierarchy = match keep.level {
-        Some(level) => Some(cut(model, level)?),
-        None if model.has_hull() => Some(hull::Tables::from_model(model).ok_or(CutError::Model)?),
-        None => None,
+pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
+    let hierarchy = match (keep.level, blob.hull()) {
+        (Some(level), Ok(hull)) => Some(cut(&hull, level)?),
+        (Some(wanted), Err(_)) => return Err(CutError::NoLevel { wanted, levels: 0 }),
+        (None, Ok(hull)) => Some(hull::Tables::from_hull(&hull).ok_or(CutError::Unchecked)?),
+        (None, Err(_)) => None,
     };
-    let tree = if keep.level.is_none() { bvh::sections_of(model) } else { None };
-    if keep.triboxes.is_some() && model.triboxes().is_none() {
+    let tree = if keep.level.is_none() { bvh::sections_of(blob) } else { None };
+    if keep.triboxes.is_some() && blob.triboxes().is_err() {
         return Err(CutError::NoTriboxes);
     }
-    if keep.tight.is_some() && model.tight_hulls().is_none() {
+    if keep.tight.is_some() && blob.tight_hulls().is_err() {
         return Err(CutError::NoTightHulls);
     }
-    let triboxes = tribox::cut(model, keep.triboxes.unwrap_or(u32::MAX));
-    let tight = tight::cut(model, keep.tight.unwrap_or(u32::MAX));
+    let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
+    let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
     let structures = [hierarchy.map(|tables| tables.sections()), tree, triboxes, tight];
     Ok(assemble(structures.iter().flatten()))
 }
 
-/// Tables of the model's hull hierarchy after level `index`: see [`hull::cut()`].
+/// Tables of a hull hierarchy after level `index`: see [`hull::cut()`].
 ///
 /// # Errors
 /// [`CutError::NoLevel`].
-pub fn cut(model: &Model<'_>, index: u32) -> Result<hull::Tables, CutError> {
-    let levels = model.header().levels;
-    hull::cut(model, index).ok_or(CutError::NoLevel { wanted: index, levels })
+pub fn cut(whole: &Hull<'_>, index: u32) -> Result<hull::Tables, CutError> {
+    let levels = whole.header().levels;
+    hull::cut(whole, index).ok_or(CutError::NoLevel { wanted: index, levels })
 }

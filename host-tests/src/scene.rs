@@ -42,7 +42,6 @@ impl Scene {
         let raw = RawMesh::from_f32(&scene.positions, &scene.triangles);
         let (repaired, _) = repair(raw).expect("a sound mesh");
         require_closed_manifold(&repaired).expect("a closed mesh");
-        let count = scene.triangles.len();
         scene.bytes = build_hull(repaired.as_input(), options, |_| ()).expect("builds").bytes;
         scene
     }

@@ -11,9 +11,11 @@ use super::store::{OnGrid, store};
 use crate::emit::Sections;
 use crate::mesh::{Input, Mesh, Wire};
 use glam::DVec3;
-use meshsweep_core::blob::BvhHeader;
-use meshsweep_core::blob::layout::{LINK_BYTES, SectionKind, TREE_CLOSED, TREE_SINGLE, WIDTH};
-use meshsweep_core::num::up_to_f32;
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::bvh::format::BvhHeader;
+use meshsweep_core::internal::bvh::format::layout::{BVH_CLOSED, BVH_F32, LINK_BYTES};
+use meshsweep_core::internal::geom::fan::WIDTH;
+use meshsweep_core::internal::num::up_to_f32;
 use std::time::{Duration, Instant};
 
 /// What to build.
@@ -176,9 +178,9 @@ fn header(
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = patches.iter().map(|patch| encode::tag(patch).vertices()).sum();
-    let closed = if is_closed(&mesh.triangles) { TREE_CLOSED } else { 0 };
+    let closed = if is_closed(&mesh.triangles) { BVH_CLOSED } else { 0 };
     BvhHeader {
-        flags: closed | if options.single { TREE_SINGLE } else { 0 },
+        flags: closed | if options.single { BVH_F32 } else { 0 },
         grid_exponent: grid.exponent,
         grid_origin: grid.origin,
         nodes: 0,
@@ -188,7 +190,7 @@ fn header(
         stack_entries: (stack_entries + WIDTH) as u32,
         surface_error: up_to_f32(grid.surface_error),
         // Spokes are rounded when they are f32.
-        reach: up_to_f32(reach * (1.0 + 1e-6)),
+        star_radius: up_to_f32(reach * (1.0 + 1e-6)),
         low: short(low.floor()),
         high: short(high.ceil()),
     }

@@ -1,4 +1,4 @@
-//! The tree's sections as bytes, through the constants of `meshsweep_core::blob`.
+//! The tree's sections as bytes, through the constants of `meshsweep_core::internal::format`.
 
 use super::fans::FanLeaf;
 use super::nodes::boxes::NodeBoxes;
@@ -6,11 +6,12 @@ use super::nodes::order::Topology;
 use super::store::OnGrid;
 use crate::emit::Sections;
 use glam::{DVec3, Vec3};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES, SectionKind};
-use meshsweep_core::blob::{BvhHeader, LeafShape, Links};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{down_to_f32, exp2, up_to_f32};
+use meshsweep_core::Blob;
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES};
+use meshsweep_core::internal::bvh::format::{BvhHeader, LeafShape, Links};
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::num::{down_to_f32, exp2, up_to_f32};
 
 /// A box tree's sections; a blob of it alone has the tree's bounds.
 pub(super) fn sections(
@@ -33,11 +34,11 @@ pub(super) fn sections(
 
 /// The box tree as it stands in a blob; `None` if it has none.
 #[must_use]
-pub fn sections_of(model: &Model<'_>) -> Option<Sections> {
-    let tree = model.tree()?;
-    let of_tree = model.sections().filter(|section| section.kind.is_tree());
+pub fn sections_of(blob: &Blob<'_>) -> Option<Sections> {
+    let tree = blob.bvh().ok()?;
+    let of_tree = blob.sections().filter(|section| section.kind.is_bvh());
     let bodies = of_tree.filter_map(|section| {
-        let bytes = model.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
+        let bytes = blob.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
         Some((section.kind, bytes.to_vec()))
     });
     Some(sections(tree.scale_exponent(), tree.input_triangles(), tree.header(), bodies.collect()))

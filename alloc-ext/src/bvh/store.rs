@@ -3,7 +3,7 @@
 use crate::mesh::Input;
 use crate::surface::{scale_exponent, split_exponent};
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 
 /// A mesh in grid units.
 #[derive(Clone, Debug)]

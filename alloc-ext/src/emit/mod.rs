@@ -1,10 +1,11 @@
 //! Sections to bytes. It knows sections, and no builder.
 
-use meshsweep_core::blob::layout::{
-    HEADER_BYTES, HEADER_CRC_AT, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, SectionKind, VertexFormat,
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::format::layout::{
+    HEADER_BYTES, SECTION_ALIGNMENT, SECTION_ENTRY_BYTES, VertexFormat, field,
 };
-use meshsweep_core::blob::{Header, section_crc};
-use meshsweep_core::geom::Aabb;
+use meshsweep_core::internal::format::{Header, section_crc};
+use meshsweep_core::internal::geom::Aabb;
 
 /// The sections of one structure, and the header of a blob that holds this structure alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,8 +45,8 @@ impl Sections {
             levels: 0,
             input_triangles,
             surface_error,
-            hull_box: bounds,
-            surface_box: bounds,
+            hull_box: bounds.corners(),
+            surface_box: bounds.corners(),
             queue_capacity: 0,
             dependency_depth: 0,
         };
@@ -96,8 +97,8 @@ fn join(mut header: Header, bodies: &[&(SectionKind, Vec<u8>)]) -> Vec<u8> {
     header.total_bytes = out.len() as u32;
     out[..HEADER_BYTES].copy_from_slice(&header.write());
     out[HEADER_BYTES..table_bytes].copy_from_slice(&table);
-    let mut covered = out[..HEADER_CRC_AT].to_vec();
-    covered.extend(&out[HEADER_CRC_AT + 4..table_bytes]);
-    out[HEADER_CRC_AT..HEADER_CRC_AT + 4].copy_from_slice(&section_crc(&covered).to_le_bytes());
+    let mut covered = out[..field::CRC].to_vec();
+    covered.extend(&out[field::CRC + 4..table_bytes]);
+    out[field::CRC..field::CRC + 4].copy_from_slice(&section_crc(&covered).to_le_bytes());
     out
 }

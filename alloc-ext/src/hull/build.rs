@@ -10,11 +10,12 @@ use crate::hausdorff::hull_to_surface;
 use crate::mesh::{Input, Mesh};
 use crate::surface::{SignedVolume, Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::MAX_RING;
-use meshsweep_core::blob::{Children, Level, NodeIdx, OpenError};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius8, Radius16, sum_up, up_to_f32};
+use meshsweep_core::Hull;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::hull::format::layout::MAX_RING;
+use meshsweep_core::internal::hull::format::{Children, NodeIdx};
+use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
+use meshsweep_core::{Level, OpenError};
 use std::time::{Duration, Instant};
 
 /// What to build.
@@ -155,12 +156,12 @@ pub fn build(
     certify(&mut tables).map_err(BuildError::Reopen)?;
     // Levels were measured to the triangles with an area, without it.
     if wires > 0.0 {
-        let off = wires * meshsweep_core::num::exp2(-stored.scale_exponent);
+        let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
         tables.surface_error = sum_up(tables.surface_error, up_to_f32(off));
     }
     let bytes = tables.to_bytes();
-    Model::open(&bytes).map_err(BuildError::Reopen)?;
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    Hull::open(&bytes).map_err(BuildError::Reopen)?;
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let report = BuildReport {
         base_faces: tables.base.len(),
         stuck,
@@ -198,10 +199,9 @@ pub fn hull_of(
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
     let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
-    let wires = wires_off_surface(mesh);
     let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
     let order = VertexOrder::new(&history);
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let positions = order.label[..order.base as usize]
         .iter()
         .map(|&l| (history.positions[l as usize] * scale).as_vec3().to_array())
@@ -215,7 +215,7 @@ pub fn hull_of(
 fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
     let corners = mesh.triangles.iter().map(|t| t.map(|v| stored.positions[v as usize]));
     let volume = SignedVolume::of(corners).value;
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     if volume > 0.0 {
         Ok(volume)
     } else {
@@ -331,7 +331,7 @@ fn assemble(
     let single = |p: DVec3| p.as_vec3();
     let low = stored.positions.iter().fold(Vec3::INFINITY, |m, &p| m.min(single(p)));
     let high = stored.positions.iter().fold(Vec3::NEG_INFINITY, |m, &p| m.max(single(p)));
-    let scale = meshsweep_core::num::exp2(-stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(-stored.scale_exponent);
     Tables {
         scale_exponent: stored.scale_exponent,
         grid: stored.grid,
@@ -366,7 +366,7 @@ fn assemble(
 /// model.
 fn certify(tables: &mut Tables) -> Result<(), OpenError> {
     let bytes = tables.to_bytes();
-    let model = Model::open(&bytes)?;
+    let model = Hull::open(&bytes)?;
     let corners_of: rustc_hash::FxHashMap<u32, [u32; 3]> =
         tables.source.iter().copied().zip(tables.surface.iter().copied()).collect();
     let at = |v: u32| tables.vertices[v as usize].as_dvec3();

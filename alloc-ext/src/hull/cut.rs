@@ -2,15 +2,15 @@
 //! prefix of each.
 
 use super::tables::Tables;
-use meshsweep_core::Model;
+use meshsweep_core::Hull;
 
-/// Tables of the model's hull hierarchy after level `index`, a valid and still certified coarser
+/// Tables of a hull hierarchy after level `index`, a valid and still certified coarser
 /// model; the last level returns all of it. `None` if there is no such level.
 #[must_use]
-pub fn cut(model: &Model<'_>, index: u32) -> Option<Tables> {
-    let level = model.level(index)?;
-    let mut tables = Tables::from_model(model)?;
-    if index + 1 == model.header().levels {
+pub fn cut(whole: &Hull<'_>, index: u32) -> Option<Tables> {
+    let level = whole.level(index)?;
+    let mut tables = Tables::from_hull(whole)?;
+    if index + 1 == whole.header().levels {
         return Some(tables);
     }
     let splits = level.splits as usize;

@@ -3,9 +3,11 @@
 use super::tables::Tables;
 use crate::emit::Sections;
 use glam::Vec3;
-use meshsweep_core::blob::Header;
-use meshsweep_core::blob::layout::{FLAG_CUT, LEAF_FLAG, SectionKind, VertexFormat, none};
-use meshsweep_core::num::exp2;
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::format::Header;
+use meshsweep_core::internal::format::layout::{FLAG_CUT, VertexFormat, none};
+use meshsweep_core::internal::hull::format::layout::LEAF_FLAG;
+use meshsweep_core::internal::num::exp2;
 
 impl Tables {
     /// A blob of the hull hierarchy alone.
@@ -40,7 +42,7 @@ impl Tables {
             nodes: self.nodes.len() as u32,
             surface_triangles: self.surface.len() as u32,
             levels: self.levels.len() as u32,
-            hull_box: self.hull_box(),
+            hull_box: self.hull_box().corners(),
             queue_capacity: self.queue_capacity,
             dependency_depth: self.dependency_depth(),
             ..bare

@@ -2,11 +2,12 @@
 //! written.
 
 use glam::Vec3;
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::BASE_GROUP;
-use meshsweep_core::blob::{Children, Level, NodeIdx, SplitIdx, TriIdx, VertIdx};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius8, Radius16};
+use meshsweep_core::Hull;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
+use meshsweep_core::internal::hull::format::{Children, NodeIdx, SplitIdx, TriIdx};
+use meshsweep_core::internal::num::{Radius8, Radius16};
+use meshsweep_core::{Level, VertIdx};
 
 use crate::surface::Grid;
 
@@ -116,12 +117,12 @@ impl Tables {
     }
 
     /// The tables of an opened blob. `None` cannot happen for a model that was opened.
-    pub fn from_model(model: &Model<'_>) -> Option<Tables> {
-        let h = model.header();
+    pub fn from_hull(hull: &Hull<'_>) -> Option<Tables> {
+        let h = hull.header();
         let mut rings = Vec::with_capacity(h.rings as usize);
         let mut splits = Vec::with_capacity(h.splits as usize);
         for index in 0..h.splits {
-            let split = model.split(SplitIdx(index))?;
+            let split = hull.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
             let reach = Radius8::round_up(f64::from(split.reach));
             splits.push(SplitRecord {
@@ -136,7 +137,7 @@ impl Tables {
         }
         let mut nodes = Vec::with_capacity(h.nodes as usize);
         for index in 0..h.nodes {
-            let node = model.node(NodeIdx(index))?;
+            let node = hull.node(NodeIdx(index))?;
             let (first, count, leaf) = match node.children {
                 Children::Nodes { first, count } => (first, count, false),
                 Children::Triangles { first, count } => (first, count, true),
@@ -159,35 +160,35 @@ impl Tables {
                 origin: h.grid_origin,
             },
             surface_error: h.surface_error,
-            vertices: (0..h.vertices).map(|v| model.position(VertIdx(v))).collect::<Option<_>>()?,
+            vertices: (0..h.vertices).map(|v| hull.position(VertIdx(v))).collect::<Option<_>>()?,
             base_vertices: h.base_vertices,
             base: (0..h.base_triangles)
-                .map(|t| model.base_triangle(t).map(|c| c.map(|v| v.0)))
+                .map(|t| hull.base_triangle(t).map(|c| c.map(|v| v.0)))
                 .collect::<Option<_>>()?,
             groups: (0..h.base_triangles.div_ceil(BASE_GROUP))
                 .map(|g| {
-                    let (corners, radius) = model.base_group(g)?;
+                    let (corners, radius) = hull.base_group(g)?;
                     Some((corners.map(|v| v.0), Radius16::round_up(f64::from(radius))))
                 })
                 .collect::<Option<_>>()?,
             splits,
             rings,
             radii: (0..radii as u32)
-                .map(|t| model.radius(t).map(|r| Radius8::round_up(f64::from(r))))
+                .map(|t| hull.radius(t).map(|r| Radius8::round_up(f64::from(r))))
                 .collect::<Option<_>>()?,
-            splits_with: (0..h.vertices).map(|v| model.split_of(VertIdx(v)).map(|s| s.0)).collect(),
+            splits_with: (0..h.vertices).map(|v| hull.split_of(VertIdx(v)).map(|s| s.0)).collect(),
             nodes,
             surface: (0..h.surface_triangles)
-                .map(|t| model.surface_triangle(TriIdx(t)).map(|c| c.map(|v| v.0)))
+                .map(|t| hull.surface_triangle(TriIdx(t)).map(|c| c.map(|v| v.0)))
                 .collect::<Option<_>>()?,
             source: (0..h.surface_triangles)
-                .map(|t| model.source(TriIdx(t)))
+                .map(|t| hull.source(TriIdx(t)))
                 .collect::<Option<_>>()?,
             input_triangles: h.input_triangles,
-            surface_box: h.surface_box,
-            levels: model.levels().collect(),
+            surface_box: Aabb::of(h.surface_box),
+            levels: hull.levels().collect(),
             queue_capacity: h.queue_capacity,
-            is_cut: model.is_cut(),
+            is_cut: hull.is_cut(),
         })
     }
 }

@@ -4,9 +4,9 @@ use crate::bvh::{self, TreeOptions};
 use crate::hausdorff::{Nearest, farthest};
 use crate::mesh::Mesh;
 use glam::DVec3;
+use meshsweep_core::Budget;
 use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::{ScratchEntry, closest_point};
+use meshsweep_core::ScratchEntry;
 
 /// A distance, input units, that no point of a [wire](crate::mesh::Wire) is farther than from the
 /// triangles with an area; 0 without wires, infinite without triangles.
@@ -35,11 +35,11 @@ pub fn wires_off_surface(mesh: &Mesh) -> f64 {
         // The query is rounded to f32: the distance to what was asked is part of the bound.
         let asked = point.as_vec3();
         let offset = (asked.as_dvec3() - point).length();
-        let answer = closest_point(&tree, asked.to_array(), &Budget::EXACT, &mut stack).ok()?;
+        let answer = tree.closest_point(asked.to_array(), Budget::EXACT, &mut stack).ok()?;
         let corners = answer.triangle.and_then(|triangle| surface.corners(triangle as usize));
         Some(Nearest {
-            lower: f64::from(answer.lower) - offset,
-            upper: f64::from(answer.upper) + offset,
+            lower: f64::from(answer.distance.lower) - offset,
+            upper: f64::from(answer.distance.upper) + offset,
             triangle: corners.map(|corners| corners.map(wide)),
         })
     };

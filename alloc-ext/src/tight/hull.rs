@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use crate::surface::Bounds;
 use crate::surface::{Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 use std::borrow::Cow;
 use std::time::Instant;
 

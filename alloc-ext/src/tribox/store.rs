@@ -7,15 +7,18 @@ use crate::emit::Sections;
 use crate::mesh::{Input, Mesh};
 use crate::surface::SignedVolume;
 use glam::Vec3;
-use meshsweep_core::blob::layout::{
-    MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
-    TRIBOXES_BYTES, TRIBOXES_SOLID,
+use meshsweep_core::SectionKind;
+use meshsweep_core::TriboxError;
+use meshsweep_core::TriboxLevel;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::num::{Radius16, exp2, up_to_f32};
+use meshsweep_core::internal::tribox::FACES;
+use meshsweep_core::internal::tribox::format::TriboxesHeader;
+use meshsweep_core::internal::tribox::format::layout::{
+    MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
+    TRIBOXES_SOLID,
 };
-use meshsweep_core::blob::{TriboxLevel, TriboxesHeader};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius16, exp2, up_to_f32};
-use meshsweep_core::tribox::{FACES, TriboxError};
-use meshsweep_core::{Bvh, Model};
+use meshsweep_core::{Blob, Bvh};
 use std::time::{Duration, Instant};
 
 /// What storing took and gave.
@@ -35,7 +38,7 @@ pub struct TriboxReport {
 ///
 /// # Errors
 /// If a coordinate is not finite or beyond
-/// [`Tribox::DOMAIN`](meshsweep_core::tribox::Tribox::DOMAIN).
+/// [`Tribox::DOMAIN`](meshsweep_core::Tribox::DOMAIN).
 ///
 /// # Panics
 /// On a mesh of more than [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
@@ -139,8 +142,8 @@ fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> 
 /// The triboxes of a blob after the finest level of at most `count`; `None` if it has none. Every
 /// table is a prefix of what it was.
 #[must_use]
-pub fn cut(model: &Model<'_>, count: u32) -> Option<Sections> {
-    let triboxes = model.triboxes()?;
+pub fn cut(blob: &Blob<'_>, count: u32) -> Option<Sections> {
+    let triboxes = blob.triboxes().ok()?;
     let level_count = triboxes.levels().take_while(|level| level.triboxes <= count.max(1)).count();
     let leaves = triboxes.level(level_count.checked_sub(1)? as u32)?.triboxes;
     let coarser = triboxes.coarser(leaves);
@@ -154,8 +157,8 @@ pub fn cut(model: &Model<'_>, count: u32) -> Option<Sections> {
         depth,
         ..*triboxes.header()
     };
-    let place = model.sections().find(|section| section.kind == SectionKind::Triboxes)?;
-    let old = model.bytes().get(place.offset as usize..)?.get(..place.bytes as usize)?;
+    let place = blob.sections().find(|section| section.kind == SectionKind::Triboxes)?;
+    let old = blob.bytes().get(place.offset as usize..)?.get(..place.bytes as usize)?;
     let (levels, rest) = old
         .split_at_checked(TRIBOXES_BYTES)?
         .1
@@ -173,8 +176,14 @@ pub fn cut(model: &Model<'_>, count: u32) -> Option<Sections> {
         }
         section.extend(record);
     }
-    let h = model.header();
-    Some(sections(h.scale_exponent, h.surface_error, h.input_triangles, h.surface_box, section))
+    let h = blob.header();
+    Some(sections(
+        h.scale_exponent,
+        h.surface_error,
+        h.input_triangles,
+        Aabb::of(h.surface_box),
+        section,
+    ))
 }
 
 fn sections(

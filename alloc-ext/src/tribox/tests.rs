@@ -3,7 +3,8 @@
 use super::*;
 use crate::mesh::{Mesh, RawMesh, read, repair};
 use meshsweep_core::Bvh;
-use meshsweep_core::tribox::{DIRECTIONS, Tribox, TriboxError};
+use meshsweep_core::internal::tribox::DIRECTIONS;
+use meshsweep_core::{Tribox, TriboxError};
 use std::path::Path;
 
 type Point = [f64; 3];

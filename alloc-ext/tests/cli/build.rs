@@ -245,13 +245,14 @@ fn one_of_a_thing_is_in_the_singular() {
     let text = report(
         &directory,
         "a.obj",
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0 0 1\nv 0 3 0\n\
+         f 1 2 3\nf 1 2 4\nf 2 4 5\nf 1 1 2\nf 6 6 6\n",
     );
     for part in [
-        "1 triangle kept",
+        "1 triangle without area kept",
         "1 zero-area triangle dropped",
         "1 triangle with a repeated corner",
-        "1 fan of one",
+        "3 fans of one",
     ] {
         assert!(text.contains(part), "{part} in {text}");
     }

@@ -18,7 +18,6 @@ use meshsweep_xtask::workspace;
 pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
     let options = ChainOptions::of_faces(&FACES).with_boxes(true, false);
-    let count = subject.mesh.triangles.len();
     let (tables, _) =
         chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     let all = tables.to_bytes();

@@ -39,7 +39,6 @@ fn blob(
     beside_a_tree: bool,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let all = mesh.triangles.len();
     let (tables, _) = chain(mesh.as_input(), options, |_| {}).expect("room around it");
     let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())

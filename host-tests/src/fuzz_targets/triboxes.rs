@@ -34,7 +34,6 @@ pub fn triboxes_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let all = mesh.triangles.len();
     let (tables, _) = store(mesh.as_input(), count).expect("in the domain");
     let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::{Output, refuse_same_file};
 use crate::{blob_file, served};
 use meshsweep::counted::Counted;
-use meshsweep::cut::{self, Keep};
+use meshsweep::cut::Keep;
 use meshsweep_core::Model;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {

@@ -5,7 +5,7 @@ use crate::output::Output;
 use crate::signed::name;
 use crate::{blob_file, describe};
 use meshsweep::bvh::{self, TreeOptions};
-use meshsweep::{emit, mesh};
+use meshsweep::mesh;
 use meshsweep_core::query::tree::{
     Facing, ScratchEntry, closest_point, first_hit, signed_distance,
 };

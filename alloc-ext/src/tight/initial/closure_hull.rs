@@ -7,7 +7,7 @@ use crate::collapse::Conditions;
 use crate::tight::moves::Shell;
 use crate::tight::report::{Progress, Start};
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 
 /// Conditions for closures that have to stay near the mesh. The closure of an oblique wall is a
 /// staircase, of which the paper's conditions refuse most collapses; the edges that are left stand

@@ -8,7 +8,7 @@ use crate::collapse::{Conditions, Engine, Priority, thin};
 use crate::surface::compact;
 use crate::tight::report::{Progress, Stage};
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 use std::time::Instant;
 
 /// Positions and triangles.

@@ -27,7 +27,7 @@ use crate::surface::Bounds;
 use crate::surface::split_exponent;
 use crate::tight::proof::{Obstacle, Triangle};
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 use rustc_hash::FxHashMap;
 use std::time::Instant;
 

@@ -18,7 +18,7 @@ use crate::lp::HalfSpace;
 use crate::surface::{Bounds, Frontier, Plane};
 use crate::tight::proof::{Clearance, Nearest, Obstacle, Tetrahedron, Triangle};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 use std::cell::Cell;
 
 /// Weights below this are rounding: such a point does not move with the vertex.

@@ -2,7 +2,7 @@
 
 use crate::surface::Grid;
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 
 /// Rounding of points in the mesh's own frame to a grid of the local frame, or to single precision.
 #[derive(Clone, Copy, Debug, PartialEq)]

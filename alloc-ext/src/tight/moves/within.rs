@@ -13,7 +13,7 @@ use super::star::StarFace;
 use crate::hausdorff::{Farthest, Nearest, farthest, is_within};
 use crate::tight::proof::{DistanceField, Obstacle, Triangle};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 fn nearest(obstacle: &Obstacle, p: DVec3) -> Option<Nearest> {
     let (triangle, [lower, upper]) = obstacle.nearest(p)?;

@@ -16,7 +16,7 @@
 use super::predicates::Triangle;
 use crate::surface::Bounds;
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 /// Bound of the rounding of a test, as a part of S. The module derives it.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

@@ -149,7 +149,8 @@ impl fmt::Display for NoVolume {
             NoVolume::Flat { triangle, at } => {
                 write!(
                     f,
-                    "a part of the mesh, that of triangle {triangle}, has a volume that cannot be told from 0, {}",
+                    "a part of the mesh, that of triangle {triangle}, has a volume that cannot be \
+                     told from 0, {}",
                     Point(at)
                 )
             }

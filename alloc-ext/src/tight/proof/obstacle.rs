@@ -7,7 +7,7 @@ use super::tetrahedron::Tetrahedron;
 use crate::mesh::Mesh;
 use crate::surface::{Bounds, Frontier, Plane, StaticTree, least_connected, spatial_order};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 /// Any set of triangles, in its own unit, with search trees.
 #[derive(Clone, Debug)]

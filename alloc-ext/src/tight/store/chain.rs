@@ -9,8 +9,8 @@ use crate::tight::hull::{Hull, wrap};
 use crate::tight::options::{Goal, Options, WrapError};
 use crate::tight::proof::NoVolume;
 use crate::tight::report::{Progress, Report};
-use meshsweep_core::blob::layout::MAX_LEVELS;
-use meshsweep_core::num::Radius16;
+use meshsweep_core::internal::format::layout::MAX_LEVELS;
+use meshsweep_core::internal::num::Radius16;
 use std::time::{Duration, Instant};
 
 /// Most hulls of a blob.

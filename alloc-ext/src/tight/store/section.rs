@@ -6,11 +6,14 @@ use crate::emit::Sections;
 use crate::mesh::{Input, Mesh};
 use crate::surface::{VertexBits, scale_exponent};
 use glam::Vec3;
-use meshsweep_core::blob::layout::{SECTION_ALIGNMENT, SectionKind, TIGHT_BYTES, TIGHT_HULL_BYTES};
-use meshsweep_core::blob::{Header, TightRecord};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius16, down_to_f32, exp2, up_to_f32};
-use meshsweep_core::{Model, TightHull, TightHulls};
+use meshsweep_core::SectionKind;
+use meshsweep_core::TightRecord;
+use meshsweep_core::internal::format::Header;
+use meshsweep_core::internal::format::layout::SECTION_ALIGNMENT;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::num::{Radius16, down_to_f32, exp2, up_to_f32};
+use meshsweep_core::internal::tight::format::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES};
+use meshsweep_core::{Blob, TightHull, TightHulls};
 use std::collections::BTreeMap;
 
 /// A hull and its record as bytes of the section.
@@ -106,14 +109,20 @@ fn section(hulls: &[Stored]) -> Vec<u8> {
 /// The tight hulls of a blob that have at most `faces` faces, and the coarsest in any case; `None`
 /// if the blob has no tight hulls.
 #[must_use]
-pub fn cut(model: &Model<'_>, faces: u32) -> Option<Sections> {
-    let hulls = model.tight_hulls()?;
+pub fn cut(blob: &Blob<'_>, faces: u32) -> Option<Sections> {
+    let hulls = blob.tight_hulls().ok()?;
     let count = hulls.records().take_while(|record| record.faces <= faces).count().max(1);
     let kept: Option<Vec<Stored>> = (0..count as u32).map(|index| stored(&hulls, index)).collect();
-    let h = model.header();
+    let h = blob.header();
     let bodies = vec![(SectionKind::TightHulls, section(&kept?))];
     let Header { scale_exponent, surface_error, input_triangles, surface_box, .. } = *h;
-    Some(Sections::new(scale_exponent, surface_error, input_triangles, surface_box, bodies))
+    Some(Sections::new(
+        scale_exponent,
+        surface_error,
+        input_triangles,
+        Aabb::of(surface_box),
+        bodies,
+    ))
 }
 
 fn stored(hulls: &TightHulls<'_>, index: u32) -> Option<Stored> {
@@ -128,7 +137,7 @@ fn stored(hulls: &TightHulls<'_>, index: u32) -> Option<Stored> {
 /// A stored hull as a mesh in its unit, vertices exactly as stored; faces in their own order.
 #[must_use]
 pub fn hull_mesh(hull: &TightHull<'_>) -> Mesh {
-    let tree = hull.tree();
+    let tree = hull.bvh();
     // The unit is a power of two, so that the product is exact. The sum removes the sign of zeros,
     // by which no two corners differ.
     let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
@@ -138,7 +147,7 @@ pub fn hull_mesh(hull: &TightHull<'_>) -> Mesh {
         let Some(links) = tree.links(node) else { continue };
         for child in links.inner..links.count {
             let Some(patch) = tree.leaf(node, child) else { continue };
-            for lane in 0..patch.tag().triangles() {
+            for lane in 0..patch.shape().triangles() {
                 let number = tree.source(links.triangle(child).wrapping_add(lane as u32));
                 let corners = patch.corners(lane).map(in_input_units);
                 faces.extend(number.map(|number| (number, corners)));

@@ -127,7 +127,6 @@ fn tables_that_contradict_themselves_are_named() {
 #[test]
 fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let mesh = mesh(&icosphere(1));
-    let all = mesh.triangles.len();
     let (tight, _) = chain(mesh.as_input(), &options(&[64]), |_| {}).expect("room");
     let (tree, _) = build(mesh.as_input(), &TreeOptions::default());
     let both = assemble([&tight, &tree]);

@@ -6,29 +6,57 @@ use super::point_query::PointQuery;
 use super::triangle_bounds::{lower_of, witness};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::sqrt_approx;
-use crate::query::QueryError;
+use crate::query::{Interval, QueryError};
 
-/// A triangle near a point: `lower ≤ distance to the triangle of the input mesh ≤ upper`, in real
-/// arithmetic.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A place for a triangle near a point: six words of the caller's memory. While a search runs, they
+/// hold a candidate. After it they hold the answer.
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Neighbor {
-    /// Not above the distance, input units.
-    pub lower: f32,
-    /// Not below the distance, input units.
-    pub upper: f32,
-    /// A point of the triangle as stored, at most `upper` away but for its rounding to f32.
-    pub point: [f32; 3],
-    /// The triangle's number in the input file.
-    pub triangle: u32,
+    words: [u32; 6],
 }
 
 impl Neighbor {
     /// Any value, for filling arrays.
-    pub const EMPTY: Neighbor =
-        Neighbor { lower: 0.0, upper: f32::INFINITY, point: [0.0; 3], triangle: u32::MAX };
+    pub const EMPTY: Neighbor = Neighbor::of(Interval::new(0.0, f32::INFINITY), [0.0; 3], u32::MAX);
+
+    const fn of(distance: Interval, [x, y, z]: [f32; 3], triangle: u32) -> Neighbor {
+        let Interval { lower, upper } = distance;
+        let words =
+            [lower.to_bits(), upper.to_bits(), x.to_bits(), y.to_bits(), z.to_bits(), triangle];
+        Neighbor { words }
+    }
+
+    /// The distance to the triangle of the input mesh, input units.
+    pub fn distance(&self) -> Interval {
+        let [lower, upper, ..] = self.words.map(f32::from_bits);
+        Interval { lower, upper }
+    }
+
+    /// A point of the triangle as stored, at most `distance().upper` away but for its rounding to
+    /// f32.
+    pub fn point(&self) -> [f32; 3] {
+        let [_, _, x, y, z, _] = self.words.map(f32::from_bits);
+        [x, y, z]
+    }
+
+    /// The triangle's number in the input file.
+    pub fn triangle(&self) -> u32 {
+        let [.., triangle] = self.words;
+        triangle
+    }
 }
 
-/// A triangle that a descent has come to.
+impl core::fmt::Debug for Neighbor {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Neighbor")
+            .field("distance", &self.distance())
+            .field("point", &self.point())
+            .field("triangle", &self.triangle())
+            .finish()
+    }
+}
+
+/// A triangle that a descent has reached.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidate {
     pub(crate) distance_sq: f32,
@@ -60,36 +88,25 @@ impl Candidate {
         }
     }
 
-    /// While the search runs a slot of the caller holds this instead of an answer; node numbers are
-    /// below 2^24, so that f32 holds them.
-    fn held(self) -> Neighbor {
-        let place = [self.node as f32, (self.child * 8 + self.lane) as f32, 0.0];
+    /// The candidate in a slot of the caller.
+    fn stored(self) -> Neighbor {
+        let Candidate { distance_sq, lower_bound_sq, number, node, child, lane } = self;
         Neighbor {
-            lower: self.distance_sq,
-            upper: self.lower_bound_sq,
-            point: place,
-            triangle: self.number,
+            words: [distance_sq.to_bits(), lower_bound_sq.to_bits(), node, child, lane, number],
         }
     }
 
-    fn of(held: &Neighbor) -> Candidate {
-        let [node, place, _] = held.point;
-        let place = place as u32;
-        Candidate {
-            distance_sq: held.lower,
-            lower_bound_sq: held.upper,
-            number: held.triangle,
-            node: node as u32,
-            child: place / 8,
-            lane: place % 8,
-        }
+    fn of(slot: &Neighbor) -> Candidate {
+        let [distance_sq, lower_bound_sq, node, child, lane, number] = slot.words;
+        let [distance_sq, lower_bound_sq] = [distance_sq, lower_bound_sq].map(f32::from_bits);
+        Candidate { distance_sq, lower_bound_sq, number, node, child, lane }
     }
 
     fn leaf<'t>(&self, tree: &Bvh<'t>) -> Option<FanLeaf<'t>> {
         tree.leaf(self.node, self.child)
     }
 
-    /// What the triangle is not nearer than, grid units.
+    /// Lower bound of the triangle's distance, grid units.
     pub(crate) fn lower(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<f32> {
         let leaf = self.leaf(tree)?;
         Some(lower_of(&leaf, self.lane as usize, query.p, self.distance_sq, self.lower_bound_sq))
@@ -97,29 +114,28 @@ impl Candidate {
 
     fn answer(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<Neighbor> {
         let leaf = self.leaf(tree)?;
-        Some(Neighbor {
-            lower: query.lower(self.lower(tree, query)?),
-            upper: query.upper(sqrt_approx(self.distance_sq)),
-            point: query.units.point(witness(query, &leaf, self.lane as usize)),
-            triangle: tree.source(self.number)?,
-        })
+        let lower = query.lower(self.lower(tree, query)?);
+        let upper = query.upper(sqrt_approx(self.distance_sq));
+        let point = query.units.point(witness(query, &leaf, self.lane as usize));
+        Some(Neighbor::of(Interval { lower, upper }, point, tree.source(self.number)?))
     }
 }
 
-/// Whether `a` comes after `b`: farther, or as far with a greater number.
+/// Whether candidate `a` comes after `b`: farther, or as far with a greater number.
 fn after(a: &Neighbor, b: &Neighbor) -> bool {
-    a.lower > b.lower || (a.lower == b.lower && a.triangle > b.triangle)
+    let (a, b) = (Candidate::of(a), Candidate::of(b));
+    a.distance_sq > b.distance_sq || (a.distance_sq == b.distance_sq && a.number > b.number)
 }
 
 /// The caller's slice and how much of it is used.
-pub(crate) struct KNearest<'a> {
+pub(crate) struct Heap<'a> {
     slots: &'a mut [Neighbor],
     stored: usize,
 }
 
-impl<'a> KNearest<'a> {
+impl<'a> Heap<'a> {
     pub(crate) fn new(slots: &'a mut [Neighbor]) -> Self {
-        KNearest { slots, stored: 0 }
+        Heap { slots, stored: 0 }
     }
 
     pub(crate) fn stored(&self) -> usize {
@@ -128,12 +144,16 @@ impl<'a> KNearest<'a> {
 
     /// The squared distance that a triangle must not exceed to be stored, once there is no room.
     pub(crate) fn farthest_sq(&self) -> Option<f32> {
-        if self.stored < self.slots.len() { None } else { self.slots.first().map(|top| top.lower) }
+        if self.stored < self.slots.len() {
+            None
+        } else {
+            self.slots.first().map(|top| Candidate::of(top).distance_sq)
+        }
     }
 
     /// Stores a triangle; what there is no room for comes back.
     pub(crate) fn offer(&mut self, candidate: Candidate) -> Option<Candidate> {
-        let held = candidate.held();
+        let held = candidate.stored();
         if self.stored < self.slots.len() {
             let at = self.stored;
             self.stored += 1;
@@ -210,11 +230,17 @@ impl<'a> KNearest<'a> {
         // Squares rise; roots that are rounded may not.
         let mut farthest = 0f32;
         for slot in self.slots.iter_mut().take(self.stored) {
-            let mut near = Candidate::of(slot).answer(tree, query).ok_or(QueryError::Model)?;
-            if near.upper < farthest {
-                near.upper = farthest;
+            let mut near = Candidate::of(slot).answer(tree, query).ok_or(QueryError::Unchecked)?;
+            let Interval { lower, upper } = near.distance();
+            if upper < farthest {
+                near = Neighbor::of(
+                    Interval { lower, upper: farthest },
+                    near.point(),
+                    near.triangle(),
+                );
+            } else {
+                farthest = upper;
             }
-            farthest = near.upper;
             *slot = near;
         }
         Ok(self.stored)
@@ -226,23 +252,22 @@ impl<'a> KNearest<'a> {
 pub(crate) fn first_triangles(
     tree: &Bvh<'_>,
     query: &PointQuery,
-    lower: f32,
-    upper: f32,
+    distance: Interval,
     out: &mut [Neighbor],
 ) -> Result<usize, QueryError> {
     let mut slots = out.iter_mut();
     let mut stored = 0;
     for node in 0..tree.header().nodes {
-        let links = tree.links(node).ok_or(QueryError::Model)?;
+        let links = tree.links(node).ok_or(QueryError::Unchecked)?;
         for child in links.inner..links.count {
-            let leaf = tree.leaf(node, child).ok_or(QueryError::Model)?;
+            let leaf = tree.leaf(node, child).ok_or(QueryError::Unchecked)?;
             let first = links.triangle(child);
-            for lane in 0..leaf.tag().triangles() {
+            for lane in 0..leaf.shape().triangles() {
                 let Some(slot) = slots.next() else { return Ok(stored) };
                 let [corner, ..] = leaf.corners(lane);
                 let triangle =
-                    tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Model)?;
-                *slot = Neighbor { lower, upper, point: query.units.point(corner), triangle };
+                    tree.source(first.wrapping_add(lane as u32)).ok_or(QueryError::Unchecked)?;
+                *slot = Neighbor::of(distance, query.units.point(corner), triangle);
                 stored += 1;
             }
         }
