@@ -37,7 +37,10 @@ fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
 }
 
 fn prove(name: &str, mesh: &Mesh, hull: &Hull) {
-    let surface = |m: &Mesh| Surface::new(&m.positions, &m.triangles);
+    let surface = |m: &Mesh| {
+        let all: Vec<[u32; 3]> = m.all_triangles().collect();
+        Surface::new(&m.positions, &all)
+    };
     let proof = check_enclosure(&surface(mesh), &surface(&hull.mesh))
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(proof.inside, mesh.positions.len(), "{name}");
