@@ -50,6 +50,6 @@ pub use surface as precision;
 pub mod wrap {
     pub use crate::tight::{
         Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
-        WrapError, parts, wrap,
+        WrapError, split_components, wrap,
     };
 }

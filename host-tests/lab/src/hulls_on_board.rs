@@ -17,8 +17,7 @@ use meshsweep_xtask::workspace;
 /// The table of a mesh. The bits of all answers are the host's, or it is an error.
 pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
-    let options =
-        ChainOptions { faces: FACES.to_vec(), segments: false, ..ChainOptions::default() };
+    let options = ChainOptions::of_faces(&FACES).with_boxes(true, false);
     let (tables, _) =
         chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     let all = tables.to_bytes();

@@ -43,7 +43,7 @@ fn winding(p: [f64; 3], hull: &Mesh) -> f64 {
 }
 
 fn hulls_of(mesh: &Mesh, moved: f64, faces: usize) -> Vec<u8> {
-    let options = ChainOptions { faces: vec![faces], effort: 0.01, ..ChainOptions::default() };
+    let options = ChainOptions::of_faces(&[faces]).with_effort(0.01);
     let count = mesh.all_triangles().count();
     let (tables, _) = tight::chain(Input { mesh, moved, input_triangles: count }, &options, |_| {})
         .expect("there is room");

@@ -115,15 +115,10 @@ fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Tribox
 
 fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullReport>), Failure> {
     let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
-    let options = match (args.void, args.slack) {
-        (Some(percent), _) => ChainOptions::of_goal(Goal::Void(percent / 100.0)),
-        (None, Some(slack)) => ChainOptions::of_goal(Goal::Slack(slack)),
-        (None, None) => {
-            let faces: Vec<usize> = args.tight.iter().map(|&faces| faces as usize).collect();
-            ChainOptions::of_faces(&faces)
-        }
-    };
-    let options = options
+    let goal = args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack));
+    let faces: Vec<usize> = args.tight.iter().map(|&faces| faces as usize).collect();
+    let options = goal
+        .map_or_else(|| ChainOptions::of_faces(&faces), ChainOptions::of_goal)
         .with_margin(loaded.widened(args.margin))
         .with_effort(args.effort.unwrap_or(1.0))
         .with_vertex_bits(args.vertex_bits.format())

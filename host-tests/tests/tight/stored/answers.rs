@@ -3,7 +3,7 @@
 use super::{mesh, of, options};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
-use meshsweep::tight::{ChainOptions, HullReport, hull_mesh};
+use meshsweep::tight::{HullReport, hull_mesh};
 use meshsweep_core::blob::TightHull;
 use meshsweep_core::query::tight::{closest_point, is_within};
 use meshsweep_core::query::tree::{ScratchEntry, Verdict};
@@ -157,7 +157,7 @@ fn intervals_and_verdicts_hold_for_the_mesh_within() {
     // How vertices are stored has nothing to do with how a hull begins, which takes long where a
     // mesh is open.
     for (name, shape) in shapes().into_iter().filter(|(name, _)| !name.contains("open")) {
-        let options = ChainOptions { vertex_bits: VertexBits::F32, ..options(&[64]) };
+        let options = options(&[64]).with_vertex_bits(VertexBits::F32);
         ask(name, &shape, &of(&mesh(&shape), 0.0, &options).0);
     }
     // The hulls do tell: of 28,800 verdicts two in six can be no, and three yes.
@@ -337,7 +337,7 @@ fn what_cannot_be_answered_is_refused() {
     }
     assert_eq!(is_within(&hull, [0.0; 3], -1.0, &Budget::EXACT, stack), Err(QueryError::Tolerance));
     assert_eq!(closest_point(&hull, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
-    let segments = ChainOptions { closest: false, ..options(&[64]) };
+    let segments = options(&[64]).with_boxes(false, true);
     let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &segments);
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
     assert_eq!(closest_point(&hull, [0.0; 3], &Budget::EXACT, stack), Err(QueryError::NotServed));

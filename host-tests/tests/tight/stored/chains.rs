@@ -4,7 +4,7 @@ use super::{mesh, of, options};
 use meshsweep::cut::{Keep, cut_blob};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
-use meshsweep::tight::{ChainOptions, cut, hull_mesh};
+use meshsweep::tight::{cut, hull_mesh};
 use meshsweep::tribox::volume;
 use meshsweep::wrap::Goal;
 use meshsweep_core::{Model, TightHulls};
@@ -29,7 +29,7 @@ fn every_stored_hull_encloses_the_mesh_by_the_checker() {
     for shape in [torus(2.0, 0.75, 16, 10), bracket(), rough_sphere(3, 0.3, 1)] {
         let mesh = mesh(&shape);
         for bits in [VertexBits::Auto, VertexBits::Grid24, VertexBits::F32] {
-            let options = ChainOptions { vertex_bits: bits, ..options(&[150, 70]) };
+            let options = options(&[150, 70]).with_vertex_bits(bits);
             let (bytes, reports) = of(&mesh, 0.0, &options);
             let hulls = stored(&bytes);
             assert_eq!(hulls.len(), 2);
