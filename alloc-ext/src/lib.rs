@@ -26,6 +26,7 @@
 pub mod bvh;
 pub mod collapse;
 pub mod counted;
+pub mod cut;
 pub mod emit;
 pub mod hausdorff;
 pub mod hull;
@@ -44,6 +45,6 @@ pub use surface as precision;
 pub mod wrap {
     pub use crate::tight::{
         Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
-        Surface, WrapError, parts, share, wrap, wrap_all,
+        WrapError, parts, wrap,
     };
 }

@@ -1,159 +1,124 @@
-//! Opening a blob: header, section table and CRCs, then the contents of the sections in `check`.
+//! A blob: opened once, then handed out as views of its structures.
 
+use crate::bvh::format::Bvh;
 use crate::format::layout::SectionKind;
-use crate::format::{Bytes, place_sections, read_header, section};
-pub use crate::hull::format::Model;
-use crate::hull::format::{Vertices, Widths};
-pub use crate::tight::format::{TightHull, TightHulls};
-pub use crate::tribox::format::Triboxes;
+use crate::format::{Bytes, Header, OpenError, Section, read_header, section};
+use crate::hull::format::Hull;
+use crate::query::QueryError;
+use crate::tight::format::TightHulls;
+use crate::tribox::format::Triboxes;
 
-// Old paths, until the callers have moved.
-#[doc(hidden)]
-pub mod layout {
-    pub use crate::bvh::format::layout::{
-        BOXES_BYTES, CONE_BYTES, FAN_PADDING, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK,
-        SOURCE_ENTRY_BYTES, SOURCE_PADDING, TREE_BYTES, TREE_CLOSED, TREE_SINGLE,
-    };
-    pub use crate::format::layout::field::CRC as HEADER_CRC_AT;
-    pub use crate::format::layout::*;
-    pub use crate::geom::fan::WIDTH;
-    pub use crate::hull::format::layout::{
-        BASE_GROUP, LEAF_FLAG, LEVEL_BYTES, MAX_CHILDREN, MAX_RING,
-    };
-    pub use crate::tight::format::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED};
-    pub use crate::tribox::format::layout::{
-        MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
-        TRIBOXES_BYTES, TRIBOXES_SOLID,
-    };
+/// A blob whose bytes were checked. Copies are cheap: it borrows the bytes and holds the header.
+///
+/// If [`Blob::open`] returned `Ok`, then every section of the blob has its CRC, and every structure
+/// is one that its own `open` accepts.
+///
+/// ```
+/// use meshsweep_core::{Blob, Budget, BuildFor, QueryError, Scratch};
+/// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+/// let blob = Blob::open(bytes)?; // checks every byte, once
+/// let part = blob.bvh()?; // a view: nothing is checked again
+/// let mut scratch = Scratch::<64>::new(); // `part.scratch_entries()` says how many are enough
+/// let near = part.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch)?;
+/// assert!(near.distance.lower <= near.distance.upper);
+/// let missing = QueryError::NotServed { build_for: BuildFor::Triboxes };
+/// assert_eq!(blob.triboxes().err(), Some(missing));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Blob<'a> {
+    header: Header,
+    bytes: &'a [u8],
 }
-#[doc(hidden)]
-pub use crate::bvh::format::{
-    Bvh, BvhChild, BvhHeader, CORNERS, FanLeaf, GridRing, LeafShape, Links,
-};
-#[doc(hidden)]
-pub use crate::format::{Header, OpenError, Section, section_crc};
-#[doc(hidden)]
-pub use crate::hull::format::{
-    Capacities, Children, Level, Node, NodeIdx, Split, SplitIdx, TriIdx, VertIdx,
-};
-#[doc(hidden)]
-pub use crate::tight::format::TightRecord;
-#[doc(hidden)]
-pub use crate::tribox::format::{TriboxLevel, TriboxesHeader};
 
-impl<'a> Model<'a> {
-    /// Opens a blob where it lies, and checks all of it: CRCs, every index, every coordinate, every
-    /// order that the queries rely on. Any bytes are safe to open.
+impl<'a> Blob<'a> {
+    /// Opens a blob where it lies and checks all of it: CRCs, every index, every coordinate, every
+    /// order that the queries rely on. Any bytes are safe to open. Their alignment does not matter.
     ///
-    /// Cost: linear in the blob, no allocation; once per start, not per query. Alignment of `bytes`
-    /// does not matter. A program that only asks the box tree links less code with
-    /// [`Bvh::open`], one that only asks triboxes with [`Triboxes::open`], one that only asks
-    /// tight hulls with [`TightHulls::open`].
+    /// Firmware with one structure links less code with the structure's own `open`:
+    /// [`Bvh::open`], [`Hull::open`], [`TightHulls::open`], [`Triboxes::open`].
+    ///
+    /// Cost: linear in the blob, no allocation; once per start.
     ///
     /// # Errors
-    /// [`OpenError`] says what was wanted and what was found.
-    pub fn open(bytes: &'a [u8]) -> Result<Model<'a>, OpenError> {
-        let header = read_header(bytes)?;
-        let all = Bytes(bytes);
-        let mut model = Model {
-            header,
-            widths: Widths::of(&header),
-            bytes: all,
-            vertices: Vertices::new(header.vertex_format, &[]),
-            base: Bytes(&[]),
-            groups: Bytes(&[]),
-            splits: Bytes(&[]),
-            rings: Bytes(&[]),
-            radii: Bytes(&[]),
-            splits_with: Bytes(&[]),
-            cover: Bytes(&[]),
-            surface: Bytes(&[]),
-            source: Bytes(&[]),
-            levels: Bytes(&[]),
-        };
-        let seen =
-            place_sections(&header, all, true, SectionKind::is_hull, |index, kind, data| {
-                if Some(data.len()) != model.section_len(kind) {
-                    return Err(OpenError::Section { index });
-                }
-                model.place(kind, data);
-                Ok(())
-            })?;
-        let has = |kind: SectionKind| seen.checked_shr(kind as u32).unwrap_or(0) & 1 != 0;
-        let missing = SectionKind::ALL
-            .into_iter()
-            .filter(|kind| kind.is_hull())
-            .find(|&kind| !has(kind) && model.section_len(kind) != Some(0));
-        if let Some(section) = missing {
-            return Err(OpenError::MissingSection { section });
-        }
+    /// [`OpenError`] names the wanted and the found.
+    pub fn open(bytes: &'a [u8]) -> Result<Blob<'a>, OpenError> {
+        let blob = Blob { header: read_header(bytes)?, bytes };
+        let hull = Hull::place(bytes, true)?;
+        let kinds = || SectionKind::ALL.into_iter();
         // Any section of a tree needs the others.
-        if SectionKind::ALL.into_iter().any(|kind| kind.is_tree() && has(kind)) {
+        let has_tree = kinds().any(|kind| kind.is_bvh() && blob.has(kind));
+        let has_triboxes = blob.has(SectionKind::Triboxes);
+        let has_tight_hulls = blob.has(SectionKind::TightHulls);
+        if has_tree {
             Bvh::open(bytes)?;
         }
-        if has(SectionKind::Triboxes) {
+        if has_triboxes {
             Triboxes::open(bytes)?;
         }
-        if has(SectionKind::TightHulls) {
+        if has_tight_hulls {
             TightHulls::open(bytes)?;
         }
-        let others = [SectionKind::Bvh, SectionKind::Triboxes, SectionKind::TightHulls];
-        if others.into_iter().any(has) && !model.has_hull() {
-            model.check_without_hull()?;
+        if !hull.has_hull() && (has_tree || has_triboxes || has_tight_hulls) {
+            hull.check_absent()?;
         } else {
-            model.check()?;
+            hull.check()?;
         }
-        Ok(model)
+        Ok(blob)
+    }
+
+    /// The box tree.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was built without it.
+    pub fn bvh(&self) -> Result<Bvh<'a>, QueryError> {
+        Bvh::view(self.bytes).map_err(|_| QueryError::NO_DISTANCES)
+    }
+
+    /// The hull hierarchy.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was built without it.
+    pub fn hull(&self) -> Result<Hull<'a>, QueryError> {
+        let hull = Hull::place(self.bytes, false).map_err(|_| QueryError::NO_HULL)?;
+        if hull.has_hull() { Ok(hull) } else { Err(QueryError::NO_HULL) }
+    }
+
+    /// The tight hulls.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was built without them.
+    pub fn tight_hulls(&self) -> Result<TightHulls<'a>, QueryError> {
+        TightHulls::view(self.bytes).map_err(|_| QueryError::NO_TIGHT_HULLS)
+    }
+
+    /// The triboxes.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was built without them.
+    pub fn triboxes(&self) -> Result<Triboxes<'a>, QueryError> {
+        Triboxes::view(self.bytes).map_err(|_| QueryError::NO_TRIBOXES)
     }
 
     /// Sections of the blob, in file order. Entries of a kind that this version does not know are
     /// passed over.
-    pub fn sections(&self) -> impl Iterator<Item = Section> + '_ {
-        (0..self.header.section_count).filter_map(|index| section(self.bytes, index).ok().flatten())
+    pub fn sections(&self) -> impl Iterator<Item = Section> + 'a {
+        let bytes = Bytes(self.bytes);
+        (0..self.header.section_count).filter_map(move |index| section(bytes, index).ok().flatten())
     }
 
-    /// The box tree, if the blob has one.
-    pub fn tree(&self) -> Option<Bvh<'a>> {
-        // `open` has checked it.
-        Bvh::view(self.bytes.0).ok()
+    /// The blob's bytes.
+    pub fn bytes(&self) -> &'a [u8] {
+        self.bytes
     }
 
-    /// The tribox hierarchy, if the blob has one.
-    pub fn triboxes(&self) -> Option<Triboxes<'a>> {
-        // `open` has checked it.
-        Triboxes::view(self.bytes.0).ok()
+    /// The fixed header.
+    #[doc(hidden)]
+    pub fn header(&self) -> &Header {
+        &self.header
     }
 
-    /// The tight hulls, if the blob has them.
-    pub fn tight_hulls(&self) -> Option<TightHulls<'a>> {
-        // `open` has checked them.
-        TightHulls::view(self.bytes.0).ok()
-    }
-
-    /// Whether the blob has a hull hierarchy and cover tree. Without, [`tree`](Self::tree),
-    /// [`triboxes`](Self::triboxes) or [`tight_hulls`](Self::tight_hulls) are there.
-    pub fn has_hull(&self) -> bool {
-        self.header.nodes != 0
-    }
-
-    fn place(&mut self, kind: SectionKind, data: &'a [u8]) {
-        let slot = match kind {
-            SectionKind::Vertices => {
-                self.vertices = Vertices::new(self.header.vertex_format, data);
-                return;
-            }
-            SectionKind::BaseTriangles => &mut self.base,
-            SectionKind::BaseGroups => &mut self.groups,
-            SectionKind::Splits => &mut self.splits,
-            SectionKind::Rings => &mut self.rings,
-            SectionKind::Radii => &mut self.radii,
-            SectionKind::SplitsWith => &mut self.splits_with,
-            SectionKind::Cover => &mut self.cover,
-            SectionKind::Surface => &mut self.surface,
-            SectionKind::Source => &mut self.source,
-            SectionKind::Levels => &mut self.levels,
-            _ => return,
-        };
-        *slot = Bytes(data);
+    fn has(&self, kind: SectionKind) -> bool {
+        self.sections().any(|section| section.kind == kind)
     }
 }

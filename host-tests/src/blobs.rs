@@ -4,11 +4,11 @@
 use std::fs;
 use std::path::Path;
 
-use meshsweep::emit::{self, cut};
+use meshsweep::bvh::{TreeOptions, build as build_tree};
+use meshsweep::cut::cut;
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::precision::VertexBits;
-use meshsweep::tree::{TreeOptions, build as build_tree};
+use meshsweep::surface::VertexBits;
 use meshsweep_core::Model;
 use meshsweep_suite::ask::{Refused, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
@@ -122,8 +122,8 @@ fn soup() -> Triangles {
 
 fn box_tree((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build_tree(&mesh, 0.0, mesh.triangles.len(), options);
-    emit::blob(None, Some(&tables))
+    let (tables, _) = build_tree(mesh.as_input(), options);
+    tables.to_bytes()
 }
 
 fn whole(
@@ -133,8 +133,7 @@ fn whole(
 ) -> Result<Vec<u8>, String> {
     let mesh = Mesh::new(positions, triangles);
     let options = BuildOptions { base_faces, vertex_bits, ..BuildOptions::default() };
-    let built = build(&mesh, 0.0, mesh.triangles.len(), &options, |_| {})
-        .map_err(|error| error.to_string())?;
+    let built = build(mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     Ok(built.bytes)
 }
 

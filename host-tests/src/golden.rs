@@ -3,11 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use meshsweep::emit::{self, Parts};
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::hull::BuildOptions;
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, chain};
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep::tribox::store;
 use meshsweep_suite::ask::{Refused, Subject, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
@@ -57,8 +56,8 @@ pub fn groove_tree() -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
     let options = TreeOptions { cull: true, ..TreeOptions::default() };
-    let (tables, _) = build(&mesh, 0.0, mesh.triangles.len(), &options);
-    emit::blob(None, Some(&tables))
+    let (tables, _) = build(mesh.as_input(), &options);
+    tables.to_bytes()
 }
 
 /// 64 triboxes of the torus of the fixtures, and nothing else.
@@ -69,8 +68,8 @@ pub fn groove_tree() -> Vec<u8> {
 pub fn torus_triboxes() -> Vec<u8> {
     let (positions, triangles) = torus(2.0, 0.75, 48, 24);
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = store(&mesh, 0.0, mesh.triangles.len(), 64).expect("in the domain");
-    emit::assemble(&Parts { triboxes: Some(&tables), ..Parts::default() })
+    let (tables, _) = store(mesh.as_input(), 64).expect("in the domain");
+    tables.to_bytes()
 }
 
 /// Tight hulls of the bracket, and nothing else.
@@ -83,9 +82,8 @@ pub fn bracket_hulls() -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
     // Little polish: a test makes them again.
     let options = ChainOptions { faces: vec![64, 160], effort: 0.1, ..ChainOptions::default() };
-    let (tables, _) =
-        chain(&mesh, 0.0, mesh.triangles.len(), &options, |_| {}).expect("room around it");
-    emit::assemble(&Parts { tight: Some(&tables), ..Parts::default() })
+    let (tables, _) = chain(mesh.as_input(), &options, |_| {}).expect("room around it");
+    tables.to_bytes()
 }
 
 /// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash

@@ -1,9 +1,8 @@
 //! Meshes as they were given, with their blobs, and places to put queries.
 
-use meshsweep::emit::blob;
+use meshsweep::bvh::{TreeOptions, build as build_tree};
 use meshsweep::hull::{BuildOptions, build as build_hull};
 use meshsweep::mesh::{Mesh, RawMesh, repair, require_closed_manifold};
-use meshsweep::tree::{TreeOptions, build as build_tree};
 use meshsweep_core::{Bvh, Model};
 
 use crate::generate::corpus::add;
@@ -43,8 +42,7 @@ impl Scene {
         let raw = RawMesh::from_f32(&scene.positions, &scene.triangles);
         let (repaired, _) = repair(raw).expect("a sound mesh");
         require_closed_manifold(&repaired).expect("a closed mesh");
-        let count = scene.triangles.len();
-        scene.bytes = build_hull(&repaired, 0.0, count, options, |_| ()).expect("builds").bytes;
+        scene.bytes = build_hull(repaired.as_input(), options, |_| ()).expect("builds").bytes;
         scene
     }
 
@@ -218,5 +216,5 @@ fn tree_blob(
     options: &TreeOptions,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.to_vec(), triangles.to_vec());
-    blob(None, Some(&build_tree(&mesh, moved, triangles.len(), options).0))
+    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options).0.to_bytes()
 }

@@ -1,52 +1,40 @@
 //! Batches of queries on several threads.
 
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{self as questions, BatchError, Hint, ScratchEntry};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
 use std::num::NonZeroUsize;
 
 /// Queries that are sorted at once: 4 MiB of order, and long enough for neighbours to be near.
 const PIECE: usize = 1 << 18;
 
 /// Closest points of all `points`, in their order: the bits of
-/// [`closest_point`](questions::closest_point) but for `work`, which depends on where the
-/// query before ended, and so on the number of threads.
+/// [`Bvh::closest_point`] but for `work`, which depends on where the query before ended, and so on
+/// the number of threads.
 ///
 /// Each thread takes a run of successive queries. If they are a path, or a grid row by row, it asks
-/// them as they come, else in Morton order (see [`closest_points`](questions::closest_points)).
+/// them as they come, else in Morton order (see [`Bvh::closest_points`]).
 /// Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
 ///
 /// # Errors
-/// [`BatchError::Query`], with the least index that is refused.
+/// [`QueryError::PointNotFinite`] with the least index that is refused, and those of
+/// [`Bvh::closest_point`].
 pub fn closest_points(
     tree: &Bvh<'_>,
     points: &[[f32; 3]],
-    stop: &Budget,
+    budget: &Budget,
     threads: NonZeroUsize,
-) -> Result<Vec<ClosestPoint>, BatchError> {
-    let unanswered = ClosestPoint {
-        lower: 0.0,
-        upper: f32::INFINITY,
-        point: [0.0; 3],
-        triangle: None,
-        work: Work::default(),
-        ended: Ended::Steps,
-    };
-    let mut answers = vec![unanswered; points.len()];
+) -> Result<Vec<ClosestPoint>, QueryError> {
+    let mut answers = vec![ClosestPoint::EMPTY; points.len()];
     let run = points.len().div_ceil(threads.get()).max(1);
     let ask = |number: usize, points: &[[f32; 3]], answers: &mut [ClosestPoint]| {
-        let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
         let sorted = if is_coherent(points) { 0 } else { points.len().min(PIECE) };
-        let mut order = vec![0; 2 * sorted];
-        let mut hint = Hint::NONE;
-        let asked = questions::closest_points(
-            tree, points, answers, stop, &mut stack, &mut order, &mut hint,
-        );
+        let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries() + 2 * sorted];
+        let asked =
+            tree.closest_points(points, &mut Hint::NONE.clone(), answers, *budget, &mut scratch);
         asked.map_err(|error| match error {
-            BatchError::Query { index, error } => {
-                BatchError::Query { index: number * run + index, error }
+            QueryError::PointNotFinite { index } => {
+                QueryError::PointNotFinite { index: (number * run) as u32 + index }
             }
-            length @ BatchError::Length { .. } => length,
+            other => other,
         })
     };
     let ask = &ask;

@@ -1,18 +1,21 @@
 //! The stages in order, and what they report.
 
 use super::cones::cones;
-use super::encode::{self, TreeTables};
+use super::encode;
 use super::fans::{self, Fan, FanLeaf, Weights};
 use super::nodes::fit::{axis_aligned_boxes, shared_frames};
 use super::nodes::frame::FrameOptions;
 use super::nodes::order::{TopologyOptions, topology_with};
 use super::source;
 use super::store::{OnGrid, store};
-use crate::mesh::{Mesh, Wire};
+use crate::emit::Sections;
+use crate::mesh::{Input, Mesh, Wire};
 use glam::DVec3;
-use meshsweep_core::blob::BvhHeader;
-use meshsweep_core::blob::layout::{LINK_BYTES, SectionKind, TREE_CLOSED, TREE_SINGLE, WIDTH};
-use meshsweep_core::num::up_to_f32;
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::bvh::format::BvhHeader;
+use meshsweep_core::internal::bvh::format::layout::{BVH_CLOSED, BVH_F32, LINK_BYTES};
+use meshsweep_core::internal::geom::fan::WIDTH;
+use meshsweep_core::internal::num::up_to_f32;
 use std::time::{Duration, Instant};
 
 /// What to build.
@@ -61,6 +64,8 @@ pub struct TreeReport {
     pub mean_children: f64,
     /// Nodes on the longest path from the root.
     pub depth: usize,
+    /// The tree's header.
+    pub header: BvhHeader,
     /// Time in all.
     pub time: Duration,
 }
@@ -71,23 +76,19 @@ pub const MAX_TRIANGLES: usize = 1 << 24;
 
 /// Builds the box tree of any triangle soup.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::surface::snap)), 0 if none were. Every triangle is kept, also one that the
-/// grid makes degenerate. Each [`Wire`] is kept as a triangle with a repeated corner, in a leaf of
-/// its own. Cost: O(n log n), about a microsecond a triangle and step.
+/// Every triangle is kept, also one that the grid makes degenerate. Each [`Wire`] is kept as a
+/// triangle with a repeated corner, in a leaf of its own.
+///
+/// Cost: O(n log n), about a microsecond a triangle and step.
 ///
 /// # Panics
 /// On a mesh of more than [`MAX_TRIANGLES`].
-pub fn build(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
-    options: &TreeOptions,
-) -> (TreeTables, TreeReport) {
+pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) {
+    let mesh = input.mesh;
     let triangles = mesh.triangles.len() + mesh.wires.len();
     assert!(triangles <= MAX_TRIANGLES, "more than 2^24 triangles");
     let started = Instant::now();
-    let grid = store(mesh, moved, options.single);
+    let grid = store(input, options.single);
     let mut patches = fans::pack(&mesh.triangles, &grid.positions);
     patches.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
     let points: Vec<Vec<DVec3>> = patches.iter().map(|patch| points(patch, &grid)).collect();
@@ -129,11 +130,10 @@ pub fn build(
         nodes: topology.nodes.len(),
         mean_children: children as f64 / topology.nodes.len().max(1) as f64,
         depth: topology.depth,
+        header,
         time: started.elapsed(),
     };
-    let most = numbers.iter().map(|&n| n as usize + 1).max().unwrap_or(0);
-    let input_triangles = input_triangles.max(most) as u32;
-    (TreeTables { scale_exponent: grid.scale_exponent, input_triangles, header, sections }, report)
+    (encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections), report)
 }
 
 /// The leaf of a wire. From its first end both spokes lead to the second: so the kernels see two
@@ -178,9 +178,9 @@ fn header(
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = patches.iter().map(|patch| encode::tag(patch).vertices()).sum();
-    let closed = if is_closed(&mesh.triangles) { TREE_CLOSED } else { 0 };
+    let closed = if is_closed(&mesh.triangles) { BVH_CLOSED } else { 0 };
     BvhHeader {
-        flags: closed | if options.single { TREE_SINGLE } else { 0 },
+        flags: closed | if options.single { BVH_F32 } else { 0 },
         grid_exponent: grid.exponent,
         grid_origin: grid.origin,
         nodes: 0,
@@ -190,7 +190,7 @@ fn header(
         stack_entries: (stack_entries + WIDTH) as u32,
         surface_error: up_to_f32(grid.surface_error),
         // Spokes are rounded when they are f32.
-        reach: up_to_f32(reach * (1.0 + 1e-6)),
+        star_radius: up_to_f32(reach * (1.0 + 1e-6)),
         low: short(low.floor()),
         high: short(high.ceil()),
     }

@@ -3,7 +3,7 @@
 use super::fans::FanLeaf;
 use super::nodes::order::Topology;
 use glam::DVec3;
-use meshsweep_core::fan::NormalCone;
+use meshsweep_core::internal::geom::fan::NormalCone;
 
 /// Squared sine of the angle between two edges below which the direction of the normal is not
 /// trusted: f64 gets it to 1e-15 of the edges' lengths, a millionth of this sine. On the grid that

@@ -1,25 +1,47 @@
-//! The tree's sections as bytes, through the constants of `meshsweep_core::blob`.
+//! The tree's sections as bytes, through the constants of `meshsweep_core::internal::format`.
 
 use super::fans::FanLeaf;
 use super::nodes::boxes::NodeBoxes;
 use super::nodes::order::Topology;
 use super::store::OnGrid;
-use glam::DVec3;
-use meshsweep_core::blob::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES, SectionKind};
-use meshsweep_core::blob::{BvhHeader, LeafShape, Links};
-use meshsweep_core::num::{down_to_f32, exp2};
+use crate::emit::Sections;
+use glam::{DVec3, Vec3};
+use meshsweep_core::Blob;
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::bvh::format::layout::{BOXES_BYTES, FAN_PADDING, FRAME_BYTES};
+use meshsweep_core::internal::bvh::format::{BvhHeader, LeafShape, Links};
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::num::{down_to_f32, exp2, up_to_f32};
 
-/// Everything that a blob holds of a box tree.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TreeTables {
-    /// Input coordinate = local coordinate × 2^this.
-    pub scale_exponent: i32,
-    /// Triangles of the input file.
-    pub input_triangles: u32,
-    /// The tree's header.
-    pub header: BvhHeader,
-    /// Bodies of its sections, in the order of the format.
-    pub sections: Vec<(SectionKind, Vec<u8>)>,
+/// A box tree's sections; a blob of it alone has the tree's bounds.
+pub(super) fn sections(
+    scale_exponent: i32,
+    input_triangles: u32,
+    h: &BvhHeader,
+    bodies: Vec<(SectionKind, Vec<u8>)>,
+) -> Sections {
+    let at = |stored: [u16; 3], axis: usize, down: bool| {
+        let units = f64::from(stored[axis]) + f64::from(h.grid_origin[axis]);
+        let x = units * exp2(h.grid_exponent);
+        if down { down_to_f32(x) } else { up_to_f32(x) }
+    };
+    let corner = |stored: [u16; 3], down: bool| {
+        Vec3::from_array([0, 1, 2].map(|axis| at(stored, axis, down)))
+    };
+    let bounds = Aabb { min: corner(h.low, true), max: corner(h.high, false) };
+    Sections::new(scale_exponent, h.surface_error, input_triangles, bounds, bodies)
+}
+
+/// The box tree as it stands in a blob; `None` if it has none.
+#[must_use]
+pub fn sections_of(blob: &Blob<'_>) -> Option<Sections> {
+    let tree = blob.bvh().ok()?;
+    let of_tree = blob.sections().filter(|section| section.kind.is_bvh());
+    let bodies = of_tree.filter_map(|section| {
+        let bytes = blob.bytes().get(section.offset as usize..)?.get(..section.bytes as usize)?;
+        Some((section.kind, bytes.to_vec()))
+    });
+    Some(sections(tree.scale_exponent(), tree.input_triangles(), tree.header(), bodies.collect()))
 }
 
 /// Shape of a patch.

@@ -17,7 +17,7 @@ mod store;
 
 pub use batch::closest_points;
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
-pub use encode::TreeTables;
+pub use encode::sections_of;
 pub use nodes::boxes::{LANES, NodeBoxes, axis_aligned};
 pub use nodes::fit::{axis_aligned_boxes, shared_frames};
 pub use nodes::frame::{FrameOptions, shared_frame, shared_frame_with};

@@ -2,7 +2,9 @@
 //! least number and just enough bits for the differences. Files number neighbours alike, so that
 //! takes half of what plain numbers would.
 
-use meshsweep_core::blob::layout::{SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING};
+use meshsweep_core::internal::bvh::format::layout::{
+    SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING,
+};
 
 /// The section's bytes.
 pub(super) fn pack(numbers: &[u32]) -> Vec<u8> {

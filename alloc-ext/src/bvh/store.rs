@@ -1,9 +1,9 @@
 //! The tree's grid: vertices in grid units, and how far they moved.
 
-use crate::mesh::Mesh;
+use crate::mesh::Input;
 use crate::surface::{scale_exponent, split_exponent};
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 
 /// A mesh in grid units.
 #[derive(Clone, Debug)]
@@ -30,7 +30,8 @@ const STEPS: f64 = 65_534.0;
 
 /// Moves a mesh to the finest power-of-two grid of 16 bits that holds it, or, if `single`, only
 /// changes its units.
-pub(super) fn store(mesh: &Mesh, moved: f64, single: bool) -> OnGrid {
+pub(super) fn store(input: Input<'_>, single: bool) -> OnGrid {
+    let mesh = input.mesh;
     let scale = scale_exponent(mesh);
     let local: Vec<DVec3> = mesh
         .positions
@@ -59,7 +60,7 @@ pub(super) fn store(mesh: &Mesh, moved: f64, single: bool) -> OnGrid {
             stored
         })
         .collect();
-    let before = (mesh.rounding + moved) * exp2(-scale);
+    let before = input.error() * exp2(-scale);
     OnGrid {
         scale_exponent: scale,
         exponent,

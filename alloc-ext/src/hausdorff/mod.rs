@@ -10,9 +10,9 @@
 
 use arrayvec::ArrayVec;
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
-use meshsweep_core::query::{Budget, closest_point};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::Budget;
+use meshsweep_core::internal::geom::point_triangle;
+use meshsweep_core::{Hull, ScratchEntry};
 use std::collections::BinaryHeap;
 
 /// The bound may exceed the true distance by this factor.
@@ -191,20 +191,20 @@ pub fn is_within(
 /// `surface[source]` are corners of the surface's triangle with that number, local frame. Cost: as
 /// [`farthest`].
 pub fn hull_to_surface(
-    model: &Model<'_>,
+    model: &Hull<'_>,
     triangles: impl Iterator<Item = [DVec3; 3]>,
     surface: impl Fn(u32) -> Option<[DVec3; 3]>,
 ) -> f64 {
-    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue + 1024];
+    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries() + 1024];
     let scale = model.scale();
     let nearest = |point: DVec3| {
         // The query is rounded to f32: the distance to what was asked is part of the bound.
         let asked = (point * scale).as_vec3();
         let offset = (asked.as_dvec3() / scale - point).length();
-        let answer = closest_point(model, asked.to_array(), &Budget::EXACT, &mut queue).ok()?;
+        let answer = model.closest_point(asked.to_array(), Budget::EXACT, &mut queue).ok()?;
         Some(Nearest {
-            lower: f64::from(answer.lower) / scale - offset,
-            upper: f64::from(answer.upper) / scale + offset,
+            lower: f64::from(answer.distance.lower) / scale - offset,
+            upper: f64::from(answer.distance.upper) / scale + offset,
             triangle: answer.triangle.and_then(&surface),
         })
     };

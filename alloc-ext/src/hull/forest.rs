@@ -2,7 +2,7 @@
 
 use crate::collapse::History;
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 /// Parent of an instance of the base hull.
 pub const NO_PARENT: u32 = u32::MAX;

@@ -3,7 +3,7 @@
 use super::swept::best_cover;
 use crate::collapse::History;
 use glam::DVec3;
-use meshsweep_core::blob::layout::BASE_GROUP;
+use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
 
 /// Puts the base triangles in an order in which sixteen consecutive ones lie together: recursive
 /// median splits at multiples of sixteen.

@@ -8,12 +8,17 @@
 
 mod build;
 mod cover;
+mod cut;
+mod encode;
 mod forest;
 mod groups;
 mod swept;
+mod tables;
 mod wires;
 
 pub use build::{BuildError, BuildOptions, BuildReport, Built, build, hull_of};
+pub use cut::cut;
+pub use tables::{NodeRecord, SplitRecord, Tables};
 pub use wires::wires_off_surface;
 // Paths of before, until their users are moved.
 pub use crate::hausdorff::{Farthest, Nearest, farthest, hull_to_surface, is_within};

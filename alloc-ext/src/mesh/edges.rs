@@ -75,15 +75,15 @@ pub(super) fn ends(triangles: &[[u32; 3]], half_edge: u32) -> [u32; 2] {
 }
 
 /// A forest of sets of numbers, for grouping.
-pub(super) struct UnionFind(Vec<u32>);
+pub(crate) struct UnionFind(Vec<u32>);
 
 impl UnionFind {
-    pub(super) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self((0..count as u32).collect())
     }
 
     /// The set's least member. Halves the path on its way.
-    pub(super) fn find(&mut self, mut item: u32) -> u32 {
+    pub(crate) fn find(&mut self, mut item: u32) -> u32 {
         while self.0[item as usize] != item {
             let above = self.0[self.0[item as usize] as usize];
             self.0[item as usize] = above;
@@ -93,7 +93,7 @@ impl UnionFind {
     }
 
     /// Joins two sets; the lower root stays, so that results follow file order.
-    pub(super) fn join(&mut self, a: u32, b: u32) {
+    pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.find(a), self.find(b));
         self.0[a.max(b) as usize] = a.min(b);
     }

@@ -84,6 +84,7 @@ fn take_out_repeated_corners(
         .filter(|(triangle, _)| repeats(triangle))
         .map(|(&triangle, &number)| TakenOut {
             wire: Wire::of(positions, triangle, number),
+            first: triangle[0],
             repeats_corner: true,
         })
         .collect();

@@ -50,6 +50,8 @@ impl Wire {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TakenOut {
     pub wire: Wire,
+    /// Its first corner.
+    pub first: u32,
     /// Else its three corners are distinct.
     pub repeats_corner: bool,
 }
@@ -77,7 +79,7 @@ pub(super) fn uncovered(
     // Points last: the end of a wire covers a point.
     let (points, segments): (Vec<&TakenOut>, Vec<&TakenOut>) =
         taken_out.iter().partition(|taken| taken.wire.is_point());
-    for TakenOut { wire, repeats_corner } in segments.into_iter().chain(points) {
+    for TakenOut { wire, first, repeats_corner } in segments.into_iter().chain(points) {
         let [a, b] = wire.ends;
         let is_covered = edges.cover(positions, wire.ends)
             || (a == b && ends.contains(&a))
@@ -87,7 +89,7 @@ pub(super) fn uncovered(
             (true, true) => &mut report.repeated_corner,
             (true, false) => &mut report.zero_area,
         };
-        finding.triangle(wire.source, positions[a as usize]);
+        finding.triangle(wire.source, positions[*first as usize]);
         if !is_covered {
             ends.extend(wire.ends);
             kept.push(*wire);

@@ -6,8 +6,8 @@
 
 use crate::mesh::Mesh;
 use glam::DVec3;
-use meshsweep_core::blob::layout::VertexFormat;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::format::layout::VertexFormat;
+use meshsweep_core::internal::num::exp2;
 
 /// Which coordinate format to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

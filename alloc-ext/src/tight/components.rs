@@ -1,136 +1,121 @@
-//! The parts of a mesh that a hull of their own may have.
+//! Splits a mesh into the components that get a hull each.
 
-use crate::mesh::{Enclosure, Mesh, require_closed_manifold};
-use crate::tight::proof::boxes::{Bounds, BoxTree};
-use crate::tight::proof::connected::connected;
-use glam::Vec3;
+use crate::mesh::{Mesh, Wire, require_closed_manifold};
+use crate::surface::{Enclosures, components};
 use rustc_hash::FxHashMap;
 
-/// Splits a mesh into its connected parts, by shared vertices; what lies inside a closed part stays
-/// with it, as cavities do. In the order of their first triangles; wires are in none. `source` refers to what the
-/// mesh's refers to.
+/// Splits a mesh into its connected components, by shared vertices. Everything inside a closed
+/// component stays with it, as cavities do. A wire goes to the first component that has a vertex at
+/// one of its ends. In the order of their first triangles, then wires that no component has.
 ///
-/// Cost: n log n, and one test of a point for each part and each closed part whose box holds that
-/// point.
+/// Cost: n log n, and one point test for each component and each closed component whose box holds
+/// that point.
 #[must_use]
 pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
-    let least = connected(mesh.positions.len(), &mesh.triangles);
-    let mut number = vec![usize::MAX; mesh.positions.len()];
-    let mut loose: Vec<Vec<usize>> = Vec::new();
-    for (triangle, &[a, ..]) in mesh.triangles.iter().enumerate() {
-        let part = &mut number[least[a as usize] as usize];
-        if *part == usize::MAX {
-            *part = loose.len();
-            loose.push(Vec::new());
-        }
-        loose[*part].push(triangle);
-    }
-    if loose.len() < 2 {
-        return if loose.is_empty() { Vec::new() } else { vec![mesh.without_wires()] };
+    let parts = triangle_parts(mesh);
+    if mesh.wires.is_empty() { parts } else { distribute(mesh, parts) }
+}
+
+fn triangle_parts(mesh: &Mesh) -> Vec<Mesh> {
+    let all = components(mesh.positions.len(), &mesh.triangles);
+    if all.len() < 2 {
+        return all.iter().map(|_| mesh.without_wires()).collect();
     }
     let mut select = Selection::of(mesh);
-    let closed: Vec<(usize, Enclosure)> = loose
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| bounds_a_volume(&select.take(part)))
-        .map(|(i, part)| {
-            (i, Enclosure::new(part.iter().filter_map(|&t| mesh.corners(t)).collect()))
-        })
-        .collect();
-    let around = around(mesh, &loose, &closed);
-    let mut grouped: Vec<Vec<usize>> = vec![Vec::new(); loose.len()];
-    for (i, part) in loose.iter().enumerate() {
-        // The outermost of those around has the fewest around itself, and comes first among equals.
+    let closed: Vec<usize> =
+        (0..all.len()).filter(|&i| bounds_a_volume(&select.take(&all[i]))).collect();
+    let corners = |i: usize| all[i].iter().filter_map(|&t| mesh.corners(t as usize));
+    let enclosures = Enclosures::new(closed.iter().map(|&i| corners(i).collect()));
+    // For each component the closed components that hold its first corner.
+    let around = |i: usize| -> Vec<usize> {
+        let but = closed.binary_search(&i).ok();
+        let found = corners(i).next().map(|[witness, ..]| enclosures.around(witness, but));
+        found.into_iter().flatten().map(|j| closed[j]).collect()
+    };
+    let around: Vec<Vec<usize>> = (0..all.len()).map(around).collect();
+    let mut grouped: Vec<Vec<u32>> = vec![Vec::new(); all.len()];
+    for (i, component) in all.iter().enumerate() {
+        // The outermost component around it has the fewest around itself, and the least number.
         let home = around[i].iter().copied().min_by_key(|&j| around[j].len());
-        grouped[home.unwrap_or(i)].extend(part);
+        grouped[home.unwrap_or(i)].extend(component);
     }
     grouped
         .into_iter()
-        .filter(|part| !part.is_empty())
-        .map(|mut part| {
-            part.sort_unstable();
-            select.take(&part)
+        .filter(|group| !group.is_empty())
+        .map(|mut group| {
+            group.sort_unstable();
+            select.take(&group)
         })
         .collect()
 }
 
-/// For each part the closed ones that hold its first vertex, in order.
-fn around(mesh: &Mesh, loose: &[Vec<usize>], closed: &[(usize, Enclosure)]) -> Vec<Vec<usize>> {
-    let boxes: Vec<Bounds> =
-        closed.iter().map(|(_, enclosure)| Bounds::around(enclosure)).collect();
-    let (tree, order) = BoxTree::new(&boxes);
-    let around = |(i, part): (usize, &Vec<usize>)| {
-        let mut found = Vec::new();
-        if let Some([witness, ..]) = part.first().and_then(|&t| mesh.corners(t)) {
-            let at = Bounds::of(&[Vec3::from(witness).as_dvec3()]);
-            tree.visit(
-                |of| of.meets(&at),
-                |item| {
-                    let (j, enclosure) = &closed[order[item] as usize];
-                    if *j != i && enclosure.holds(witness) {
-                        found.push(*j);
-                    }
-                    true
-                },
-            );
-        }
-        found.sort_unstable();
-        found
+/// Whether a component is closed, be it a cavity or a solid: turned inside out, a cavity is a
+/// solid.
+fn bounds_a_volume(component: &Mesh) -> bool {
+    let turned = Mesh {
+        triangles: component.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
+        ..component.clone()
     };
-    loose.iter().enumerate().map(around).collect()
+    require_closed_manifold(component).is_ok() || require_closed_manifold(&turned).is_ok()
 }
 
-/// A mesh and the further triangles, by their corners, that its hull has to enclose.
-pub type Shared = (Mesh, Vec<[[f32; 3]; 3]>);
-
-/// Gives each of further triangles, by their corners, to the first part that has a vertex in the
-/// same place. Those that no part has are parts of their own, at the end.
-#[must_use]
-pub fn share(parts: Vec<Mesh>, further: &[[[f32; 3]; 3]]) -> Vec<Shared> {
-    // Both zeros are one place.
-    let place = |p: &[f32; 3]| p.map(|x| (x + 0.0).to_bits());
+/// Adds the mesh's wires to its parts.
+fn distribute(mesh: &Mesh, mut parts: Vec<Mesh>) -> Vec<Mesh> {
     let mut home: FxHashMap<[u32; 3], usize> = FxHashMap::default();
     for (i, part) in parts.iter().enumerate() {
-        for p in &part.positions {
+        for &p in &part.positions {
             home.entry(place(p)).or_insert(i);
         }
     }
-    let mut shared: Vec<Shared> = parts.into_iter().map(|part| (part, Vec::new())).collect();
-    let mut loose = Mesh::default();
-    let mut number: FxHashMap<[u32; 3], u32> = FxHashMap::default();
-    for corners in further {
-        match corners.iter().find_map(|p| home.get(&place(p))) {
-            Some(&i) => shared[i].1.push(*corners),
-            None => {
-                loose.source.push(loose.triangles.len() as u32);
-                loose.triangles.push(corners.map(|p| {
-                    *number.entry(place(&p)).or_insert_with(|| {
-                        loose.positions.push(p);
-                        loose.positions.len() as u32 - 1
-                    })
-                }));
-            }
+    let at = |v: u32| place(mesh.positions[v as usize]);
+    let mut wires: Vec<Vec<Wire>> = vec![Vec::new(); parts.len()];
+    let mut loose: Vec<Wire> = Vec::new();
+    for wire in &mesh.wires {
+        match wire.ends.iter().find_map(|&v| home.get(&at(v))) {
+            Some(&i) => wires[i].push(*wire),
+            None => loose.push(*wire),
         }
     }
-    if !loose.triangles.is_empty() {
-        shared.extend(self::parts(&loose).into_iter().map(|part| (part, Vec::new())));
+    let triangles: Vec<[u32; 3]> = loose.iter().map(Wire::triangle).collect();
+    for component in components(mesh.positions.len(), &triangles) {
+        parts.push(Mesh { rounding: mesh.rounding, ..Mesh::default() });
+        wires.push(component.into_iter().map(|i| loose[i as usize]).collect());
     }
-    shared
+    for (part, wires) in parts.iter_mut().zip(&wires).filter(|(_, wires)| !wires.is_empty()) {
+        add_wires(part, mesh, wires);
+    }
+    parts
 }
 
-/// Whether a part is closed, cavity or solid: turned inside out, a cavity is a solid.
-fn bounds_a_volume(part: &Mesh) -> bool {
-    let turned = Mesh {
-        triangles: part.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
-        ..part.clone()
-    };
-    require_closed_manifold(part).is_ok() || require_closed_manifold(&turned).is_ok()
+/// Adds wires of a mesh to a part of it.
+fn add_wires(part: &mut Mesh, mesh: &Mesh, wires: &[Wire]) {
+    let mut number: FxHashMap<[u32; 3], u32> = FxHashMap::default();
+    for (v, &p) in (0u32..).zip(&part.positions) {
+        number.entry(place(p)).or_insert(v);
+    }
+    let Mesh { positions, wires: all, .. } = part;
+    all.extend(wires.iter().map(|wire| {
+        let ends = wire.ends.map(|v| {
+            let p = mesh.positions[v as usize];
+            *number.entry(place(p)).or_insert_with(|| {
+                positions.push(p);
+                positions.len() as u32 - 1
+            })
+        });
+        Wire { ends, ..*wire }
+    }));
 }
 
-/// Takes parts out of a mesh in time that does not depend on how many there are.
+/// Bits of a position. Both zeros are the same place.
+fn place(p: [f32; 3]) -> [u32; 3] {
+    p.map(|x| (x + 0.0).to_bits())
+}
+
+/// Takes components out of a mesh, each in time that does not depend on the mesh's size. There may be
+/// thousands.
 struct Selection<'a> {
     mesh: &'a Mesh,
-    /// Per vertex of the mesh its number in the part that is being taken, and `u32::MAX`
+    /// Per vertex of the mesh its number in the component that is being taken; `u32::MAX`
     /// otherwise.
     number: Vec<u32>,
 }
@@ -140,13 +125,13 @@ impl<'a> Selection<'a> {
         Self { mesh, number: vec![u32::MAX; mesh.positions.len()] }
     }
 
-    /// Some triangles, and the vertices that they have.
-    fn take(&mut self, triangles: &[usize]) -> Mesh {
+    /// Some triangles, and their vertices.
+    fn take(&mut self, triangles: &[u32]) -> Mesh {
         let Self { mesh, number } = self;
         let mut part = Mesh { rounding: mesh.rounding, ..Mesh::default() };
         for &t in triangles {
-            part.source.push(mesh.source[t]);
-            part.triangles.push(mesh.triangles[t].map(|v| {
+            part.source.push(mesh.source[t as usize]);
+            part.triangles.push(mesh.triangles[t as usize].map(|v| {
                 let number = &mut number[v as usize];
                 if *number == u32::MAX {
                     *number = part.positions.len() as u32;
@@ -157,7 +142,7 @@ impl<'a> Selection<'a> {
         }
         triangles
             .iter()
-            .flat_map(|&t| mesh.triangles[t])
+            .flat_map(|&t| mesh.triangles[t as usize])
             .for_each(|v| number[v as usize] = u32::MAX);
         part
     }

@@ -1,57 +1,43 @@
-//! From any triangles to their hull: what is asked is checked, made, and measured.
+//! From any triangles to their tight hull: options are checked, the hull is searched and measured.
 
+use super::moves::slack;
+use super::options::{Goal, Options, WrapError};
+use super::proof::{Obstacle, Solid, crosses_itself};
+use super::report::{Outcome, Progress, Report};
+use super::search::{CandidateHull, HullSearch};
 use crate::mesh::Mesh;
-use crate::precision::{Stored, VertexBits, store};
-use crate::tight::moves::within::slack;
-use crate::tight::options::{Goal, Options, Outcome, Progress, Report, WrapError};
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::obstacle::Obstacle;
-use crate::tight::proof::volume::{Solid, crosses_itself};
-use crate::tight::search::faces::{Builder, Done};
-use glam::DVec3;
-use meshsweep_core::num::exp2;
-use rustc_hash::FxHashMap;
+use crate::surface::Bounds;
+use crate::surface::{Stored, VertexBits, store};
+use glam::{DVec3, Vec3};
+use meshsweep_core::internal::num::exp2;
 use std::borrow::Cow;
 use std::time::Instant;
 
-/// A hull and what is known of it.
+/// A tight hull and its measures.
 #[derive(Clone, Debug)]
 pub struct Hull {
     /// Closed, embedded, counter-clockwise seen from outside; `source` counts from 0.
     pub mesh: Mesh,
-    /// What it is, and what it took.
+    /// Measures of the hull and of the work for it.
     pub report: Report,
 }
 
-/// A hull of any triangles: see the module for what is proved of it.
+/// A tight hull of any triangles and [wires](crate::mesh::Wire). The [module](crate::tight) says
+/// what is proved of it. Wires bound no volume.
 ///
-/// Vertices that were moved to a grid before (see [`snap`](crate::precision::snap)) are enclosed
-/// where they are in `mesh`.
+/// If vertices were moved to a grid before (see [`snap`](crate::surface::snap)), the hull encloses
+/// their places in `mesh`.
 ///
 /// # Errors
 /// [`WrapError`].
 pub fn wrap(
     mesh: &Mesh,
     options: &Options,
-    on_progress: impl FnMut(Progress),
-) -> Result<Hull, WrapError> {
-    wrap_all(mesh, &[], options, on_progress)
-}
-
-/// As [`wrap`], of a mesh and further triangles, by their corners. They are enclosed as the mesh and
-/// its [wires](crate::mesh::Wire) are, and, like wires, have no part in what bounds a volume.
-///
-/// # Errors
-/// [`WrapError`].
-pub fn wrap_all(
-    mesh: &Mesh,
-    further: &[[[f32; 3]; 3]],
-    options: &Options,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Hull, WrapError> {
     let started = Instant::now();
-    let (mesh, further) = &without_wires(mesh, further);
-    if mesh.triangles.is_empty() {
+    let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
+    if triangles.is_empty() {
         return Err(WrapError::Empty);
     }
     if !(options.margin >= 0.0 && options.margin.is_finite()) {
@@ -60,127 +46,91 @@ pub fn wrap_all(
     if matches!(options.goal, Goal::Slack(most) if most.is_nan() || most <= options.margin) {
         return Err(WrapError::SlackWithinMargin { margin: options.margin });
     }
-    let positions: Vec<DVec3> =
-        mesh.positions.iter().map(|&[x, y, z]| glam::Vec3::new(x, y, z).as_dvec3()).collect();
+    let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
+    let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
+    // The surface that the search starts from has no wires, unless the mesh has only wires.
+    let surface = if mesh.wires.is_empty() {
+        Cow::Borrowed(mesh)
+    } else if mesh.triangles.is_empty() {
+        let Mesh { rounding, .. } = *mesh;
+        Cow::Owned(Mesh { rounding, ..Mesh::new(mesh.positions.clone(), triangles) })
+    } else {
+        Cow::Owned(mesh.without_wires())
+    };
+    let mesh = &*surface;
     let solid = Solid::of(mesh);
     if let (Goal::Void(_), Err(why)) = (options.goal, solid) {
         return Err(WrapError::NoVolume(why));
     }
     let crosses =
         matches!(options.goal, Goal::Void(_)) && crosses_itself(&positions, &mesh.triangles);
-    // A hull keeps some steps of its grid off the mesh: a coarse one that holds the mesh is no
-    // reason to store the hull on it.
+    // A hull keeps some steps of its grid off the mesh. A coarse grid that holds the mesh is
+    // therefore no reason to store the hull on it.
     let bits = match options.vertex_bits {
         VertexBits::Auto => VertexBits::F32,
         bits => bits,
     };
     let stored = store(mesh, bits);
-    let (positions, triangles) = joined(positions, &mesh.triangles, further);
-    let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
-    let around = if further.is_empty() && options.margin <= 0.0 {
+    let is_whole = mesh.positions.len() == positions.len();
+    let around = if is_whole && options.margin <= 0.0 {
         stored.clone()
     } else {
         around(&positions, options.margin, bits)?
     };
-    // A grid that the mesh is not on is for the hull alone: what it starts from is the mesh where
-    // it is.
-    let moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
-    let stored = if moved { store(mesh, VertexBits::F32) } else { stored };
-    let mut builder = Builder {
+    // If the mesh is not on the grid, the grid is for the hull alone. The search starts from the
+    // mesh as it is.
+    let is_moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
+    let stored = if is_moved { store(mesh, VertexBits::F32) } else { stored };
+    let mut search = HullSearch {
+        mesh,
+        stored: &stored,
+        around: &around,
         obstacle: &obstacle,
-        volume: solid.ok().map(|solid| solid.volume),
         solid: solid.ok(),
         options,
-        // A limit that the clock has no number for is none.
+        // A limit beyond the range of the clock is no limit.
         deadline: options.time_limit.and_then(|limit| started.checked_add(limit)),
         is_hurried: false,
         on_progress: &mut on_progress,
     };
-    let Done { mut work, start, filled, mut stop } = builder.build(mesh, &stored, &around)?;
-    work.drop_swallowed();
-    if builder.is_hurried && stop == Outcome::Reached {
+    let CandidateHull { mut editor, start, filled, mut stop } = search.run()?;
+    editor.drop_enclosed();
+    if search.is_hurried && stop == Outcome::Reached {
         stop = Outcome::OutOfTime;
     }
-    let (at, triangles) = work.shell.compact();
-    let hull_volume = work.shell.volume();
-    let mut slack = slack(&work.shell, &obstacle);
-    // Every face was bounded by the slack that was asked for, one by one.
+    let (positions, triangles) = editor.shell.compact();
+    let volume = editor.shell.volume();
+    let mut slack = slack(&editor.shell, &obstacle);
+    // Every face was proved to be within the slack that was asked for.
     if let Goal::Slack(most) = options.goal
-        && work.reach <= most
+        && editor.max_distance <= most
     {
         slack.upper = slack.upper.min(most).max(slack.lower);
     }
-    let single = at.iter().map(|p| p.as_vec3().to_array()).collect();
-    let hull = Mesh::new(single, triangles);
+    let mesh = Mesh::new(single(&positions), triangles);
     let report = Report {
-        faces: hull.triangles.len(),
-        margin: options.margin,
-        volume: hull_volume,
-        void: solid.and_then(|solid| solid.void(&hull, hull_volume)),
+        faces: mesh.triangles.len(),
+        volume,
+        void: solid.and_then(|solid| solid.void(&mesh, volume)),
         crosses,
         slack,
         start,
-        filled: filled + work.swallowed,
+        filled: filled + editor.enclosed,
         stop,
-        stars: work.placer.stars,
-        programs: work.placer.programs,
-        proofs: work.proofs,
-        refused: work.refused,
+        stars: editor.placer.stars,
+        programs: editor.placer.programs,
         time: started.elapsed(),
     };
-    Ok(Hull { mesh: hull, report })
+    Ok(Hull { mesh, report })
 }
 
-/// The mesh without wires, and these among the further triangles. Wires alone are the mesh.
-fn without_wires<'m>(
-    mesh: &'m Mesh,
-    further: &[[[f32; 3]; 3]],
-) -> (Cow<'m, Mesh>, Vec<[[f32; 3]; 3]>) {
-    let mut further = further.to_vec();
-    if mesh.wires.is_empty() {
-        (Cow::Borrowed(mesh), further)
-    } else if mesh.triangles.is_empty() {
-        let rounding = mesh.rounding;
-        let alone = Mesh::new(mesh.positions.clone(), mesh.all_triangles().collect());
-        (Cow::Owned(Mesh { rounding, ..alone }), further)
-    } else {
-        further.extend(mesh.wire_corners());
-        (Cow::Owned(mesh.without_wires()), further)
-    }
+fn single(positions: &[DVec3]) -> Vec<[f32; 3]> {
+    positions.iter().map(|p| p.as_vec3().to_array()).collect()
 }
 
-/// Positions and triangles with further ones, which share the vertices that are at the same place.
-fn joined(
-    mut positions: Vec<DVec3>,
-    triangles: &[[u32; 3]],
-    further: &[[[f32; 3]; 3]],
-) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let mut triangles = triangles.to_vec();
-    if further.is_empty() {
-        return (positions, triangles);
-    }
-    // Both zeros are one place.
-    let place = |p: DVec3| (p + 0.0).to_array().map(f64::to_bits);
-    let mut number: FxHashMap<[u64; 3], u32> = FxHashMap::default();
-    for (v, &p) in positions.iter().enumerate() {
-        number.entry(place(p)).or_insert(v as u32);
-    }
-    for corners in further {
-        triangles.push(corners.map(|[x, y, z]| {
-            let p = glam::Vec3::new(x, y, z).as_dvec3();
-            *number.entry(place(p)).or_insert_with(|| {
-                positions.push(p);
-                positions.len() as u32 - 1
-            })
-        }));
-    }
-    (positions, triangles)
-}
-
-/// The frame and the format of coordinates that hold all positions, or their box with the margin
-/// around it.
+/// The frame and the coordinate format that hold all positions, or with a margin their box enlarged
+/// by it.
 fn around(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, WrapError> {
-    let single = |p: &[DVec3]| p.iter().map(|p| p.as_vec3().to_array()).collect();
     if margin <= 0.0 {
         return Ok(store(&Mesh::new(single(positions), Vec::new()), bits));
     }
@@ -189,7 +139,5 @@ fn around(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, 
     if !corners.iter().all(|p| p.as_vec3().is_finite()) {
         return Err(WrapError::MarginTooLarge);
     }
-    // The mesh's own grid says nothing about the places that a margin asks for.
-    let bits = if bits == VertexBits::Auto { VertexBits::F32 } else { bits };
     Ok(store(&Mesh::new(single(&corners), Vec::new()), bits))
 }

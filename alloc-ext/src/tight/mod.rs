@@ -10,7 +10,8 @@
 //! | folder or file | what lies there |
 //! | --- | --- |
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
-//! | `options.rs` | options, report and errors of one hull |
+//! | `options.rs` | what a hull is asked for, and why there may be none |
+//! | `report.rs` | what a hull is, what it took, and where the work stands |
 //! | `components.rs` | splits a mesh into parts that get a hull each |
 //! | `initial/` | the first hull: a progressive level, a voxel closure, or the grown bounding box |
 //! | `moves/` | local edits of a hull: vertex placement, collapse, flip, split, kick |
@@ -45,15 +46,15 @@ mod initial;
 mod moves;
 mod options;
 mod proof;
+mod report;
 mod search;
 mod store;
 
-pub use components::{parts, share};
-pub use hull::{Hull, wrap, wrap_all};
-pub use options::{Goal, Options, Outcome, Progress, Report, Stage as HullStage, Start, WrapError};
-pub use proof::surface::Surface;
-pub use proof::volume::NoVolume;
+pub use components::parts;
+pub use hull::{Hull, wrap};
+pub use options::{Goal, Options, WrapError};
+pub use proof::NoVolume;
+pub use report::{Outcome, Progress, Report, Stage as HullStage, Start};
 pub use store::{
-    ChainOptions, Distances, HullReport, MAX_HULLS, Stage, TightTables, chain, cut, distances,
-    hull_mesh,
+    ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,
 };

@@ -6,14 +6,14 @@ use super::polygons::margin;
 use super::split::Hierarchy;
 use super::union::boundary_of_union;
 use crate::bvh::{self, TreeOptions};
-use crate::emit;
 use crate::hausdorff::{Farthest, Nearest, farthest};
 use crate::mesh::{Mesh, Wire};
 use glam::DVec3;
+use meshsweep_core::Budget;
 use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::{ScratchEntry, closest_point};
-use meshsweep_core::tribox::{FACES, Tribox};
+use meshsweep_core::ScratchEntry;
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::FACES;
 
 /// A union of triboxes that covers a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,8 +64,8 @@ pub fn box_tree(mesh: &Mesh) -> Vec<u8> {
         ..Mesh::new(mesh.positions.clone(), mesh.triangles.clone())
     };
     let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
-    let (tables, _) = bvh::build(&mesh, 0.0, 0, &options);
-    emit::blob(None, Some(&tables))
+    let (tables, _) = bvh::build(mesh.as_input(), &options);
+    tables.to_bytes()
 }
 
 /// The proxies of a level with at most `count` triboxes.
@@ -112,11 +112,11 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
         // The query is rounded to f32: the distance to what was asked is part of the bound.
         let asked = point.as_vec3();
         let offset = (asked.as_dvec3() - point).length();
-        let answer = closest_point(tree, asked.to_array(), &Budget::EXACT, &mut stack).ok()?;
+        let answer = tree.closest_point(asked.to_array(), Budget::EXACT, &mut stack).ok()?;
         let corners = answer.triangle.and_then(|triangle| all.get(triangle as usize));
         Some(Nearest {
-            lower: f64::from(answer.lower) - offset,
-            upper: f64::from(answer.upper) + offset,
+            lower: f64::from(answer.distance.lower) - offset,
+            upper: f64::from(answer.distance.upper) + offset,
             triangle: corners.map(|corners| {
                 corners.map(|v| DVec3::from(mesh.positions[v as usize].map(f64::from)))
             }),

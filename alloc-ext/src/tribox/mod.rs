@@ -56,5 +56,5 @@ pub use extent::Extent;
 pub use lattice::Lattice;
 pub use level::{Level, box_tree, level, proxies};
 pub use split::{Hierarchy, Node, Split, SplitOptions};
-pub use store::{TriboxReport, TriboxTables, cut, store, volume};
+pub use store::{TriboxReport, cut, store, volume};
 pub use surface::surface;

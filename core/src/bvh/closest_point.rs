@@ -9,11 +9,12 @@ use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::lower_bound;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
+use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
 
-/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe; a
-/// bad one costs a leaf.
+/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe. A bad
+/// one costs a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hint(u32);
 
@@ -22,58 +23,108 @@ impl Hint {
     pub const NONE: Hint = Hint(u32::MAX);
 }
 
-/// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that
-/// contains the distance to the input mesh.
-///
-/// `stack` is working memory; [`BvhHeader::stack_entries`](crate::bvh::format::BvhHeader) entries make
-/// overflow impossible. With fewer the interval still holds, and [`Ended::Capacity`] says so.
-/// Equidistant triangles: the least in blob order. All arithmetic is f32.
-///
-/// Cost: five to fifteen nodes and three to twelve leaves on scanned parts. The worst case is the
-/// whole tree, at the centre of a sphere: where time is bounded, set [`Budget::steps`]. Farther than
-/// a million model sizes the interval is that of the model's box.
-///
-/// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`];
-/// [`QueryError::NotServed`] if the blob was not built for distances.
-pub fn closest_point(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    stop: &Budget,
-    stack: &mut [ScratchEntry],
-) -> Result<ClosestPoint, QueryError> {
-    closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())
+impl Bvh<'_> {
+    /// Closest point of the surface to `point`, with an interval that contains the distance to the
+    /// input mesh.
+    ///
+    /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer the
+    /// interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in input
+    /// units, in the mesh's frame.
+    ///
+    /// Of equidistant triangles the answer is the least in blob order. A point on the surface has a
+    /// lower bound of 0. Farther than a million model sizes the model's box gives the interval.
+    ///
+    /// Cost: five to fifteen nodes and three to twelve leaves on scanned parts, all in f32. The
+    /// worst case is the whole tree, at the centre of a sphere. Where time is bounded, set
+    /// [`Budget::with_steps`].
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let part = Bvh::open(bytes)?;
+    /// let mut scratch = Scratch::<64>::new();
+    /// let near = part.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch)?;
+    /// assert!(near.distance.lower <= near.distance.upper);
+    /// assert!(near.triangle.is_some());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`];
+    /// [`QueryError::NotServed`] if the blob was not built for distances.
+    #[inline]
+    pub fn closest_point(
+        &self,
+        point: [f32; 3],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        closest_point(self, point, &budget, scratch)
+    }
+
+    /// [`closest_point`](Bvh::closest_point) that looks at the leaf of `hint` first and leaves its
+    /// own there. An exact answer has the same bits whatever the hint.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Hint, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch, mut hint) = (Bvh::open(bytes)?, Scratch::<64>::new(), Hint::NONE);
+    /// for step in 0..10 {
+    ///     let tip = [3.0, 0.1 * step as f32, 4.0];
+    ///     part.closest_point_from(tip, &mut hint, Budget::EXACT, &mut scratch)?;
+    /// }
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`closest_point`](Bvh::closest_point).
+    #[inline]
+    pub fn closest_point_from(
+        &self,
+        point: [f32; 3],
+        hint: &mut Hint,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        closest_point_from(self, point, hint, &budget, scratch)
+    }
 }
 
-/// [`closest_point`], which looks at `hint`'s leaf first and leaves its own there. An exact answer
-/// has the same bits whatever the hint.
-///
-/// # Errors
-/// Those of [`closest_point`].
-#[inline]
-pub fn closest_point_from(
+/// Without a hint: one function for all callers.
+#[inline(never)]
+pub(crate) fn closest_point(
     tree: &Bvh<'_>,
     point: [f32; 3],
-    stop: &Budget,
-    stack: &mut [ScratchEntry],
-    hint: &mut Hint,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    stop.check()?;
-    if stack.is_empty() {
-        return Err(QueryError::NoQueue);
+    closest_point_from(tree, point, &mut Hint::NONE.clone(), budget, scratch)
+}
+
+#[inline(always)]
+pub(crate) fn closest_point_from(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    hint: &mut Hint,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<ClosestPoint, QueryError> {
+    budget.check()?;
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
     }
     let query = PointQuery::new(tree, point)?;
     if query.far {
         return from_afar(tree, point, &query);
     }
     let mut work = Work::default();
-    let mut visitor = Closest::new(tree, point, &query, stop);
+    let mut visitor = Closest::new(tree, point, &query, budget);
     if *hint != Hint::NONE
         && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
     {
-        visitor.bound_by(&leaf).ok_or(QueryError::Model)?;
+        visitor.bound_by(&leaf).ok_or(QueryError::Unchecked)?;
     }
-    let descent = descend(tree, query.p, stack, stop.steps, &mut visitor, &mut work)?;
+    let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
     visitor.answer(descent, work, hint)
 }
 
@@ -91,7 +142,7 @@ struct Closest<'a> {
     /// As it was asked.
     point: [f32; 3],
     query: &'a PointQuery,
-    stop: &'a Budget,
+    budget: &'a Budget,
     /// Squared bound above which nothing matters.
     limit: f32,
     /// The same without the tolerance: no triangle beyond this square can improve the answer.
@@ -106,18 +157,18 @@ struct Closest<'a> {
 
 impl<'a> Closest<'a> {
     #[inline(always)]
-    fn new(tree: &'a Bvh<'a>, point: [f32; 3], query: &'a PointQuery, stop: &'a Budget) -> Self {
+    fn new(tree: &'a Bvh<'a>, point: [f32; 3], query: &'a PointQuery, budget: &'a Budget) -> Self {
         Closest {
             tree,
             point,
             query,
-            stop,
+            budget,
             limit: EVERYTHING_SQ,
             beyond: EVERYTHING_SQ,
             best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
             refine_below: f32::NEG_INFINITY,
             certified: f32::INFINITY,
-            tolerant: stop.relative > 0.0 || stop.absolute > 0.0,
+            tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
         }
     }
 
@@ -138,8 +189,8 @@ impl<'a> Closest<'a> {
     #[cold]
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
         let distance = sqrt_approx(distance_sq);
-        let absolute = self.query.units.inward(self.stop.absolute);
-        let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute);
+        let absolute = self.query.units.inward(self.budget.absolute);
+        let wanted = (distance / (1.0 + self.budget.relative)).min(distance - absolute);
         if wanted > 0.0 { wanted * wanted } else { 0.0 }
     }
 
@@ -175,7 +226,7 @@ impl<'a> Closest<'a> {
     fn certify(&mut self, visit: &LeafVisit<'_>) {
         let query = self.query;
         let box_sq = square(distance_of_box(query, visit.key));
-        for lane in 0..visit.leaf.tag().triangles() {
+        for lane in 0..visit.leaf.shape().triangles() {
             let seen = seen_from(&visit.leaf, lane, query.p);
             let near = nearness(&seen);
             if near.lower_bound_sq >= self.refine_below {
@@ -227,31 +278,32 @@ impl<'a> Closest<'a> {
             least_sq = self.certified;
         }
         let mut ended = Ended::Exact;
-        if let Descent::Truncated { least, steps } = descent {
-            ended = if steps { Ended::Steps } else { Ended::Capacity };
+        if let Descent::Truncated { least, ended: why } = descent {
+            ended = why;
             least_sq = least_sq.min(square(distance_of_box(self.query, least)));
         }
         if node == u32::MAX {
             let mut answer = from_afar(self.tree, self.point, self.query)?;
-            answer.lower =
-                answer.lower.max(self.query.lower(sqrt_approx(least_sq))).min(answer.upper);
+            let Interval { lower, upper } = answer.distance;
+            let least = self.query.lower(sqrt_approx(least_sq));
+            answer.distance.lower = lower.max(least).min(upper);
             return Ok(ClosestPoint { work, ended, ..answer });
         }
         *hint = Hint(node << 3 | child);
         let distance = sqrt_approx(distance_sq);
         let mut least = sqrt_approx(least_sq);
         if self.tolerant {
-            let absolute = self.query.units.inward(self.stop.absolute);
-            let wanted = (distance / (1.0 + self.stop.relative)).min(distance - absolute).max(0.0);
+            let absolute = self.query.units.inward(self.budget.absolute);
+            let wanted =
+                (distance / (1.0 + self.budget.relative)).min(distance - absolute).max(0.0);
             least = least.min(distance_of_box(self.query, wanted * wanted));
             ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
         }
         let (lane, v, w) = lanes.at(distance_sq);
-        let first = self.tree.links(node).ok_or(QueryError::Model)?.triangle(child);
-        let leaf = self.tree.leaf(node, child).ok_or(QueryError::Model)?;
+        let first = self.tree.links(node).ok_or(QueryError::Unchecked)?.triangle(child);
+        let leaf = self.tree.leaf(node, child).ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
-            lower: self.query.lower(least),
-            upper: self.query.upper(distance),
+            distance: Interval::new(self.query.lower(least), self.query.upper(distance)),
             point: self.query.units.point(leaf.point(lane, v, w)),
             triangle: self.tree.source(first.wrapping_add(lane as u32)),
             work,
@@ -308,16 +360,18 @@ fn from_afar(
     let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.margin());
     let mut node = 0;
     let (links, leaf) = loop {
-        let links = tree.links(node).ok_or(QueryError::Model)?;
+        let links = tree.links(node).ok_or(QueryError::Unchecked)?;
         let child = links.child(0);
         if child.is_leaf() {
-            break (links, tree.patch(child.at, child.tag).ok_or(QueryError::Model)?);
+            break (links, tree.leaf_at(child.at, child.shape).ok_or(QueryError::Unchecked)?);
         }
         node = child.at;
     };
     Ok(ClosestPoint {
-        lower: at_least((near - margin(near)) * down),
-        upper: at_most((far + margin(far)) * down),
+        distance: Interval::new(
+            at_least((near - margin(near)) * down),
+            at_most((far + margin(far)) * down),
+        ),
         point: query.units.point(leaf.centre(0)),
         triangle: tree.source(links.triangle(0)),
         work: Work::default(),

@@ -1,22 +1,38 @@
-//! The descent that all distance questions share: nearest child first, the others on the caller's
-//! stack, unsorted.
+//! The descent that all questions about one point or one segment share: nearest child first, the
+//! others on the caller's stack, unsorted.
 //!
-//! Sorting them, or a heap, visits fewer nodes and takes longer: what decides is how often a branch
-//! is guessed wrong. So every lane is stored and the stack's end moves on if the lane is wanted;
-//! the nearest is followed at once. Keys never fall from parent to child, so that the set of leaves
-//! that a question depends on does not depend on the order of visits.
+//! Sorted children, or a heap, visit fewer nodes and take longer: mispredicted branches decide. So
+//! every lane is stored, and the stack's end moves on if the lane is wanted. The nearest child is
+//! followed at once. Keys never fall from parent to child. So the set of leaves that a question
+//! depends on does not depend on the order of visits.
 
+use super::node::{LANE_MASK, WIDE, nearest_lane};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::bvh::node::{LANE_MASK, NodeFrame, WIDE, box_distances, nearest_lane};
 use crate::geom::fan::WIDTH;
-use crate::query::ScratchEntry;
-use crate::query::{QueryError, Work};
-use glam::Vec3;
+use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
-/// A leaf that a descent has come to.
+/// A point or a segment that is prepared for the descent.
+pub(crate) trait NodeQuery {
+    /// Refuses a tree without the boxes that the query needs.
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;
+
+    /// Keys of the children of a node: lower bounds, not below `bound`, with the lane in the low
+    /// bits. Children beyond the visitor's limit may have any greater key. `None` says that the tree
+    /// is unchecked.
+    fn keys(
+        &self,
+        tree: &Bvh<'_>,
+        node: u32,
+        count: u32,
+        bound: f32,
+        visitor: &impl LeafVisitor,
+    ) -> Option<[f32; WIDTH]>;
+}
+
+/// A leaf that a descent has reached.
 pub(crate) struct LeafVisit<'a> {
     pub(crate) leaf: FanLeaf<'a>,
-    /// Squared lower bound of everything in it.
+    /// Lower bound of everything in it.
     pub(crate) key: f32,
     pub(crate) node: u32,
     pub(crate) lane: u32,
@@ -24,11 +40,10 @@ pub(crate) struct LeafVisit<'a> {
 
 /// What a question does with leaves.
 pub(crate) trait LeafVisitor {
-    /// Squared bound above which nothing is wanted.
+    /// Bound above which nothing is wanted.
     fn limit(&self) -> f32;
 
-    /// Looks at a leaf; `Some(false)` ends the descent, `None` says that the tree is not one that
-    /// was opened.
+    /// Looks at a leaf. `Some(false)` ends the descent. `None` says that the tree is unchecked.
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool>;
 }
 
@@ -39,128 +54,155 @@ pub(crate) enum Descent {
     Done,
     /// The question was answered early.
     Answered,
-    /// The budget is used up, or something did not fit the stack: nothing below this squared bound
-    /// was missed.
-    Truncated { least: f32, steps: bool },
+    /// The steps were used up, or the stack was too short. Nothing below this bound was missed.
+    Truncated { least: f32, ended: Ended },
 }
 
-/// Puts the children of `node` within the limit on the stack, but for the nearest.
-#[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "the state of both descents, inlined")]
-pub(crate) fn push_children(
-    stack: &mut [ScratchEntry],
-    waiting: &mut usize,
-    dropped: &mut f32,
-    node: u32,
-    keys: &[f32; WIDTH],
-    count: u32,
-    nearest: f32,
-    limit: f32,
-) {
-    let room = stack.get_mut(*waiting..).and_then(|rest| rest.first_chunk_mut::<WIDTH>());
-    if WIDE && let Some(slots) = room {
-        let mut next = 0usize;
-        for &key in keys {
-            slots[next & (WIDTH - 1)] = ScratchEntry { key, node };
-            next += usize::from((key <= limit) & (key != nearest));
+impl Descent {
+    /// Why a search with an interval ended.
+    #[inline(always)]
+    pub(crate) fn ended(self) -> Ended {
+        match self {
+            Descent::Truncated { ended, .. } => ended,
+            _ => Ended::Exact,
         }
-        *waiting += next;
-        return;
     }
-    // Bits of numbers that are not negative compare as the numbers do.
-    let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
-    for &key in keys.iter().take(count as usize) {
-        if key.to_bits() <= limit && key.to_bits() != nearest {
-            match stack.get_mut(*waiting) {
-                Some(slot) => {
-                    *slot = ScratchEntry { key, node };
-                    *waiting += 1;
+}
+
+/// The caller's memory as a stack.
+struct Stack<'a> {
+    entries: &'a mut [ScratchEntry],
+    /// Entries in use.
+    waiting: usize,
+    /// Least key that did not fit.
+    dropped: f32,
+}
+
+impl Stack<'_> {
+    /// Pushes the children of `node` within the limit, but for the nearest.
+    #[inline(always)]
+    fn push_children(
+        &mut self,
+        node: u32,
+        keys: &[f32; WIDTH],
+        count: u32,
+        nearest: f32,
+        limit: f32,
+    ) {
+        let room = self.entries.get_mut(self.waiting..);
+        if WIDE && let Some(slots) = room.and_then(|rest| rest.first_chunk_mut::<WIDTH>()) {
+            let mut next = 0usize;
+            for &key in keys {
+                slots[next & (WIDTH - 1)] = ScratchEntry::new(key, node);
+                next += usize::from((key <= limit) & (key != nearest));
+            }
+            self.waiting += next;
+            return;
+        }
+        // Bits of numbers that are not negative compare as the numbers do.
+        let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
+        for &key in keys.iter().take(count as usize) {
+            if key.to_bits() <= limit && key.to_bits() != nearest {
+                match self.entries.get_mut(self.waiting) {
+                    Some(slot) => {
+                        *slot = ScratchEntry::new(key, node);
+                        self.waiting += 1;
+                    }
+                    None => self.dropped = if key < self.dropped { key } else { self.dropped },
                 }
-                None => *dropped = if key < *dropped { key } else { *dropped },
             }
         }
     }
+
+    /// Least key of everything that is left, or that did not fit.
+    #[cold]
+    fn least(&self) -> f32 {
+        let left = self.entries.iter().take(self.waiting);
+        left.fold(self.dropped, |least, entry| least.min(entry.key()))
+    }
 }
 
-/// Visits every leaf within `visitor`'s limit.
+/// Visits every leaf within the visitor's limit. At most `steps` nodes are opened, those that `work`
+/// counts already included.
 #[inline(always)]
-pub(crate) fn descend(
+pub(crate) fn descend<Q: NodeQuery>(
     tree: &Bvh<'_>,
-    p: Vec3,
-    stack: &mut [ScratchEntry],
+    query: &Q,
     steps: u32,
+    scratch: &mut [ScratchEntry],
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
-    let mut waiting = 0usize;
-    let mut dropped = f32::INFINITY;
+    Q::check_served(tree)?;
+    walk(tree, query, steps, scratch, visitor, work).ok_or(QueryError::Unchecked)
+}
+
+/// The descent. It has one error, so that the loop carries no error values.
+#[inline(always)]
+fn walk(
+    tree: &Bvh<'_>,
+    query: &impl NodeQuery,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    visitor: &mut impl LeafVisitor,
+    work: &mut Work,
+) -> Option<Descent> {
+    let mut stack = Stack { entries: scratch, waiting: 0, dropped: f32::INFINITY };
     let mut node = 0u32;
     let mut bound = 0f32;
     loop {
         if work.splits >= steps {
-            let rest = stack
-                .iter()
-                .take(waiting)
-                .fold(bound.min(dropped), |least, entry| least.min(entry.key));
-            return Ok(Descent::Truncated { least: rest, steps: true });
+            return Some(Descent::Truncated {
+                least: bound.min(stack.least()),
+                ended: Ended::Steps,
+            });
         }
-        let links = tree.links(node).ok_or(QueryError::Model)?;
-        let record = tree.frame(node).ok_or(QueryError::NotServed)?;
-        let frame = NodeFrame::of(record, p);
-        let keys = box_distances(record, &frame, links.count, bound);
+        let links = tree.links(node)?;
+        let keys = query.keys(tree, node, links.count, bound, visitor)?;
         work.splits += 1;
         work.nodes += links.count;
         let nearest = nearest_lane(&keys);
         let limit = visitor.limit();
         let mut found = nearest <= limit;
         if found {
-            push_children(
-                stack,
-                &mut waiting,
-                &mut dropped,
-                node,
-                &keys,
-                links.count,
-                nearest,
-                limit,
-            );
+            stack.push_children(node, &keys, links.count, nearest, limit);
         }
-        // The nearest child's links are at hand; what comes off the stack has to look its parent's
+        // The nearest child's links are at hand. An entry off the stack has to look its parent's
         // up.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);
-        let mut entry = ScratchEntry { key: nearest, node };
+        let mut entry = ScratchEntry::new(nearest, node);
         loop {
             if found {
-                bound = f32::from_bits(entry.key.to_bits() & !LANE_MASK);
+                bound = f32::from_bits(entry.key().to_bits() & !LANE_MASK);
                 if !child.is_leaf() {
                     node = child.at;
                     break;
                 }
-                work.triangles += child.tag.triangles() as u32;
-                let leaf = tree.patch(child.at, child.tag).ok_or(QueryError::Model)?;
-                let lane = entry.key.to_bits() & LANE_MASK;
-                let visit = LeafVisit { leaf, key: bound, node: entry.node, lane };
-                if !visitor.leaf(&visit).ok_or(QueryError::Model)? {
-                    return Ok(Descent::Answered);
+                work.triangles += child.shape.triangles() as u32;
+                let leaf = tree.leaf_at(child.at, child.shape)?;
+                let lane = entry.key().to_bits() & LANE_MASK;
+                let visit = LeafVisit { leaf, key: bound, node: entry.node(), lane };
+                if !visitor.leaf(&visit)? {
+                    return Some(Descent::Answered);
                 }
             }
             found = true;
             loop {
-                let Some(top) = waiting.checked_sub(1) else {
-                    return Ok(if dropped <= visitor.limit() {
-                        Descent::Truncated { least: dropped, steps: false }
+                let Some(top) = stack.waiting.checked_sub(1) else {
+                    return Some(if stack.dropped <= visitor.limit() {
+                        Descent::Truncated { least: stack.dropped, ended: Ended::Scratch }
                     } else {
                         Descent::Done
                     });
                 };
-                waiting = top;
-                entry = stack.get(top).copied().ok_or(QueryError::Model)?;
-                if entry.key <= visitor.limit() {
+                stack.waiting = top;
+                entry = stack.entries.get(top).copied()?;
+                if entry.key() <= visitor.limit() {
                     break;
                 }
             }
-            child =
-                tree.child(entry.node, entry.key.to_bits() & LANE_MASK).ok_or(QueryError::Model)?;
+            let lane = entry.key().to_bits() & LANE_MASK;
+            child = tree.child(entry.node(), lane)?;
         }
     }
 }

@@ -44,7 +44,7 @@ impl NearestOf {
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
     use super::{Edges8, FanLeaf, NearestOf, Seen, Vec3};
-    use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_patch8};
+    use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_leaf8};
 
     /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch
     /// can guess it.
@@ -84,17 +84,17 @@ mod wide {
     #[inline(always)]
     pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<NearestOf> {
         let near = if leaf.is_f32() {
-            single_nearness(leaf, p)?
+            f32_nearness(leaf, p)?
         } else {
-            point_patch8(&leaf.grid_edges8(p)?, LANES_BELOW.get(leaf.tag().triangles())?)
+            point_leaf8(&leaf.grid_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?)
         };
         Some(nearest_of(near))
     }
 
     #[inline(always)]
     pub(crate) fn seen(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
-        let edges = if leaf.is_f32() { single_edges(leaf, p)? } else { leaf.grid_edges8(p)? };
-        let near = point_patch8(&edges, LANES_BELOW.get(leaf.tag().triangles())?);
+        let edges = if leaf.is_f32() { f32_edges(leaf, p)? } else { leaf.grid_edges8(p)? };
+        let near = point_leaf8(&edges, LANES_BELOW.get(leaf.shape().triangles())?);
         Some((nearest_of(near), Some(edges)))
     }
 
@@ -106,14 +106,14 @@ mod wide {
     }
 
     #[inline(never)]
-    fn single_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Edges8> {
-        leaf.single_edges8(p)
+    fn f32_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Edges8> {
+        leaf.f32_edges8(p)
     }
 
     /// A call of its own, so that the two ways to read a leaf do not meet in memory.
     #[inline(never)]
-    fn single_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
-        Some(point_patch8(&leaf.single_edges8(p)?, LANES_BELOW.get(leaf.tag().triangles())?))
+    fn f32_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
+        Some(point_leaf8(&leaf.f32_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?))
     }
 
     #[inline(always)]
@@ -127,7 +127,7 @@ mod wide {
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
     use super::{FanLeaf, NearestOf, Seen, Vec3};
-    use crate::geom::fan::{Nearness, PointFan, SpokeTerms, point_patch};
+    use crate::geom::fan::{Nearness, PointFan, SpokeTerms, point_leaf};
 
     /// The nearest triangle of a leaf.
     #[derive(Clone, Copy)]
@@ -188,7 +188,7 @@ mod narrow {
     #[inline(always)]
     fn on_grid(leaf: &FanLeaf<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
         let ring = leaf.grid_ring()?;
-        let turn = leaf.tag().turn();
+        let turn = leaf.shape().turn();
         let mut centre = ring.centres[0];
         let mut fan = PointFan::new(p - leaf.centre(0));
         let less = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
@@ -223,9 +223,9 @@ mod narrow {
 
     #[inline(never)]
     fn single(leaf: &FanLeaf<'_>, p: Vec3, nearest: &mut NearestOf) {
-        let (count, turn) = (leaf.tag().triangles(), leaf.tag().turn());
-        let s = [p - leaf.centre(0), p - leaf.centre(leaf.tag().centres() - 1)];
-        point_patch(
+        let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
+        let s = [p - leaf.centre(0), p - leaf.centre(leaf.shape().centres() - 1)];
+        point_leaf(
             count,
             turn,
             s,

@@ -2,50 +2,57 @@
 //!
 //! | where | what lies there |
 //! | --- | --- |
-//! | `format/` | the bytes: header, nodes, leaves, the check of `Bvh::open` |
+//! | `format/` | the bytes: header, nodes, leaves, the check of [`Bvh::open`] |
 //! | `node/` | the node kernels: eight boxes at a time |
-//! | `point_query`, `segment_query` | a point or segment in grid units, ready for the descent |
-//! | `descent` | the descent of the distance questions |
+//! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
+//! | `descent` | the descent of all questions about one point or one segment |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
+//! | `segment_leaf` | a segment and the triangles of a leaf |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
-//! | `within`, `all_within`, `nearest`, `k_nearest` | distance verdicts, and the nearest triangles |
-//! | `signed_distance`, `pseudonormal` | the side of a closed mesh |
-//! | `segment_hits` | first hit, any hit, all hits |
+//! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
+//! | `neighbors` | the heap of nearest triangles in the caller's slice |
+//! | `signed_distance`, `side_search`, `pseudonormal` | the side of a closed mesh |
+//! | `first_hit`, `any_hit`, `all_hits` | segments |
 //! | `front_facing` | triangles that may face an eye |
 //! | `overlap/` | two trees, one of them moved |
 //! | `coherent/` | a query that moves |
+//!
+//! A new question is a file here: an `impl Bvh` with its method, its answer type, and a
+//! [`LeafVisitor`](descent::LeafVisitor) for the descent.
 
+mod all_hits;
 mod all_within;
+mod any_hit;
 mod closest_point;
 mod closest_points;
 mod coherent;
 mod descent;
+mod first_hit;
 pub mod format;
 mod front_facing;
-mod k_nearest;
 mod leaf_distance;
 mod nearest;
+mod neighbors;
 pub mod node;
 mod overlap;
 mod point_query;
 mod pseudonormal;
-mod segment_hits;
+mod segment_leaf;
 mod segment_query;
 mod side_search;
 mod signed_distance;
 mod triangle_bounds;
 mod within;
 
-pub use all_within::{AllWithin, all_within};
-pub use closest_point::{Hint, closest_point, closest_point_from};
-pub use closest_points::{BatchError, closest_points};
+pub use all_within::AllWithin;
+pub use any_hit::AnyHit;
+pub use closest_point::Hint;
 pub use coherent::{CoherentClosest, CoherentQuery};
 pub use format::Bvh;
-pub use front_facing::{FrontFacing, Sight, front_facing};
-pub use k_nearest::Neighbor;
-pub use nearest::{Nearest, nearest};
-pub use overlap::{Overlap, Overlaps, PairEntry, TrianglePair, all_overlaps, overlap};
-pub use segment_hits::{AnyHit, Facing, all_hits, any_hit, first_hit};
-pub use side_search::Side;
-pub use signed_distance::{SignedDistance, signed_distance};
-pub use within::{Verdict, Within, is_within};
+pub use front_facing::{Eye, FrontFacing};
+pub use nearest::KNearest;
+pub use neighbors::Neighbor;
+pub use overlap::{Overlap, Overlaps, TrianglePair};
+pub use segment_leaf::Facing;
+pub use signed_distance::SignedDistance;
+pub use within::Within;

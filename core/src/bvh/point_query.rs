@@ -1,7 +1,11 @@
 //! A query point in the tree's grid units, and everything that rounding may do to an answer about
 //! it.
 
+use super::descent::{LeafVisitor, NodeQuery};
+use super::node::{NodeFrame, box_distances};
 use crate::bvh::format::Bvh;
+use crate::geom::fan::WIDTH;
+use crate::num::sqrt_approx;
 use crate::num::tolerance::{
     BOX_DISTANCE, BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, U32,
 };
@@ -99,7 +103,7 @@ impl PointQuery {
         let (low, high) = bounds(tree);
         let farthest = (p - low).abs().max((p - high).abs());
         let size = farthest.x + farthest.y + farthest.z;
-        let fan = FAN_DISTANCE * U32 * header.reach;
+        let fan = FAN_DISTANCE * U32 * header.star_radius;
         let off = BOX_DISTANCE * U32 * size + fan;
         let short = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
         let near = size <= BVH_FAR;
@@ -130,7 +134,14 @@ impl PointQuery {
         )
     }
 
-    /// What a distance in grid units may be off by whatever its size.
+    /// Rounding of a box's distance, grid units. The allowance is its square times 2100, which is
+    /// 45² and something.
+    #[inline(always)]
+    pub(crate) fn box_error(&self) -> f32 {
+        sqrt_approx(self.limit(0.0)) * (1.0 / 45.0)
+    }
+
+    /// Rounding of a distance in grid units that does not grow with the distance.
     pub(crate) fn margin(&self) -> f32 {
         self.margin + self.units.surface_error
     }
@@ -141,6 +152,26 @@ impl PointQuery {
         self.units.lower(
             distance - (distance * (FAN_RELATIVE * U32) + (self.margin + self.units.surface_error)),
         )
+    }
+}
+
+impl NodeQuery for PointQuery {
+    #[inline(always)]
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
+        if tree.serves_distances() { Ok(()) } else { Err(QueryError::NO_DISTANCES) }
+    }
+
+    #[inline(always)]
+    fn keys(
+        &self,
+        tree: &Bvh<'_>,
+        node: u32,
+        count: u32,
+        bound: f32,
+        _: &impl LeafVisitor,
+    ) -> Option<[f32; WIDTH]> {
+        let record = tree.frame(node)?;
+        Some(box_distances(record, &NodeFrame::of(record, self.p), count, bound))
     }
 }
 

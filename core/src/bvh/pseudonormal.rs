@@ -12,14 +12,14 @@
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::point_query::PointQuery;
-use super::side_search::{Search, Side};
+use super::side_search::{OPEN, Search};
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use crate::bvh::format::FanLeaf;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{
     EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
 };
-use crate::query::QueryError;
+use crate::query::{QueryError, Side};
 use glam::Vec3;
 
 /// Which side of a triangle is seen.
@@ -49,7 +49,7 @@ fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
 /// How triangle `lane` faces `p`.
 #[inline]
 pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
-    let second = lane >= leaf.tag().turn();
+    let second = lane >= leaf.shape().turn();
     let which = usize::from(second);
     let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
     let (normal, size) = cross(e, g);
@@ -61,7 +61,7 @@ pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
     // What underflow may add is some hundred times below the last term.
     let rounding =
         SIGN_TRIPLE_PRODUCT * U32 * size.dot(s.abs()) + f32::MIN_POSITIVE * (1.0 + norm_1(s));
-    let volume = if second && leaf.tag().second_reversed() { -volume } else { volume };
+    let volume = if second && leaf.shape().second_reversed() { -volume } else { volume };
     if volume > rounding {
         Facing::Front
     } else if volume < -rounding {
@@ -112,8 +112,8 @@ pub(crate) fn side_of_shared_feature(
 ) -> Result<Side, QueryError> {
     let limit = limit_of(candidates.query, candidates.band);
     let mut shared = Shared { candidates, limit, corners, kept: [true; 3] };
-    if !search.descend(candidates.query.p, &mut shared)? {
-        return Ok(Side::Undefined);
+    if !search.descend(candidates.query, &mut shared)? {
+        return Ok(OPEN);
     }
     let ([a, b, c], p) = (corners, candidates.query.p);
     match shared.kept {
@@ -123,7 +123,7 @@ pub(crate) fn side_of_shared_feature(
         [true, true, false] => about_edge(search, candidates, limit, [a, b], p),
         [false, true, true] => about_edge(search, candidates, limit, [b, c], p),
         [true, false, true] => about_edge(search, candidates, limit, [c, a], p),
-        _ => Ok(Side::Undefined),
+        _ => Ok(OPEN),
     }
 }
 
@@ -194,13 +194,13 @@ impl Sum {
         let margin = U32 * (norm_1(to_query) * roundings + 16.0 * self.weight * inexact)
             + open * self.eta * self.eta * norm_1(to_query);
         if self.broken || self.count == 0.0 || margin.is_nan() {
-            Side::Undefined
+            OPEN
         } else if product > margin {
             Side::Outside
         } else if product < -margin {
             Side::Inside
         } else {
-            Side::Undefined
+            OPEN
         }
     }
 }
@@ -217,7 +217,7 @@ impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
     }
 
     fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        for lane in 0..visit.leaf.tag().triangles() {
+        for lane in 0..visit.leaf.shape().triangles() {
             (self.each)(&visit.leaf, lane);
         }
         Some(true)
@@ -240,7 +240,7 @@ fn about_vertex(
     let s = p - vertex;
     let far = sqrt_approx(s.dot(s));
     if !(far > 0.0 && far <= candidates.reach) {
-        return Ok(Side::Undefined);
+        return Ok(OPEN);
     }
     let u = s * (1.0 / far);
     let mut sum = Sum::default();
@@ -279,10 +279,10 @@ fn about_vertex(
         };
         sum.add(normal, size, angle, eta);
     };
-    if !search.descend(p, &mut Star { limit, each })? {
-        return Ok(Side::Undefined);
+    if !search.descend(candidates.query, &mut Star { limit, each })? {
+        return Ok(OPEN);
     }
-    Ok(if sum.eta < 0.25 { sum.side(s, 6.5, 0.0) } else { Side::Undefined })
+    Ok(if sum.eta < 0.25 { sum.side(s, 6.5, 0.0) } else { OPEN })
 }
 
 fn about_edge(
@@ -301,7 +301,7 @@ fn about_edge(
     if !(along > rounding && length_sq - along > rounding && far > 0.0)
         || far + SIGN_COSINE * U32 * norm_1(s) > candidates.reach
     {
-        return Ok(Side::Undefined);
+        return Ok(OPEN);
     }
     let u = across * (1.0 / far);
     let mut sum = Sum::default();
@@ -327,8 +327,8 @@ fn about_edge(
         let reached = inward.dot(u) / height + noise;
         sum.add(normal, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
     };
-    if !search.descend(p, &mut Star { limit, each })? {
-        return Ok(Side::Undefined);
+    if !search.descend(candidates.query, &mut Star { limit, each })? {
+        return Ok(OPEN);
     }
-    Ok(if sum.eta < 0.25 { sum.side(across, 1.2, norm_1(s)) } else { Side::Undefined })
+    Ok(if sum.eta < 0.25 { sum.side(across, 1.2, norm_1(s)) } else { OPEN })
 }

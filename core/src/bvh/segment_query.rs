@@ -1,9 +1,12 @@
 //! A segment in the tree's grid units, ready for boxes and fans, and what rounding may do to it.
 
+use super::descent::{LeafVisitor, NodeQuery};
+use super::node::box_entries;
 use super::point_query::{Units, bounds};
 use crate::bvh::format::Bvh;
 use crate::bvh::node::Slabs;
 use crate::geom::fan::FanRay;
+use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
 use crate::num::two_sum;
 use crate::query::{Hit, QueryError};
@@ -116,6 +119,26 @@ impl SegmentQuery {
         let whole = self.start + t;
         let whole = if whole < 1.0 { whole } else { 1.0 };
         Hit { t: if self.still { 0.0 } else { whole }, point, triangle }
+    }
+}
+
+impl NodeQuery for SegmentQuery {
+    #[inline(always)]
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
+        if tree.serves_segments() { Ok(()) } else { Err(QueryError::NO_SEGMENTS) }
+    }
+
+    #[inline(always)]
+    fn keys(
+        &self,
+        tree: &Bvh<'_>,
+        node: u32,
+        count: u32,
+        bound: f32,
+        visitor: &impl LeafVisitor,
+    ) -> Option<[f32; WIDTH]> {
+        let record = tree.boxes(node)?;
+        Some(box_entries(record, &self.slabs, count, bound, visitor.limit()))
     }
 }
 

@@ -1,20 +1,12 @@
-//! The side of a point, and what the descents that look for it share.
+//! The descents of one search for a side.
 
 use super::descent::{Descent, LeafVisitor, descend};
+use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;
-use crate::query::{Ended, QueryError, ScratchEntry, Work};
-use glam::Vec3;
+use crate::query::{Ended, QueryError, ScratchEntry, Side, Undecided, Work};
 
-/// On which side of the surface a point is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The nearest surface has its front to the point.
-    Outside,
-    /// It has its back to the point.
-    Inside,
-    /// The mesh is not closed, the point is not clear of the surface, or rounding leaves it open.
-    Undefined,
-}
+/// No side is proved yet.
+pub(crate) const OPEN: Side = Side::Undecided(Undecided::Feature);
 
 /// What the descents of one question share.
 pub(crate) struct Search<'a, 't> {
@@ -30,12 +22,12 @@ impl Search<'_, '_> {
     /// One descent; whether it ran to its end.
     pub(crate) fn descend(
         &mut self,
-        p: Vec3,
+        query: &PointQuery,
         visitor: &mut impl LeafVisitor,
     ) -> Result<bool, QueryError> {
-        let descent = descend(self.tree, p, self.stack, self.steps, visitor, &mut self.work)?;
-        if let Descent::Truncated { steps, .. } = descent {
-            self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
+        let descent = descend(self.tree, query, self.steps, self.stack, visitor, &mut self.work)?;
+        if let Descent::Truncated { ended, .. } = descent {
+            self.cut = Some(ended);
         }
         Ok(descent == Descent::Done)
     }

@@ -38,116 +38,134 @@ use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use super::leaf_distance::nearest_triangle;
 use super::point_query::{PointQuery, bounds};
 use super::pseudonormal::{Candidates, Facing, facing, side_of_shared_feature};
-use super::side_search::{Search, Side};
+use super::side_search::{OPEN, Search};
 use super::triangle_bounds::{each_triangle, limit_of, lower_of, lower_of_box, witness};
 use crate::bvh::format::Bvh;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_DISTANCE, U32};
-use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+use crate::query::{
+    Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work,
+};
 use glam::Vec3;
 
 /// Signed distance: positive outside, negative inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedDistance {
-    /// Not above the signed distance to the input mesh, input units. If the side is undefined:
-    /// `-upper` of the closest point.
-    pub lower: f32,
-    /// Not below it. If the side is undefined: `upper` of the closest point.
-    pub upper: f32,
-    /// The side, proved, or undefined.
+    /// The signed distance to the input mesh, input units. If the side is undecided, from minus the
+    /// distance to the distance.
+    pub distance: Interval,
+    /// The side of the point.
     pub side: Side,
-    /// The closest point and the interval of the distance without sign. `work` and `ended` are of
-    /// all that was done: [`Ended::Level`] if the mesh is closed and the stored surface or
-    /// rounding leaves the side open.
+    /// The closest point, and the distance without sign. `work` and `ended` are those of the whole
+    /// search. [`Ended::Resolution`]: the mesh is closed, and the stored surface or rounding leaves
+    /// the side open.
     pub closest: ClosestPoint,
 }
 
 impl SignedDistance {
     fn new(closest: ClosestPoint, side: Side) -> Self {
-        let (lower, upper) = match side {
-            Side::Outside => (closest.lower, closest.upper),
-            Side::Inside => (-closest.upper, -closest.lower),
-            Side::Undefined => (-closest.upper, closest.upper),
+        let Interval { lower, upper } = closest.distance;
+        let distance = match side {
+            Side::Outside => Interval { lower, upper },
+            Side::Inside => Interval { lower: -upper, upper: -lower },
+            Side::Undecided(_) => Interval { lower: -upper, upper },
         };
-        SignedDistance { lower, upper, side, closest }
+        SignedDistance { distance, side, closest }
     }
 }
 
-/// Signed distance of `point` (input units), negative inside: where the nearest surface has its
-/// back to the point.
-///
-/// Of a mesh that bounds a solid that is what it sounds like; of an inverted one the sides are
-/// exchanged. Parts that overlap are not united: the nearest surface decides, and where surfaces of
-/// several are equally near up to rounding and the surface error, one of these. Cavities are as
-/// their winding says.
-///
-/// The side is undefined if the mesh is not closed and consistently wound
-/// ([`BvhHeader::is_closed`](crate::bvh::format::BvhHeader::is_closed)), if the distance is not clear of
-/// the stored surface's error and of rounding, next to walls and gaps thinner than these, next to
-/// slivers so flat that they have no certain normal, and where a triangle without area is certainly
-/// nearer than every other: it has no sides. It is never wrong. `stack` as for [`closest_point`]; if it is too short, or `stop.steps`
-/// too few, the side is undefined, too. The tolerances of [`Budget`] do not apply: a side needs the
-/// closest point itself.
-///
-/// Triangle and point are those of [`closest_point`]; equidistant ones: the least in blob order.
-///
-/// Cost: about that of the closest point; twice to three times that next to sharp edges and
-/// vertices, and for points far outside; up to four times more where the side has to be found from
-/// nearer by, above a face and next to its edge.
-///
-/// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`],
-/// [`QueryError::NotServed`].
-pub fn signed_distance(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    stop: &Budget,
-    stack: &mut [ScratchEntry],
-) -> Result<SignedDistance, QueryError> {
-    stop.check()?;
-    if stack.is_empty() {
-        return Err(QueryError::NoQueue);
+impl Bvh<'_> {
+    /// Signed distance of `point` (input units), negative where the nearest surface has its back to
+    /// the point.
+    ///
+    /// For a mesh that bounds a solid this is the usual signed distance. For an inverted mesh the
+    /// sides are exchanged. Parts that overlap are not united: the nearest surface decides, and of
+    /// surfaces that are equally near up to rounding and the surface error, one of them. Cavities
+    /// are as their winding says.
+    ///
+    /// The side is never wrong. It is undecided if the mesh is not closed and consistently wound
+    /// ([`is_closed`](Bvh::is_closed)), if the distance is not clear of the surface error and
+    /// rounding, next to walls and gaps thinner than these, next to slivers so flat that they have
+    /// no certain normal, and where a triangle without area is certainly nearer than every other:
+    /// it has no sides.
+    ///
+    /// `scratch` as for [`closest_point`](Bvh::closest_point). If it is too short, or the steps too
+    /// few, the side is undecided too. Of the budget only `steps` matters: a side needs the closest
+    /// point itself. Triangle and point are those of [`closest_point`](Bvh::closest_point).
+    ///
+    /// Cost: about that of the closest point. Two to three times as much next to sharp edges and
+    /// vertices, and for points far outside. Up to four times more where the side has to be found
+    /// from nearer by, above a face and next to its edge. Source: Bærentzen & Aanæs 2005.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Scratch, Side};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let far = part.signed_distance([300.0, 0.0, 0.0], Budget::EXACT, &mut scratch)?;
+    /// assert_eq!(far.side, Side::Outside);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`],
+    /// [`QueryError::NotServed`].
+    pub fn signed_distance(
+        &self,
+        point: [f32; 3],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<SignedDistance, QueryError> {
+        let tree = self;
+        budget.check()?;
+        if scratch.is_empty() {
+            return Err(QueryError::NoScratch);
+        }
+        let query = PointQuery::new(tree, point)?;
+        let closed = tree.is_closed();
+        let (steps, stack) = (budget.steps, scratch);
+        let mut search = Search { tree, steps, stack, work: Work::default(), cut: None };
+        let survey = if query.far { None } else { Some(search.survey(&query)?) };
+        let mut closest = match &survey {
+            Some(survey) => survey.closest(&search, point)?,
+            None => closest_point(tree, point, &Budget::EXACT.with_steps(steps), search.stack)?,
+        };
+        let clear =
+            closed && closest.distance.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
+        let mut side = match &survey {
+            Some(survey) if clear => search.side(survey)?,
+            _ => OPEN,
+        };
+        if side == OPEN
+            && clear
+            && search.cut.is_none()
+            && let Some(nearby) = outside_of_box(tree, &query)
+        {
+            let survey = search.survey(&nearby)?;
+            side = search.side(&survey)?;
+        }
+        if side == OPEN
+            && clear
+            && search.cut.is_none()
+            && let Some(survey) = &survey
+        {
+            side = search.side_from_nearer(survey)?;
+        }
+        closest.work = search.work;
+        if let Some(cut) = search.cut {
+            closest.ended = cut;
+        } else if side == OPEN && closed {
+            closest.ended = Ended::Resolution;
+        }
+        if side == OPEN {
+            side = Side::Undecided(match search.cut {
+                _ if !closed => Undecided::OpenMesh,
+                Some(cut) => cut.undecided(),
+                None if closest.distance.lower > 0.0 => Undecided::Feature,
+                None => Undecided::OnSurface,
+            });
+        }
+        Ok(SignedDistance::new(closest, side))
     }
-    let query = PointQuery::new(tree, point)?;
-    let closed = tree.header().is_closed();
-    let mut search = Search { tree, steps: stop.steps, stack, work: Work::default(), cut: None };
-    let survey = if query.far { None } else { Some(search.survey(&query)?) };
-    let mut closest = match &survey {
-        Some(survey) => survey.closest(&search, point)?,
-        None => closest_point(
-            tree,
-            point,
-            &Budget { relative: 0.0, absolute: 0.0, ..*stop },
-            search.stack,
-        )?,
-    };
-    let clear = closed && closest.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
-    let mut side = match &survey {
-        Some(survey) if clear => search.side(survey)?,
-        _ => Side::Undefined,
-    };
-    if side == Side::Undefined
-        && clear
-        && search.cut.is_none()
-        && let Some(nearby) = outside_of_box(tree, &query)
-    {
-        let survey = search.survey(&nearby)?;
-        side = search.side(&survey)?;
-    }
-    if side == Side::Undefined
-        && clear
-        && search.cut.is_none()
-        && let Some(survey) = &survey
-    {
-        side = search.side_from_nearer(survey)?;
-    }
-    closest.work = search.work;
-    if let Some(cut) = search.cut {
-        closest.ended = cut;
-    } else if side == Side::Undefined && closed {
-        closest.ended = Ended::Level;
-    }
-    Ok(SignedDistance::new(closest, side))
 }
 
 /// How often a side is asked about from nearer by: each time the distance falls to a sixteenth.
@@ -182,7 +200,7 @@ fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
 impl Search<'_, '_> {
     fn survey<'p>(&mut self, query: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
         let tree = *self.tree;
-        let margin = FAN_DISTANCE * U32 * tree.header().reach;
+        let margin = FAN_DISTANCE * U32 * tree.header().star_radius;
         let mut sides = Sides {
             tree: &tree,
             query,
@@ -193,12 +211,12 @@ impl Search<'_, '_> {
             limit: EVERYTHING_SQ,
             least: [f32::INFINITY; 4],
         };
-        let descent = descend(&tree, query.p, self.stack, self.steps, &mut sides, &mut self.work)?;
+        let descent = descend(&tree, query, self.steps, self.stack, &mut sides, &mut self.work)?;
         let Sides { best, solid, seen, least, .. } = sides;
         let mut missed = f32::INFINITY;
-        if let Descent::Truncated { least, steps } = descent {
+        if let Descent::Truncated { least, ended } = descent {
             missed = least;
-            self.cut = Some(if steps { Ended::Steps } else { Ended::Capacity });
+            self.cut = Some(ended);
         }
         Ok(Survey { query, margin, best, solid, seen, least, missed })
     }
@@ -216,12 +234,12 @@ impl Search<'_, '_> {
                 continue;
             }
             let side = self.side_on_the_way(survey, place)?;
-            if side == Side::Undefined || agreed.is_some_and(|agreed| agreed != side) {
-                return Ok(Side::Undefined);
+            if side == OPEN || agreed.is_some_and(|agreed| agreed != side) {
+                return Ok(OPEN);
             }
             agreed = Some(side);
         }
-        Ok(agreed.unwrap_or(Side::Undefined))
+        Ok(agreed.unwrap_or(OPEN))
     }
 
     /// The side of the first point on the way to a triangle, and from there to what is closest,
@@ -232,19 +250,19 @@ impl Search<'_, '_> {
             let Some(query) = nearer else { break };
             let survey = self.survey(&query)?;
             let side = self.side(&survey)?;
-            if side != Side::Undefined || self.cut.is_some() {
+            if side != OPEN || self.cut.is_some() {
                 return Ok(side);
             }
             nearer = survey.nearer(self.tree, survey.best);
         }
-        Ok(Side::Undefined)
+        Ok(OPEN)
     }
 
     /// The side of the surveyed point, which is known to be clear of the surface.
     fn side(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
         let Survey { query, margin, solid, least, .. } = *survey;
         if self.cut.is_some() || solid.node == u32::MAX {
-            return Ok(Side::Undefined);
+            return Ok(OPEN);
         }
         let candidates = Candidates::new(query, margin, solid.distance_sq);
         let [front, back, unclear, _] = least.map(|lower| lower <= candidates.band);
@@ -252,7 +270,7 @@ impl Search<'_, '_> {
             (true, false, false) => Ok(Side::Outside),
             (false, true, false) => Ok(Side::Inside),
             _ => {
-                let leaf = self.tree.leaf(solid.node, solid.child).ok_or(QueryError::Model)?;
+                let leaf = self.tree.leaf(solid.node, solid.child).ok_or(QueryError::Unchecked)?;
                 side_of_shared_feature(self, &candidates, leaf.corners(solid.lane))
             }
         }
@@ -304,6 +322,9 @@ struct Survey<'p> {
 impl Survey<'_> {
     /// Whether a triangle with an area may be the closest one.
     fn has_sides(&self) -> bool {
+        if self.solid.distance_sq <= self.best.distance_sq {
+            return true;
+        }
         let band = Candidates::new(self.query, self.margin, self.best.distance_sq).band;
         let [front, back, unclear, _] = self.least;
         front <= band || back <= band || unclear <= band
@@ -339,7 +360,7 @@ impl Survey<'_> {
         let ended = search.cut.unwrap_or(Ended::Exact);
         if best.node == u32::MAX {
             // No step was allowed, or there was room for nothing: the box of the model.
-            let none = Budget { steps: 0, ..Budget::EXACT };
+            let none = Budget::EXACT.with_steps(0);
             let closest = closest_point(tree, point, &none, &mut [ScratchEntry::EMPTY])?;
             return Ok(ClosestPoint { ended, ..closest });
         }
@@ -349,11 +370,10 @@ impl Survey<'_> {
             let missed = lower_of_box(query, self.missed);
             lower = if missed < lower { missed } else { lower };
         }
-        let leaf = tree.leaf(best.node, best.child).ok_or(QueryError::Model)?;
-        let number = best.number(tree).ok_or(QueryError::Model)?;
+        let leaf = tree.leaf(best.node, best.child).ok_or(QueryError::Unchecked)?;
+        let number = best.number(tree).ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
-            lower,
-            upper: query.upper(distance),
+            distance: Interval::new(lower, query.upper(distance)),
             point: query.units.point(witness(query, &leaf, best.lane)),
             triangle: tree.source(number),
             work: search.work,

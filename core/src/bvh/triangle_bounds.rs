@@ -40,7 +40,7 @@ pub(crate) fn each_triangle(
     leaf: &FanLeaf<'_>,
     mut each: impl FnMut(usize, f32, f32),
 ) {
-    for lane in 0..leaf.tag().triangles() {
+    for lane in 0..leaf.shape().triangles() {
         let seen = seen_from(leaf, lane, query.p);
         let near = refine_sliver(query, &seen, nearness(&seen));
         each(lane, near.distance_sq, near.lower_bound_sq);
@@ -95,7 +95,7 @@ pub(crate) fn limit_of(query: &PointQuery, distance: f32) -> f32 {
 /// [`PointQuery::lower`] takes off. Unlike a triangle's it carries the rounding of boxes, whose
 /// 2100-fold square is the limit's allowance.
 pub(crate) fn distance_of_box(query: &PointQuery, key: f32) -> f32 {
-    let distance = sqrt_approx(key) - sqrt_approx(query.limit(0.0)) * (1.0 / 45.0);
+    let distance = sqrt_approx(key) - query.box_error();
     if distance > 0.0 { distance } else { 0.0 }
 }
 

@@ -1,5 +1,5 @@
-//! Is the mesh within a distance? Cheaper than the distance itself: it ends as soon as one triangle
-//! is certainly near enough, and looks at nothing that is certainly too far.
+//! Whether the mesh is within a distance. It is cheaper than the distance: the search ends as soon
+//! as one triangle is certainly near enough, and looks at nothing that is certainly too far.
 
 use super::closest_point::closest_point;
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
@@ -8,96 +8,92 @@ use super::point_query::PointQuery;
 use super::triangle_bounds::{each_triangle, limit_within, lower_of, nearness, seen_from};
 use crate::bvh::format::Bvh;
 use crate::num::sqrt_approx;
-use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
-
-/// Whether the mesh is within a distance, about the input mesh in real arithmetic. Said by
-/// [`is_within`], and by [`tight::is_within`](crate::tight::is_within) of a mesh that is
-/// known by its hull.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Proved: a point of the mesh is not farther.
-    Yes {
-        /// A triangle that is not farther, by its number in the input file. Not always the closest
-        /// one; `None` of a tight hull, which knows no triangles.
-        triangle: Option<u32>,
-    },
-    /// Proved: the whole mesh is farther; of a tight hull, all that the mesh encloses too.
-    No,
-    /// [`Within::ended`] says why.
-    Unknown,
-}
+use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Whether the mesh is within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Within {
-    /// The answer.
+    /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther; of a tight hull,
+    /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the distance
+    /// is so near to the one asked about that the stored surface or rounding leaves it open, or a
+    /// tighter hull may decide.
     pub verdict: Verdict,
-    /// What it cost.
+    /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
+    /// the closest one. `None` of a tight hull, which knows no triangles.
+    pub triangle: Option<u32>,
+    /// The work of the search.
     pub work: Work,
-    /// [`Ended::Exact`] with `Yes` and `No`. With `Unknown`: [`Ended::Level`] if the distance is
-    /// so near to the one asked about that the stored surface or rounding leaves it open, or
-    /// if a tighter hull may tell; [`Ended::Steps`] or [`Ended::Capacity`] if the search was cut
-    /// short.
-    pub ended: Ended,
 }
 
 impl Within {
-    /// Proved: nothing of the mesh is within the distance.
+    /// Whether it is proved that nothing of the mesh is within the distance.
     pub fn is_clear(&self) -> bool {
         self.verdict == Verdict::No
     }
 }
 
-/// Is the input mesh at most `distance` (input units) from `point`?
-///
-/// Distance 0 asks whether the point touches the surface: `No` or, as f32 cannot prove that it
-/// does, `Unknown`. `Unknown` for want of precision needs a distance within
-/// [`BvhHeader::surface_error`](crate::bvh::format::BvhHeader) and rounding of the one asked about.
-/// Farther than a million model sizes the model's box answers. `stack` as for [`closest_point`]; a
-/// shorter one may turn an answer into `Unknown`, never into a wrong one. Of [`Budget`] only `steps`
-/// matters.
-///
-/// Cost: one node if the model's box is out of reach; else what lies within `distance`, and no more
-/// than a few leaves where the answer is yes.
-///
-/// # Errors
-/// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative, NaN
-/// or infinite; [`QueryError::NoQueue`]; [`QueryError::NotServed`].
-pub fn is_within(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    distance: f32,
-    stop: &Budget,
-    stack: &mut [ScratchEntry],
-) -> Result<Within, QueryError> {
-    stop.check()?;
-    if !(distance >= 0.0 && distance.is_finite()) {
-        return Err(QueryError::Tolerance);
-    }
-    if stack.is_empty() {
-        return Err(QueryError::NoQueue);
-    }
-    let query = PointQuery::new(tree, point)?;
-    if query.far {
-        return from_afar(tree, point, distance, stack);
-    }
-    let mut work = Work::default();
-    let limit = limit_within(&query, distance);
-    let mut visitor =
-        Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
-    let descent = descend(tree, query.p, stack, stop.steps, &mut visitor, &mut work)?;
-    let (verdict, ended) = match descent {
-        _ if visitor.near.is_some() => {
-            let triangle =
-                visitor.near.and_then(|number| tree.source(number)).ok_or(QueryError::Model)?;
-            (Verdict::Yes { triangle: Some(triangle) }, Ended::Exact)
+impl Bvh<'_> {
+    /// Whether the input mesh is at most `distance` from `point`, both in input units.
+    ///
+    /// It ends as soon as one triangle is certainly near enough. A distance of 0 asks whether the
+    /// point touches the surface: the answer is `No` or, as f32 cannot prove a contact, undecided.
+    /// A verdict is missing for want of precision only if the distance is within
+    /// [`surface_error`](Bvh::surface_error) and rounding of the one asked about. Farther than a
+    /// million model sizes the model's box answers.
+    ///
+    /// `scratch` as for [`closest_point`](Bvh::closest_point). A shorter one may leave the question
+    /// undecided; it never makes the answer wrong. Of the budget only `steps` matters.
+    ///
+    /// Cost: one node if the model's box is beyond the distance. Else everything within `distance`,
+    /// and no more than a few leaves where the answer is yes.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let near = part.within([3.0, 0.0, 400.0], 5.0, Budget::EXACT, &mut scratch)?;
+    /// assert!(near.is_clear());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
+    /// NaN or infinite; [`QueryError::NoScratch`]; [`QueryError::NotServed`].
+    pub fn within(
+        &self,
+        point: [f32; 3],
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Within, QueryError> {
+        let tree = self;
+        budget.check()?;
+        if !(distance >= 0.0 && distance.is_finite()) {
+            return Err(QueryError::Tolerance);
         }
-        Descent::Truncated { steps: true, .. } => (Verdict::Unknown, Ended::Steps),
-        Descent::Truncated { steps: false, .. } => (Verdict::Unknown, Ended::Capacity),
-        _ if visitor.doubtful => (Verdict::Unknown, Ended::Level),
-        _ => (Verdict::No, Ended::Exact),
-    };
-    Ok(Within { verdict, work, ended })
+        if scratch.is_empty() {
+            return Err(QueryError::NoScratch);
+        }
+        let query = PointQuery::new(tree, point)?;
+        if query.far {
+            return from_afar(tree, point, distance, scratch);
+        }
+        let mut work = Work::default();
+        let limit = limit_within(&query, distance);
+        let mut visitor =
+            Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
+        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        if let Some(number) = visitor.near {
+            let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
+            return Ok(Within { verdict: Verdict::Yes, triangle, work });
+        }
+        let verdict = match descent {
+            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
+            _ if visitor.doubtful => Verdict::Undecided(Undecided::Resolution),
+            _ => Verdict::No,
+        };
+        Ok(Within { verdict, triangle: None, work })
+    }
 }
 
 #[cold]
@@ -105,16 +101,16 @@ fn from_afar(
     tree: &Bvh<'_>,
     point: [f32; 3],
     distance: f32,
-    stack: &mut [ScratchEntry],
+    scratch: &mut [ScratchEntry],
 ) -> Result<Within, QueryError> {
-    let closest = closest_point(tree, point, &Budget::EXACT, stack)?;
-    let verdict = match closest.triangle {
-        triangle @ Some(_) if closest.upper <= distance => Verdict::Yes { triangle },
-        _ if closest.lower > distance => Verdict::No,
-        _ => Verdict::Unknown,
+    let ClosestPoint { distance: found, triangle, work, .. } =
+        closest_point(tree, point, &Budget::EXACT, scratch)?;
+    let (verdict, triangle) = match triangle {
+        Some(_) if found.upper <= distance => (Verdict::Yes, triangle),
+        _ if found.lower > distance => (Verdict::No, None),
+        _ => (Verdict::Undecided(Undecided::Resolution), None),
     };
-    let ended = if verdict == Verdict::Unknown { Ended::Level } else { Ended::Exact };
-    Ok(Within { verdict, work: closest.work, ended })
+    Ok(Within { verdict, triangle, work })
 }
 
 struct Threshold<'a> {
@@ -161,7 +157,7 @@ impl Threshold<'_> {
         let here = |lane: &usize| {
             nearness(&seen_from(&visit.leaf, *lane, self.query.p)).distance_sq == distance_sq
         };
-        let lane = (0..visit.leaf.tag().triangles()).find(here)?;
+        let lane = (0..visit.leaf.shape().triangles()).find(here)?;
         Some(first.wrapping_add(lane as u32))
     }
 

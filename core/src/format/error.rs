@@ -2,8 +2,9 @@
 
 use super::layout::SectionKind;
 
-/// Each variant says what was wanted and what was found.
+/// Why a blob was not opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum OpenError {
     /// Fewer bytes than the header announces (or than a header has).
     Truncated {
@@ -94,7 +95,8 @@ impl core::fmt::Display for OpenError {
             }
             OpenError::Section { index } => write!(f, "section table: entry {index} is malformed"),
             OpenError::MissingSection { section } => {
-                write!(f, "section \"{}\" is missing", section.name())
+                let (name, build_for) = (section.name(), section.build_for());
+                write!(f, "section \"{name}\" is missing: build the blob with --for {build_for}")
             }
             OpenError::Record { section, index } => {
                 write!(f, "section \"{}\": record {index} refers to nothing", section.name())

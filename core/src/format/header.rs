@@ -5,8 +5,6 @@ use super::error::OpenError;
 use super::layout::{
     FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, field, index_bytes,
 };
-use crate::geom::Aabb;
-use glam::Vec3;
 
 /// Everything that the fixed header says. Lengths are in the local frame: input units divided by
 /// `2^scale_exponent`.
@@ -49,9 +47,9 @@ pub struct Header {
     /// No point of the input surface is farther than this from the stored one, nor the other way.
     pub surface_error: f32,
     /// Box of every vertex of every level.
-    pub hull_box: Aabb,
+    pub hull_box: [[f32; 3]; 2],
     /// Box of the surface.
-    pub surface_box: Aabb,
+    pub surface_box: [[f32; 3]; 2],
     /// Queue entries with which no query on the cover tree can overflow.
     pub queue_capacity: u32,
     /// Longest chain of splits of which each needs the one before it.
@@ -78,11 +76,11 @@ impl Header {
             if x.is_finite() { Ok(x) } else { Err(OpenError::NotFinite { field: name }) }
         };
         let corner = |at: usize, name: &'static str| {
-            Ok::<Vec3, OpenError>(Vec3::new(
+            Ok::<[f32; 3], OpenError>([
                 float(at, name)?,
                 float(at + 4, name)?,
                 float(at + 8, name)?,
-            ))
+            ])
         };
         let code = bytes.u8(field::VERTEX_FORMAT).ok_or(short)?;
         let vertex_format =
@@ -110,14 +108,14 @@ impl Header {
             levels: word(field::LEVELS)?,
             input_triangles: word(field::INPUT_TRIANGLES)?,
             surface_error: float(field::SURFACE_ERROR, "surface error")?,
-            hull_box: Aabb {
-                min: corner(field::HULL_BOX, "hull box")?,
-                max: corner(field::HULL_BOX + 12, "hull box")?,
-            },
-            surface_box: Aabb {
-                min: corner(field::SURFACE_BOX, "surface box")?,
-                max: corner(field::SURFACE_BOX + 12, "surface box")?,
-            },
+            hull_box: [
+                corner(field::HULL_BOX, "hull box")?,
+                corner(field::HULL_BOX + 12, "hull box")?,
+            ],
+            surface_box: [
+                corner(field::SURFACE_BOX, "surface box")?,
+                corner(field::SURFACE_BOX + 12, "surface box")?,
+            ],
             queue_capacity: word(field::QUEUE_CAPACITY)?,
             dependency_depth: word(field::DEPENDENCY_DEPTH)?,
         };
@@ -143,7 +141,7 @@ impl Header {
         put(field::MAGIC, &MAGIC);
         put(field::VERSION_MAJOR, &VERSION_MAJOR.to_le_bytes());
         put(field::VERSION_MINOR, &VERSION_MINOR.to_le_bytes());
-        let b = |v: Vec3| [v.x.to_bits(), v.y.to_bits(), v.z.to_bits()];
+        let b = |corner: [f32; 3]| corner.map(f32::to_bits);
         let words = [
             (field::HEADER_BYTES, self.header_bytes),
             (field::TOTAL_BYTES, self.total_bytes),
@@ -170,10 +168,10 @@ impl Header {
         }
         for (at, triple) in [
             (field::GRID_ORIGIN, self.grid_origin.map(i32::cast_unsigned)),
-            (field::HULL_BOX, b(self.hull_box.min)),
-            (field::HULL_BOX + 12, b(self.hull_box.max)),
-            (field::SURFACE_BOX, b(self.surface_box.min)),
-            (field::SURFACE_BOX + 12, b(self.surface_box.max)),
+            (field::HULL_BOX, b(self.hull_box[0])),
+            (field::HULL_BOX + 12, b(self.hull_box[1])),
+            (field::SURFACE_BOX, b(self.surface_box[0])),
+            (field::SURFACE_BOX + 12, b(self.surface_box[1])),
         ] {
             for (i, word) in triple.into_iter().enumerate() {
                 put(at + 4 * i, &word.to_le_bytes());

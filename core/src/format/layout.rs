@@ -21,9 +21,10 @@ pub const MAX_SECTIONS: usize = 32;
 /// blob.
 pub const FLAG_CUT: u32 = 1;
 
-/// What a section holds.
+/// The contents of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
+#[non_exhaustive]
 pub enum SectionKind {
     /// Coordinates, base vertices first, then two for each split.
     Vertices = 1,
@@ -100,8 +101,20 @@ impl SectionKind {
     }
 
     /// Whether the section belongs to the box tree.
-    pub fn is_tree(self) -> bool {
+    pub fn is_bvh(self) -> bool {
         !self.is_hull() && (self as u32) < SectionKind::Triboxes as u32
+    }
+
+    /// The value of `meshsweep build --for` that writes the section.
+    pub fn build_for(self) -> BuildFor {
+        match self {
+            SectionKind::TreeBoxes => BuildFor::Segment,
+            SectionKind::TreeCones => BuildFor::Cull,
+            SectionKind::Triboxes => BuildFor::Triboxes,
+            SectionKind::TightHulls => BuildFor::Tight,
+            _ if self.is_hull() => BuildFor::Hull,
+            _ => BuildFor::Closest,
+        }
     }
 
     /// The kind's name as `info` prints it.
@@ -128,6 +141,37 @@ impl SectionKind {
             SectionKind::Triboxes => "triboxes",
             SectionKind::TightHulls => "tight hulls",
         }
+    }
+}
+
+/// A value of `meshsweep build --for`: what a blob is built for. It prints as that value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BuildFor {
+    /// Distances on the box tree.
+    Closest,
+    /// Segments and overlaps on the box tree.
+    Segment,
+    /// The hull hierarchy.
+    Hull,
+    /// Normal cones of the box tree's leaves.
+    Cull,
+    /// Triboxes.
+    Triboxes,
+    /// Tight hulls.
+    Tight,
+}
+
+impl core::fmt::Display for BuildFor {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            BuildFor::Closest => "closest",
+            BuildFor::Segment => "segment",
+            BuildFor::Hull => "hull",
+            BuildFor::Cull => "cull",
+            BuildFor::Triboxes => "triboxes",
+            BuildFor::Tight => "tight",
+        })
     }
 }
 

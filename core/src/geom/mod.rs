@@ -17,7 +17,7 @@ pub use point_triangle::{PointTriangle, point_triangle};
 pub use pose::Pose;
 pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
 pub use support::Support;
-pub use swept_triangle::{PointProbe, SegmentProbe, direction_bound};
+pub use swept_triangle::{SweptPoint, SweptSegment, direction_bound};
 pub use triangle_pair::{
     Contact, Real, determinant_margin, straddling_triangles_meet, triangles_meet,
 };

@@ -24,18 +24,18 @@ pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
 
 /// A query point with the rounding margin that holds for every triangle inside one box.
 #[derive(Clone, Copy, Debug)]
-pub struct PointProbe {
+pub struct SweptPoint {
     point: Vec3,
     margin: f32,
 }
 
-impl PointProbe {
+impl SweptPoint {
     /// For triangles whose corners all lie in `bounds`.
     pub fn new(point: Vec3, bounds: &Aabb) -> Self {
         let farthest = (point - bounds.min).abs().max((bounds.max - point).abs());
         let edge = bounds.max - bounds.min;
         let norms = farthest.x + farthest.y + farthest.z + edge.x + edge.y + edge.z;
-        PointProbe { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
+        SweptPoint { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
     }
 
     /// Not above the distance from the point to the triangle swept by `radius`, and never negative;
@@ -70,7 +70,7 @@ impl PointProbe {
 
 /// A segment, clipped to the box of the model, with its rounding margin.
 #[derive(Clone, Copy, Debug)]
-pub struct SegmentProbe {
+pub struct SweptSegment {
     start: Vec3,
     direction: Vec3,
     /// 1 / |direction|², or zero where the segment is too short to have a direction.
@@ -82,7 +82,7 @@ pub struct SegmentProbe {
     t_scale: f32,
 }
 
-impl SegmentProbe {
+impl SweptSegment {
     /// For triangles whose corners all lie in `bounds`, which `segment` was clipped to.
     pub fn new(segment: &Clipped, bounds: &Aabb) -> Self {
         let start = segment.start.as_vec3();
@@ -101,7 +101,7 @@ impl SegmentProbe {
         let margin = SEGMENT_BOUND * U32 * norms + clipping + UNDERFLOW;
         let has_direction = length_sq >= TRUSTED_DIRECTION_SQ;
         let length = libm::sqrtf(length_sq);
-        SegmentProbe {
+        SweptSegment {
             start,
             direction,
             inverse_sq: if has_direction { 1.0 / length_sq } else { 0.0 },
@@ -154,7 +154,7 @@ mod tests {
             (Vec3::new(-3.0, -4.0, 0.0), 5.0),
             (Vec3::new(0.5, -2.0, 0.0), 2.0),
         ] {
-            let probe = PointProbe::new(point, &bounds);
+            let probe = SweptPoint::new(point, &bounds);
             let lower =
                 probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
             assert!(probe.lower(corners, 0.25, distance - 0.2).is_some());
@@ -172,7 +172,7 @@ mod tests {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let probe = |a: [f64; 3], b: [f64; 3]| {
             let clipped = bounds.clip(DVec3::from(a), DVec3::from(b)).expect("meets the box");
-            SegmentProbe::new(&clipped, &bounds)
+            SweptSegment::new(&clipped, &bounds)
         };
         let through = probe([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]);
         let t = through.enter(corners, 0.0).expect("crosses");

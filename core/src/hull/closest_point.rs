@@ -5,55 +5,80 @@
 //! f32, rounded down with a proved margin; the few triangles that may hold the answer are evaluated
 //! in f64, so that the interval is a rounding of f32 wide.
 
-use super::sweep_queue::{Frontier, QueueEntry, Taken};
-use crate::geom::{LANES, Lanes, PointProbe, Support, point_triangle};
-use crate::hull::format::{Children, Model, NodeIdx, TriIdx};
+use super::sweep_queue::{SweepQueue, Taken, before};
+use crate::geom::{Aabb, LANES, Lanes, Support, SweptPoint, point_triangle};
+use crate::hull::format::{Children, Hull, NodeIdx, TriIdx};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
 use crate::num::{down_to_f32, up_to_f32};
-use crate::query::{Budget, ClosestPoint, Ended, Frame, QueryError, Work};
+use crate::query::{Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, Work};
 use glam::{DVec3, Vec3};
 
-/// Closest point of the surface to `point` (input units, the mesh's frame), with an interval that
-/// contains the distance.
-///
-/// `queue` is working memory; [`Capacities::queue`](crate::hull::format::Capacities::queue) entries make
-/// overflow impossible, more give a tighter interval to a query that stops early. With fewer the
-/// interval still holds, and [`Ended::Capacity`] says so. A point on the surface gives `lower = 0`.
-/// Equidistant triangles: the least in blob order, whatever the order of visits. A point farther
-/// than 2^40 times the model's size gets an interval from the model's box.
-///
-/// Cost: some hundreds of nodes and triangles near a scanned part (`cargo xtask measure` prints
-/// them for any mesh). The worst case is all of them, at the centre of a sphere: where time is
-/// bounded, set [`Budget::steps`].
-///
-/// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoQueue`];
-/// [`QueryError::NotServed`] without a hull hierarchy.
-pub fn closest_point(
-    model: &Model<'_>,
+impl Hull<'_> {
+    /// Closest point of the surface to `point` (input units), with an interval that contains the
+    /// distance to the input mesh.
+    ///
+    /// `scratch`: [`scratch_entries`](Hull::scratch_entries) make overflow impossible. More give a
+    /// tighter interval to a query that stops early. With fewer the interval still holds, and
+    /// [`Ended::Scratch`] says so. A point on the surface has a lower bound of 0. Of equidistant
+    /// triangles the answer is the least in blob order, whatever the order of visits. A point farther
+    /// than 2^40 times the model's size gets the interval of the model's box.
+    ///
+    /// Cost: some hundreds of nodes and triangles near a scanned part. The worst case is all of
+    /// them, at the centre of a sphere. Where time is bounded, set [`Budget::with_steps`]. The box
+    /// tree ([`Bvh`](crate::Bvh)) answers the same question much faster. Source: Guéziec 2000, 4.3.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Hull, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
+    /// let (part, mut scratch) = (Hull::open(bytes)?, Scratch::<256>::new());
+    /// let near = part.closest_point([300.0, 0.0, 0.0], Budget::EXACT, &mut scratch)?;
+    /// assert!(near.distance.lower > 0.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`].
+    #[inline]
+    pub fn closest_point(
+        &self,
+        point: [f32; 3],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        budget.check()?;
+        let Budget { relative, absolute, steps } = budget;
+        closest_point(self, point, [relative, absolute], steps, scratch)
+    }
+}
+
+/// Numbers and no budget: a program whose tolerances are constants links no code for others.
+fn closest_point(
+    hull: &Hull<'_>,
     point: [f32; 3],
-    stop: &Budget,
-    queue: &mut [QueueEntry],
+    [relative, absolute]: [f32; 2],
+    steps: u32,
+    scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    stop.check()?;
-    if !model.has_hull() {
-        return Err(QueryError::NotServed);
+    if !hull.has_hull() {
+        return Err(QueryError::NO_HULL);
     }
-    let frame = Frame::of(model.header());
+    let frame = Frame::of(hull.header());
     let p = frame.local(point)?;
-    if queue.is_empty() {
-        return Err(QueryError::NoQueue);
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
     }
-    let mut sweep = Sweep::new(model, p);
+    let mut sweep = Sweep::new(hull, p);
     let ended = if p.abs().max_element() > HULL_FAR {
         sweep.far()?;
-        if model.is_cut() { Ended::Level } else { Ended::Exact }
+        if hull.is_cut() { Ended::Resolution } else { Ended::Exact }
     } else {
-        let frontier = Frontier::new(queue, model.capacities().queue);
-        sweep.run(frontier, stop, frame.length(stop.absolute))?
+        let queue = SweepQueue::new(scratch, hull.scratch_entries());
+        let tolerant = relative > 0.0 || absolute > 0.0;
+        let (relative, absolute) = (f64::from(relative), frame.length(absolute));
+        sweep.run(queue, tolerant, [relative, absolute], steps).ok_or(QueryError::Unchecked)?
     };
     if sweep.best.is_none() {
-        // Stopped before any triangle was reached: the box is all that is known.
+        // Stopped before any triangle was reached: only the box is known.
         let lower = sweep.lower;
         sweep.far()?;
         sweep.lower = sweep.lower.max(lower.min(sweep.upper));
@@ -79,9 +104,9 @@ struct Best {
 
 /// State of one query.
 struct Sweep<'a> {
-    model: &'a Model<'a>,
+    model: &'a Hull<'a>,
     p: DVec3,
-    probe: PointProbe,
+    swept: SweptPoint,
     /// Not below the distance; f64 for the answer, f32 rounded up for pruning.
     upper: f64,
     upper_f32: f32,
@@ -95,14 +120,14 @@ struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    fn new(model: &'a Model<'a>, p: DVec3) -> Self {
+    fn new(model: &'a Hull<'a>, p: DVec3) -> Self {
         // In f32's normal range the conversion is exact; below, it costs less than
         // `tolerance::UNDERFLOW`.
-        let probe = PointProbe::new(p.as_vec3(), &model.header().hull_box);
+        let swept = SweptPoint::new(p.as_vec3(), &model.hull_box());
         Sweep {
             model,
             p,
-            probe,
+            swept,
             upper: f64::INFINITY,
             upper_f32: f32::INFINITY,
             lower: f64::INFINITY,
@@ -115,24 +140,23 @@ impl<'a> Sweep<'a> {
 
     fn run(
         &mut self,
-        mut frontier: Frontier<'_>,
-        stop: &Budget,
-        absolute: f64,
-    ) -> Result<Ended, QueryError> {
-        let relative = 1.0 + f64::from(stop.relative);
+        mut queue: SweepQueue<'_>,
+        tolerant: bool,
+        [relative, absolute]: [f64; 2],
+        steps: u32,
+    ) -> Option<Ended> {
         let surface_error = f64::from(self.model.header().surface_error);
-        let tolerant = stop.relative > 0.0 || stop.absolute > 0.0;
         let mut met_tolerance = false;
-        let mut next = Some(QueueEntry { key: 0.0, node: 0 });
-        while let Some(Taken { entry, least }) = frontier.take(next, self.best.is_none()) {
-            let key = f64::from(entry.key);
-            let beaten = entry.key > self.upper_f32;
+        let mut next = Some(ScratchEntry::new(0.0, 0));
+        while let Some(Taken { entry, least }) = queue.take(next, self.best.is_none()) {
+            let key = f64::from(entry.key());
+            let beaten = entry.key() > self.upper_f32;
             let tolerated = tolerant && {
                 // As it will be reported: with the stored surface's error, and rounded to f32
                 // outward.
                 let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
                 let high = (self.upper + surface_error) * (1.0 + REPORTED);
-                high <= low * relative || high - low <= absolute
+                high <= low * (1.0 + relative) || high - low <= absolute
             };
             if beaten || tolerated {
                 if !beaten {
@@ -145,21 +169,21 @@ impl<'a> Sweep<'a> {
                 next = None;
                 continue;
             }
-            if self.work.splits >= stop.steps {
-                self.lower = self.lower.min(key).min(f64::from(frontier.lower()));
-                return Ok(Ended::Steps);
+            if self.work.splits >= steps {
+                self.lower = self.lower.min(key).min(f64::from(queue.lower()));
+                return Some(Ended::Steps);
             }
-            next = self.open(NodeIdx(entry.node), key, &mut frontier).ok_or(QueryError::Model)?;
+            next = self.open(NodeIdx(entry.node()), key, &mut queue)?;
         }
-        let dropped = f64::from(frontier.dropped());
+        let dropped = f64::from(queue.dropped());
         if dropped < self.upper {
             self.lower = self.lower.min(dropped);
-            return Ok(Ended::Capacity);
+            return Some(Ended::Scratch);
         }
-        Ok(if met_tolerance {
+        Some(if met_tolerance {
             Ended::Tolerance
         } else if self.cut {
-            Ended::Level
+            Ended::Resolution
         } else {
             Ended::Exact
         })
@@ -172,30 +196,30 @@ impl<'a> Sweep<'a> {
         &mut self,
         node: NodeIdx,
         key: f64,
-        frontier: &mut Frontier<'_>,
-    ) -> Option<Option<QueueEntry>> {
+        queue: &mut SweepQueue<'_>,
+    ) -> Option<Option<ScratchEntry>> {
         self.work.splits += 1;
         let node = self.model.node(node)?;
         match node.children {
             Children::Nodes { first, count } => {
-                frontier.begin_children(count);
-                let mut nearest: Option<QueueEntry> = None;
+                queue.begin_children(count);
+                let mut nearest: Option<ScratchEntry> = None;
                 for (from, lanes) in chunks(first, count) {
                     if self.distant {
-                        self.visit_distant(from, lanes, frontier)?;
+                        self.visit_distant(from, lanes, queue)?;
                         continue;
                     }
                     let (supports, radii) = self.bounds(from, lanes)?;
                     for (node, (support, radius)) in
                         (from..).zip(supports.into_iter().zip(radii)).take(lanes)
                     {
-                        let Some(key) = self.probe.bound(support, radius, self.upper_f32) else {
+                        let Some(key) = self.swept.bound(support, radius, self.upper_f32) else {
                             continue;
                         };
-                        let entry = QueueEntry { key, node };
+                        let entry = ScratchEntry::new(key, node);
                         match &mut nearest {
-                            Some(near) if !entry.before(near) => frontier.push(entry),
-                            Some(near) => frontier.push(core::mem::replace(near, entry)),
+                            Some(near) if !before(&entry, near) => queue.push(entry),
+                            Some(near) => queue.push(core::mem::replace(near, entry)),
                             None => nearest = Some(entry),
                         }
                     }
@@ -219,7 +243,7 @@ impl<'a> Sweep<'a> {
         &mut self,
         first: u32,
         count: usize,
-        frontier: &mut Frontier<'_>,
+        queue: &mut SweepQueue<'_>,
     ) -> Option<()> {
         self.work.nodes += count as u32;
         for (node, _) in (first..).zip(0..count) {
@@ -227,7 +251,7 @@ impl<'a> Sweep<'a> {
             let [a, b, c] = self.model.positions(corners)?.map(|v| v.as_dvec3());
             let lower = point_triangle(self.p, a, b, c).lower - f64::from(radius) * (1.0 + U64);
             if lower <= self.upper {
-                frontier.push(QueueEntry { key: down_to_f32(lower.max(0.0)), node });
+                queue.push(ScratchEntry::new(down_to_f32(lower.max(0.0)), node));
             }
         }
         Some(())
@@ -241,7 +265,7 @@ impl<'a> Sweep<'a> {
         let mut radii = [0f32; LANES];
         for ((lane, radius), node) in radii.iter_mut().enumerate().zip(first..).take(count) {
             let (corners, stored) = self.model.bound(NodeIdx(node))?;
-            self.probe.load(&mut lanes, lane, self.model.positions(corners)?);
+            self.swept.load(&mut lanes, lane, self.model.positions(corners)?);
             *radius = stored;
         }
         Some((lanes.supports(count), radii))
@@ -254,7 +278,7 @@ impl<'a> Sweep<'a> {
         self.work.triangles += count as u32;
         let mut lanes = Lanes::EMPTY;
         for (lane, triangle) in (0..LANES).zip(first..).take(count) {
-            self.probe.load(&mut lanes, lane, self.corners(TriIdx(triangle))?);
+            self.swept.load(&mut lanes, lane, self.corners(TriIdx(triangle))?);
         }
         if self.distant {
             for triangle in (first..).take(count) {
@@ -264,7 +288,7 @@ impl<'a> Sweep<'a> {
         }
         let mut bounds = [f32::INFINITY; LANES];
         for (bound, support) in bounds.iter_mut().zip(lanes.supports(count)).take(count) {
-            *bound = self.probe.bound(support, 0.0, self.upper_f32).unwrap_or(f32::INFINITY);
+            *bound = self.swept.bound(support, 0.0, self.upper_f32).unwrap_or(f32::INFINITY);
         }
         // Nearest first: each evaluation may spare the others theirs, which on a Cortex-M are done
         // in software.
@@ -335,14 +359,14 @@ impl<'a> Sweep<'a> {
     /// The interval that the surface's box gives, with any point of the surface. From far enough
     /// away every point is the closest, within a rounding of f32.
     fn far(&mut self) -> Result<(), QueryError> {
-        let (near, far) = self.model.header().surface_box.distance_range(self.p);
+        let (near, far) = Aabb::of(self.model.header().surface_box).distance_range(self.p);
         self.lower = near;
         self.upper = far;
         let corner = match self.model.surface_triangle(TriIdx(0)) {
             Some([corner, ..]) => corner,
-            None => self.model.base_triangle(0).ok_or(QueryError::Model)?[0],
+            None => self.model.base_triangle(0).ok_or(QueryError::Unchecked)?[0],
         };
-        let point = self.model.position(corner).ok_or(QueryError::Model)?.as_dvec3();
+        let point = self.model.position(corner).ok_or(QueryError::Unchecked)?.as_dvec3();
         let triangle = if self.model.is_cut() { u32::MAX } else { 0 };
         self.best = Some(Best { distance_sq: 0.0, triangle, point });
         Ok(())
@@ -353,8 +377,7 @@ impl<'a> Sweep<'a> {
         let upper = self.upper;
         let point = self.best.map_or(DVec3::ZERO, |best| best.point);
         ClosestPoint {
-            lower: frame.lower(self.lower.min(upper)),
-            upper: frame.upper(upper),
+            distance: Interval::new(frame.lower(self.lower.min(upper)), frame.upper(upper)),
             point: frame.point(point),
             triangle,
             work: self.work,

@@ -18,10 +18,7 @@ mod refined_hull;
 mod segment_hits;
 mod sweep_queue;
 
-pub use closest_point::closest_point;
-pub use format::Model;
-pub use hull_faces::{HullFace, hull_faces};
-pub use outer_hits::{OuterHits, Search, outer_hits};
+pub use format::{Hull, Level};
+pub use hull_faces::HullFace;
+pub use outer_hits::{OuterHits, Search};
 pub use refined_hull::{Face, Refined, RefinedHull};
-pub use segment_hits::{all_hits, first_hit};
-pub use sweep_queue::QueueEntry;

@@ -7,7 +7,7 @@
 //! performed", which two bit sets hold. There is no selective coarsening: a query starts from the
 //! base hull again, which clears the bits (paper 000, 3.2.2).
 
-use crate::hull::format::{Model, Split, SplitIdx, VertIdx};
+use crate::hull::format::{Hull, Split, SplitIdx, VertIdx};
 
 /// A face of the refined hull: a base triangle, or the fine triangle `slot` of a split.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl Face {
 
     /// Corners of the face.
     #[inline]
-    pub fn corners(self, model: &Model<'_>) -> Option<[VertIdx; 3]> {
+    pub fn corners(self, model: &Hull<'_>) -> Option<[VertIdx; 3]> {
         if self.split == u32::MAX {
             model.base_triangle(self.slot)
         } else {
@@ -83,7 +83,7 @@ pub enum Refined {
     /// The split and all that it needed are performed: so many of them.
     Splits(u32),
     /// The bit sets are too short for a split that it needs.
-    Capacity,
+    Scratch,
 }
 
 impl<'a> RefinedHull<'a> {
@@ -119,13 +119,13 @@ impl<'a> RefinedHull<'a> {
 
     /// Whether a vertex has been replaced. That it was made is the caller's knowledge.
     #[inline]
-    pub fn is_split(&self, model: &Model<'_>, vertex: VertIdx) -> bool {
+    pub fn is_split(&self, model: &Hull<'_>, vertex: VertIdx) -> bool {
         model.split_of(vertex).is_some_and(|split| self.is_performed(split))
     }
 
     /// Whether all corners of a face that was made still exist.
     #[inline]
-    pub fn is_alive(&self, model: &Model<'_>, corners: [VertIdx; 3]) -> bool {
+    pub fn is_alive(&self, model: &Hull<'_>, corners: [VertIdx; 3]) -> bool {
         !corners.into_iter().any(|v| self.is_split(model, v))
     }
 
@@ -134,7 +134,7 @@ impl<'a> RefinedHull<'a> {
     ///
     /// The others need vertices that this one makes, so it comes before them.
     #[inline]
-    pub fn split_of_face(model: &Model<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
+    pub fn split_of_face(model: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
         corners.into_iter().filter_map(|v| model.split_of(v)).min()
     }
 
@@ -142,9 +142,9 @@ impl<'a> RefinedHull<'a> {
     /// model is not one that was opened.
     ///
     /// Every split on the way is coarser than the one that asked for it, so the search ends.
-    pub fn refine(&mut self, model: &Model<'_>, wanted: SplitIdx) -> Option<Refined> {
+    pub fn refine(&mut self, model: &Hull<'_>, wanted: SplitIdx) -> Option<Refined> {
         if !self.holds(wanted) {
-            return Some(Refined::Capacity);
+            return Some(Refined::Scratch);
         }
         let mut count = 0u32;
         self.path.clear();
@@ -175,7 +175,7 @@ impl<'a> RefinedHull<'a> {
     /// A split that must come before `split` and has not been performed. The outer `None`: not an
     /// opened model.
     #[inline]
-    fn missing(&self, model: &Model<'_>, split: &Split<'_>) -> Option<Option<SplitIdx>> {
+    fn missing(&self, model: &Hull<'_>, split: &Split<'_>) -> Option<Option<SplitIdx>> {
         let absent =
             |vertex: VertIdx| model.made_by(vertex).filter(|&maker| !self.is_performed(maker));
         if let Some(maker) = absent(split.vertex) {

@@ -4,72 +4,92 @@
 //! surface, not because it crosses a hull face; so hits below an unbroken hull (paper 000, Figure
 //! 5) are found, wherever the segment starts.
 
-use super::sweep_queue::{Frontier, QueueEntry, Taken};
-use crate::geom::{Clipped, SegmentProbe, SegmentTriangle, comes_within, segment_triangle};
-use crate::hull::format::{Children, Model, NodeIdx, TriIdx};
+use super::sweep_queue::{SweepQueue, Taken};
+use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
+use crate::hull::format::{Children, Hull, NodeIdx, TriIdx};
 use crate::num::{down_to_f32, up_to_f32};
-use crate::query::insert;
-use crate::query::{AllHits, Budget, Ended, Frame, Hit, QueryError, SegmentHit, Work};
+use crate::query::{
+    AllHits, Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry, Work,
+};
 use glam::DVec3;
 
-/// First common point of the closed segment `a b` (input units) and the surface, both facings.
-///
-/// If [`SegmentHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the
-/// lengths involved, or within the stored surface's error, of an edge may be reported as a hit.
-/// Segments in the plane of a triangle hit where they enter it; a segment of zero length hits if
-/// its point lies on the surface. Where the stored surface is not exactly the input's (a cut
-/// blob, a grid that moved vertices), `hit` is the first place where the surface may be, and
-/// [`Ended::Level`] says so.
-///
-/// Of [`Budget`] only `steps` matters. `queue` as for [`closest_point`](super::closest_point).
-///
-/// # Errors
-/// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoQueue`],
-/// [`QueryError::Tolerance`].
-pub fn first_hit(
-    model: &Model<'_>,
-    a: [f32; 3],
-    b: [f32; 3],
-    stop: &Budget,
-    queue: &mut [QueueEntry],
-) -> Result<SegmentHit, QueryError> {
-    stop.check()?;
-    let mut first = First { best: None, least_lower: f64::INFINITY };
-    let traced = trace(model, a, b, stop, queue, &mut first)?;
-    let open = f64::from(traced.unopened);
-    let hit = first.best.map(|best| Hit {
-        t: best.meet.t as f32,
-        point: best.point,
-        triangle: model.source(TriIdx(best.triangle)),
-    });
-    let lower = first.least_lower.min(open);
-    Ok(SegmentHit {
-        lower: if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY },
-        upper: first.best.map_or(f32::INFINITY, |best| up_to_f32(best.meet.t_upper)),
-        hit,
-        work: traced.work,
-        ended: traced.ended,
-    })
-}
+impl Hull<'_> {
+    /// First common point of the closed segment `a b` (input units) and the surface, both facings.
+    ///
+    /// If [`FirstHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the
+    /// lengths involved, or within the surface error, of an edge may be reported as a hit. Segments
+    /// in the plane of a triangle hit where they enter it. A segment of no length hits if its point
+    /// lies on the surface. On a cut blob, and where a grid moved vertices, `hit` is the first place
+    /// where the surface may be, and [`Ended::Resolution`] says so.
+    ///
+    /// `scratch` as for [`closest_point`](Hull::closest_point). Of the budget only `steps` matters.
+    /// Cost: some dozens of nodes on scanned parts.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Hull, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
+    /// let (part, mut scratch) = (Hull::open(bytes)?, Scratch::<256>::new());
+    /// let (a, b) = ([400.0, 0.0, 0.0], [300.0, 0.0, 0.0]);
+    /// assert!(part.first_hit(a, b, Budget::EXACT, &mut scratch)?.is_clear());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoScratch`],
+    /// [`QueryError::Tolerance`].
+    pub fn first_hit(
+        &self,
+        a: [f32; 3],
+        b: [f32; 3],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<FirstHit, QueryError> {
+        let mut first = First { best: None, least_lower: f64::INFINITY };
+        let traced = trace(self, [a, b], &budget, scratch, &mut first)?;
+        let open = f64::from(traced.unopened);
+        let hit = first.best.map(|best| Hit {
+            t: best.meet.t as f32,
+            point: best.point,
+            triangle: self.source(TriIdx(best.triangle)),
+        });
+        let lower = first.least_lower.min(open);
+        let lower = if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY };
+        let upper = first.best.map_or(f32::INFINITY, |best| up_to_f32(best.meet.t_upper));
+        let t = Interval { lower, upper };
+        Ok(FirstHit { t, hit, work: traced.work, ended: traced.ended })
+    }
 
-/// All common points of the closed segment `a b` and the surface, by rising parameter, into `hits`.
-///
-/// Each triangle that the segment meets gives one hit, so that a segment through an edge or a
-/// vertex gives one for each triangle there. What does not fit in `hits` is counted in
-/// [`AllHits::dropped`]; the first ones are kept.
-///
-/// # Errors
-/// As [`first_hit`].
-pub fn all_hits(
-    model: &Model<'_>,
-    a: [f32; 3],
-    b: [f32; 3],
-    queue: &mut [QueueEntry],
-    hits: &mut [Hit],
-) -> Result<AllHits, QueryError> {
-    let mut all = All { model, hits, stored: 0, dropped: 0 };
-    let traced = trace(model, a, b, &Budget::EXACT, queue, &mut all)?;
-    Ok(AllHits { stored: all.stored, dropped: all.dropped, work: traced.work, ended: traced.ended })
+    /// All common points of the closed segment `a b` (input units) and the surface, by rising
+    /// parameter, into `hits`.
+    ///
+    /// Each triangle that the segment meets gives one hit. So a segment through an edge or a vertex
+    /// gives one for each triangle there. [`AllHits::dropped`] counts the hits that do not fit; the
+    /// slice keeps the first ones. Arguments and cost as for [`first_hit`](Hull::first_hit).
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Hit, Hull, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
+    /// let (part, mut scratch) = (Hull::open(bytes)?, Scratch::<256>::new());
+    /// let (a, b, mut hits) = ([-400.0, 1.0, 1.0], [400.0, 1.0, 1.0], [Hit::EMPTY; 8]);
+    /// let found = part.all_hits(a, b, &mut hits, Budget::EXACT, &mut scratch)?;
+    /// assert!(hits[..found.stored].is_sorted_by(|x, y| x.t <= y.t));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`first_hit`](Hull::first_hit).
+    pub fn all_hits(
+        &self,
+        a: [f32; 3],
+        b: [f32; 3],
+        hits: &mut [Hit],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<AllHits, QueryError> {
+        let mut all = All { model: self, hits: Hits::new(hits) };
+        let traced = trace(self, [a, b], &budget, scratch, &mut all)?;
+        Ok(all.hits.answer(traced.work, traced.ended))
+    }
 }
 
 /// A triangle that the segment meets.
@@ -109,17 +129,15 @@ impl Collect for First {
 }
 
 struct All<'a> {
-    model: &'a Model<'a>,
-    hits: &'a mut [Hit],
-    stored: usize,
-    dropped: u32,
+    model: &'a Hull<'a>,
+    hits: Hits<'a>,
 }
 
 impl Collect for All<'_> {
     fn add(&mut self, met: Met) {
         let triangle = self.model.source(TriIdx(met.triangle));
         let hit = Hit { t: met.meet.t as f32, point: met.point, triangle };
-        insert(self.hits, &mut self.stored, &mut self.dropped, hit);
+        self.hits.insert(hit);
     }
 
     fn limit(&self) -> f32 {
@@ -135,20 +153,20 @@ struct Traced {
 }
 
 fn trace(
-    model: &Model<'_>,
-    a: [f32; 3],
-    b: [f32; 3],
-    stop: &Budget,
-    queue: &mut [QueueEntry],
+    model: &Hull<'_>,
+    [a, b]: [[f32; 3]; 2],
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
     collect: &mut dyn Collect,
 ) -> Result<Traced, QueryError> {
+    budget.check()?;
     if !model.has_hull() {
-        return Err(QueryError::NotServed);
+        return Err(QueryError::NO_HULL);
     }
     let frame = Frame::of(model.header());
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
-    if queue.is_empty() {
-        return Err(QueryError::NoQueue);
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
     }
     let mut traced = Traced {
         work: Work { nodes: 1, ..Work::default() },
@@ -156,13 +174,13 @@ fn trace(
         unopened: f32::INFINITY,
     };
     let surface_error = model.header().surface_error;
-    let mut bounds = model.header().surface_box;
+    let mut bounds = Aabb::of(model.header().surface_box);
     if surface_error > 0.0 {
         bounds.min = (bounds.min - surface_error).map(f32::next_down);
         bounds.max = (bounds.max + surface_error).map(f32::next_up);
     }
     let Some(clipped) = bounds.clip(start, end) else { return Ok(traced) };
-    let mut hull = model.header().hull_box;
+    let mut hull = model.hull_box();
     hull.min = hull.min.min(bounds.min);
     hull.max = hull.max.max(bounds.max);
     let mut walk = Walk {
@@ -170,22 +188,22 @@ fn trace(
         frame,
         start,
         end,
-        probe: SegmentProbe::new(&clipped, &hull),
+        segment: SweptSegment::new(&clipped, &hull),
         clipped,
         surface_error,
         doubtful: false,
     };
-    let frontier = Frontier::new(queue, model.capacities().queue);
-    walk.run(frontier, stop, collect, &mut traced).ok_or(QueryError::Model)?;
+    let queue = SweepQueue::new(scratch, model.scratch_entries());
+    walk.run(queue, budget, collect, &mut traced).ok_or(QueryError::Unchecked)?;
     Ok(traced)
 }
 
 struct Walk<'a> {
-    model: &'a Model<'a>,
+    model: &'a Hull<'a>,
     frame: Frame,
     start: DVec3,
     end: DVec3,
-    probe: SegmentProbe,
+    segment: SweptSegment,
     clipped: Clipped,
     surface_error: f32,
     /// Something was reported that the stored surface cannot decide.
@@ -195,47 +213,47 @@ struct Walk<'a> {
 impl Walk<'_> {
     fn run(
         &mut self,
-        mut frontier: Frontier<'_>,
-        stop: &Budget,
+        mut queue: SweepQueue<'_>,
+        budget: &Budget,
         collect: &mut dyn Collect,
         traced: &mut Traced,
     ) -> Option<()> {
-        frontier.begin_children(1);
-        self.visit(0, &mut frontier, collect, &mut traced.work)?;
-        while let Some(Taken { entry, .. }) = frontier.pop() {
-            if entry.key > collect.limit() {
+        queue.begin_children(1);
+        self.visit(0, &mut queue, collect, &mut traced.work)?;
+        while let Some(Taken { entry, .. }) = queue.pop() {
+            if entry.key() > collect.limit() {
                 continue;
             }
-            if traced.work.splits >= stop.steps {
-                traced.unopened = entry.key.min(frontier.lower());
+            if traced.work.splits >= budget.steps {
+                traced.unopened = entry.key().min(queue.lower());
                 traced.ended = Ended::Steps;
                 return Some(());
             }
-            self.open(entry, &mut frontier, collect, traced)?;
+            self.open(entry, &mut queue, collect, traced)?;
         }
-        if frontier.dropped() <= collect.limit() && frontier.dropped().is_finite() {
-            traced.unopened = traced.unopened.min(frontier.dropped());
-            traced.ended = Ended::Capacity;
+        if queue.dropped() <= collect.limit() && queue.dropped().is_finite() {
+            traced.unopened = traced.unopened.min(queue.dropped());
+            traced.ended = Ended::Scratch;
         } else if self.doubtful {
-            traced.ended = Ended::Level;
+            traced.ended = Ended::Resolution;
         }
         Some(())
     }
 
     fn open(
         &mut self,
-        entry: QueueEntry,
-        frontier: &mut Frontier<'_>,
+        entry: ScratchEntry,
+        queue: &mut SweepQueue<'_>,
         collect: &mut dyn Collect,
         traced: &mut Traced,
     ) -> Option<()> {
         traced.work.splits += 1;
-        let node = self.model.node(NodeIdx(entry.node))?;
+        let node = self.model.node(NodeIdx(entry.node()))?;
         match node.children {
             Children::Nodes { first, count } => {
-                frontier.begin_children(count);
+                queue.begin_children(count);
                 for child in first..first.checked_add(count)? {
-                    self.visit(child, frontier, collect, &mut traced.work)?;
+                    self.visit(child, queue, collect, &mut traced.work)?;
                 }
             }
             Children::Triangles { first, count } => {
@@ -252,17 +270,17 @@ impl Walk<'_> {
     fn visit(
         &self,
         node: u32,
-        frontier: &mut Frontier<'_>,
+        queue: &mut SweepQueue<'_>,
         collect: &dyn Collect,
         work: &mut Work,
     ) -> Option<()> {
         work.nodes += 1;
         let (corners, radius) = self.model.bound(NodeIdx(node))?;
         let corners = self.model.positions(corners)?;
-        if let Some(key) = self.probe.enter(corners, radius + self.surface_error)
+        if let Some(key) = self.segment.enter(corners, radius + self.surface_error)
             && key <= collect.limit()
         {
-            frontier.push(QueueEntry { key, node });
+            queue.push(ScratchEntry::new(key, node));
         }
         Some(())
     }
@@ -276,7 +294,7 @@ impl Walk<'_> {
     ) -> Option<()> {
         work.triangles += 1;
         let corners = self.model.positions(self.model.surface_triangle(triangle)?)?;
-        let Some(key) = self.probe.enter(corners, self.surface_error) else { return Some(()) };
+        let Some(key) = self.segment.enter(corners, self.surface_error) else { return Some(()) };
         if key > collect.limit() {
             return Some(());
         }
@@ -304,11 +322,11 @@ impl Walk<'_> {
     }
 
     /// All that is known below a cut is that the surface may be hit from here on.
-    fn cut_node(&mut self, entry: QueueEntry, collect: &mut dyn Collect) {
+    fn cut_node(&mut self, entry: ScratchEntry, collect: &mut dyn Collect) {
         self.doubtful = true;
-        let t = f64::from(entry.key).max(self.clipped.t_start.min(1.0)).max(0.0);
+        let t = f64::from(entry.key()).max(self.clipped.t_start.min(1.0)).max(0.0);
         let point = self.frame.point(self.start + (self.end - self.start) * t);
-        let t_lower = f64::from(entry.key.max(0.0));
+        let t_lower = f64::from(entry.key().max(0.0));
         let meet = SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 };
         collect.add(Met { meet, triangle: u32::MAX, point });
     }

@@ -202,9 +202,3 @@ pub const TRIBOX_AXIS: f32 = 64.0;
 /// Rounding of a moved coordinate, in units of [`U32`] times the sum of the sizes of its terms.
 /// Proved: 5, of the product 1, of the sums 3, of this product 1.
 pub const TRIBOX_COORDINATE: f32 = 8.0;
-
-// Old names, until the callers have moved.
-#[doc(hidden)]
-pub use {BVH_FAR as TREE_FAR, CERTIFIED_PART as TREE_WEAK, FAN_DISTANCE as TREE_FAN};
-#[doc(hidden)]
-pub use {FAN_RELATIVE as TREE_RELATIVE, HULL_FAR as FAR};

@@ -1,40 +1,76 @@
-//! Stop rules, answers, counters and errors.
+//! Intervals, closest points, and why a search ended.
 
+use super::verdict::Undecided;
 use super::work::Work;
 
-/// Why a query ended. Whatever the reason, its interval holds.
+/// The truth lies in `lower ..= upper`, in real arithmetic, about the input mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Interval {
+    /// Not above the true value.
+    pub lower: f32,
+    /// Not below the true value.
+    pub upper: f32,
+}
+
+impl Interval {
+    /// All numbers from `lower` to `upper`.
+    pub const fn new(lower: f32, upper: f32) -> Interval {
+        Interval { lower, upper }
+    }
+}
+
+/// Why a search ended. Whatever the reason, its interval holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Ended {
     /// Nothing is left to look at: the interval is as narrow as the stored surface allows.
     Exact,
-    /// The tolerance of [`Budget`] was met.
+    /// The tolerance of the [`Budget`](crate::Budget) was met.
     Tolerance,
-    /// The step budget of [`Budget`] was used up.
+    /// The steps of the [`Budget`](crate::Budget) were used up.
     Steps,
-    /// The caller's memory was too short; [`Model::capacities`](crate::hull::format::Model::capacities), or of a
-    /// tree [`BvhHeader::stack_entries`](crate::bvh::format::BvhHeader::stack_entries), says what is
-    /// needed.
-    Capacity,
-    /// The blob knows the surface only to within an error, and that decides: it was cut after a
-    /// coarser level, or a segment passes so near that vertices moved to a grid leave it open.
-    Level,
+    /// The scratch memory was too short. `scratch_entries` of the view says how much is enough.
+    Scratch,
+    /// The stored precision decides: the blob was cut after a coarser level, or vertices were moved
+    /// to a grid and the answer is that near.
+    Resolution,
 }
 
-/// Closest point of the surface: `lower ≤ distance to the input mesh ≤ upper`, in real arithmetic.
+impl Ended {
+    /// The reason as a reason for no verdict.
+    pub(crate) fn undecided(self) -> Undecided {
+        match self {
+            Ended::Steps => Undecided::Steps,
+            Ended::Scratch => Undecided::Scratch,
+            _ => Undecided::Resolution,
+        }
+    }
+}
+
+/// Closest point of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestPoint {
-    /// Not above the distance, input units.
-    pub lower: f32,
-    /// Not below the distance, input units.
-    pub upper: f32,
-    /// A point of the surface at most `upper` away, rounded to f32; on a cut blob a point of the
-    /// hull.
+    /// The distance to the input mesh, input units.
+    pub distance: Interval,
+    /// A point of the surface at most `distance.upper` away, rounded to f32. On a cut blob a point
+    /// of the hull.
     pub point: [f32; 3],
-    /// Number in the input file of the triangle that holds `point`; ties go to the least in blob
-    /// order. `None` on a cut blob.
+    /// Number in the input file of the triangle that holds `point`. Of equidistant triangles the
+    /// least in blob order. `None` on a cut blob.
     pub triangle: Option<u32>,
-    /// What it cost.
+    /// The work of the search.
     pub work: Work,
-    /// Why it ended.
+    /// Why the search ended.
     pub ended: Ended,
+}
+
+impl ClosestPoint {
+    /// Any value, for filling arrays.
+    pub const EMPTY: ClosestPoint = ClosestPoint {
+        distance: Interval::new(0.0, f32::INFINITY),
+        point: [0.0; 3],
+        triangle: None,
+        work: Work::NONE,
+        ended: Ended::Exact,
+    };
 }

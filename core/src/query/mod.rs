@@ -1,4 +1,15 @@
-//! What all questions share: budgets, scratch memory, intervals, work counters, errors.
+//! What all questions share.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `budget` | [`Budget`]: when a query may stop |
+//! | `scratch` | [`Scratch`], [`ScratchEntry`]: the caller's memory |
+//! | `answer` | [`Interval`], [`ClosestPoint`], [`Ended`]: why a search ended |
+//! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
+//! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`] |
+//! | `work` | [`Work`]: counters |
+//! | `error` | [`QueryError`] |
+//! | `frame` | input units and the local frame |
 
 mod answer;
 mod budget;
@@ -6,34 +17,15 @@ mod error;
 mod frame;
 mod hits;
 mod scratch;
+mod verdict;
 mod work;
 
-pub use answer::{ClosestPoint, Ended};
+pub use answer::{ClosestPoint, Ended, Interval};
 pub use budget::Budget;
 pub use error::QueryError;
 pub(crate) use frame::Frame;
-pub(crate) use hits::insert;
-pub use hits::{AllHits, Hit, SegmentHit};
-pub use scratch::ScratchEntry;
+pub(crate) use hits::Hits;
+pub use hits::{AllHits, FirstHit, Hit};
+pub use scratch::{Scratch, ScratchEntry};
+pub use verdict::{Side, Undecided, Verdict};
 pub use work::Work;
-
-// Old paths, until the callers have moved.
-#[doc(hidden)]
-pub use crate::hull::{
-    OuterHits, QueueEntry, Search, all_hits, closest_point, first_hit, outer_hits,
-};
-#[doc(hidden)]
-pub mod tree {
-    pub use crate::bvh::*;
-    pub use crate::geom::Contact;
-    pub use crate::query::ScratchEntry;
-}
-#[doc(hidden)]
-pub use crate::tight;
-#[doc(hidden)]
-pub mod tribox {
-    pub use crate::tribox::{
-        Bound, BoundEntry, Candidates, NodePair, Reject, apart, candidates, clip, distance,
-        stack_entries,
-    };
-}

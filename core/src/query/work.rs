@@ -1,7 +1,8 @@
 //! Counters of the work of a query.
 
-/// What a query did: the price of its accuracy, the same number on every target.
+/// The work of a query: the price of its accuracy, the same number on every target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Work {
     /// Cover nodes or boxes tested.
     pub nodes: u32,
@@ -14,8 +15,12 @@ pub struct Work {
 }
 
 impl Work {
-    /// What this and another search did together.
-    pub(crate) fn and(self, other: Work) -> Work {
+    /// No work.
+    pub const NONE: Work = Work { nodes: 0, triangles: 0, exact: 0, splits: 0 };
+
+    /// The work of this and another search together.
+    #[must_use]
+    pub fn and(self, other: Work) -> Work {
         Work {
             nodes: self.nodes.saturating_add(other.nodes),
             triangles: self.triangles.saturating_add(other.triangles),

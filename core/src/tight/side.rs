@@ -1,8 +1,7 @@
 //! How far a point is from a hull, and whether it is certainly outside.
 
 use crate::bvh::format::Bvh;
-use crate::bvh::{Side, closest_point, signed_distance};
-use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
+use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Side};
 
 /// Whether a point, given in input units, is outside of the box of all stored vertices. Exact but
 /// for points that f32 cannot tell from the box's planes in grid units: those are too near for a
@@ -17,20 +16,20 @@ pub(crate) fn is_outside_box(tree: &Bvh<'_>, point: [f32; 3]) -> bool {
     })
 }
 
-/// The hull's distance as `steps` and `stack` allow, and whether the point is certainly outside.
+/// The hull's distance as `steps` and `scratch` allow, and whether the point is certainly outside.
 pub(crate) fn seen_from(
     tree: &Bvh<'_>,
     point: [f32; 3],
     steps: u32,
-    stack: &mut [ScratchEntry],
+    scratch: &mut [ScratchEntry],
 ) -> Result<(ClosestPoint, bool), QueryError> {
-    let stop = Budget { steps, ..Budget::EXACT };
+    let budget = Budget::EXACT.with_steps(steps);
     if is_outside_box(tree, point) {
-        let near = closest_point(tree, point, &stop, stack)?;
+        let near = tree.closest_point(point, budget, scratch)?;
         // What was moved to be stored is no farther from where it was than a distance of 0 allows
         // for.
-        return Ok((near, near.lower > 0.0));
+        return Ok((near, near.distance.lower > 0.0));
     }
-    let signed = signed_distance(tree, point, &stop, stack)?;
+    let signed = tree.signed_distance(point, budget, scratch)?;
     Ok((signed.closest, signed.side == Side::Outside))
 }

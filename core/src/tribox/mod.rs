@@ -34,10 +34,9 @@ mod separation;
 mod snap;
 mod support;
 
-pub use crate::geom::Pose;
 pub use boundary::{Boundary, LOOP, Scalar, VERTICES, boundary};
 pub use bounds::{Tribox, TriboxError};
 pub use directions::{DIRECTIONS, FACES, SLABS};
-pub use distance::{Bound, BoundEntry, clip, distance};
-pub use format::Triboxes;
-pub use separation::{Candidates, NodePair, Reject, apart, candidates, stack_entries};
+pub use distance::Bound;
+pub use format::{TriboxLevel, Triboxes};
+pub use separation::{Candidates, NodePair, Separation};

@@ -39,7 +39,7 @@ fn size(v: [f32; 3]) -> f32 {
 
 /// Largest coordinate of what a hierarchy holds.
 fn reach(triboxes: &Triboxes<'_>) -> Result<f32, QueryError> {
-    let planes = triboxes.planes(0).ok_or(QueryError::Model)?;
+    let planes = triboxes.planes(0).ok_or(QueryError::Unchecked)?;
     Ok(planes
         .iter()
         .take(6)

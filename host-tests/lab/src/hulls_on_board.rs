@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use meshsweep::emit::{Parts, assemble};
 use meshsweep::tight::{ChainOptions, chain, cut};
 use meshsweep_core::{Model, TightHulls};
 use meshsweep_host_tests::blobs::expected;
@@ -20,10 +19,9 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
     let options =
         ChainOptions { faces: FACES.to_vec(), segments: false, ..ChainOptions::default() };
-    let count = subject.mesh.triangles.len();
     let (tables, _) =
-        chain(&subject.mesh, 0.0, count, &options, |_| {}).map_err(|error| error.to_string())?;
-    let all = assemble(&Parts { tight: Some(&tables), ..Parts::default() });
+        chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
+    let all = tables.to_bytes();
     let model = Model::open(&all).map_err(|error| error.to_string())?;
     let [board, ..] = BOARDS;
     let mut table = Table::new(
@@ -45,7 +43,7 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     for record in model.tight_hulls().iter().flat_map(TightHulls::records) {
         // The finest hull of a blob is the one that is asked.
         let tables = cut(&model, record.faces).ok_or("no tight hulls")?;
-        let hulls = assemble(&Parts { tight: Some(&tables), ..Parts::default() });
+        let hulls = tables.to_bytes();
         let opened = TightHulls::open(&hulls).map_err(|error| error.to_string())?;
         let hull = opened.finest().ok_or("no tight hulls")?;
         let bytes = hull.bytes().len() + 2 * record.faces as usize;

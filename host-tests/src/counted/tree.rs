@@ -3,8 +3,7 @@
 use std::hint::black_box;
 use std::path::Path;
 
-use meshsweep::emit;
-use meshsweep::tree::{TreeOptions, build};
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{
     Facing, PairEntry, ScratchEntry, closest_point, first_hit, is_within, overlap,
@@ -21,8 +20,14 @@ use crate::workload::{Points, Subject, points, segments};
 pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(Work, f64), String> {
     let (fixture, kind) = question.split_once(' ').ok_or("no fixture in the question")?;
     let subject = Subject::load(&fixtures.join(fixture))?;
-    let (tables, _) = build(&subject.mesh, 0.0, subject.triangles_read, &TreeOptions::default());
-    let bytes = emit::blob(None, Some(&tables));
+    let (tables, _) = build(
+        meshsweep::mesh::Input {
+            input_triangles: subject.triangles_read,
+            ..subject.mesh.as_input()
+        },
+        &TreeOptions::default(),
+    );
+    let bytes = tables.to_bytes();
     let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
     let header = *tree.header();
     let triangles = f64::from(header.triangles) / f64::from(header.leaves);

@@ -4,7 +4,7 @@ use super::input::Input;
 use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep_core::query::{
     Budget, ClosestPoint, Hit, QueryError, Search, all_hits, closest_point, first_hit, outer_hits,
 };
@@ -27,7 +27,7 @@ pub fn seeds() -> &'static [Vec<u8>] {
             blob(&groove_block(), VertexBits::Auto, 40),
         ];
         let whole = Model::open(&all[2]).expect("just built");
-        let cut = meshsweep::emit::cut(&whole, 1).expect("it has a second level").to_bytes();
+        let cut = meshsweep::cut::cut(&whole, 1).expect("it has a second level").to_bytes();
         all.push(cut);
         all
     })
@@ -36,7 +36,7 @@ pub fn seeds() -> &'static [Vec<u8>] {
 fn blob((positions, triangles): &Triangles, vertex_bits: VertexBits, base_faces: usize) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let options = BuildOptions { base_faces, vertex_bits, ..BuildOptions::default() };
-    build(&mesh, 0.0, mesh.triangles.len(), &options, |_| ()).expect("generated meshes build").bytes
+    build(mesh.as_input(), &options, |_| ()).expect("generated meshes build").bytes
 }
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened model gives out.

@@ -2,11 +2,11 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep::emit::{Parts, assemble};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::emit::assemble;
 use meshsweep::mesh::Mesh;
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep::tight::{ChainOptions, chain};
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::query::tight::{closest_point, is_within};
 use meshsweep_core::query::tree::{ScratchEntry, Verdict};
 use meshsweep_core::query::{Budget, Ended, QueryError};
@@ -43,10 +43,9 @@ fn blob(
     beside_a_tree: bool,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let all = mesh.triangles.len();
-    let (tables, _) = chain(&mesh, 0.0, all, options, |_| {}).expect("room around it");
-    let tree = beside_a_tree.then(|| build(&mesh, 0.0, all, &TreeOptions::default()).0);
-    assemble(&Parts { tree: tree.as_ref(), tight: Some(&tables), ..Parts::default() })
+    let (tables, _) = chain(mesh.as_input(), options, |_| {}).expect("room around it");
+    let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
+    assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 
 /// Looks at all hulls and asks each everything, at ordinary places and at hostile ones.

@@ -3,10 +3,10 @@
 use super::input::Input;
 use crate::corrupt::Asker;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit;
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::query::Budget;
 use meshsweep_core::query::tree::CoherentQuery;
 use meshsweep_core::tribox::Pose;
@@ -39,15 +39,14 @@ pub fn tree_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+    build(mesh.as_input(), options).0.to_bytes()
 }
 
 fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let coarse = BuildOptions { base_faces: 8, ..BuildOptions::default() };
-    let built =
-        hull::build(&mesh, 0.0, mesh.triangles.len(), &coarse, |_| ()).expect("a sphere has hulls");
-    emit::blob(Some(&built.tables), Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+    let built = hull::build(mesh.as_input(), &coarse, |_| ()).expect("a sphere has hulls");
+    emit::assemble([&built.tables.sections(), &build(mesh.as_input(), options).0])
 }
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened tree gives out.

@@ -2,9 +2,9 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep::emit::{Parts, assemble};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::emit::assemble;
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep::tribox::store;
 use meshsweep_core::query::tribox::{
     BoundEntry, NodePair, apart, candidates, clip, distance, stack_entries,
@@ -34,10 +34,9 @@ pub fn triboxes_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let all = mesh.triangles.len();
-    let (tables, _) = store(&mesh, 0.0, all, count).expect("in the domain");
-    let tree = beside_a_tree.then(|| build(&mesh, 0.0, all, &TreeOptions::default()).0);
-    assemble(&Parts { tree: tree.as_ref(), triboxes: Some(&tables), ..Parts::default() })
+    let (tables, _) = store(mesh.as_input(), count).expect("in the domain");
+    let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
+    assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 
 /// Looks at everything of two opened hierarchies and asks everything, at ordinary places and at

@@ -59,8 +59,12 @@ impl Subject {
     /// # Errors
     /// The builder's refusal.
     pub fn build_with(&self, options: &BuildOptions) -> Result<Built, String> {
-        build(&self.mesh, 0.0, self.triangles_read, options, |_| {})
-            .map_err(|error| error.to_string())
+        build(
+            meshsweep::mesh::Input { input_triangles: self.triangles_read, ..self.mesh.as_input() },
+            options,
+            |_| {},
+        )
+        .map_err(|error| error.to_string())
     }
 
     /// Diagonal of the mesh's box, input units.

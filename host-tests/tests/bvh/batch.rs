@@ -1,8 +1,7 @@
 //! A batch has the bits of its queries one at a time, whatever its order and however many threads.
 
-use meshsweep::emit;
+use meshsweep::bvh::{self, TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{self, TreeOptions, build};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{BatchError, Hint, ScratchEntry, closest_point, closest_points};
 use meshsweep_core::query::{Budget, ClosestPoint, QueryError};
@@ -11,7 +10,7 @@ use std::num::NonZeroUsize;
 
 fn blob((positions, triangles): &Triangles) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), &TreeOptions::default()).0))
+    build(mesh.as_input(), &TreeOptions::default()).0.to_bytes()
 }
 
 fn random(count: usize, size: f32) -> Vec<[f32; 3]> {
@@ -90,7 +89,7 @@ fn threads_do_not_change_a_bit() {
         let wanted = one_at_a_time(&tree, &points, &Budget::EXACT, &mut stack);
         for threads in [1, 2, 3, 7, 16] {
             let threads = NonZeroUsize::new(threads).unwrap();
-            let answers = tree::closest_points(&tree, &points, &Budget::EXACT, threads).unwrap();
+            let answers = bvh::closest_points(&tree, &points, &Budget::EXACT, threads).unwrap();
             assert_eq!(answers.len(), count);
             assert!(
                 answers.iter().zip(&wanted).all(|(answer, wanted)| bits(answer) == bits(wanted))
@@ -106,7 +105,7 @@ fn a_batch_in_order_takes_less_work() {
     let points = random(4000, 4.0);
     let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
     let one = one_at_a_time(&tree, &points, &Budget::EXACT, &mut stack);
-    let batch = tree::closest_points(&tree, &points, &Budget::EXACT, NonZeroUsize::MIN).unwrap();
+    let batch = bvh::closest_points(&tree, &points, &Budget::EXACT, NonZeroUsize::MIN).unwrap();
     let total =
         |answers: &[ClosestPoint]| answers.iter().map(|a| u64::from(a.work.total())).sum::<u64>();
     assert!(total(&batch) < total(&one), "{} against {}", total(&batch), total(&one));
@@ -146,7 +145,7 @@ fn errors_are_typed_and_name_the_query() {
     assert_eq!(ask(&points, 50, &Budget::EXACT, &mut stack), at(31, QueryError::NotFinite));
     for threads in [1, 2, 3, 50] {
         let threads = NonZeroUsize::new(threads).unwrap();
-        let refused = tree::closest_points(&tree, &points, &Budget::EXACT, threads);
+        let refused = bvh::closest_points(&tree, &points, &Budget::EXACT, threads);
         assert_eq!(refused.map(|a| a.len()), at(31, QueryError::NotFinite).map(|()| 0));
     }
 }

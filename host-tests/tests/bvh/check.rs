@@ -1,9 +1,8 @@
 //! The independent checker proves box trees that the builder wrote, and does not prove what was
 //! damaged afterwards.
 
-use meshsweep::emit;
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep_host_tests::check::{TreeProof, check_tree};
 use meshsweep_host_tests::corrupt::{Entry, entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::{
@@ -21,8 +20,8 @@ const SOURCE: u32 = 17;
 
 fn scene((positions, triangles): Triangles, options: &TreeOptions) -> (Vec<u8>, Mesh) {
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build(&mesh, 0.0, mesh.triangles.len(), options);
-    (emit::blob(None, Some(&tables)), mesh)
+    let (tables, _) = build(mesh.as_input(), options);
+    (tables.to_bytes(), mesh)
 }
 
 fn kinds() -> [TreeOptions; 4] {

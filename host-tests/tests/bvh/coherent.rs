@@ -1,9 +1,8 @@
 //! A session answers with the bits of the plain query, wherever the query goes, and its safe radius
 //! is safe.
 
-use meshsweep::emit;
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{CoherentClosest, CoherentQuery, ScratchEntry, closest_point};
 use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError};
@@ -16,7 +15,7 @@ use meshsweep_host_tests::oracle::rough_distance_sq;
 fn blob((positions, triangles): &Triangles, single: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let options = TreeOptions { segments: false, single, ..TreeOptions::default() };
-    emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), &options).0))
+    build(mesh.as_input(), &options).0.to_bytes()
 }
 
 fn stack(tree: &Bvh<'_>) -> Vec<ScratchEntry> {

@@ -1,9 +1,8 @@
 //! No triangle that faces the eye is ever culled: against every triangle, in f64, but for triangles
 //! within 1e-15 of edge-on.
 
-use meshsweep::emit;
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::QueryError;
 use meshsweep_core::query::tree::{FrontFacing, Sight, front_facing};
@@ -14,7 +13,7 @@ use meshsweep_host_tests::generate::{
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+    build(mesh.as_input(), options).0.to_bytes()
 }
 
 fn culling(single: bool) -> TreeOptions {

@@ -1,7 +1,7 @@
 //! Opening bytes: whatever is wrong is a typed error, and whatever opens is safe to ask.
 
 use super::scenes::options;
-use meshsweep::emit::cut;
+use meshsweep::cut::cut;
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::query::{Budget, Ended, Hit, all_hits, closest_point, first_hit};
 use meshsweep_core::refine::hull_faces;

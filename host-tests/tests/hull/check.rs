@@ -3,9 +3,9 @@
 
 use super::scenes::{all, options};
 use meshsweep::collapse::Priority;
-use meshsweep::emit::cut;
+use meshsweep::cut::cut;
 use meshsweep::hull::BuildOptions;
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep_core::Model;
 use meshsweep_host_tests::check::{Blob, check_blob, side};
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, swap_entries, word};

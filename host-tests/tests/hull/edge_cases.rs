@@ -1,10 +1,10 @@
 //! Corners of the domain, each once a defect.
 
 use super::scenes::options;
-use meshsweep::emit::cut;
+use meshsweep::cut::cut;
 use meshsweep::hull::{BuildError, build};
 use meshsweep::mesh::{RawMesh, repair};
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep_core::query::{Budget, Ended, Search, closest_point, outer_hits};
 use meshsweep_core::refine::{Face, RefinedHull};
 use meshsweep_core::{Model, QueueEntry};
@@ -53,7 +53,7 @@ fn a_hull_of_a_moved_surface_is_never_called_clear_by_its_box() {
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("sound");
     let low = mesh.positions.iter().map(|p| p[0]).fold(f32::INFINITY, f32::min);
     let chosen = meshsweep::hull::BuildOptions { vertex_bits: VertexBits::Grid16, ..options(12) };
-    let built = build(&mesh, 0.0, triangles.len(), &chosen, |_| ()).expect("builds");
+    let built = build(mesh.as_input(), &chosen, |_| ()).expect("builds");
     let model = Model::open(&built.bytes).expect("opens");
     assert!(model.header().surface_error > 0.0);
     let words = model.capacities().front_words.max(1);
@@ -82,7 +82,7 @@ fn a_mesh_that_is_mostly_inside_out_is_refused_by_name() {
         triangles.extend([[i, j, 4 + j], [i, 4 + j, 4 + i]]);
     }
     let (mesh, _) = repair(RawMesh::from_f32(&positions, &triangles)).expect("sound");
-    match build(&mesh, 0.0, triangles.len(), &options(8), |_| ()) {
+    match build(mesh.as_input(), &options(8), |_| ()) {
         Err(error @ BuildError::NotPositive { .. }) => {
             assert!(error.to_string().contains("inside out"))
         }

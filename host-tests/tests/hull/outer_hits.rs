@@ -224,7 +224,7 @@ fn a_start_inside_the_hulls_box_is_said_and_nothing_is_promised() {
 
 #[test]
 fn a_moved_surface_gets_no_wrong_clear() {
-    let vertex_bits = meshsweep::precision::VertexBits::Grid16;
+    let vertex_bits = meshsweep::surface::VertexBits::Grid16;
     let options = meshsweep::hull::BuildOptions { vertex_bits, ..options(40) };
     let scene = Scene::hull("rough sphere", rough_sphere(2, 0.2, 7), &options);
     let model = scene.model();

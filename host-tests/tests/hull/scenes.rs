@@ -1,7 +1,7 @@
 //! Closed meshes with their hull hierarchies.
 
 use meshsweep::hull::BuildOptions;
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{
     Triangles, bracket, cube, groove_block, needle_comb, rough_sphere, scaled, torus, transformed,

@@ -6,10 +6,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use meshsweep::hull::{BuildOptions, hull_of};
-use meshsweep::mesh::{Mesh, RawMesh, read_bytes, repair};
-use meshsweep::wrap::{
-    Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, share, wrap, wrap_all,
-};
+use meshsweep::mesh::{Mesh, RawMesh, Wire, read_bytes, repair};
+use meshsweep::wrap::{Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, parts, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
@@ -187,7 +185,7 @@ fn triangles_of_any_kind_have_a_hull() {
     let triangles = (0..16).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let mesh = mesh_of(&(positions, triangles));
     let hull = proved("soup", &mesh, &options(100));
-    assert!(matches!(hull.report.start, Start::Closure { .. }), "{:?}", hull.report);
+    assert!(matches!(hull.report.start, Start::VoxelClosure { .. }), "{:?}", hull.report);
     assert!(matches!(hull.report.void, Err(NoVolume::Open { edges: 48, .. })));
     let (positions, mut triangles) = torus(1.0, 0.3, 40, 20);
     triangles.truncate(1000);
@@ -199,35 +197,33 @@ fn triangles_of_any_kind_have_a_hull() {
 }
 
 #[test]
-fn triangles_without_area_are_enclosed_with_the_mesh() {
-    let mesh = mesh_of(&cube(2));
+fn wires_are_enclosed_with_the_mesh() {
+    let mut mesh = mesh_of(&cube(2));
     // A segment in the surface, one across it, one that stands out, a point beside, and one inside.
-    let further = [
-        [[-1.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0]],
-        [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5], [0.0, 0.0, 1.5]],
-        [[1.0, 1.0, 1.0], [2.0, 2.0, 1.0], [1.5, 1.5, 1.0]],
-        [[-2.0, 0.1, 0.2]; 3],
-        [[0.1, 0.2, 0.3]; 3],
+    let wires = [
+        [[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0]],
+        [[0.0, 0.0, 0.0], [0.0, 0.0, 1.5]],
+        [[1.0, 1.0, 1.0], [2.0, 2.0, 1.0]],
+        [[-2.0, 0.1, 0.2]; 2],
+        [[0.1, 0.2, 0.3]; 2],
     ];
-    let (mut positions, mut triangles) = (mesh.positions.clone(), mesh.triangles.clone());
-    for (i, corners) in further.iter().enumerate() {
-        triangles.push([0, 1, 2].map(|k| (mesh.positions.len() + 3 * i + k) as u32));
-        positions.extend(corners);
+    for (source, ends) in (48..).zip(wires) {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(ends);
+        mesh.wires.push(Wire { ends: [first, first + 1], source });
     }
-    let all = Surface::new(&positions, &triangles);
+    let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
+    let all = Surface::new(&mesh.positions, &triangles);
     for margin in [0.0, 0.1] {
         let options = Options { margin, ..options(100) };
-        let hull = wrap_all(&mesh, &further, &options, |_| {}).unwrap();
+        let hull = wrap(&mesh, &options, |_| {}).unwrap();
         check_margin(&all, &Surface::new(&hull.mesh.positions, &hull.mesh.triangles), margin)
             .unwrap();
         assert!(hull.report.void.is_ok(), "the mesh is still a solid");
-        let parts = share(vec![mesh.clone()], &further);
-        assert_eq!(
-            parts.iter().map(|(m, f)| [m.triangles.len(), f.len()]).collect::<Vec<_>>()[0],
-            [48, 2]
-        );
-        assert_eq!(parts.len(), 4, "three are at no vertex of the mesh");
     }
+    let counts: Vec<_> =
+        parts(&mesh).iter().map(|part| [part.triangles.len(), part.wires.len()]).collect();
+    assert_eq!(counts, [[48, 2], [0, 1], [0, 1], [0, 1]], "three are at no vertex of the cube");
 }
 
 #[test]

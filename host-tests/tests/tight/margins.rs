@@ -27,7 +27,6 @@ fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
     let proof = check_margin(&surface(mesh), &surface(&hull.mesh), options.margin)
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(proof.inside, mesh.positions.len(), "{name}");
-    assert_eq!(hull.report.margin, options.margin, "{name}");
     assert!(hull.report.slack.upper > options.margin, "{name}");
     hull
 }

@@ -1,6 +1,6 @@
 //! Reading a blob file and opening what it holds.
 
-use super::failure::Failure;
+use crate::failure::Failure;
 use meshsweep_core::{Bvh, Model};
 use std::path::Path;
 

@@ -1,21 +1,20 @@
-//! `meshsweep closest`: query points in, intervals and closest points out.
+//! `meshsweep closest`: points in, intervals and closest points out.
 
-use super::args::{ClosestArgs, ClosestEngine};
-use super::blob_file;
-use super::csv::Short;
-use super::failure::Failure;
-use super::output::{Output, refuse_same_file};
-use super::queries::Queries;
-use super::served::{self, Need};
-use super::stop::Tally;
-use super::threads;
-use meshsweep_core::query::tight;
-use meshsweep_core::query::tree::{BatchError, Hint, closest_points};
-use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Work, closest_point};
+use crate::args::{self, ClosestArgs, SearchArgs, files};
+use crate::ask::threads::Refused;
+use crate::ask::{self, Question, write_end, write_numbers};
+use crate::failure::Failure;
+use crate::need::Need;
+use crate::output::refuse_same_file;
+use crate::queries::Queries;
+use crate::{blob_file, served};
+use meshsweep_core::query::tree::{BatchError, Hint, ScratchEntry, closest_points};
+use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError, Work, closest_point, tight};
+use meshsweep_core::{Bvh, Model, QueueEntry, TightHull};
 use std::io::{self, Write};
 
-/// Queries that are sorted at once: enough for neighbours to be near, and for all threads to have
-/// some.
+/// Points that the box tree sorts and answers at once: enough for neighbours to be near, and for
+/// all threads to have some.
 const BATCH: usize = 1 << 14;
 
 const UNANSWERED: ClosestPoint = ClosestPoint {
@@ -27,94 +26,132 @@ const UNANSWERED: ClosestPoint = ClosestPoint {
     ended: Ended::Steps,
 };
 
-const HEADER: &str = "x,y,z,lower,upper,px,py,pz,triangle,work";
-
 pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let blob = &args.input.blob;
-    let output = args.search.output.as_deref();
-    if let Some(output) = output {
-        refuse_same_file(output, &args.input.files())?;
-    }
+    refuse_same_file(args.search.output.as_deref(), &files(&[blob], &args.input.points))?;
     let bytes = blob_file::read(blob)?;
     let model = blob_file::open(blob, &bytes)?;
-    let tree_chosen = args.engine.map(|engine| engine == ClosestEngine::Tree);
+    let tree_chosen = args.engine.map(|engine| engine == args::Engine::Tree);
     let hull = match tree_chosen {
         Some(_) => None,
         None => served::tight_hull(blob, &model, args.tight)?,
     };
-    let tree = match hull {
-        Some(_) => None,
-        None => served::choose(blob, &model, Need::Distances, tree_chosen)?,
+    let engine = match hull {
+        Some(hull) => Engine::Tight(hull),
+        None => match served::choose(blob, &model, Need::Distances, tree_chosen)? {
+            Some(tree) => Engine::Tree(tree),
+            None => Engine::Cover(&model),
+        },
     };
-    let mut points = Queries::points(&args.input.points)?;
-    let output = Output::file_or_stdout(output)?;
-    let stop = args.search.stop(args.rel, args.abs);
-    let asked = match (hull, tree) {
-        (Some(hull), _) => threads::ask(&points, args.search.threads, || {
-            let mut stack = args.search.stack(hull.tree());
-            move |_, point, answers: &mut Vec<ClosestPoint>| {
-                let answer = tight::closest_point(&hull, point, &stop, &mut stack)?;
-                answers.push(answer);
-                Ok((answer.ended, answer.work))
-            }
-        }),
-        (None, Some(tree)) => threads::ask_batches(&points, args.search.threads, BATCH, || {
-            let mut stack = args.search.stack(&tree);
-            let mut order = vec![0; 2 * BATCH.min(points.rows.len())];
-            move |first, rows: &[[f32; 3]], answers: &mut Vec<ClosestPoint>, tally: &mut Tally| {
-                answers.resize(rows.len(), UNANSWERED);
-                // From nowhere, so that the work does not depend on which thread took the batch
-                // before.
-                let mut hint = Hint::NONE;
-                let done =
-                    closest_points(&tree, rows, answers, &stop, &mut stack, &mut order, &mut hint);
-                if done.is_err() {
-                    // A batch is not answered in its order.
-                    answers.clear();
-                }
-                answers.iter().for_each(|answer| tally.count(answer.ended, answer.work));
-                done.map_err(|error| refused(first, error))
-            }
-        }),
-        (None, None) => threads::ask(&points, args.search.threads, || {
-            let mut queue = args.search.queue(&model);
-            let model = &model;
-            move |_, point, answers: &mut Vec<ClosestPoint>| {
-                let answer = closest_point(model, point, &stop, &mut queue)?;
-                answers.push(answer);
-                Ok((answer.ended, answer.work))
-            }
-        }),
-    };
-    let stopped = points.stopped(asked.refused);
-    output.finish_until(stopped, |out| {
-        writeln!(out, "{HEADER}")?;
-        points
-            .rows
-            .iter()
-            .zip(&asked.answers)
-            .try_for_each(|(point, answer)| write_row(out, point, answer))
-    })?;
-    args.search.note(&asked, hull.is_some());
-    Ok(())
+    let queries = Queries::read(&args.input.points)?;
+    let points = queries.rows.len();
+    let budget = args.search.budget(args.rel, args.abs);
+    ask::run(&Closest { engine, budget, search: &args.search, points }, queries, &args.search)
 }
 
-fn refused(first: usize, error: BatchError) -> (usize, QueryError) {
-    match error {
-        BatchError::Query { index, error } => (first + index, error),
-        // There is a place for each.
-        BatchError::Length { .. } => (first, QueryError::Model),
-    }
+enum Engine<'a> {
+    Tree(Bvh<'a>),
+    Cover(&'a Model<'a>),
+    Tight(TightHull<'a>),
 }
 
-fn write_row(out: &mut dyn Write, [x, y, z]: &[f32; 3], answer: &ClosestPoint) -> io::Result<()> {
-    let ClosestPoint { lower, upper, point: [px, py, pz], triangle, work, .. } = answer;
-    for number in [x, y, z, lower, upper, px, py, pz] {
-        write!(out, "{},", Short(*number))?;
+struct Closest<'a> {
+    engine: Engine<'a>,
+    budget: Budget,
+    search: &'a SearchArgs,
+    /// Number of queries.
+    points: usize,
+}
+
+struct Memory {
+    stack: Vec<ScratchEntry>,
+    queue: Vec<QueueEntry>,
+    order: Vec<u64>,
+}
+
+impl Question<3> for Closest<'_> {
+    type Answer = ClosestPoint;
+    type Memory = Memory;
+
+    fn header(&self) -> &'static str {
+        "x,y,z,lower,upper,px,py,pz,triangle,work"
     }
-    // A cut blob and a tight hull know no triangles of the file.
-    if let Some(triangle) = triangle {
-        write!(out, "{triangle}")?;
+
+    fn memory(&self) -> Memory {
+        let mut memory = Memory { stack: Vec::new(), queue: Vec::new(), order: Vec::new() };
+        match &self.engine {
+            Engine::Tree(tree) => {
+                memory.stack = self.search.stack(tree);
+                memory.order = vec![0; 2 * BATCH.min(self.points)];
+            }
+            Engine::Cover(model) => memory.queue = self.search.queue(model),
+            Engine::Tight(hull) => memory.stack = self.search.stack(hull.tree()),
+        }
+        memory
     }
-    writeln!(out, ",{}", work.total())
+
+    fn ask(&self, point: [f32; 3], memory: &mut Memory) -> Result<ClosestPoint, QueryError> {
+        match &self.engine {
+            Engine::Cover(model) => closest_point(model, point, &self.budget, &mut memory.queue),
+            Engine::Tight(hull) => {
+                tight::closest_point(hull, point, &self.budget, &mut memory.stack)
+            }
+            Engine::Tree(tree) => meshsweep_core::query::tree::closest_point(
+                tree,
+                point,
+                &self.budget,
+                &mut memory.stack,
+            ),
+        }
+    }
+
+    fn outcome(answer: &ClosestPoint) -> (Ended, Work) {
+        (answer.ended, answer.work)
+    }
+
+    fn at_once(&self) -> usize {
+        if matches!(self.engine, Engine::Tree(_)) { BATCH } else { ask::AT_ONCE }
+    }
+
+    fn ask_many(
+        &self,
+        first: usize,
+        rows: &[[f32; 3]],
+        memory: &mut Memory,
+        answers: &mut Vec<ClosestPoint>,
+    ) -> Result<(), Refused> {
+        let Engine::Tree(tree) = &self.engine else {
+            return ask::each(self, first, rows, memory, answers);
+        };
+        answers.resize(rows.len(), UNANSWERED);
+        let Memory { stack, order, .. } = memory;
+        // Without a hint: so the work does not depend on the batch before.
+        let mut hint = Hint::NONE;
+        let done = closest_points(tree, rows, answers, &self.budget, stack, order, &mut hint);
+        done.map_err(|error| {
+            // A batch is not answered in its order.
+            answers.clear();
+            match error {
+                BatchError::Query { index, error } => (first + index, error),
+                // There is a place for each answer.
+                BatchError::Length { .. } => (first, QueryError::Model),
+            }
+        })
+    }
+
+    fn is_by_hull(&self) -> bool {
+        matches!(self.engine, Engine::Tight(_))
+    }
+
+    fn write(
+        &self,
+        out: &mut dyn Write,
+        _: usize,
+        [x, y, z]: &[f32; 3],
+        answer: &ClosestPoint,
+    ) -> io::Result<()> {
+        let ClosestPoint { lower, upper, point: [px, py, pz], triangle, work, .. } = *answer;
+        write_numbers(out, &[*x, *y, *z, lower, upper, px, py, pz])?;
+        write_end(out, triangle, work)
+    }
 }

@@ -1,19 +1,18 @@
-//! `meshsweep cull`: which triangles may face the eye.
+//! `meshsweep cull`: the triangles that may face the eye.
 
-use super::args::CullArgs;
-use super::blob_file;
-use super::counted::Counted;
-use super::failure::Failure;
-use super::output::{Output, refuse_same_file};
-use super::served::{self, Need};
+use crate::args::CullArgs;
+use crate::blob_file;
+use crate::failure::Failure;
+use crate::need::Need;
+use crate::output::{Output, refuse_same_file};
+use crate::served;
+use meshsweep::counted::Counted;
 use meshsweep_core::query::tree::front_facing;
 use std::io::Write;
 
 pub fn run(args: &CullArgs) -> Result<(), Failure> {
     let output = args.output.as_deref();
-    if let Some(output) = output {
-        refuse_same_file(output, &[&args.blob])?;
-    }
+    refuse_same_file(output, &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
     let tree = served::require_tree(&args.blob, &model, Need::Culling)?;
@@ -27,7 +26,7 @@ pub fn run(args: &CullArgs) -> Result<(), Failure> {
         writeln!(out, "triangle")?;
         triangles.iter().try_for_each(|triangle| writeln!(out, "{triangle}"))
     })?;
-    // A standard error that is closed is no reason to withhold the answers.
+    // A closed standard error does not withhold the answers.
     let _ = writeln!(
         std::io::stderr(),
         "{} of {} certainly show their backs, {} of {} whole; the others are listed",

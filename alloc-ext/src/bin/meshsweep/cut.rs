@@ -1,16 +1,16 @@
-//! `meshsweep cut`: a coarser blob out of a finer one. A box tree knows the whole surface or none,
-//! so it is left out.
+//! `meshsweep cut`: a coarser blob from a finer one. A box tree holds all of the surface or
+//! nothing, so it is left out beside a cut hull hierarchy.
 
-use super::args::CutArgs;
-use super::counted::Counted;
-use super::failure::Failure;
-use super::output::{Output, refuse_same_file};
-use super::{blob_file, served};
-use meshsweep::emit::{self, Keep};
+use crate::args::CutArgs;
+use crate::failure::Failure;
+use crate::output::{Output, refuse_same_file};
+use crate::{blob_file, served};
+use meshsweep::counted::Counted;
+use meshsweep::cut::Keep;
 use meshsweep_core::Model;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {
-    refuse_same_file(&args.output, &[&args.blob])?;
+    refuse_same_file(Some(&args.output), &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
     let model = blob_file::open(&args.blob, &bytes)?;
     if args.level.is_some() {
@@ -20,9 +20,9 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         served::require_tight(&args.blob, &model, faces)?;
     }
     let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
-    let cut = emit::cut_blob(&model, &keep)
+    let cut = meshsweep::cut::cut_blob(&model, &keep)
         .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
-    // What does not open must not be handed out.
+    // A blob that does not open must not be written.
     let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
     Output::stdout().finish(|out| {

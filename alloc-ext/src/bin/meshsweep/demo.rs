@@ -1,18 +1,18 @@
-//! `meshsweep` without a command: what it does, shown on a part that is built in.
+//! `meshsweep` without a command: a demonstration on a built-in part.
 
-use super::failure::{Failure, Place};
-use super::output::Output;
-use super::signed::name;
-use super::{blob_file, describe};
-use meshsweep::tree::{self, TreeOptions};
-use meshsweep::{emit, mesh};
+use crate::failure::{Failure, Place};
+use crate::output::Output;
+use crate::signed::name;
+use crate::{blob_file, describe};
+use meshsweep::bvh::{self, TreeOptions};
+use meshsweep::mesh;
 use meshsweep_core::query::tree::{
     Facing, ScratchEntry, closest_point, first_hit, signed_distance,
 };
 use meshsweep_core::query::{Budget, Ended};
 use std::path::Path;
 
-/// A copy of `fixtures/bracket.stl`, which a package would not contain.
+/// A copy of `fixtures/bracket.stl`, because a package holds no file outside of its folder.
 const BRACKET: &[u8] = include_bytes!("demo/bracket.stl");
 
 pub fn run() -> Result<(), Failure> {
@@ -21,8 +21,8 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = tree::build(&mesh, 0.0, triangles, &TreeOptions::default());
-    let bytes = emit::blob(None, Some(&tables));
+    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default());
+    let bytes = tables.to_bytes();
     let tree = blob_file::open_tree(file, &bytes)?;
     let entries = tree.header().stack_entries as usize;
     let mut stack = vec![ScratchEntry::EMPTY; entries];
@@ -33,15 +33,23 @@ pub fn run() -> Result<(), Failure> {
     let (from, to) = ([20.0, 10.0, 90.0], [20.0, 10.0, -90.0]);
     let segment = first_hit(&tree, from, to, &Facing::Both, &mut stack).map_err(place)?;
     Output::stdout().finish(|out| {
-        writeln!(out, "meshsweep answers questions about triangle meshes: distances, hits, signs, outer hulls.")?;
-        writeln!(out, "Every answer is an interval that contains the truth; a blob is read in place, without a heap.")?;
         writeln!(
             out,
-            "Built in: a bracket of {triangles} triangles. Its box tree: a blob of {} bytes, {:.1} a triangle; a query needs {} \
-             bytes of RAM.",
+            "meshsweep answers questions about triangle meshes: distances, hits, signs, \
+            outer hulls."
+        )?;
+        writeln!(
+            out,
+            "Every answer is an interval that contains the truth; a blob is read in \
+            place, without a heap."
+        )?;
+        writeln!(
+            out,
+            "Built in: a bracket of {triangles} triangles. Its box tree: a blob of {} bytes, \
+             {:.1} a triangle; a query needs {} bytes of RAM.",
             bytes.len(),
             bytes.len() as f64 / triangles as f64,
-            describe::stack_bytes(&tree)
+            describe::tree::stack_bytes(&tree)
         )?;
         writeln!(
             out,
@@ -72,8 +80,7 @@ pub fn run() -> Result<(), Failure> {
     })
 }
 
-/// How the program is called: by `cargo run`, which says so in the environment, or by the name that
-/// it was called by now.
+/// The words that call the program: `cargo run`, which sets a variable, or the program's name.
 fn program() -> String {
     if std::env::var_os("CARGO_MANIFEST_DIR").is_some() {
         return "cargo run --release --".to_owned();

@@ -1,10 +1,11 @@
-//! Which questions a blob answers, and by which of its hierarchies.
+//! Which questions a blob answers, and by which of its structures.
 
-use super::failure::Failure;
+use crate::failure::Failure;
+use crate::need::Need;
 use meshsweep_core::{Bvh, Model, TightHull};
 use std::path::Path;
 
-/// Names of the questions that `model` serves, as the commands are called.
+/// The questions that `model` serves, by the names of the commands.
 pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
     let tree = model.tree();
     let tree = tree.as_ref();
@@ -30,7 +31,7 @@ pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
     .collect()
 }
 
-/// The same for people: what `model` serves in part only says so.
+/// The same for people. A question that `model` serves in part is marked.
 pub fn listed(model: &Model<'_>) -> String {
     let knows_triangles = tree(model, Need::Distances).is_some();
     let said = |question| match question {
@@ -40,46 +41,9 @@ pub fn listed(model: &Model<'_>) -> String {
     questions(model).into_iter().map(said).collect::<Vec<_>>().join(", ")
 }
 
-/// A refusal of what `model` does not serve, which says what it does.
+/// The refusal of a question that `model` does not serve. It lists the served ones.
 fn not_served(file: &Path, model: &Model<'_>, need: Need, other: Option<&'static str>) -> Failure {
     Failure::NotServed { file: file.to_owned(), need, other, served: listed(model) }
-}
-
-/// What a question needs of a blob.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Need {
-    Distances,
-    Segments,
-    Culling,
-    Hull,
-    Tight,
-    TightDistances,
-}
-
-impl Need {
-    /// The part of the blob.
-    pub fn part(self) -> &'static str {
-        match self {
-            Need::Distances => "box tree for distances",
-            Need::Segments => "box tree for segments",
-            Need::Culling => "box tree with normal cones",
-            Need::Hull => "hull hierarchy",
-            Need::Tight => "tight hulls",
-            Need::TightDistances => "tight hull for distances",
-        }
-    }
-
-    /// What `build --for` has to be given.
-    pub fn option(self) -> &'static str {
-        match self {
-            Need::Distances => "closest",
-            Need::Segments => "segment",
-            Need::Culling => "cull",
-            Need::Hull => "hull",
-            Need::Tight => "tight",
-            Need::TightDistances => "tight --tight-for closest",
-        }
-    }
 }
 
 /// The blob's tree, if it serves `need`.
@@ -101,8 +65,8 @@ fn finest_tight<'a>(model: &Model<'a>) -> Option<TightHull<'a>> {
     model.tight_hulls()?.finest()
 }
 
-/// The finest tight hull of at most so many faces. Where nothing is said of faces, the finest of
-/// all if nothing else in the blob knows distances.
+/// The finest tight hull of at most so many faces. Without a number of faces: the finest of all, if
+/// no other structure of the blob knows distances.
 pub fn tight_hull<'a>(
     file: &Path,
     model: &Model<'a>,
@@ -144,12 +108,12 @@ pub fn require_tight<'a>(
     hulls.get(index as u32).ok_or_else(refuse)
 }
 
-/// That the blob has a hull hierarchy.
+/// Refuses a blob without a hull hierarchy.
 pub fn require_hull(file: &Path, model: &Model<'_>) -> Result<(), Failure> {
     if model.has_hull() { Ok(()) } else { Err(not_served(file, model, Need::Hull, None)) }
 }
 
-/// The tree, or `None` for the hull hierarchy: what `--engine` chooses, else the tree where the
+/// The tree, or `None` for the hull hierarchy: the choice of `--engine`, or else the tree if the
 /// blob has one.
 pub fn choose<'a>(
     file: &Path,

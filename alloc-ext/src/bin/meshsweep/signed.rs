@@ -1,17 +1,35 @@
 //! `meshsweep signed`: on which side points are, and how far from the surface.
 
-use super::args::SignedArgs;
-use super::csv::Short;
-use super::failure::Failure;
-use super::points::{self, Question};
+use crate::args::{SearchArgs, SignedArgs, files};
+use crate::ask::{self, Question, write_end, write_numbers};
+use crate::failure::Failure;
+use crate::need::Need;
+use crate::output::refuse_same_file;
+use crate::queries::Queries;
+use crate::{blob_file, served};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{ScratchEntry, Side, SignedDistance, signed_distance};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError, Work};
+use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Work};
 use std::io::{self, Write};
-use std::path::Path;
 
 pub fn run(args: &SignedArgs) -> Result<(), Failure> {
-    points::run(&args.input, &args.search, &Signed)
+    let blob = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[blob], &args.input.points))?;
+    let bytes = blob_file::read(blob)?;
+    let model = blob_file::open(blob, &bytes)?;
+    let tree = served::require_tree(blob, &model, Need::Distances)?;
+    let points = Queries::read(&args.input.points)?;
+    ask::run(&Signed { tree, search: &args.search }, points, &args.search)?;
+    if !tree.header().is_closed() {
+        // A closed standard error does not withhold the answers.
+        let _ = writeln!(
+            io::stderr(),
+            "{}: was built from a mesh that is not closed, so every side is undefined; distances \
+             are not",
+            blob.display()
+        );
+    }
+    Ok(())
 }
 
 /// The side in a word.
@@ -22,9 +40,6 @@ pub fn name(side: Side) -> &'static str {
         Side::Undefined => "undefined",
     }
 }
-
-#[derive(Clone)]
-struct Signed;
 
 /// Why a side is undefined.
 pub fn reason(tree: &Bvh<'_>, answer: &SignedDistance) -> &'static str {
@@ -39,55 +54,43 @@ pub fn reason(tree: &Bvh<'_>, answer: &SignedDistance) -> &'static str {
     }
 }
 
-impl Question for Signed {
-    type Answer = (SignedDistance, &'static str);
+struct Signed<'a> {
+    tree: Bvh<'a>,
+    search: &'a SearchArgs,
+}
+
+impl Question<3> for Signed<'_> {
+    type Answer = SignedDistance;
+    type Memory = Vec<ScratchEntry>;
 
     fn header(&self) -> &'static str {
         "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work"
     }
 
-    fn ask(
-        &mut self,
-        tree: &Bvh<'_>,
-        point: [f32; 3],
-        stop: &Budget,
-        stack: &mut [ScratchEntry],
-    ) -> Result<Self::Answer, QueryError> {
-        let answer = signed_distance(tree, point, stop, stack)?;
-        Ok((answer, reason(tree, &answer)))
+    fn memory(&self) -> Self::Memory {
+        self.search.stack(&self.tree)
     }
 
-    fn outcome((answer, _): &Self::Answer) -> (Ended, Work) {
+    fn ask(&self, point: [f32; 3], stack: &mut Self::Memory) -> Result<SignedDistance, QueryError> {
+        signed_distance(&self.tree, point, &self.search.budget(0.0, 0.0), stack)
+    }
+
+    fn outcome(answer: &SignedDistance) -> (Ended, Work) {
         (answer.closest.ended, answer.closest.work)
-    }
-
-    fn remark(&self, blob: &Path, tree: &Bvh<'_>) {
-        if !tree.header().is_closed() {
-            // A standard error that is closed is no reason to withhold the answers.
-            let _ = writeln!(
-                io::stderr(),
-                "{}: was built from a mesh that is not closed, so every side is undefined; distances are not",
-                blob.display()
-            );
-        }
     }
 
     fn write(
         &self,
         out: &mut dyn Write,
         _: usize,
-        [x, y, z]: &[f32; 3],
-        (answer, reason): &Self::Answer,
+        point: &[f32; 3],
+        answer: &SignedDistance,
     ) -> io::Result<()> {
         let SignedDistance { lower, upper, side, closest } = answer;
         let [px, py, pz] = closest.point;
-        write!(out, "{},{},{},{},{reason},", Short(*x), Short(*y), Short(*z), name(*side))?;
-        for number in [lower, upper, &px, &py, &pz] {
-            write!(out, "{},", Short(*number))?;
-        }
-        if let Some(triangle) = closest.triangle {
-            write!(out, "{triangle}")?;
-        }
-        writeln!(out, ",{}", closest.work.total())
+        write_numbers(out, point)?;
+        write!(out, "{},{},", name(*side), reason(&self.tree, answer))?;
+        write_numbers(out, &[*lower, *upper, px, py, pz])?;
+        write_end(out, closest.triangle, closest.work)
     }
 }

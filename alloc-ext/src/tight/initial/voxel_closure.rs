@@ -1,112 +1,112 @@
-//! A closed surface around any triangles, open, crossing or loose: what a grid of cubes can tell
-//! from the outside.
+//! The voxel closure: a closed surface around any triangles, open, crossing or loose.
 //!
-//! 1. A cube that a triangle reaches, or might by rounding, is *met*; its eight corners are inside.
-//! 2. The corners that the border reaches along edges of the grid without passing one that is
-//!    inside are outside. All others are inside: what the triangles cut off from the border is
-//!    filled.
-//! 3. The surface between inside and outside, by marching tetrahedra: each cube is cut into six
-//!    that share a diagonal (Kuhn), and every edge with two different ends is cut in its middle.
+//! 1. A voxel that a triangle meets, or might by rounding, is *met*. Its eight corners are inside.
+//! 2. Corners that the border of the grid reaches along grid edges, without passing a corner that
+//!    is inside, are outside. All others are inside: regions that the triangles cut off from the
+//!    border are filled.
+//! 3. Marching tetrahedra make the surface between inside and outside. Each voxel is cut into six
+//!    tetrahedra that share a diagonal (Kuhn), and every edge with two different ends is cut in its
+//!    middle.
 //!
-//! The surface is a closed manifold for any choice of corners, for it is a level set in a
-//! simplicial complex, and has no point in common with itself but its own edges, as each piece lies
-//! in its own tetrahedron. It lies in cubes that are not met, so it does not meet the triangles. It
-//! is nowhere farther from them than three diagonals of a cube, but where it closes a hole that no
+//! The surface is a closed manifold for any choice of corners, because it is a level set in a
+//! simplicial complex. It does not meet itself, because each of its triangles lies in one
+//! tetrahedron. It lies in voxels that are not met, so it does not meet the mesh. It is nowhere
+//! farther from the mesh than three diagonals of a voxel, except where it closes a hole that no
 //! corner can be reached through.
 //!
-//! With a margin, corners are inside where the mesh is no farther than that, and some more for what
-//! triangles cut off a ball; edges are cut where the distance is that, not in their middle. The
-//! surface is then near all that has to be enclosed, if cubes are small beside the margin; it is a
-//! hull only if it proves to be.
+//! With a margin, corners are inside where the distance to the mesh is at most the margin, plus an
+//! allowance for the volume that triangles cut off a ball. Edges are cut at that distance, not in
+//! their middle. The surface is then close to all that has to be enclosed, if voxels are small
+//! beside the margin. It is a hull only if it is proved to be one.
 //!
-//! Cubes have a power of two as edge and the grid passes through the origin, so that the middle of
-//! every edge is exact in single precision.
+//! The edge of a voxel is a power of two and the grid passes through the origin, so that the middle
+//! of every edge is exact in single precision.
 
-use crate::precision::split_exponent;
-use crate::tight::initial::voxels_met::{Block, visit_met};
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::obstacle::Obstacle;
-use crate::tight::proof::predicates::Triangle;
+use super::triangle_voxels::{Block, visit_voxels};
+use crate::surface::Bounds;
+use crate::surface::split_exponent;
+use crate::tight::proof::{Obstacle, Triangle};
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 use rustc_hash::FxHashMap;
 use std::time::Instant;
 
-/// A surface around triangles, and the grid that it came from.
+/// A closed surface around triangles, and the grid that it came from.
 #[derive(Clone, Debug)]
-pub(crate) struct Closure {
+pub(crate) struct VoxelClosure {
     pub positions: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
-    /// Edge of a cube.
-    pub cell: f64,
-    /// Cubes along the longest side.
-    pub cells: usize,
+    /// Edge of a voxel.
+    pub edge: f64,
+    /// Voxels along the longest side.
+    pub voxels: usize,
 }
 
-/// Layers of cubes around the triangles: one that rounding might meet, one that nothing meets.
+/// Layers of voxels around the triangles: one that rounding might meet, one that nothing meets.
 const PAD: i64 = 2;
 
-/// Cubes are met if a triangle reaches them when they are larger by this: far above the rounding of
-/// the test, far below a cube.
+/// Factor by which voxels are enlarged before they are tested: far above the rounding of the test,
+/// far below a voxel.
 const GROWN: f64 = 1.0 + 1e-6;
 
-/// Half-cubes from the origin that a coordinate may be away: what single precision holds exactly.
-const MOST: f64 = 16_777_216.0;
+/// Largest coordinate in half-voxels: single precision holds all integers up to this.
+const MOST_HALVES: f64 = 16_777_216.0;
 
-/// The surface, from a grid with at least `cells` cubes, and fewer than twice as many, along the
-/// longest side of the mesh and its margin; with fewer where single precision has no room for more.
-/// `None` if it has none at all, or mesh and margin are one point, or the deadline passes.
-pub(crate) fn closure(
+/// The closure from a grid with at least `voxels` voxels, and fewer than twice as many, along the
+/// longest side of the mesh and its margin. Far from the origin there are fewer, as single precision
+/// has no coordinates for more. `None` if there is no room at all, or mesh and margin are one point,
+/// or the deadline passes.
+pub(super) fn voxel_closure(
     obstacle: &Obstacle,
-    cells: usize,
+    voxels: usize,
     deadline: Option<Instant>,
-) -> Option<Closure> {
+) -> Option<VoxelClosure> {
     let bounds = obstacle.bounds().grown(obstacle.margin());
     let extent = (bounds.high - bounds.low).max_element();
     let farthest = bounds.low.abs().max(bounds.high.abs()).max_element();
     if !(extent > 0.0 && farthest.is_finite()) {
         return None;
     }
-    let (_, above) = split_exponent(extent / cells as f64);
+    let (_, above) = split_exponent(extent / voxels as f64);
     let mut exponent = above - 1;
     // A quarter of the range to spare for the layers around.
-    while farthest * 2.0 > exp2(exponent) * MOST * 0.75 || exponent < -148 {
+    while farthest * 2.0 > exp2(exponent) * MOST_HALVES * 0.75 || exponent < -148 {
         exponent += 1;
     }
-    let cell = exp2(exponent);
-    let first = (bounds.low / cell).floor().as_i64vec3() - PAD;
-    let last = (bounds.high / cell).floor().as_i64vec3() + PAD + 1;
-    let grid = Grid { cell, first: first.to_array(), corners: (last - first + 1).to_array() };
-    if last.as_dvec3().abs().max_element() * cell > f64::from(f32::MAX) {
+    let edge = exp2(exponent);
+    let first = (bounds.low / edge).floor().as_i64vec3() - PAD;
+    let last = (bounds.high / edge).floor().as_i64vec3() + PAD + 1;
+    let grid = Grid { edge, first: first.to_array(), corners: (last - first + 1).to_array() };
+    if last.as_dvec3().abs().max_element() * edge > f64::from(f32::MAX) {
         return None;
     }
     let level = grid.level(obstacle.margin());
     let mut inside = match level {
-        Some(level) => grid.near(obstacle, level, deadline)?,
-        None => grid.met(obstacle.triangles()),
+        Some(level) => grid.corners_near(obstacle, level, deadline)?,
+        None => grid.corners_met(obstacle.triangles()),
     };
     grid.fill(&mut inside);
     let (positions, triangles) = grid.surface(&inside, |inner, outer| match level {
         Some(level) => crossing(obstacle, level, inner, outer),
         None => (inner + outer) * 0.5,
     });
-    Some(Closure {
+    Some(VoxelClosure {
         positions,
         triangles,
-        cell,
-        cells: (grid.corners.into_iter().max().unwrap_or(1) - 1).unsigned_abs() as usize,
+        edge,
+        voxels: (grid.corners.into_iter().max().unwrap_or(1) - 1).unsigned_abs() as usize,
     })
 }
 
-/// Parts of an edge from its inner end between which it is cut: pieces of surface are neither
-/// needles nor points.
+/// Range in which an edge is cut, as parts of it from its inner end, so that no triangle of the
+/// surface is a needle or a point.
 const ENDS: [f64; 2] = [0.05, 0.995];
 
 /// Halvings of an edge to find where it is cut.
 const HALVINGS: usize = 5;
 
-/// The point between two corners at which the mesh is as far as `level`, on the outer side; in
-/// single precision.
+/// The point between two corners whose distance to the mesh is `level`, on the outer side, rounded
+/// to single precision.
 fn crossing(obstacle: &Obstacle, level: f64, inner: DVec3, outer: DVec3) -> DVec3 {
     let [mut low, mut high] = ENDS;
     for _ in 0..HALVINGS {
@@ -119,14 +119,14 @@ fn crossing(obstacle: &Obstacle, level: f64, inner: DVec3, outer: DVec3) -> DVec
     inner.lerp(outer, high).as_vec3().as_dvec3()
 }
 
-/// Not exact.
+/// The distance to the mesh, not exact.
 fn distance(obstacle: &Obstacle, p: DVec3) -> Option<f64> {
     obstacle.nearest(p).map(|(_, [_, upper])| upper)
 }
 
 struct Grid {
-    cell: f64,
-    /// The least corner, in cubes from the origin.
+    edge: f64,
+    /// The least corner, in voxels from the origin.
     first: [i64; 3],
     /// Corners along each axis.
     corners: [i64; 3],
@@ -145,17 +145,17 @@ impl Grid {
         (0..nz).flat_map(|k| (0..ny).flat_map(move |j| row(j, k))).collect()
     }
 
-    /// Corners of cubes that are met.
-    fn met(&self, triangles: &[Triangle]) -> Vec<bool> {
+    /// For each corner whether it belongs to a voxel that a triangle meets.
+    fn corners_met(&self, triangles: &[Triangle]) -> Vec<bool> {
         let mut met = vec![false; self.all().len()];
         for triangle in triangles {
             let bounds = Bounds::of(triangle);
-            // One cube more on either side: the test that follows is the one that counts.
+            // One voxel more on either side, as the quotient is rounded. The test that follows decides.
             let [low, high] = [(bounds.low, -1), (bounds.high, 1)]
-                .map(|(p, more)| ((p / self.cell).floor().as_i64vec3() + more).to_array());
+                .map(|(p, more)| ((p / self.edge).floor().as_i64vec3() + more).to_array());
             let at = |axis: usize, x: i64| (x - self.first[axis]).clamp(0, self.corners[axis] - 2);
             let around = [0, 1, 2].map(|axis| [at(axis, low[axis]), at(axis, high[axis])]);
-            visit_met(
+            visit_voxels(
                 triangle,
                 around,
                 |block| self.grown(block),
@@ -167,25 +167,26 @@ impl Grid {
         met
     }
 
-    /// The box of a block, a little larger.
+    /// The box of a block, enlarged by [`GROWN`].
     fn grown(&self, block: Block) -> Bounds {
         let middle = self.at(block.map(|[from, to]| from + to + 1));
         let half =
-            DVec3::from(block.map(|[from, to]| (to - from + 1) as f64)) * (self.cell * 0.5 * GROWN);
+            DVec3::from(block.map(|[from, to]| (to - from + 1) as f64)) * (self.edge * 0.5 * GROWN);
         Bounds { low: middle - half, high: middle + half }
     }
 
-    /// Distance from the mesh at which the surface is put to keep a margin: a ball of that radius
-    /// loses to triangles with circles as large as a cube what is added first, and to [`ENDS`]
-    /// the rest.
+    /// Distance from the mesh at which the surface is placed to keep a margin; `None` without one.
+    ///
+    /// The second term is the height that triangles as large as a voxel cut off a ball of that
+    /// radius. The third term is the height that [`ENDS`] costs.
     fn level(&self, margin: f64) -> Option<f64> {
-        let flattened = (self.cell * self.cell / (2.0 * margin)).min(2.0 * self.cell);
-        (margin > 0.0).then(|| margin + flattened + 2.0 * (1.0 - ENDS[1]) * self.cell)
+        let flattened = (self.edge * self.edge / (2.0 * margin)).min(2.0 * self.edge);
+        (margin > 0.0).then(|| margin + flattened + 2.0 * (1.0 - ENDS[1]) * self.edge)
     }
 
-    /// Corners that are no farther from the mesh than `level`, about; `None` if the deadline
-    /// passes.
-    fn near(
+    /// For each corner whether its distance to the mesh is about `level` at most; `None` if the
+    /// deadline passes.
+    fn corners_near(
         &self,
         obstacle: &Obstacle,
         level: f64,
@@ -203,9 +204,8 @@ impl Grid {
                     let Some(distance) = distance(obstacle, self.at([2 * i, 2 * j, 2 * k])) else {
                         return Some(near);
                     };
-                    // The distance changes by no more than one walks: the next corners are known as
-                    // well.
-                    let same = 1 + ((distance - level).abs() / (self.cell * GROWN)).min(1e9) as i64;
+                    // The distance is 1-Lipschitz, so that the next corners are known as well.
+                    let same = 1 + ((distance - level).abs() / (self.edge * GROWN)).min(1e9) as i64;
                     for i in (i..(i + same).min(nx)).take_while(|_| distance <= level) {
                         near[self.index([i, j, k])] = true;
                     }
@@ -216,9 +216,9 @@ impl Grid {
         Some(near)
     }
 
-    /// A point, in half-cubes from the first corner.
+    /// A point, in half-voxels from the first corner.
     fn at(&self, halves: [i64; 3]) -> DVec3 {
-        let axis = |k: usize| (2 * self.first[k] + halves[k]) as f64 * (self.cell * 0.5);
+        let axis = |k: usize| (2 * self.first[k] + halves[k]) as f64 * (self.edge * 0.5);
         DVec3::new(axis(0), axis(1), axis(2))
     }
 
@@ -339,7 +339,7 @@ mod tests {
         Obstacle::new(&corners, &numbers)
     }
 
-    fn volume(surface: &Closure) -> f64 {
+    fn volume(surface: &VoxelClosure) -> f64 {
         let at = |v: u32| surface.positions[v as usize];
         surface.triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
     }
@@ -356,8 +356,8 @@ mod tests {
     fn one_triangle_is_enclosed_by_a_closed_surface_that_faces_outwards() {
         let triangle =
             [DVec3::new(0.1, 0.2, 0.3), DVec3::new(1.0, 0.25, 0.125), DVec3::new(0.5, 1.5, 0.75)];
-        for cells in [1, 2, 5, 16] {
-            let surface = closure(&around(&[triangle]), cells, None).unwrap();
+        for voxels in [1, 2, 5, 16] {
+            let surface = voxel_closure(&around(&[triangle]), voxels, None).unwrap();
             assert!(volume(&surface) > 0.0);
             let mut edges: Vec<_> =
                 surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
@@ -377,18 +377,18 @@ mod tests {
             .iter()
             .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner)))
             .collect();
-        let surface = closure(&around(&triangles), 16, None).unwrap();
+        let surface = voxel_closure(&around(&triangles), 16, None).unwrap();
         assert!(volume(&surface) > 1.0 && volume(&surface) < 2.0, "{}", volume(&surface));
     }
 
     #[test]
-    fn a_point_has_no_closure_and_far_triangles_have_larger_cubes() {
-        assert!(closure(&around(&[[DVec3::ONE; 3]]), 8, None).is_none());
+    fn a_point_has_no_closure_and_far_triangles_have_larger_voxels() {
+        assert!(voxel_closure(&around(&[[DVec3::ONE; 3]]), 8, None).is_none());
         let far =
             [DVec3::new(1e7, 0.0, 0.0), DVec3::new(1e7 + 4.0, 0.0, 0.0), DVec3::new(1e7, 4.0, 0.0)];
-        let surface = closure(&around(&[far]), 64, None).unwrap();
+        let surface = voxel_closure(&around(&[far]), 64, None).unwrap();
         assert!(
-            surface.cells < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p)
+            surface.voxels < 64 && surface.positions.iter().all(|p| p.as_vec3().as_dvec3() == *p)
         );
     }
 }

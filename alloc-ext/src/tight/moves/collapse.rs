@@ -1,133 +1,120 @@
-//! Edge collapses, cheapest first, each placed against the original mesh.
+//! Edge collapses, cheapest first. Each new vertex is placed against the original mesh.
 
-use crate::tight::moves::editor::Work;
-use crate::tight::moves::memo::{Key, Question};
-use crate::tight::moves::placement::{StarFace, Wish};
-use crate::tight::moves::vertex::CLEARANCES;
+use super::editor::HullEditor;
+use super::memo::{Key, Question};
+use super::placement::PlacementObjective;
+use super::star::StarFace;
+use super::tolerance::CLEARANCES;
+use crate::collapse::{self, Candidate, Collapsing, Connectivity, Schedule};
 use glam::DVec3;
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
-/// A collapse that is worth trying.
+/// A collapse or a split of an edge that may be tried.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Candidate {
+pub(super) struct EdgeEdit {
+    /// Volume that it adds.
     pub cost: f64,
     pub ends: [u32; 2],
-    pub time: u32,
+    /// The place of the new vertex.
     pub position: DVec3,
 }
 
-impl Ord for Candidate {
-    /// The cheapest is the greatest; the ends decide between equals, so that the order is one.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .cost
-            .total_cmp(&self.cost)
-            .then_with(|| other.ends.cmp(&self.ends))
-            .then(self.time.cmp(&other.time))
+impl EdgeEdit {
+    /// Cheapest first. The ends decide between equals, so that the order is unique.
+    pub fn by_cost(&self, other: &Self) -> Ordering {
+        self.cost.total_cmp(&other.cost).then(self.ends.cmp(&other.ends))
     }
 }
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
+
+/// Objective of a collapse, which may turn faces more than a vertex move.
+const fn objective(centre_weight: f64, upright: Option<f64>) -> PlacementObjective {
+    PlacementObjective { centre_weight, tilt: DVec3::ZERO, upright }
 }
-impl PartialEq for Candidate {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
+
+/// Weight of the second term of a collapse's program.
+const CENTRE_WEIGHT: f64 = 0.05;
+
+/// Weights that are tried where the new faces are too far from the mesh: volume counts less, and
+/// the middle of the star more.
+const STRONGER_CENTRE_WEIGHTS: [f64; 2] = [1.0, 100.0];
+
+/// The hull's edges as the greedy loop sees them.
+struct Edges<'e, 'm> {
+    editor: &'e mut HullEditor<'m>,
+    /// Time when the schedule was last filled with all edges.
+    refilled: u32,
 }
-impl Eq for Candidate {}
 
-/// Weight of the second term of a collapse's program; a collapse may turn faces more than a vertex
-/// move.
-const PULL: f64 = 0.05;
+impl Collapsing for Edges<'_, '_> {
+    /// The place of the new vertex.
+    type Note = DVec3;
 
-/// Those that are tried where the vertex would be out of reach: less volume counts less, and
-/// staying in the middle of the star more.
-const STRONGER_PULLS: [f64; 2] = [1.0, 100.0];
+    fn mesh(&self) -> &Connectivity {
+        &self.editor.shell.mesh
+    }
 
-impl Work<'_> {
-    /// Collapses until at most `target` faces are left, or no collapse is legal or the time is up:
-    /// then false.
-    pub fn decimate(&mut self, target: usize, mut on_progress: impl FnMut(usize)) -> bool {
-        let mut queue = BinaryHeap::new();
-        let mut changed = vec![0u32; self.shell.vertex_slots() as usize];
-        let mut now = 0;
-        let mut refill = true;
-        while self.shell.face_count() > target {
-            if self.is_late() {
-                return false;
-            }
-            let Some(candidate) = queue.pop() else {
-                // Edges that were refused may be legal now that others are gone.
-                if !refill {
-                    return false;
-                }
-                refill = false;
-                now += 1;
-                for [a, b] in self.shell.edges() {
-                    queue.extend(self.evaluate(a, b, now));
-                }
-                continue;
-            };
-            let Candidate { ends: [a, b], time, position, .. } = candidate;
-            if !self.shell.mesh.neighbours(a).any(|v| v == b) {
-                continue;
-            }
-            if time < changed[a as usize].max(changed[b as usize]) {
-                queue.extend(self.evaluate(a, b, now));
-                continue;
-            }
-            if !self.collapse(a, b, position) {
-                continue;
-            }
-            refill = true;
-            now += 1;
-            let ring: Vec<u32> = self.shell.mesh.neighbours(a).collect();
-            changed[a as usize] = now;
-            ring.iter().for_each(|&v| changed[v as usize] = now);
-            for &v in &ring {
-                queue.extend(self.evaluate(a.min(v), a.max(v), now));
-            }
-            on_progress(self.shell.face_count());
+    fn is_valid(&self, candidate: &Candidate<DVec3>) -> bool {
+        let [a, b] = candidate.ends;
+        self.mesh().neighbours(a).any(|v| v == b)
+    }
+
+    fn evaluate(&mut self, ends: [u32; 2], schedule: &mut Schedule<DVec3>) {
+        if let Some(edit) = self.editor.evaluate_collapse(ends) {
+            schedule.push(edit.cost, ends, edit.position);
+        }
+    }
+
+    fn collapse(&mut self, candidate: &Candidate<DVec3>, _: &mut Schedule<DVec3>) -> bool {
+        self.editor.collapse(candidate.ends, candidate.note)
+    }
+
+    /// Edges that were refused may be legal after other collapses.
+    fn refill(&mut self, schedule: &mut Schedule<DVec3>) -> bool {
+        if schedule.now() == self.refilled {
+            return false;
+        }
+        self.refilled = schedule.now();
+        for ends in self.mesh().edges() {
+            self.evaluate(ends, schedule);
         }
         true
     }
 
-    /// What an edge's collapse would cost; `None` if it is not legal.
-    pub(crate) fn evaluate(&mut self, a: u32, b: u32, time: u32) -> Option<Candidate> {
-        let star = self.edge_star(a, b)?;
-        let key = Key::new(Question::Collapse, self.salt(), &star);
-        let answer = match self.memo.get(key) {
-            Some(answer) => answer,
-            None => {
-                let placed = self.place_collapse(&star, [a, b], CLEARANCES[0], PULL);
-                let answer =
-                    placed.map(|x| (x, star.iter().map(|f| f.added(x)).sum::<f64>() / 6.0));
-                self.memo.put(key, answer);
-                answer
-            }
-        };
-        self.star = star;
-        answer.map(|(position, cost)| Candidate { cost, ends: [a, b], time, position })
+    fn is_late(&self) -> bool {
+        self.editor.is_late()
+    }
+}
+
+impl HullEditor<'_> {
+    /// Collapses edges until at most `target` faces are left; false if no collapse is legal any
+    /// more or the time is up before.
+    pub fn decimate(&mut self, target: usize, mut on_progress: impl FnMut(usize)) -> bool {
+        let mut schedule = Schedule::new(self.shell.vertex_slots() as usize);
+        let mut edges = Edges { editor: self, refilled: 0 };
+        collapse::run(&mut edges, &mut schedule, target, |edges| {
+            on_progress(edges.editor.shell.face_count());
+        })
     }
 
-    fn edge_star(&mut self, a: u32, b: u32) -> Option<Vec<StarFace>> {
-        let mut dead = std::mem::take(&mut self.dead);
-        let legal = self.shell.mesh.collapsible_star(a, b, self.shape.max_valence, &mut dead);
-        let mut star = std::mem::take(&mut self.star);
+    /// A collapse of an edge and its cost; `None` if it is not legal.
+    pub(super) fn evaluate_collapse(&mut self, ends: [u32; 2]) -> Option<EdgeEdit> {
+        let star = self.edge_star(ends)?;
+        let answer = self.remembered(Question::Collapse, &star, |editor| {
+            editor.place_collapse(&star, ends, CLEARANCES[0], CENTRE_WEIGHT)
+        });
+        self.star = star;
+        answer.map(|(position, cost)| EdgeEdit { cost, ends, position })
+    }
+
+    /// The star of an edge, with its faces in `dead`; `None` if the edge may not collapse.
+    fn edge_star(&mut self, [a, b]: [u32; 2]) -> Option<Vec<StarFace>> {
+        let Self { shell, dead, star, shape, .. } = self;
         star.clear();
-        if legal {
-            star.extend(dead.iter().map(|&f| self.shell.star_face(f, [a, b])));
+        if !shell.mesh.collapsible_star(a, b, shape.max_valence, dead) {
+            return None;
         }
-        self.dead = dead;
-        if legal {
-            Some(star)
-        } else {
-            self.star = star;
-            None
-        }
+        star.extend(dead.iter().map(|&f| shell.star_face(f, [a, b])));
+        Some(std::mem::take(star))
     }
 
     fn place_collapse(
@@ -135,45 +122,41 @@ impl Work<'_> {
         star: &[StarFace],
         [a, b]: [u32; 2],
         steps: f64,
-        second_term: f64,
+        centre_weight: f64,
     ) -> Option<DVec3> {
         let centre = (self.shell.position(a) + self.shell.position(b)) * 0.5;
-        let (clearance, upright) = (self.clearance(star, steps), self.shape.upright);
-        let wish = Wish { second_term, tilt: DVec3::ZERO, upright, clearance };
-        let x = self.placer.place(self.obstacle, star, centre, &wish)?;
-        let x = self.rounding.round(x)?;
-        self.is_shapely(star, x).then_some(x)
+        self.place(star, centre, steps, &objective(centre_weight, self.shape.upright))
     }
 
-    /// A place for a collapse of which the new faces are in reach: `x`, or nearer to the middle.
-    fn in_reach(
+    /// A place for a collapse whose new faces are near enough to the mesh: `x`, or nearer to the
+    /// middle of the star.
+    fn place_within_limit(
         &mut self,
         star: &[StarFace],
         ends: [u32; 2],
         steps: f64,
         x: DVec3,
     ) -> Option<DVec3> {
-        if self.is_star_in_reach(star, x) {
+        if self.is_star_within_limit(star, x) {
             return Some(x);
         }
-        for pull in STRONGER_PULLS {
-            let nearer = self.place_collapse(star, ends, steps, pull);
-            if let Some(nearer) = nearer.filter(|&x| self.is_star_in_reach(star, x)) {
+        for centre_weight in STRONGER_CENTRE_WEIGHTS {
+            let nearer = self.place_collapse(star, ends, steps, centre_weight);
+            if let Some(nearer) = nearer.filter(|&x| self.is_star_within_limit(star, x)) {
                 return Some(nearer);
             }
         }
-        // Far away now is far away whenever it is asked again, which begins with the least
-        // clearance.
+        // The star is too far whenever it is asked for again with the least clearance.
         if steps == CLEARANCES[0] {
             self.memo.put(Key::new(Question::Collapse, self.salt(), star), None);
         }
         None
     }
 
-    /// Collapses the edge at `position`, or where a greater clearance puts it; false if neither can
-    /// be proved.
-    pub(crate) fn collapse(&mut self, a: u32, b: u32, position: DVec3) -> bool {
-        let Some(star) = self.edge_star(a, b) else { return false };
+    /// Collapses an edge into its first end at `position`, or at the place for a greater clearance;
+    /// false if neither is proved.
+    pub(super) fn collapse(&mut self, ends: [u32; 2], position: DVec3) -> bool {
+        let Some(star) = self.edge_star(ends) else { return false };
         let dead = self.dead.clone();
         let bases: Vec<_> = star.iter().map(|f| f.corners).collect();
         let mut proved = None;
@@ -181,13 +164,14 @@ impl Work<'_> {
             let placed = if steps == CLEARANCES[0] {
                 Some(position)
             } else {
-                self.place_collapse(&star, [a, b], steps, PULL)
+                self.place_collapse(&star, ends, steps, CENTRE_WEIGHT)
             };
-            let Some(x) = placed.and_then(|x| self.in_reach(&star, [a, b], steps, x)) else {
+            let Some(x) = placed.and_then(|x| self.place_within_limit(&star, ends, steps, x))
+            else {
                 break;
             };
             let new: Vec<_> =
-                dead.iter().filter_map(|&f| self.shell.face_after(f, [a, b], x)).collect();
+                dead.iter().filter_map(|&f| self.shell.face_after(f, ends, x)).collect();
             if self.admits(&new, &dead, &bases, x) {
                 proved = Some(x);
                 break;
@@ -195,6 +179,7 @@ impl Work<'_> {
         }
         self.star = star;
         if let Some(x) = proved {
+            let [a, b] = ends;
             self.shell.collapse(a, b, x);
         }
         proved.is_some()

@@ -1,85 +1,82 @@
-//! A hull, the mesh that it must not meet, and what a local move has to satisfy.
+//! The hull under edit, and the conditions that every edit must satisfy.
 //!
-//! The invariant, from the first hull to the last: the hull is a closed surface whose faces have no
-//! point in common but the edges and corners that they share; it has no point in common with the
-//! mesh; and every connected part of the mesh is inside.
+//! # Invariant
+//! From the initial hull to the last edit:
+//! 1. the hull is a closed surface whose faces share no points but common edges and corners;
+//! 2. the hull has no point in common with the mesh;
+//! 3. every connected component of the mesh is inside.
 //!
-//! A move replaces some faces by others with the same boundary. The first two are tested as they
-//! stand. The third follows: a part that does not meet the new hull is inside it or outside as a
-//! whole, so that its witness decides. The number of times that the surface winds around the
-//! witness changes only if it lies in one of the tetrahedra between old faces and the new vertex,
-//! and falls only for one that is cut off. Where it rises, the new hull encloses a part of itself,
-//! which is [dropped](Work::drop_swallowed) at the end of each stage.
+//! An edit replaces some faces by others with the same boundary. The first two conditions are
+//! tested on the new faces. The third follows: a component that does not meet the new hull is
+//! inside or outside as a whole, so that one vertex of it, its witness, decides. The winding number
+//! around the witness changes only if the witness lies in one of the tetrahedra between the old
+//! faces and the new vertex, and it falls only in a tetrahedron that is cut off. Where it rises, the
+//! new hull encloses a component of itself. Such components are
+//! [dropped](HullEditor::drop_enclosed) at the end of each stage.
 
-use crate::tight::initial::levels::keep_outermost;
-use crate::tight::moves::memo::{GOLDEN, Memo};
-use crate::tight::moves::placement::{Placer, StarFace};
-use crate::tight::moves::rounding::Rounding;
-use crate::tight::moves::shell::Shell;
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::distance_field::Field;
-use crate::tight::proof::obstacle::Obstacle;
-use crate::tight::proof::predicates::{Face, Triangle, are_apart, is_degenerate};
+use super::memo::{GOLDEN, Key, Memo, Question};
+use super::placement::{PlacementObjective, Placer};
+use super::rounding::Rounding;
+use super::shell::Shell;
+use super::star::{StarFace, added_volume, corners};
+use crate::surface::Bounds;
+use crate::tight::proof::{DistanceField, Face, Obstacle, Triangle, are_apart, is_degenerate};
 use glam::DVec3;
 use std::time::Instant;
 
-/// Shape conditions of moves.
+/// Shape conditions of edits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
-    /// Compactness that a new face has at least, unless the worst of those before was little
-    /// better.
+    /// Least compactness of a new face, unless the worst old face was little better.
     pub min_compactness: f64,
     /// Cosine of the largest turn of a face.
     pub min_turn: f64,
-    /// Least part of a face's area that a collapse keeps when it is seen along the old normal;
-    /// `None`: any.
+    /// Least part of a face's area that a collapse keeps, seen along the old normal; `None`: any.
     pub upright: Option<f64>,
     /// Largest valence.
     pub max_valence: usize,
 }
 
-/// Part of the worst compactness before a move that is kept where it was below
+/// Part of the worst old compactness that new faces keep where it was below
 /// [`Shape::min_compactness`].
 const KEPT_COMPACTNESS: f64 = 0.8;
 
-/// See the module.
+/// The hull under edit. The module states its invariant.
 #[derive(Clone, Debug)]
-pub(crate) struct Work<'a> {
+pub(crate) struct HullEditor<'a> {
     pub obstacle: &'a Obstacle,
     pub shell: Shell,
     pub placer: Placer,
     pub rounding: Rounding,
     pub shape: Shape,
-    /// Moves that had to be proved, and those that could not.
-    pub proofs: u64,
-    pub refused: u64,
-    /// Whether a move was refused because of the hull, which changes, since this was last set to
-    /// false.
-    pub is_in_its_own_way: bool,
-    /// Stars after which no new move of a polish begins.
-    pub limit: Option<u64>,
-    /// When to stop, if at all.
+    /// Number of stars after which no new edit begins.
+    pub star_limit: Option<u64>,
     pub deadline: Option<Instant>,
-    pub star: Vec<StarFace>,
-    pub dead: Vec<u32>,
-    pub memo: Memo,
-    /// Parts that [`drop_swallowed`](Self::drop_swallowed) dropped.
-    pub swallowed: usize,
-    /// Distance from the mesh that no point of a new face exceeds.
-    pub reach: f64,
-    /// What is known of distances.
-    pub field: Field,
+    /// Components that [`drop_enclosed`](Self::drop_enclosed) has dropped.
+    pub enclosed: usize,
+    /// No point of a new face is farther than this from the mesh.
+    pub max_distance: f64,
+    pub(super) distance_field: DistanceField,
+    /// Whether the hull itself refused an edit since this was last set to false. The refusal may
+    /// not last, because the hull changes.
+    pub(super) is_blocked_by_hull: bool,
+    pub(super) memo: Memo,
+    /// Buffer for the star of an edit, kept to save allocations.
+    pub(super) star: Vec<StarFace>,
+    /// Buffer for the faces that an edit removes.
+    pub(super) dead: Vec<u32>,
     /// Where vertices may go.
     room: Bounds,
 }
 
-/// The mesh's box, and around it the margin and the longest side.
+/// The mesh's bounding box, enlarged by its longest side and twice the margin.
 fn room(obstacle: &Obstacle) -> Bounds {
     let bounds = obstacle.bounds();
     bounds.grown((bounds.high - bounds.low).max_element() + 2.0 * obstacle.margin())
 }
 
-impl<'a> Work<'a> {
+impl<'a> HullEditor<'a> {
+    /// Of a proved hull.
     pub fn new(obstacle: &'a Obstacle, shell: Shell, rounding: Rounding, shape: Shape) -> Self {
         Self {
             obstacle,
@@ -87,71 +84,69 @@ impl<'a> Work<'a> {
             placer: Placer::default(),
             rounding,
             shape,
-            proofs: 0,
-            refused: 0,
-            is_in_its_own_way: false,
-            limit: None,
+            star_limit: None,
             deadline: None,
+            enclosed: 0,
+            max_distance: f64::INFINITY,
+            distance_field: DistanceField::new(f64::INFINITY),
+            is_blocked_by_hull: false,
+            memo: Memo::default(),
             star: Vec::new(),
             dead: Vec::new(),
-            memo: Memo::default(),
-            swallowed: 0,
-            reach: f64::INFINITY,
-            field: Field::new(f64::INFINITY),
             room: room(obstacle),
         }
     }
 
-    /// Drops parts of the hull that have come to lie inside of another. No move lets the mesh out,
-    /// but an outward one may sweep over all of a smaller part of the hull; its faces would
-    /// then be taken for an outside that they are not.
-    pub fn drop_swallowed(&mut self) {
-        let (shell, swallowed) = keep_outermost(self.shell.clone());
-        if swallowed > 0 {
-            (self.shell, self.swallowed) = (shell, self.swallowed + swallowed);
+    /// Drops components of the hull that lie inside others.
+    ///
+    /// No edit lets the mesh out, but an outward edit may sweep over a whole smaller component of
+    /// the hull. The faces of that component are no outside any more.
+    pub fn drop_enclosed(&mut self) {
+        if let Some((shell, dropped)) = self.shell.outermost()
+            && dropped > 0
+        {
+            (self.shell, self.enclosed) = (shell, self.enclosed + dropped);
         }
     }
 
-    /// Whether the time is up.
+    /// Whether the deadline has passed.
     pub fn is_late(&self) -> bool {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
     /// Whether stars or time are used up.
     pub fn is_spent(&self) -> bool {
-        self.limit.is_some_and(|limit| self.placer.stars >= limit) || self.is_late()
+        self.star_limit.is_some_and(|limit| self.placer.stars >= limit) || self.is_late()
     }
 
-    /// Counts another's work since the two parted as its own.
-    pub fn take_counts(&mut self, other: &Self) {
-        self.placer.stars = other.placer.stars;
-        self.placer.programs = other.placer.programs;
-        self.proofs = other.proofs;
-        self.refused = other.refused;
+    /// Takes over the work counters of a clone.
+    pub fn take_counts(&mut self, clone: &Self) {
+        (self.placer.stars, self.placer.programs) = (clone.placer.stars, clone.placer.programs);
     }
 
-    /// Adds the work of another to its own.
+    /// Adds the work counters of another hull.
     pub fn add_counts(&mut self, other: &Self) {
         self.placer.stars += other.placer.stars;
         self.placer.programs += other.placer.programs;
-        self.proofs += other.proofs;
-        self.refused += other.refused;
     }
 
-    /// Whether `new` may take the place of the faces `dead`, the moving corner of `bases` going to
-    /// `apex`. Exact.
-    pub fn admits(&mut self, new: &[Face], dead: &[u32], bases: &[Triangle], apex: DVec3) -> bool {
-        self.proofs += 1;
-        let embedded = self.keeps_embedded(new, dead);
-        self.is_in_its_own_way |= !embedded;
-        let admitted = embedded
+    /// Whether `new` may replace the faces `dead`, where the moving corner of each of `bases` goes
+    /// to `apex`. Exact.
+    pub(super) fn admits(
+        &mut self,
+        new: &[Face],
+        dead: &[u32],
+        bases: &[Triangle],
+        apex: DVec3,
+    ) -> bool {
+        let stays_embedded = self.stays_embedded(new, dead);
+        self.is_blocked_by_hull |= !stays_embedded;
+        stays_embedded
             && !new.iter().any(|face| self.obstacle.meets(&face.at))
-            && !self.obstacle.has_witness_in(bases, apex);
-        self.refused += u64::from(!admitted);
-        admitted
+            && !self.obstacle.has_witness_in(bases, apex)
     }
 
-    fn keeps_embedded(&self, new: &[Face], dead: &[u32]) -> bool {
+    fn stays_embedded(&self, new: &[Face], dead: &[u32]) -> bool {
         if new.iter().any(|face| is_degenerate(&face.at)) {
             return false;
         }
@@ -171,9 +166,9 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Whether a star may have its vertex at `x` by shape, and by its distance from the mesh: thin
-    /// spikes cost next to no volume.
-    pub fn is_shapely(&self, star: &[StarFace], x: DVec3) -> bool {
+    /// Whether a star with its vertex at `x` has a sound shape and `x` is not too far from the
+    /// mesh: thin spikes cost next to no volume.
+    fn is_shapely(&self, star: &[StarFace], x: DVec3) -> bool {
         if self.room.with(x) != self.room {
             return false;
         }
@@ -189,25 +184,50 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// What answers about a star depend on beside it.
-    pub fn salt(&self) -> u64 {
-        (self.shape.max_valence as u64).wrapping_mul(GOLDEN) ^ self.reach.to_bits()
+    /// The place for the vertex of a star, rounded and shapely, which keeps `steps` half-steps of
+    /// the grid from planes. Not proved.
+    pub(super) fn place(
+        &mut self,
+        star: &[StarFace],
+        centre: DVec3,
+        steps: f64,
+        objective: &PlacementObjective,
+    ) -> Option<DVec3> {
+        let size = corners(star).map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let clearance = self.rounding.half_step(size) * steps;
+        let x = self.placer.place(self.obstacle, star, centre, clearance, objective)?;
+        let x = self.rounding.round(x)?;
+        self.is_shapely(star, x).then_some(x)
     }
 
-    /// Distance to keep from planes so that rounding does not cross them: `steps` half-steps at the
-    /// star.
-    pub fn clearance(&self, star: &[StarFace], steps: f64) -> f64 {
-        let size =
-            star.iter().flat_map(|f| f.corners).map(|p| p.abs().max_element()).fold(0.0, f64::max);
-        self.rounding.half_step(size) * steps
+    /// The answer that a star got before, or the place that `place` gives it now and the volume that
+    /// this adds.
+    pub(super) fn remembered(
+        &mut self,
+        question: Question,
+        star: &[StarFace],
+        place: impl FnOnce(&mut Self) -> Option<DVec3>,
+    ) -> Option<(DVec3, f64)> {
+        let key = Key::new(question, self.salt(), star);
+        if let Some(answer) = self.memo.get(key) {
+            return answer;
+        }
+        let answer = place(self).map(|x| (x, added_volume(star, x)));
+        self.memo.put(key, answer);
+        answer
+    }
+
+    /// A hash of the state, besides the star, that an answer about a star depends on.
+    pub(super) fn salt(&self) -> u64 {
+        (self.shape.max_valence as u64).wrapping_mul(GOLDEN) ^ self.max_distance.to_bits()
     }
 }
 
 /// 2·√3, which makes the equilateral triangle's compactness 1.
 const TWICE_SQRT_3: f64 = 3.464_101_615_137_754_6;
 
-/// 1 for the equilateral triangle, towards 0 for needles.
-pub(crate) fn compactness([a, b, c]: Triangle, double_area: f64) -> f64 {
+/// Compactness of a triangle: 1 if it is equilateral, near 0 for needles.
+pub(super) fn compactness([a, b, c]: Triangle, double_area: f64) -> f64 {
     let edges = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
     if edges > 0.0 { TWICE_SQRT_3 * double_area / edges } else { 0.0 }
 }

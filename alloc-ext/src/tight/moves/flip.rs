@@ -1,68 +1,68 @@
 //! Edge flips.
 
-use crate::tight::moves::editor::{Work, compactness};
-use crate::tight::moves::memo::{Key, Question};
-use crate::tight::moves::placement::StarFace;
-use crate::tight::proof::predicates::{Face, side};
+use super::editor::{HullEditor, compactness};
+use super::memo::{Key, Question};
+use super::star::StarFace;
+use super::tolerance::LEAST_GAIN;
+use crate::tight::proof::{Face, Triangle, side};
 
-/// New faces keep this part of the worse compactness of the two old ones, or the least that the
-/// shape conditions ask for.
-const KEPT: f64 = 0.7;
+/// Part of the worse compactness of the two old faces that new faces keep, if the shape conditions
+/// ask for more.
+const KEPT_COMPACTNESS: f64 = 0.7;
 
-/// Part of the hull's volume that a change has to gain: more than the rounding of its sum.
-pub(crate) const LEAST_GAIN: f64 = 1e-9;
-
-impl Work<'_> {
-    /// Flips every convex edge whose flip cuts off a tetrahedron without mesh; how many.
-    pub fn flip_all(&mut self) -> usize {
-        self.shell.edges().into_iter().filter(|&[a, b]| self.flip_inward(a, b)).count()
+impl HullEditor<'_> {
+    /// Flips every convex edge whose flip cuts off a tetrahedron without mesh.
+    pub fn flip_all(&mut self) {
+        for [a, b] in self.shell.mesh.edges() {
+            self.flip_inward(a, b);
+        }
     }
 
     /// Flips every edge, convex or not, whose four corners then settle with less volume than
-    /// before; how many.
-    pub fn flip_search(&mut self) -> usize {
-        self.shell.edges().into_iter().filter(|&[a, b]| self.flip_and_settle(a, b)).count()
+    /// before.
+    pub fn flip_search(&mut self) {
+        for [a, b] in self.shell.mesh.edges() {
+            if self.is_spent() {
+                break;
+            }
+            self.flip_and_settle(a, b);
+        }
     }
 
-    fn flip_and_settle(&mut self, a: u32, b: u32) -> bool {
-        if self.is_spent() {
-            return false;
-        }
-        let Some([c, d]) = self.shell.mesh.wings(a, b).map(|w| w.apexes) else { return false };
+    fn flip_and_settle(&mut self, a: u32, b: u32) {
+        let Some([c, d]) = self.shell.mesh.wings(a, b).map(|w| w.apexes) else { return };
         let corners = [a, b, c, d];
         let before = self.shell.volume();
         let places = corners.map(|v| self.shell.position(v));
         if !self.flip(a, b) {
-            return false;
+            return;
         }
         for _ in 0..2 {
             for v in corners {
                 self.settle(v);
             }
         }
-        let better = self.shell.volume() < before * (1.0 - LEAST_GAIN);
-        if !better {
+        let is_better = self.shell.volume() < before * (1.0 - LEAST_GAIN);
+        if !is_better {
             for (v, at) in corners.into_iter().zip(places) {
                 self.shell.move_vertex(v, at);
             }
-            // The edge that came of the flip; no other move has changed it.
+            // Flips the new edge back. No other edit has changed it.
             self.shell.flip(c, d);
         }
-        better
     }
 
-    /// Flips the edge if it is convex and may be.
-    fn flip_inward(&mut self, a: u32, b: u32) -> bool {
-        let Some((faces, apex)) = self.shell.mesh.wings(a, b).map(|w| (w.triangles, w.apexes[1]))
-        else {
-            return false;
-        };
-        let left = self.shell.triangle(faces[0]);
-        side(&left, self.shell.position(apex)) < 0.0 && self.flip(a, b)
+    /// Flips the edge if it is convex and the flip is proved.
+    fn flip_inward(&mut self, a: u32, b: u32) {
+        let Some(wings) = self.shell.mesh.wings(a, b) else { return };
+        let left = self.shell.triangle(wings.triangles[0]);
+        if side(&left, self.shell.position(wings.apexes[1])) < 0.0 {
+            self.flip(a, b);
+        }
     }
 
     /// Flips the edge `a b` if shape and proof allow it, whether the hull grows or not.
-    pub fn flip(&mut self, a: u32, b: u32) -> bool {
+    pub(super) fn flip(&mut self, a: u32, b: u32) -> bool {
         let Some(wings) = self.shell.mesh.wings(a, b) else { return false };
         let [c, d] = wings.apexes;
         let mesh = &self.shell.mesh;
@@ -81,9 +81,10 @@ impl Work<'_> {
         let [pa, pb, pc, pd] = [a, b, c, d].map(|v| self.shell.position(v));
         let new =
             [Face { ids: [a, d, c], at: [pa, pd, pc] }, Face { ids: [d, b, c], at: [pd, pb, pc] }];
-        let area = |[p, q, r]: [glam::DVec3; 3]| (q - p).cross(r - p);
+        let area = |[p, q, r]: Triangle| (q - p).cross(r - p);
         let quality = |t| compactness(t, area(t).length());
-        let least = (KEPT * quality(old[0]).min(quality(old[1]))).min(self.shape.min_compactness);
+        let least = (KEPT_COMPACTNESS * quality(old[0]).min(quality(old[1])))
+            .min(self.shape.min_compactness);
         if new.iter().any(|f| quality(f.at) < least) {
             return false;
         }
@@ -92,8 +93,6 @@ impl Work<'_> {
             let normal = area(f.at);
             normal.dot(middle) >= self.shape.min_turn * normal.length() * middle.length()
         };
-        // The tetrahedron that the flip cuts off or adds is that of either old face and the other's
-        // third corner.
         if !new.iter().all(upright) {
             return false;
         }
@@ -101,13 +100,14 @@ impl Work<'_> {
         if self.memo.get(key).is_some() {
             return false;
         }
-        if !new.iter().all(|f| self.is_in_reach(&f.at)) {
+        if !new.iter().all(|f| self.is_within_limit(&f.at)) {
             self.memo.put(key, None);
             return false;
         }
-        self.is_in_its_own_way = false;
+        self.is_blocked_by_hull = false;
+        // A flip adds or cuts off one tetrahedron: an old face and the third corner of the other.
         if !self.admits(&new, &wings.triangles, &old[..1], pd) {
-            if !self.is_in_its_own_way {
+            if !self.is_blocked_by_hull {
                 self.memo.put(key, None);
             }
             return false;

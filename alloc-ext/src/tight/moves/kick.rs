@@ -1,146 +1,42 @@
-//! Perturb and settle again: what a hull of a given number of faces can still lose.
+//! Random kicks of vertices: perturb and settle again.
 
-use crate::tight::moves::editor::Work;
-use crate::tight::moves::placement::Wish;
-use crate::tight::moves::vertex::GAIN;
+use super::editor::HullEditor;
+use super::placement::PlacementObjective;
+use super::random::SplitMix;
+use super::star::radius;
+use super::tolerance::GAIN;
 use glam::DVec3;
 
-/// Chance without chance: the same numbers in every run (Steele, Lea & Flood 2014, SplitMix64).
-#[derive(Clone, Debug)]
-pub(crate) struct Dice(u64);
-
-impl Dice {
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// Uniform in [0, 1).
-    pub fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        (((z ^ (z >> 31)) >> 11) as f64) / (1u64 << 53) as f64
-    }
-
-    /// Each coordinate uniform in [−1, 1).
-    fn direction(&mut self) -> DVec3 {
-        DVec3::new(self.roll(), self.roll(), self.roll()) * 2.0 - 1.0
-    }
-}
-
-/// How far polishing goes: a number of stars, so that the result does not depend on the machine.
-#[derive(Clone, Debug)]
-pub(crate) struct Polish {
-    dice: Dice,
-    from: u64,
-    until: u64,
-}
-
-/// Stars that any hull gets with an effort of 1.
-const STARS: f64 = 10_000.0;
-
-/// Stars for each face beyond that.
-const STARS_PER_FACE: f64 = 10.0;
-
-/// Polishing ends when this many rounds together gain less than [`TOO_LITTLE`] of the void.
-const IDLE_ROUNDS: usize = 3;
-
-/// See [`IDLE_ROUNDS`].
-const TOO_LITTLE: f64 = 2e-4;
-
-/// Length of the random part of a pull, where the direction of least volume has length 1.
-const STRENGTH: f64 = 1.5;
-
-/// A round tries every edge's flip once in so many rounds: most find nothing new.
-const FLIP_ROUNDS: usize = 3;
-
-impl Polish {
-    pub fn new(work: &Work<'_>, effort: f64) -> Self {
-        let stars = (STARS + STARS_PER_FACE * work.shell.face_count() as f64) * effort.max(0.0);
-        let from = work.placer.stars;
-        Self { dice: Dice::new(1), from, until: from.saturating_add(stars as u64) }
-    }
-
-    /// Exchanges, flips and kicks in rounds until the stars are used up, the time is, or nothing is
-    /// gained. `volume` is what no hull gets below.
-    pub fn run(&mut self, work: &mut Work<'_>, volume: f64, mut on_progress: impl FnMut(u64, u64)) {
-        work.limit = Some(self.until);
-        work.relax(volume, 2e-3, 30);
-        let mut past = vec![work.shell.volume()];
-        let mut round = 0;
-        while !work.is_spent() {
-            work.exchange((work.shell.face_count() / 10).clamp(8, 60));
-            work.flip_all();
-            if round % FLIP_ROUNDS == 0 {
-                work.flip_search();
-            }
-            work.kick_all(&mut self.dice, STRENGTH);
-            work.flip_all();
-            round += 1;
-            on_progress(work.placer.stars.min(self.until) - self.from, self.until - self.from);
-            past.push(work.shell.volume());
-            if let [.., before, _, _, now] = past[..]
-                && round >= IDLE_ROUNDS
-                && before - now <= TOO_LITTLE * (now - volume)
-            {
-                break;
-            }
-        }
-        work.limit = None;
-    }
-}
-
-impl Work<'_> {
-    /// Sweeps and flips until a round gains less than `least` of the void.
-    pub fn relax(&mut self, volume: f64, least: f64, rounds: usize) {
-        for _ in 0..rounds {
-            let before = self.shell.volume();
-            self.sweep();
-            self.flip_all();
-            let after = self.shell.volume();
-            if before - after <= least * (after - volume).abs() || self.is_spent() {
-                break;
-            }
-        }
-    }
-
-    /// Pulls every vertex once in a random direction and lets it and its neighbours settle; keeps
-    /// what loses volume. How many did.
-    pub fn kick_all(&mut self, dice: &mut Dice, strength: f64) -> usize {
-        let mut kept = 0;
+impl HullEditor<'_> {
+    /// Pulls every vertex once in a random direction and settles it and its neighbours. Keeps the
+    /// kicks that lose volume.
+    pub fn kick_all(&mut self, random: &mut SplitMix, strength: f64) {
         for v in 0..self.shell.vertex_slots() {
             if self.is_spent() {
                 break;
             }
             if !self.shell.mesh.at(v).is_empty() {
-                kept += usize::from(self.kick(v, dice, strength));
+                self.kick(v, random.direction() * strength);
             }
         }
-        kept
     }
 
-    fn kick(&mut self, v: u32, dice: &mut Dice, strength: f64) -> bool {
+    fn kick(&mut self, v: u32, tilt: DVec3) {
         let mut around: Vec<u32> = self.shell.mesh.neighbours(v).collect();
         around.push(v);
         let before: Vec<DVec3> = around.iter().map(|&u| self.shell.position(u)).collect();
-        let wish = Wish {
-            second_term: 0.3,
-            tilt: dice.direction() * strength,
-            upright: Some(0.1),
-            clearance: 0.0,
-        };
-        let Some(mut gained) = self.disturb(v, &wish) else { return false };
-        let radius = self.star_radius(before[before.len() - 1]);
+        let from = self.shell.position(v);
+        let objective = PlacementObjective { centre_weight: 0.3, tilt, upright: Some(0.1) };
+        let Some(mut gained) = self.move_vertex(v, from, &objective) else { return };
+        let radius = radius(&self.star, from);
         for &u in &around {
             gained += self.settle(u).unwrap_or(0.0);
         }
-        let better = gained > GAIN * radius * radius * radius;
-        if !better {
+        let is_better = gained > GAIN * radius * radius * radius;
+        if !is_better {
             for (&u, &at) in around.iter().zip(&before) {
                 self.shell.move_vertex(u, at);
             }
         }
-        better
     }
 }

@@ -1,33 +1,31 @@
-//! Planes of a program where the hull keeps a margin from the mesh.
+//! Planes of a placement's program where the hull keeps a margin from the mesh.
 //!
-//! What a new face may not pass is the mesh grown by the margin: a ball around each of its points.
-//! In the way are points that are cut off, in the tetrahedron between an old face and the new
-//! vertex, and points that the new face is too near to. A ball below the face adds the plane about
-//! the ring edge that touches it; of those planes the steepest is kept, as without a margin. A ball
-//! beside the face, near an edge that moves or near the vertex, has no such plane, or one that asks
-//! too much: there the face's nearest point is pushed away along the line to the mesh, and it moves
-//! as the vertex does, times its weight. Such planes are only right near where they were made: they
-//! are looked for last, and all are kept.
+//! A new face must not pass the mesh grown by the margin: a ball around each of its points. In the
+//! way are points that are cut off, in the tetrahedron between an old face and the new vertex, and
+//! points that the new face is too near to.
+//!
+//! - A ball below the face adds the plane about the ring edge that touches the ball. Of these
+//!   planes the steepest is kept, as without a margin.
+//! - A ball beside the face, near an edge that moves or near the vertex, has no such plane, or one
+//!   that asks too much. There the face's nearest point is pushed away along the line to the mesh.
+//!   The point moves as the vertex does, times its weight. Such a plane is only right near the
+//!   place where it was made, so that these planes are looked for last and all of them are kept.
 //!
 //! All is floating point, as in `placement`.
 
+use super::star::{Frame, StarFace};
 use crate::lp::HalfSpace;
-use crate::tight::moves::placement::{Frame, StarFace};
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::cells::Frontier;
-use crate::tight::proof::distance::{Nearest, Reach};
-use crate::tight::proof::obstacle::Obstacle;
-use crate::tight::proof::predicates::Triangle;
-use crate::tight::proof::region::{Plane, Tetrahedron};
+use crate::surface::{Bounds, Frontier, Plane};
+use crate::tight::proof::{Clearance, Nearest, Obstacle, Tetrahedron, Triangle};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 use std::cell::Cell;
 
-/// Weights below this are rounding: the point does not move with the vertex.
+/// Weights below this are rounding: such a point does not move with the vertex.
 const LIGHT: f64 = 1e-6;
 
-/// Part of the clearance that may be lost before a point counts as too near.
-const HALF: f64 = 0.5;
+/// Part of the clearance below which a point counts as too near.
+const LEAST_CLEARANCE: f64 = 0.5;
 
 /// A new face, and the region that its vertex sweeps.
 pub(crate) struct Sweep<'a> {
@@ -40,18 +38,20 @@ pub(crate) struct Sweep<'a> {
     tetrahedron: Tetrahedron,
     clearance: f64,
     tolerance: f64,
-    /// The highest plane that touches a ball, how far the vertex is below it, and the plane above
-    /// which the centres of higher ones are.
+    /// The highest plane that touches a ball, and the plane above which the centres of higher balls
+    /// are.
     touching: Cell<Option<(Plane, Plane)>>,
+    /// How far the vertex is below the highest plane.
     height: Cell<f64>,
-    /// The plane that pushes the nearest point away, and its distance.
+    /// The plane that pushes the nearest point away.
     pushing: Cell<Option<HalfSpace>>,
+    /// The distance of the nearest point.
     distance: Cell<f64>,
 }
 
 impl<'a> Sweep<'a> {
-    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit,
-    /// heights up to `tolerance` are rounding.
+    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit.
+    /// Heights up to `tolerance` are rounding.
     pub fn new(
         obstacle: &'a Obstacle,
         frame: &'a Frame,
@@ -83,7 +83,7 @@ impl<'a> Sweep<'a> {
         let far = self.obstacle.margin() + self.clearance;
         self.obstacle.visit_points(
             near,
-            |of| self.reaches(of),
+            |of| self.may_hold_vertex(of),
             |q| {
                 // All of the tetrahedron is above the new face.
                 let height = self.normal.dot(q - self.face[0]);
@@ -107,7 +107,7 @@ impl<'a> Sweep<'a> {
         weights.iter().all(|&w| w > LIGHT) && self.is_near(found.distance_sq.sqrt(), weights[0])
     }
 
-    /// The plane for the triangles that are in the way, once no vertex is.
+    /// The plane for the triangles that are in the way, if no vertex is.
     pub fn pieces(&self, near: &Frontier) -> Option<HalfSpace> {
         self.obstacle.visit_triangles(
             near,
@@ -121,15 +121,15 @@ impl<'a> Sweep<'a> {
         self.touching()
     }
 
-    /// The plane for the nearest triangle beside the face, once nothing is cut off.
+    /// The plane for the nearest triangle beside the face, if nothing is cut off.
     pub fn beside(&self, near: &Frontier) -> Option<HalfSpace> {
-        let reach = Reach::new(self.obstacle.margin() + HALF * self.clearance);
+        let clearance = Clearance::new(self.obstacle.margin() + LEAST_CLEARANCE * self.clearance);
         let bounds = Bounds::of(&self.face);
         self.obstacle.visit_triangles(
             near,
-            |of| !reach.parts_box(&self.face, &bounds, self.normal, of),
+            |of| !clearance.separates_box(&self.face, &bounds, self.normal, of),
             |triangle| {
-                if reach.parts_plainly(&self.face, self.normal, triangle) {
+                if clearance.separates_quickly(&self.face, self.normal, triangle) {
                     return;
                 }
                 if let Some(found) = Nearest::of(&self.face, triangle) {
@@ -146,7 +146,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Whether a box may hold a vertex that is in the way.
-    fn reaches(&self, of: &Bounds) -> bool {
+    fn may_hold_vertex(&self, of: &Bounds) -> bool {
         let margin = self.obstacle.margin() + self.clearance;
         self.rises_to(of) && self.tetrahedron.may_come_near(of, margin)
     }
@@ -157,7 +157,7 @@ impl<'a> Sweep<'a> {
     }
 
     fn is_near(&self, distance: f64, weight: f64) -> bool {
-        distance < self.obstacle.margin() + HALF * weight * self.clearance
+        distance < self.obstacle.margin() + LEAST_CLEARANCE * weight * self.clearance
     }
 
     /// Pushes the face's nearest point away from a triangle's.
@@ -179,8 +179,8 @@ impl<'a> Sweep<'a> {
         self.pushing.set(Some(HalfSpace { normal: away, offset }));
     }
 
-    /// Turns the plane about the ring edge until it touches the ball around `q`, if it can, and if
-    /// it touches it in the tetrahedron or anyway.
+    /// Turns the plane about the ring edge until it touches the ball around `q`, if there is such a
+    /// plane. Outside of the tetrahedron the plane counts only if `anyway`.
     fn touch(&self, q: DVec3, anyway: bool) {
         let [a, b] = self.ring;
         let edge = b - a;

@@ -1,25 +1,25 @@
-//! What is known of stars: the search asks again and again for the same ones, as most moves are
-//! taken back and the rest change little.
+//! Answers about stars. The search asks for the same stars again and again, because most edits are
+//! taken back and the others change little.
 
-use crate::tight::moves::placement::StarFace;
+use super::star::StarFace;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// What is asked of a star.
+/// A question about a star.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Question {
-    /// Where a vertex settles.
+    /// The place where a vertex settles.
     Settle = 1,
-    /// What a collapse costs.
+    /// The cost of a collapse.
     Collapse = 2,
-    /// What a split costs.
+    /// The cost of a split.
     Split = 3,
-    /// Whether a flip meets the mesh.
+    /// Whether a flip is possible.
     Flip = 4,
 }
 
-/// A star and a question by their hash. Two with the same hash would be taken for one: a move would
-/// be passed over, or tried and refused.
+/// The hash of a star and a question. If two have the same hash an edit is passed over, or tried and
+/// refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Key(u64);
 
@@ -27,8 +27,8 @@ pub(crate) struct Key(u64);
 pub(crate) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Key {
-    /// `salt` is what else the answer depends on. Neither the order of the faces counts nor which
-    /// of their corners is first.
+    /// `salt` stands for everything else that the answer depends on. The order of the faces does not
+    /// count, nor which corner of a face is first.
     pub fn new(question: Question, salt: u64, star: &[StarFace]) -> Self {
         let corner = |p: DVec3| {
             let mix = |h: u64, x: f64| (h.rotate_left(23) ^ x.to_bits()).wrapping_mul(GOLDEN);
@@ -48,25 +48,25 @@ impl Key {
     }
 }
 
-/// Answers that are kept before all are forgotten.
-const MOST: usize = 1 << 18;
+/// Number of answers at which all are forgotten.
+const CAPACITY: usize = 1 << 18;
 
-/// Where a star's vertex goes and what that adds to the volume; `None` where it goes nowhere.
+/// The place for a star's vertex and the volume that it adds; `None` if there is no place.
 type Answer = Option<(DVec3, f64)>;
 
-/// Answers by star. Only ever looked up, so that its order does not show.
+/// Answers by star. They are only looked up, so that the map's order does not show.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memo(FxHashMap<Key, Answer>);
 
 impl Memo {
-    /// What was answered before.
+    /// The answer before.
     pub fn get(&self, key: Key) -> Option<Answer> {
         self.0.get(&key).copied()
     }
 
     /// Remembers an answer.
     pub fn put(&mut self, key: Key, answer: Answer) {
-        if self.0.len() >= MOST {
+        if self.0.len() >= CAPACITY {
             self.0.clear();
         }
         self.0.insert(key, answer);
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_star_is_known_again_whatever_its_faces_order_and_another_is_not() {
+    fn a_star_is_recognised_in_any_order_of_its_faces_and_others_are_not() {
         let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
         let [v, a, b, c] =
             [at(0.0, 0.0, 1.0), at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(-1.0, -1.0, 0.0)];

@@ -2,28 +2,41 @@
 //!
 //! | file | what lies there |
 //! | --- | --- |
-//! | `editor.rs` | the hull with its obstacle and counters; what every edit must satisfy |
-//! | `shell.rs` | the hull's surface: connectivity, positions, boxes of faces |
+//! | `editor.rs` | [`HullEditor`]: the hull, its obstacle, and the conditions of every edit |
+//! | `shell.rs` | [`Shell`]: the hull's surface, with boxes of its faces |
+//! | `star.rs` | [`StarFace`]: a face of the star that an edit replaces |
 //! | `placement.rs` | the linear program that places the vertex of a star |
 //! | `margin_planes.rs` | planes of that program where the hull keeps a margin |
 //! | `vertex.rs` | moves one vertex |
 //! | `collapse.rs` | edge collapses, cheapest first |
 //! | `exchange.rs` | edge splits, and a split exchanged for a collapse |
 //! | `flip.rs` | edge flips |
-//! | `kick.rs` | random kicks, and polishing |
+//! | `kick.rs` | random kicks of vertices |
+//! | `random.rs` | the same pseudo-random numbers in every run |
+//! | `tolerance.rs` | least gains and clearances of edits |
 //! | `within.rs` | edits that keep or bring the hull within a distance of the mesh |
-//! | `memo.rs` | answers about stars that were asked before |
+//! | `memo.rs` | answers about stars that were asked for before |
 //! | `rounding.rs` | rounding to stored coordinates |
 
-pub(crate) mod collapse;
-pub(crate) mod editor;
+mod collapse;
+mod editor;
 mod exchange;
 mod flip;
-pub(crate) mod kick;
+mod kick;
 mod margin_planes;
 mod memo;
-pub(crate) mod placement;
-pub(crate) mod rounding;
-pub(crate) mod shell;
+mod placement;
+mod random;
+mod rounding;
+mod shell;
+mod star;
+mod tolerance;
 mod vertex;
-pub(crate) mod within;
+mod within;
+
+pub(crate) use editor::{HullEditor, Shape};
+pub(crate) use random::SplitMix;
+pub(crate) use rounding::Rounding;
+pub(crate) use shell::Shell;
+pub(crate) use star::StarFace;
+pub(crate) use within::slack;

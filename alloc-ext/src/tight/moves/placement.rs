@@ -1,104 +1,82 @@
-//! Where the vertex of a changed star goes: as deep as the original mesh lets it.
+//! The place for the vertex of a changed star: as deep as the original mesh lets it.
 //!
 //! The volume below a star is linear in its vertex `x`. A new face turns about its ring edge as `x`
-//! moves, and what it may not pass is the mesh. So this is a linear program whose planes are found
-//! on the way: solve it, look for mesh in the tetrahedra between the old faces and the new vertex,
-//! add for each ring edge the plane through the edge and the point that stands out most, and solve
-//! again. A plane is only ever replaced by a steeper one about the same edge, and mesh behind the
-//! hull that the move does not reach adds none.
+//! moves, and must not pass the mesh. So this is a linear program whose planes are found on the
+//! way:
+//! 1. solve the program;
+//! 2. look for mesh in the tetrahedra between the old faces and the new vertex;
+//! 3. for each ring edge, add the plane through the edge and the point that stands out most;
+//! 4. solve again, until no mesh is found.
 //!
-//! All is floating point: what is found here is proved, or refused, in `admits`.
+//! A plane is only ever replaced by a steeper one about the same edge. Mesh behind the hull that
+//! the edit does not reach adds no plane.
+//!
+//! All is floating point. The editor proves or refuses the place that is found here.
 
+use super::margin_planes::Sweep;
+use super::star::{Frame, StarFace, corners, radius};
 use crate::lp::{HalfSpace, minimise_bounded};
-use crate::tight::moves::margin_planes::Sweep;
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::cells::Frontier;
-use crate::tight::proof::obstacle::Obstacle;
-use crate::tight::proof::predicates::Triangle;
-use crate::tight::proof::region::{Plane, Tetrahedron};
+use crate::surface::{Bounds, Frontier, Plane};
+use crate::tight::proof::{Obstacle, Tetrahedron};
 use glam::DVec3;
 use std::cell::Cell;
 
-/// A face of the star before the move.
+/// The objective of a placement besides least volume.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct StarFace {
-    pub corners: Triangle,
-    /// The edge that stays, if the face does: its face afterwards is `x`, then these.
-    pub ring: Option<[DVec3; 2]>,
-    pub normal: DVec3,
-    pub double_area: f64,
-}
-
-impl StarFace {
-    pub fn new(corners: Triangle, ring: Option<[DVec3; 2]>) -> Self {
-        let [a, b, c] = corners;
-        let cross = (b - a).cross(c - a);
-        let double_area = cross.length();
-        let normal = if double_area > 0.0 { cross / double_area } else { DVec3::ZERO };
-        Self { corners, ring, normal, double_area }
-    }
-
-    /// Six times the volume that a vertex adds.
-    pub fn added(&self, x: DVec3) -> f64 {
-        self.normal.dot(x - self.corners[0]) * self.double_area
-    }
-}
-
-/// What is asked of a placement beside least volume.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Wish {
+pub(crate) struct PlacementObjective {
     /// Weight of the second term, which keeps the vertex near the star's centre.
-    pub second_term: f64,
+    pub centre_weight: f64,
     /// Added to the direction of least volume, as a part of its length.
     pub tilt: DVec3,
-    /// Least part of a face's area that its new face keeps when it is seen along the old normal;
-    /// `None`: any.
+    /// Least part of a face's area that its new face keeps, seen along the old normal; `None`: any.
     pub upright: Option<f64>,
-    /// Distance that is kept from each plane.
-    pub clearance: f64,
 }
 
-/// Programs of one star until it is given up.
+/// Most programs for one star.
 const ROUNDS: usize = 25;
 
 /// Heights below this part of the star's radius are rounding.
-const LEVEL: f64 = 1e-12;
+const ROUNDING: f64 = 1e-12;
 
-/// The solver's memory, kept to save allocations, and its counters.
+/// Buffers of the programs, kept to save allocations, and counters of work.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Placer {
-    /// Stars.
+    /// Stars that were placed.
     pub stars: u64,
-    /// Programs.
+    /// Programs that were solved.
     pub programs: u64,
+    /// Planes that do not depend on the mesh.
     fixed: Vec<HalfSpace>,
+    /// Per face of the star the plane about its ring edge.
     cuts: Vec<Option<HalfSpace>>,
-    /// See [`apart`](crate::tight::moves::margin_planes).
+    /// Planes that push faces off the mesh beside them; see [`margin_planes`](super::margin_planes).
     pushes: Vec<HalfSpace>,
+    /// All planes of a program.
     planes: Vec<HalfSpace>,
 }
 
 impl Placer {
-    /// The vertex, not rounded; `None` if the program has no answer.
+    /// The vertex, not rounded, which keeps `clearance` from each plane; `None` if the program has
+    /// no answer.
     pub fn place(
         &mut self,
         obstacle: &Obstacle,
         star: &[StarFace],
         centre: DVec3,
-        wish: &Wish,
+        clearance: f64,
+        objective: &PlacementObjective,
     ) -> Option<DVec3> {
         self.stars += 1;
-        let radius_sq = star.iter().flat_map(|f| f.corners).map(|p| (p - centre).length_squared());
-        let radius = radius_sq.fold(0.0, f64::max).sqrt();
+        let radius = radius(star, centre);
         if !(radius > 0.0 && radius.is_finite()) {
             return None;
         }
         let frame = Frame { centre, radius };
-        let objective = self.open(star, &frame, wish)?;
-        let reach = star.iter().flat_map(|f| f.corners).fold(Bounds::EMPTY, Bounds::with);
+        let direction = self.open(star, &frame, objective)?;
+        let bounds = corners(star).fold(Bounds::EMPTY, Bounds::with);
         let mut near = <[Frontier; 2]>::default();
         let margin = obstacle.margin();
-        obstacle.frontiers(&reach.grown(margin + wish.clearance), &mut near);
+        obstacle.frontiers(&bounds.grown(margin + clearance), &mut near);
         let everywhere = [Frontier::whole(), Frontier::whole()];
         for _ in 0..ROUNDS {
             self.programs += 1;
@@ -106,17 +84,17 @@ impl Placer {
             self.planes.extend(self.cuts.iter().flatten());
             self.planes.extend(&self.pushes);
             self.planes.extend(&self.fixed);
-            let x = minimise_bounded(objective, &mut self.planes, wish.second_term)?;
+            let x = minimise_bounded(direction, &mut self.planes, objective.centre_weight)?;
             let x = centre + x * radius;
-            // Vertices of the mesh are cheap to look for and find nearly every plane; edges are
-            // looked at once no vertex is in the way.
-            let near = if reach.with(x) == reach { &near } else { &everywhere };
+            // Vertices of the mesh are cheap to look for and find nearly every plane. Edges are
+            // looked for once no vertex is in the way.
+            let near = if bounds.with(x) == bounds { &near } else { &everywhere };
             let search = |edges: bool| Search { obstacle, near, edges };
             let mut clear = [false, true]
                 .into_iter()
-                .all(|edges| self.cut(star, &frame, x, wish.clearance, &search(edges)));
+                .all(|edges| self.cut(star, &frame, x, clearance, &search(edges)));
             if margin > 0.0 && clear {
-                clear = self.push_apart(star, &frame, x, wish.clearance, &search(true));
+                clear = self.push_apart(star, &frame, x, clearance, &search(true));
             }
             if clear {
                 return Some(x);
@@ -125,34 +103,38 @@ impl Placer {
         None
     }
 
-    /// Sets up the constraints that do not depend on the mesh; the objective.
-    fn open(&mut self, star: &[StarFace], frame: &Frame, wish: &Wish) -> Option<DVec3> {
+    /// Sets up the planes that do not depend on the mesh; the direction of the program.
+    fn open(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        objective: &PlacementObjective,
+    ) -> Option<DVec3> {
         self.fixed.clear();
         self.pushes.clear();
         self.cuts.clear();
         self.cuts.resize(star.len(), None);
-        let mut objective = DVec3::ZERO;
+        let mut direction = DVec3::ZERO;
         let mut area = 0.0;
         for face in star {
             let Some(ring) = face.ring else { continue };
             let [a, b] = ring.map(|p| frame.local(p));
             let cross = a.cross(b);
-            objective += cross;
+            direction += cross;
             let double_area = face.double_area / (frame.radius * frame.radius);
             area += double_area;
             let across = (b - a).cross(face.normal);
             let length = across.length();
-            if let Some(upright) = wish.upright.filter(|_| length > LEVEL) {
+            if let Some(upright) = objective.upright.filter(|_| length > ROUNDING) {
                 let offset = (upright * double_area - cross.dot(face.normal)) / length;
                 self.fixed.push(HalfSpace { normal: -across / length, offset });
             }
         }
-        objective += wish.tilt * objective.length();
-        (area > 0.0).then(|| objective / area)
+        direction += objective.tilt * direction.length();
+        (area > 0.0).then(|| direction / area)
     }
 
-    /// Adds a plane for every new face that has mesh in front of it, and says whether there was
-    /// none.
+    /// Adds a plane for every new face that has mesh in front of it; whether there was none.
     fn cut(
         &mut self,
         star: &[StarFace],
@@ -161,14 +143,14 @@ impl Placer {
         clearance: f64,
         search: &Search<'_>,
     ) -> bool {
-        let tolerance = LEVEL * frame.radius;
+        let tolerance = ROUNDING * frame.radius;
         let margin = search.obstacle.margin();
         let mut clear = true;
         for (face, cut) in star.iter().zip(&mut self.cuts) {
             let rises = face.normal.dot(x - face.corners[0]) >= -tolerance;
             let found = match face.ring {
-                // A face that rises cuts nothing off, but may turn towards what it has to keep away
-                // from.
+                // A face that rises cuts nothing off, but it may turn towards mesh that it has to
+                // keep the margin from.
                 Some(ring) if margin > 0.0 => {
                     let sweep =
                         Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
@@ -190,8 +172,7 @@ impl Placer {
         clear
     }
 
-    /// Adds a plane for every new face that the mesh comes near from the side, and says whether
-    /// there was none.
+    /// Adds a plane for every new face that has mesh near its side; whether there was none.
     fn push_apart(
         &mut self,
         star: &[StarFace],
@@ -203,7 +184,7 @@ impl Placer {
         let before = self.pushes.len();
         for face in star {
             let Some(ring) = face.ring else { continue };
-            let tolerance = LEVEL * frame.radius;
+            let tolerance = ROUNDING * frame.radius;
             let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
             self.pushes.extend(sweep.beside(&search.near[1]));
         }
@@ -211,8 +192,8 @@ impl Placer {
     }
 }
 
-/// The plane about a ring edge that keeps the new face above the mesh below the old one;
-/// `clearance` in the frame's unit.
+/// The plane about a ring edge that keeps the new face above the mesh below the old face;
+/// `clearance` is in the frame's unit.
 fn turned(
     face: &StarFace,
     [a, b]: [DVec3; 2],
@@ -222,13 +203,13 @@ fn turned(
     search: &Search<'_>,
 ) -> Option<HalfSpace> {
     let edge = b - a;
-    let tolerance = LEVEL * frame.radius;
+    let tolerance = ROUNDING * frame.radius;
     let least = 10.0 * tolerance * edge.length();
     let height = Cell::new(tolerance);
     let turned = |q: DVec3| {
         let normal = edge.cross(q - a);
         let length = normal.length();
-        // The edge itself turns no plane about it.
+        // A point on the edge gives no plane.
         if length <= least {
             return None;
         }
@@ -245,7 +226,7 @@ fn turned(
     })
 }
 
-/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` in the
+/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` is in the
 /// frame's unit.
 fn raised(
     face: &StarFace,
@@ -255,7 +236,7 @@ fn raised(
     search: &Search<'_>,
 ) -> Option<HalfSpace> {
     let below = face.normal.dot(x);
-    let height = Cell::new(LEVEL * frame.radius);
+    let height = Cell::new(ROUNDING * frame.radius);
     let raised = |q: DVec3| {
         let offset = face.normal.dot(q);
         (offset - below > height.get()).then(|| {
@@ -274,13 +255,13 @@ fn raised(
 struct Search<'a> {
     obstacle: &'a Obstacle,
     near: &'a [Frontier; 2],
-    /// Edges of the mesh too, not only its vertices.
+    /// Whether edges of the mesh are looked for, or only its vertices.
     edges: bool,
 }
 
 impl Search<'_> {
-    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each must be
-    /// above the one before, so that points below it need not be looked at.
+    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each plane must
+    /// be above the one before, so that points below it need not be visited.
     fn highest(
         &self,
         tetrahedron: &Tetrahedron,
@@ -291,17 +272,5 @@ impl Search<'_> {
         } else {
             self.obstacle.highest_point(&self.near[0], tetrahedron, raise)
         }
-    }
-}
-
-/// The frame of a program: origin in the star, its radius as unit.
-pub(crate) struct Frame {
-    centre: DVec3,
-    pub radius: f64,
-}
-
-impl Frame {
-    pub fn local(&self, p: DVec3) -> DVec3 {
-        (p - self.centre) / self.radius
     }
 }

@@ -1,8 +1,8 @@
-//! Rounding to the coordinates that a hull is stored with.
+//! Rounding to the coordinates in which a hull is stored.
 
-use crate::precision::Grid;
+use crate::surface::Grid;
 use glam::DVec3;
-use meshsweep_core::num::exp2;
+use meshsweep_core::internal::num::exp2;
 
 /// A grid of the local frame, or single precision, seen from the mesh's own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +19,8 @@ impl Rounding {
 
     /// The nearest stored point, an `f32` in the mesh's frame; `None` where there is none.
     pub fn round(&self, p: DVec3) -> Option<DVec3> {
-        // Numbers below the least normal f32 are farther apart in the mesh's frame than in the
-        // local one.
+        // Below the least normal f32, numbers are farther apart in the mesh's frame than in the
+        // local frame.
         let single = p.as_vec3().as_dvec3();
         let stored = self.grid.round(single * exp2(-self.exponent))? * exp2(self.exponent);
         (stored.is_finite() && stored == stored.as_vec3().as_dvec3()).then_some(stored)

@@ -1,10 +1,9 @@
-//! The hull while it is worked on: triangles, positions, and the faces' boxes to find neighbours
-//! by.
+//! The surface of a hull under edit: connectivity, positions, and boxes of its faces.
 
+use super::star::StarFace;
 use crate::collapse::Connectivity;
-use crate::tight::moves::placement::StarFace;
-use crate::tight::proof::boxes::Bounds;
-use crate::tight::proof::predicates::{Face, Triangle};
+use crate::surface::{Bounds, SignedVolume, compact};
+use crate::tight::proof::{Face, Triangle, outermost};
 use glam::DVec3;
 
 /// A closed manifold surface whose positions are `f32` numbers.
@@ -15,8 +14,8 @@ pub(crate) struct Shell {
     boxes: FaceBoxes,
 }
 
-/// Boxes of the faces, one array an axis: a scan of thousands costs less than a tree that every
-/// move changes. `f32` holds them exactly.
+/// Boxes of the faces, one array per axis. A scan of thousands costs less than a tree that every
+/// edit changes. `f32` holds the boxes exactly.
 #[derive(Clone, Debug, Default)]
 struct FaceBoxes {
     low: [Vec<f32>; 3],
@@ -88,7 +87,7 @@ impl Shell {
         self.mesh.alive_count()
     }
 
-    /// Slots of vertices; those without faces are gone.
+    /// Number of vertices, of which those without faces are gone.
     pub fn vertex_slots(&self) -> u32 {
         self.at.len() as u32
     }
@@ -100,15 +99,6 @@ impl Shell {
     /// Numbers of the faces.
     pub fn alive(&self) -> impl Iterator<Item = u32> + '_ {
         (0..self.mesh.corners.len() as u32).filter(|&f| self.mesh.is_alive(f))
-    }
-
-    /// Each edge once, lesser end first, in the order of the faces.
-    pub fn edges(&self) -> Vec<[u32; 2]> {
-        let edges = self.alive().flat_map(|f| {
-            let [a, b, c] = self.mesh.corners[f as usize];
-            [[a, b], [b, c], [c, a]]
-        });
-        edges.filter(|[a, b]| a < b).collect()
     }
 
     pub fn triangle(&self, f: u32) -> Triangle {
@@ -142,7 +132,7 @@ impl Shell {
         star.extend(self.mesh.at(v).iter().map(|&f| self.star_face(f, [v, v])));
     }
 
-    /// Those of `faces` as the star of an edge, or of a vertex that is given twice.
+    /// A face as one of the star of an edge, or of a vertex that is given twice.
     pub fn star_face(&self, f: u32, [a, b]: [u32; 2]) -> StarFace {
         let ids = self.mesh.corners[f as usize];
         let corners = self.triangle(f);
@@ -156,7 +146,7 @@ impl Shell {
         StarFace::new(corners, ring)
     }
 
-    /// `f` after its corners `a` and `b` have become `a`, at `x`; `None` if it vanishes.
+    /// The face `f` after a collapse of `a` and `b` into `a` at `x`; `None` if it vanishes.
     pub fn face_after(&self, f: u32, [a, b]: [u32; 2], x: DVec3) -> Option<Face> {
         let Face { mut ids, mut at } = self.face(f);
         let mut moved = 0;
@@ -198,34 +188,26 @@ impl Shell {
         Some(v)
     }
 
-    /// Signed volume, around a vertex so that nothing cancels far from the origin.
+    /// Signed volume.
     pub fn volume(&self) -> f64 {
-        let Some(first) = self.alive().next() else { return 0.0 };
-        let origin = self.triangle(first)[0];
-        let six = self.alive().map(|f| {
-            let [a, b, c] = self.triangle(f).map(|p| p - origin);
-            a.dot(b.cross(c))
-        });
-        six.sum::<f64>() / 6.0
+        SignedVolume::of(self.alive().map(|f| self.triangle(f))).value
+    }
+
+    /// Corners of the faces.
+    fn corners(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        self.alive().map(|f| self.mesh.corners[f as usize])
+    }
+
+    /// The shell without the connected components that lie inside others, and their number; `None`
+    /// if it has one component only. For a shell that does not meet itself.
+    pub fn outermost(&self) -> Option<(Self, usize)> {
+        let (kept, dropped) = outermost(&self.at, &self.corners().collect::<Vec<_>>())?;
+        let (positions, triangles) = compact(&self.at, kept);
+        Some((Self::new(positions, &triangles), dropped))
     }
 
     /// Positions and triangles without gaps, in the order of the faces.
     pub fn compact(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-        let mut number = vec![u32::MAX; self.at.len()];
-        let mut positions = Vec::new();
-        let triangles = self
-            .alive()
-            .map(|f| {
-                self.mesh.corners[f as usize].map(|v| {
-                    let number = &mut number[v as usize];
-                    if *number == u32::MAX {
-                        *number = positions.len() as u32;
-                        positions.push(self.at[v as usize]);
-                    }
-                    *number
-                })
-            })
-            .collect();
-        (positions, triangles)
+        compact(&self.at, self.corners())
     }
 }

@@ -1,21 +1,19 @@
-//! How far a hull is from the mesh, and moves that bring it nearer.
+//! The distance of the hull from the mesh, and edits that make it smaller.
 //!
-//! Least volume alone lets a thin spike stand: it costs next to nothing. Where a slack is asked
-//! for, every move keeps the faces that it makes within [`Work::reach`] of the mesh, and a hull
-//! that is farther is first brought there: the worst face's corners are pulled towards the mesh,
-//! its edges are collapsed, flipped and split, each time to where the worst of the new faces is
-//! nearer than the worst of the old.
+//! Least volume alone lets a thin spike stand, because a spike costs next to nothing. Where a slack
+//! is asked for, every edit keeps the new faces within [`HullEditor::max_distance`] of the mesh. A
+//! hull that is farther is brought nearer first. Around its worst face corners are pulled towards
+//! the mesh and edges are collapsed, flipped and split. An edit is made if the worst new face is
+//! nearer than the worst old face.
 
-use crate::hull::{Farthest, Nearest, farthest, is_within};
-use crate::tight::moves::collapse::Candidate;
-use crate::tight::moves::editor::Work;
-use crate::tight::moves::placement::{StarFace, Wish};
-use crate::tight::moves::shell::Shell;
-use crate::tight::proof::distance_field::Field;
-use crate::tight::proof::obstacle::Obstacle;
-use crate::tight::proof::predicates::Triangle;
+use super::editor::HullEditor;
+use super::placement::PlacementObjective;
+use super::shell::Shell;
+use super::star::StarFace;
+use crate::hausdorff::{Farthest, Nearest, farthest, is_within};
+use crate::tight::proof::{DistanceField, Obstacle, Triangle};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
 fn nearest(obstacle: &Obstacle, p: DVec3) -> Option<Nearest> {
     let (triangle, [lower, upper]) = obstacle.nearest(p)?;
@@ -27,101 +25,103 @@ pub(crate) fn slack(shell: &Shell, obstacle: &Obstacle) -> Farthest {
     farthest(shell.alive().map(|f| shell.triangle(f)), 0.0, |p| nearest(obstacle, p))
 }
 
-/// Pieces that a face is cut into at most to see whether it is in reach: where they do not tell, it
-/// counts as out of it.
-const PIECES: usize = 4000;
+/// Most pieces that a face is cut into to decide whether it is within the limit. If they do not
+/// decide, the face counts as too far.
+const MOST_PIECES: usize = 4000;
 
-/// Steps of the field in a slack.
-const STEPS: f64 = 8.0;
+/// Steps of the distance field in the largest distance.
+const FIELD_STEPS: f64 = 8.0;
 
-/// Least part by which a move brings the worst face nearer.
+/// Least part by which an edit brings the worst face nearer.
 const NEARER: f64 = 0.05;
 
-/// A hull is given up where fewer than one in this many of its far faces came nearer in a round.
+/// A hull is given up if fewer than one in this many of its far faces came nearer in a round.
 const HOPELESS: usize = 20;
 
-/// A hull is given up, too, where splits have made so many times as many faces, and these more.
-const SPLIT: usize = 2;
+/// A hull is also given up if splits have made its faces this many times as many, plus
+/// [`MORE_FACES`].
+const TIMES_FACES: usize = 2;
 
-/// See [`SPLIT`].
-const SPLIT_BESIDES: usize = 500;
+/// See [`TIMES_FACES`].
+const MORE_FACES: usize = 500;
 
 /// Pulls a vertex to a place, whatever volume that costs.
-const PULL: Wish =
-    Wish { second_term: 1e3, tilt: DVec3::ZERO, upright: Some(0.01), clearance: 0.0 };
+const PULL: PlacementObjective =
+    PlacementObjective { centre_weight: 1e3, tilt: DVec3::ZERO, upright: Some(0.01) };
 
-impl Work<'_> {
-    /// Whether no point of a face is farther from the mesh than [`reach`](Self::reach).
-    pub fn is_in_reach(&mut self, face: &Triangle) -> bool {
+impl HullEditor<'_> {
+    /// Whether no point of a face is farther than [`max_distance`](Self::max_distance) from the
+    /// mesh.
+    pub(super) fn is_within_limit(&mut self, face: &Triangle) -> bool {
         let obstacle = self.obstacle;
-        self.reach == f64::INFINITY
+        !self.has_distance_limit()
             || is_within(
                 *face,
-                self.reach,
-                PIECES,
-                |p| self.field.about(obstacle, p),
+                self.max_distance,
+                MOST_PIECES,
+                |p| self.distance_field.about(obstacle, p),
                 |p| nearest(obstacle, p),
             )
     }
 
-    /// Whether all faces of a star that has its vertex at `x` are in reach.
-    pub fn is_star_in_reach(&mut self, star: &[StarFace], x: DVec3) -> bool {
-        self.reach == f64::INFINITY
-            || self.field.about(self.obstacle, x)[0] <= self.reach
+    /// Whether all faces of a star with its vertex at `x` are within the limit.
+    pub(super) fn is_star_within_limit(&mut self, star: &[StarFace], x: DVec3) -> bool {
+        !self.has_distance_limit()
+            || self.distance_field.about(self.obstacle, x)[0] <= self.max_distance
                 && star
                     .iter()
                     .filter_map(|face| face.ring)
-                    .all(|[a, b]| self.is_in_reach(&[x, a, b]))
+                    .all(|[a, b]| self.is_within_limit(&[x, a, b]))
     }
 
-    /// Whether a slack is kept.
-    pub fn is_kept_near(&self) -> bool {
-        self.reach < f64::INFINITY
+    /// Whether edits keep a largest distance from the mesh.
+    pub fn has_distance_limit(&self) -> bool {
+        self.max_distance < f64::INFINITY
     }
 
-    /// Not below the largest distance from a point of the hull to the mesh.
+    /// An upper bound of the largest distance from a point of the hull to the mesh.
     pub fn slack(&self) -> f64 {
         slack(&self.shell, self.obstacle).upper
     }
 
-    /// From now on no new face has a point farther from the mesh.
-    pub fn stay_within(&mut self, most: f64) {
-        self.reach = most;
-        if self.field.step() != most / STEPS {
-            self.field = Field::new(most / STEPS);
+    /// Sets the largest distance of a point of a new face from the mesh.
+    pub fn limit_distance(&mut self, most: f64) {
+        self.max_distance = most;
+        if self.distance_field.step() != most / FIELD_STEPS {
+            self.distance_field = DistanceField::new(most / FIELD_STEPS);
         }
     }
 
-    /// Not below the largest distance of some faces from the mesh, as far as it is more than
-    /// `enough`.
+    /// An upper bound of the largest distance of some faces from the mesh, as tight as a distance
+    /// above `enough` needs.
     fn distance(&self, faces: &[u32], enough: f64) -> f64 {
         let corners = faces.iter().map(|&f| self.shell.triangle(f));
         farthest(corners, enough, |p| nearest(self.obstacle, p)).upper
     }
 
-    /// Brings every face within a distance of the mesh and keeps it there from then on; false, and
-    /// the reach is as before, if some stay outside or the time is up.
-    pub fn come_within(&mut self, most: f64) -> bool {
-        let before = self.reach;
-        self.stay_within(most);
-        let is_done = self.bring_all_within(most);
-        self.reach = if is_done { most } else { before };
-        is_done
+    /// Brings every face within a distance of the mesh, and limits later edits to that distance.
+    /// False if some faces stay farther or the time is up; the limit is then the one before.
+    pub fn bring_within(&mut self, most: f64) -> bool {
+        let before = self.max_distance;
+        self.limit_distance(most);
+        let is_within = self.bring_all_within(most);
+        self.max_distance = if is_within { most } else { before };
+        is_within
     }
 
-    /// True only after each face was found to be within.
+    /// True only after each face was proved to be within.
     fn bring_all_within(&mut self, most: f64) -> bool {
         let mut faces: Vec<u32> = self.shell.alive().collect();
         let mut is_all = true;
-        let too_many = SPLIT * faces.len() + SPLIT_BESIDES;
+        let too_many = TIMES_FACES * faces.len() + MORE_FACES;
         loop {
-            self.reach = most;
+            self.max_distance = most;
             let mut far: Vec<(f64, u32)> = Vec::new();
             for &f in &faces {
                 if self.is_late() {
                     return false;
                 }
-                if self.shell.mesh.is_alive(f) && !self.is_in_reach(&self.shell.triangle(f)) {
+                if self.shell.mesh.is_alive(f) && !self.is_within_limit(&self.shell.triangle(f)) {
                     far.push((self.distance(&[f], most), f));
                 }
             }
@@ -134,7 +134,7 @@ impl Work<'_> {
                 continue;
             }
             far.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            // Moves end, as each brings what it changes nearer by a part.
+            // Rounds come to an end, because each edit brings its faces nearer by a part.
             let mut moved = 0;
             let mut changed: Vec<u32> = Vec::new();
             for &(_, f) in &far {
@@ -158,8 +158,7 @@ impl Work<'_> {
         }
     }
 
-    /// Tries the moves around a face until one brings what it changes nearer: the faces that it
-    /// made.
+    /// Tries the edits around a face until one brings its faces nearer; the new faces.
     fn bring_nearer(&mut self, f: u32, most: f64) -> Option<Vec<u32>> {
         let [a, b, c] = self.shell.mesh.corners[f as usize];
         // The farthest corner first.
@@ -167,29 +166,28 @@ impl Work<'_> {
         corners.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         for (_, v) in corners {
             let star = self.shell.mesh.at(v).to_vec();
-            self.aim(&star, most);
+            self.require_nearer(&star, most);
             if self.pull(v) {
                 return Some(star);
             }
         }
         let edges = [[a, b], [b, c], [c, a]].map(|[u, v]| [u.min(v), u.max(v)]);
-        for [u, v] in edges {
-            let mut star = self.shell.mesh.at(u).to_vec();
-            star.extend(self.shell.mesh.at(v));
-            self.aim(&star, most);
-            if let Some(Candidate { position, .. }) = self.evaluate(u, v, 0)
-                && self.collapse(u, v, position)
+        for ends in edges {
+            let star = ends.map(|v| self.shell.mesh.at(v)).concat();
+            self.require_nearer(&star, most);
+            if let Some(collapse) = self.evaluate_collapse(ends)
+                && self.collapse(ends, collapse.position)
             {
-                return Some(self.shell.mesh.at(u).to_vec());
+                return Some(self.shell.mesh.at(ends[0]).to_vec());
             }
         }
         for [u, v] in edges {
             let Some(wings) = self.shell.mesh.wings(u, v) else { continue };
-            self.aim(&wings.triangles, most);
+            self.require_nearer(&wings.triangles, most);
             if self.flip(u, v) {
                 return Some(wings.triangles.to_vec());
             }
-            if let Some(split) = self.evaluate_split(u, v)
+            if let Some(split) = self.evaluate_split([u, v])
                 && let Some(new) = self.split(&split)
             {
                 return Some(self.shell.mesh.at(new).to_vec());
@@ -198,9 +196,9 @@ impl Work<'_> {
         None
     }
 
-    /// Sets the reach to what is an improvement for some faces.
-    fn aim(&mut self, faces: &[u32], most: f64) {
-        self.reach = most.max(self.distance(faces, most) * (1.0 - NEARER));
+    /// Sets the largest distance so that an edit of these faces brings the worst of them nearer.
+    fn require_nearer(&mut self, faces: &[u32], most: f64) {
+        self.max_distance = most.max(self.distance(faces, most) * (1.0 - NEARER));
     }
 
     fn height(&self, v: u32) -> f64 {
@@ -213,6 +211,6 @@ impl Work<'_> {
         let Some(([a, b, c], _)) = self.obstacle.nearest(from) else { return false };
         let near = point_triangle(from, a, b, c);
         let target = a + (b - a) * near.u + (c - a) * near.v;
-        self.move_to(v, target, &PULL)
+        self.move_vertex(v, target, &PULL).is_some()
     }
 }

@@ -1,41 +1,41 @@
-//! Distances to the mesh at the points of a lattice, as they are asked for: what the distance of
-//! any point is about.
+//! Bounds of the distance from any point to the mesh, from exact distances at the points of a
+//! lattice. These are computed when they are first asked for.
 
-use crate::tight::proof::obstacle::Obstacle;
+use super::obstacle::Obstacle;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// Bounds of the distance at each point of the lattice that was asked for. Only ever looked up, so
-/// that its order does not show.
+/// Bounds of the distance at the lattice points that were asked for. They are only looked up, so
+/// that the map's order does not show.
 #[derive(Clone, Debug)]
-pub(crate) struct Field {
+pub(crate) struct DistanceField {
     step: f64,
     known: FxHashMap<[i32; 3], [f64; 2]>,
 }
 
-/// Points that are kept before all are forgotten.
-const MOST: usize = 1 << 19;
+/// Number of points at which all are forgotten.
+const CAPACITY: usize = 1 << 19;
 
-/// More than the rounding of a bound here, as a part of it.
+/// More than the rounding of a bound, as a part of it.
 const ROUNDING: f64 = 1e-12;
 
-impl Field {
-    /// Of a lattice with so much from point to point.
+impl DistanceField {
+    /// With a distance between lattice points.
     pub fn new(step: f64) -> Self {
         Self { step, known: FxHashMap::default() }
     }
 
-    /// From point to point.
+    /// Distance between lattice points.
     pub fn step(&self) -> f64 {
         self.step
     }
 
-    /// Bounds of a point's distance to the mesh, up to a step's diagonal apart.
+    /// Bounds of a point's distance to the mesh, at most a step's diagonal apart.
     pub fn about(&mut self, obstacle: &Obstacle, p: DVec3) -> [f64; 2] {
-        // Where that saturates the point is farther away, which counts.
+        // Where the conversion saturates, the bounds include the distance to the lattice point.
         let cell = (p / self.step).round().to_array().map(|x| x as i32);
         let point = DVec3::from(cell.map(f64::from)) * self.step;
-        if self.known.len() >= MOST {
+        if self.known.len() >= CAPACITY {
             self.known.clear();
         }
         let known = self.known.entry(cell);
@@ -52,11 +52,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_distance_is_about_holds_it_near_and_far() {
+    fn bounds_hold_the_distance_near_and_far() {
         let corners = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [1.0, 4.0, 2.0]].map(DVec3::from);
         let obstacle = Obstacle::new(&corners, &[[0, 1, 2]]);
         for step in [1e-30, 1e-3, 0.25, 7.0, 1e30] {
-            let mut field = Field::new(step);
+            let mut field = DistanceField::new(step);
             for i in 0..2000u32 {
                 // Points of a lattice that no step divides, up to where cells have no number.
                 let at = |k: u32| f64::from(i.wrapping_mul(k) % 1013) / 101.3 - 5.0;

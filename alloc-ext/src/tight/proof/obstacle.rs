@@ -1,60 +1,64 @@
-//! The original mesh as that which a hull may not meet: its triangles, its vertices, and one
-//! witness of each connected part.
+//! The original mesh as the obstacle that a hull may not meet: its triangles, its vertices, and one
+//! witness of each connected component.
 
-use crate::tight::proof::boxes::{Bounds, BoxTree};
-use crate::tight::proof::cells::{CellTree, Frontier};
-use crate::tight::proof::connected::connected;
-use crate::tight::proof::distance::Reach;
-use crate::tight::proof::predicates::{Triangle, in_sunken, meet};
-use crate::tight::proof::region::{Plane, Tetrahedron};
+use super::clearance::Clearance;
+use super::predicates::{Triangle, in_sunken, meet};
+use super::tetrahedron::Tetrahedron;
+use crate::mesh::Mesh;
+use crate::surface::{Bounds, Frontier, Plane, StaticTree, least_connected, spatial_order};
 use glam::DVec3;
-use meshsweep_core::geom::point_triangle;
+use meshsweep_core::internal::geom::point_triangle;
 
-/// Any set of triangles, in its own unit.
+/// Any set of triangles, in its own unit, with search trees.
 #[derive(Clone, Debug)]
 pub(crate) struct Obstacle {
     triangles: Vec<Triangle>,
-    triangle_tree: BoxTree,
-    triangle_cells: CellTree,
+    triangle_tree: StaticTree,
     points: Vec<DVec3>,
-    point_cells: CellTree,
+    point_tree: StaticTree,
     witnesses: Vec<DVec3>,
-    witness_tree: BoxTree,
-    /// Distance within which nothing may come, if it is above 0.
+    witness_tree: StaticTree,
+    /// Distance within which no face may come; 0 for none.
     margin: f64,
 }
 
-/// Factor by which the bound of a plane's rounding exceeds `f64`'s unit: the products have eight
-/// roundings, and what is kept for nothing costs one exact test.
-const ROUNDINGS: f64 = 4096.0 * f64::EPSILON;
+/// Sine between two edges of a face up to which the face counts as a needle. Rounding turns the
+/// normal of any other face by less than 2^-50 / 1e-6 = 1e-9, which is far below the distance that
+/// the tree adds to its boxes.
+const NEEDLE: f64 = 1e-6;
+
+fn tree_of_points(points: &[DVec3]) -> StaticTree {
+    StaticTree::new(&points.iter().map(|&p| Bounds { low: p, high: p }).collect::<Vec<_>>())
+}
 
 impl Obstacle {
-    /// Of positions that are `f32` numbers.
+    /// Of positions that are `f32` numbers. Cost: O(n log n).
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let all: Vec<Triangle> =
-            triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
-        let boxes: Vec<Bounds> = all.iter().map(|t| Bounds::of(t)).collect();
-        let (triangle_tree, order) = BoxTree::new(&boxes);
-        let triangles_in_order: Vec<Triangle> = order.iter().map(|&i| all[i as usize]).collect();
-        let triangle_cells =
-            CellTree::new(&triangles_in_order.iter().map(|t| Bounds::of(t)).collect::<Vec<_>>());
-        let points = positions.to_vec();
-        let point_cells =
-            CellTree::new(&points.iter().map(|&p| Bounds { low: p, high: p }).collect::<Vec<_>>());
-        let (witnesses, witness_tree) = tree_of(&witnesses(positions, triangles));
+        let bounds = |t: &[u32; 3]| Bounds::of(&t.map(|v| positions[v as usize]));
+        let order = spatial_order(&triangles.iter().map(bounds).collect::<Vec<_>>());
+        let witnesses = witnesses(positions, triangles);
+        let triangles: Vec<Triangle> =
+            order.iter().map(|&i| triangles[i as usize].map(|v| positions[v as usize])).collect();
+        let boxes: Vec<Bounds> = triangles.iter().map(|t| Bounds::of(t)).collect();
         Self {
-            triangles: triangles_in_order,
-            triangle_tree,
-            triangle_cells,
-            points,
-            point_cells,
+            triangle_tree: StaticTree::new(&boxes),
+            triangles,
+            point_tree: tree_of_points(positions),
+            points: positions.to_vec(),
+            witness_tree: tree_of_points(&witnesses),
             witnesses,
-            witness_tree,
             margin: 0.0,
         }
     }
 
-    /// The same, with a distance that nothing may come within.
+    /// Of a mesh and its wires.
+    pub fn of(mesh: &Mesh) -> Self {
+        let positions: Vec<DVec3> =
+            mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+        Self::new(&positions, &mesh.all_triangles().collect::<Vec<_>>())
+    }
+
+    /// The same with a margin: a distance within which no face may come.
     pub fn with_margin(self, margin: f64) -> Self {
         Self { margin, ..self }
     }
@@ -64,7 +68,7 @@ impl Obstacle {
         self.margin
     }
 
-    /// The box of all triangles.
+    /// The bounding box of all triangles.
     pub fn bounds(&self) -> Bounds {
         self.triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p))
     }
@@ -74,85 +78,59 @@ impl Obstacle {
         &self.triangles
     }
 
-    /// One vertex of each connected part.
+    /// One vertex of each connected component.
     pub fn witnesses(&self) -> &[DVec3] {
         &self.witnesses
     }
 
-    /// Whether a face touches or crosses any triangle: exact; or is not certainly farther from it
-    /// than the margin.
+    /// Whether a face has a point in common with any triangle, which is exact; with a margin,
+    /// whether the face is not proved to keep the margin.
     pub fn meets(&self, face: &Triangle) -> bool {
-        if self.margin > 0.0 { self.is_near(face) } else { self.touches(face) }
+        if self.margin > 0.0 { !self.keeps_margin(face) } else { self.touches(face) }
     }
 
-    fn is_near(&self, face: &Triangle) -> bool {
-        let reach = Reach::new(self.margin);
+    fn keeps_margin(&self, face: &Triangle) -> bool {
+        let clearance = Clearance::new(self.margin);
         let bounds = Bounds::of(face);
         let [a, b, c] = *face;
         let normal = (b - a).cross(c - a);
-        let mut near = false;
-        self.triangle_tree.visit(
-            |of| !reach.parts_box(face, &bounds, normal, of),
-            |i| {
-                near = !reach.parts(face, normal, &self.triangles[i]);
-                !near
-            },
-        );
-        near
+        self.triangle_tree.visit_kept(
+            &Frontier::whole(),
+            |of| !clearance.separates_box(face, &bounds, normal, of),
+            |i| clearance.separates(face, normal, &self.triangles[i]),
+        )
     }
 
     fn touches(&self, face: &Triangle) -> bool {
-        let bounds = Bounds::of(face);
         let [a, b, c] = *face;
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
-        let size = bounds.low.abs().max(bounds.high.abs()).max_element();
-        let offset = normal.dot(a);
-        // The tree's boxes that are looked at overlap the face's, but may be larger by any factor.
-        let unit = ROUNDINGS * ab.length() * ac.length();
-        let keep = |of: &Bounds| {
-            if !of.meets(&bounds) {
-                return false;
-            }
-            let slack = unit * size.max(of.low.abs().max(of.high.abs()).max_element());
-            of.support(normal) - offset >= -slack && of.support(-normal) + offset >= -slack
-        };
-        let mut met = false;
-        self.triangle_tree.visit(keep, |i| {
-            met = meet(face, &self.triangles[i]);
-            !met
-        });
-        met
+        let length = normal.length();
+        let unit = normal / length;
+        // Both sides of the face's plane, if its normal is known well enough.
+        let planes = [unit, -unit].map(|normal| Plane { normal, offset: normal.dot(a) });
+        let is_needle = length <= NEEDLE * ab.length() * ac.length();
+        let planes = if is_needle { &[] } else { &planes[..] };
+        let visit = |i: usize| !meet(face, &self.triangles[i]);
+        !self.triangle_tree.visit_reached(&Bounds::of(face), planes, visit)
     }
 
     /// Whether a witness lies in a tetrahedron that leaves the hull when the corner opposite to
     /// each base moves to `apex`. Exact.
     pub fn has_witness_in(&self, bases: &[Triangle], apex: DVec3) -> bool {
-        let mut found = false;
-        for base in bases {
+        bases.iter().any(|base| {
             let bounds = Bounds::of(base).with(apex);
-            self.witness_tree.visit(
-                |of| of.meets(&bounds),
-                |i| {
-                    found = in_sunken(base, apex, self.witnesses[i]);
-                    !found
-                },
-            );
-            if found {
-                break;
-            }
-        }
-        found
+            !self.witness_tree.visit_meeting(&bounds, |i| !in_sunken(base, apex, self.witnesses[i]))
+        })
     }
 
     /// Where queries in these bounds begin: among the vertices, and among the triangles.
     pub fn frontiers(&self, bounds: &Bounds, [points, triangles]: &mut [Frontier; 2]) {
-        self.point_cells.frontier(bounds, points);
-        self.triangle_cells.frontier(bounds, triangles);
+        self.point_tree.frontier(bounds, points);
+        self.triangle_tree.frontier(bounds, triangles);
     }
 
-    /// The highest plane that `raise` makes of the vertices in a tetrahedron; see `Search`. Not
-    /// exact.
+    /// The highest plane that `raise` makes of the vertices in a tetrahedron. Not exact.
     #[inline]
     pub fn highest_point(
         &self,
@@ -161,8 +139,8 @@ impl Obstacle {
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
         let mut highest = None::<Plane>;
-        let probe = self.point_cells.probe(tetrahedron.bounds(), tetrahedron.planes());
-        self.point_cells.visit(near, probe, |i| {
+        let probe = self.point_tree.probe(tetrahedron.bounds(), tetrahedron.planes());
+        self.point_tree.visit_raising(near, probe, |i| {
             let p = self.points[i];
             let stands_out = highest.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
             let raised = if stands_out { raise(p) } else { None };
@@ -172,8 +150,8 @@ impl Obstacle {
         highest
     }
 
-    /// As [`highest_point`](Self::highest_point), of the corners of what triangles have in common
-    /// with the tetrahedron.
+    /// As [`highest_point`](Self::highest_point), of the corners of the parts of triangles that lie
+    /// in the tetrahedron.
     #[inline]
     pub fn highest_piece(
         &self,
@@ -182,8 +160,8 @@ impl Obstacle {
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
         let mut highest = None::<Plane>;
-        let probe = self.triangle_cells.probe(tetrahedron.bounds(), tetrahedron.planes());
-        self.triangle_cells.visit(near, probe, |i| {
+        let probe = self.triangle_tree.probe(tetrahedron.bounds(), tetrahedron.planes());
+        self.triangle_tree.visit_raising(near, probe, |i| {
             let triangle = &self.triangles[i];
             if highest.is_some_and(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
                 return None;
@@ -196,7 +174,7 @@ impl Obstacle {
         highest
     }
 
-    /// Calls `visit` with the vertices in all boxes that pass `keep`, and perhaps others.
+    /// Calls `visit` with the vertices in all boxes that pass `keep`, and perhaps with others.
     #[inline]
     pub fn visit_points(
         &self,
@@ -204,7 +182,10 @@ impl Obstacle {
         keep: impl Fn(&Bounds) -> bool,
         visit: impl Fn(DVec3),
     ) {
-        self.point_cells.visit_kept(near, keep, |i| visit(self.points[i]));
+        self.point_tree.visit_kept(near, keep, |i| {
+            visit(self.points[i]);
+            true
+        });
     }
 
     /// As [`visit_points`](Self::visit_points), with the triangles.
@@ -215,10 +196,13 @@ impl Obstacle {
         keep: impl Fn(&Bounds) -> bool,
         visit: impl Fn(&Triangle),
     ) {
-        self.triangle_cells.visit_kept(near, keep, |i| visit(&self.triangles[i]));
+        self.triangle_tree.visit_kept(near, keep, |i| {
+            visit(&self.triangles[i]);
+            true
+        });
     }
 
-    /// The triangle nearest to a point, and bounds of the distance to all.
+    /// The triangle nearest to a point, and bounds of the distance to the mesh.
     pub fn nearest(&self, p: DVec3) -> Option<(Triangle, [f64; 2])> {
         let mut lower = f64::INFINITY;
         let distance_sq = |i: usize| {
@@ -230,21 +214,15 @@ impl Obstacle {
         let (found, _) = self.triangle_tree.nearest(p, distance_sq)?;
         let [a, b, c] = self.triangles[found];
         let upper = point_triangle(p, a, b, c).upper;
-        // What the tree passed over is no nearer than that, but for the rounding of a box's
+        // Triangles that the tree passed over are no nearer, but for the rounding of a box's
         // distance.
         Some((self.triangles[found], [lower.min(upper * (1.0 - 1e-12)), upper]))
     }
 }
 
-fn tree_of(points: &[DVec3]) -> (Vec<DVec3>, BoxTree) {
-    let boxes: Vec<Bounds> = points.iter().map(|&p| Bounds { low: p, high: p }).collect();
-    let (tree, order) = BoxTree::new(&boxes);
-    (order.iter().map(|&i| points[i as usize]).collect(), tree)
-}
-
-/// The vertex with the least number of each part that is connected by shared vertices.
+/// The least vertex of each connected component.
 fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
-    let least = connected(positions.len(), triangles);
+    let least = least_connected(positions.len(), triangles);
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
     (0..positions.len())

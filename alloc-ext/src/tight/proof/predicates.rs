@@ -1,8 +1,8 @@
 //! Whether triangles meet, decided exactly for any finite `f32` coordinates.
 //!
-//! Every answer is a sign of `robust`'s adaptive determinants, so none depends on a tolerance.
-//! Triangles are closed: to touch is to meet. Coordinates are `f32` numbers held in `f64`: their
-//! products of three have no bit below 2^-447, so that nothing underflows.
+//! Every answer is a sign of `robust`'s adaptive determinants, so that no answer depends on a
+//! tolerance. Triangles are closed: touching counts as meeting. Coordinates are `f32` numbers held
+//! in `f64`. Products of three have no bit below 2^-447, so that nothing underflows.
 
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -14,11 +14,10 @@ fn coord(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
 
-/// Part of a determinant's size, as the product of the sums of its rows' entries, that its rounding
-/// stays below.
+/// Bound of a determinant's rounding, as a part of the product of its rows' sums of magnitudes.
 ///
-/// Each entry is a difference of coordinates, rounded once; the determinant is three sums of three
-/// products, each of which is off by less than eight roundings of its size, and nothing underflows.
+/// Each entry is a difference of coordinates, rounded once. The determinant is three sums of three
+/// products. Each is off by less than eight roundings of its size, and nothing underflows.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Positive where `p` is in front of the triangle's plane, 0 on it. Only the sign means anything.
@@ -40,8 +39,8 @@ fn exact_side(a: &DVec3, b: &DVec3, c: &DVec3, p: DVec3) -> f64 {
     -orient3d(coord(*a), coord(*b), coord(*c), coord(p))
 }
 
-/// The plane in which a triangle does not collapse, as the pair of coordinates that is kept; `None`
-/// if it has no area.
+/// A coordinate plane in which the triangle keeps some area, as the pair of coordinates that is
+/// kept; `None` if the triangle has no area.
 fn projection(t: &Triangle) -> Option<[usize; 2]> {
     [[0, 1], [1, 2], [2, 0]].into_iter().find(|&axes| turn(axes, t[0], t[1], t[2]) != 0.0)
 }
@@ -119,16 +118,15 @@ pub(crate) struct Face {
     pub at: Triangle,
 }
 
-/// Whether two faces with area have no more points in common than the corners or the edge that they
-/// share.
+/// Whether two faces with area share no points but common corners and edges.
 pub(crate) fn are_apart(s: &Face, t: &Face) -> bool {
     let shared = |ids: &[u32; 3], other: &[u32; 3]| ids.map(|id| other.contains(&id));
     let (in_t, in_s) = (shared(&s.ids, &t.ids), shared(&t.ids, &s.ids));
     match in_t.iter().filter(|&&is| is).count() {
         0 => !meet(&s.at, &t.at),
         1 => {
-            // What is common to both is convex and has the shared corner: if it has more, it
-            // reaches an edge opposite to it.
+            // The intersection is convex and holds the shared corner. If it holds more, it reaches
+            // an edge opposite to that corner.
             let opposite = |face: &Face, shared: [bool; 3]| {
                 let at = shared.iter().position(|&is| is).unwrap_or_default();
                 [face.at[(at + 1) % 3], face.at[(at + 2) % 3]]
@@ -153,8 +151,8 @@ pub(crate) fn are_apart(s: &Face, t: &Face) -> bool {
     }
 }
 
-/// Whether `p` is in the closed tetrahedron `apex`, `base` and `apex` is not in front of the base;
-/// a flat one counts as well.
+/// Whether `p` is in the closed tetrahedron of `apex` and `base`, and `apex` is not in front of the
+/// base. A flat tetrahedron counts as well.
 pub(crate) fn in_sunken(base: &Triangle, apex: DVec3, p: DVec3) -> bool {
     if side(base, apex) > 0.0 || side(base, p) > 0.0 {
         return false;

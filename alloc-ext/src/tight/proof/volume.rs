@@ -1,215 +1,47 @@
-//! The volume that a mesh bounds, which the void of its hull is measured against; or why there is
-//! none.
+//! The volume that a mesh bounds, and the void of its hull.
 
-use crate::counted::Counted;
-use crate::mesh::{self, EdgePlace, Enclosure, Mesh, MeshError, Volume, require_closed_manifold};
-use crate::tight::proof::boxes::{Bounds, BoxTree};
-use crate::tight::proof::connected::connected;
-use crate::tight::proof::predicates::{Face, are_apart, is_degenerate};
+use super::enclosure::is_embedded;
+use super::no_volume::NoVolume;
+use super::predicates::{Face, is_degenerate};
+use crate::mesh::{Mesh, require_closed_manifold};
+use crate::surface::{Enclosures, SignedVolume, components};
 use glam::DVec3;
-use std::fmt;
-
-/// Why a mesh has no volume that the void of a hull can be measured against: the first of its
-/// defects in the order of [`require_closed_manifold`], with one place where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoVolume {
-    /// Edges have one triangle only.
-    Open {
-        /// How many.
-        edges: usize,
-        /// One of them.
-        at: EdgePlace,
-    },
-    /// Edges have more than two triangles, as where a wall divides the inside.
-    NonManifold {
-        /// How many.
-        edges: usize,
-        /// Most triangles at an edge.
-        most: usize,
-        /// One of them.
-        at: EdgePlace,
-    },
-    /// Several fans meet in a vertex; [`repair`](crate::mesh::repair) splits it.
-    Pinched {
-        /// How many vertices.
-        vertices: usize,
-        /// One of them.
-        at: [f32; 3],
-    },
-    /// Parts have one side only, as a Klein bottle, which is closed, and a Möbius strip.
-    OneSided {
-        /// How many.
-        parts: usize,
-        /// Where sides change.
-        at: EdgePlace,
-    },
-    /// Neighbours are wound against each other; [`repair`](crate::mesh::repair) turns them.
-    MixedWinding {
-        /// How many edges have such neighbours.
-        edges: usize,
-        /// One of them.
-        at: EdgePlace,
-    },
-    /// Outermost parts face inwards; [`repair`](crate::mesh::repair) turns them.
-    InsideOut {
-        /// How many.
-        parts: usize,
-        /// A corner of one.
-        at: [f32; 3],
-    },
-    /// A closed part whose volume cannot be told from 0.
-    Flat {
-        /// Its first triangle, as the input counts.
-        triangle: u32,
-        /// A corner of that.
-        at: [f32; 3],
-    },
-    /// Parts overlap or lie in each other as solid in solid, or one crosses itself: then a volume
-    /// counts what is there more than once.
-    Overlapping,
-    /// Rounding may be all that there is: cavities leave next to nothing.
-    Indistinct,
-    /// An array breaks what [`Mesh`] promises.
-    Invalid,
-}
-
-impl NoVolume {
-    /// What was found first.
-    fn of(error: &MeshError) -> Self {
-        let named = match error {
-            MeshError::Open { edge_count: edges, places, .. } => {
-                places.first().map(|&at| NoVolume::Open { edges: *edges, at })
-            }
-            MeshError::NonManifoldEdges { count: edges, most, places } => {
-                places.first().map(|&at| NoVolume::NonManifold { edges: *edges, most: *most, at })
-            }
-            MeshError::NonManifoldVertices { count: vertices, places } => {
-                places.first().map(|&at| NoVolume::Pinched { vertices: *vertices, at })
-            }
-            MeshError::NonOrientable { part_count: parts, places } => {
-                places.first().map(|&at| NoVolume::OneSided { parts: *parts, at })
-            }
-            MeshError::InconsistentWinding { edge_count: edges, places } => {
-                places.first().map(|&at| NoVolume::MixedWinding { edges: *edges, at })
-            }
-            MeshError::InsideOut { part_count: parts, places } => {
-                places.first().map(|&at| NoVolume::InsideOut { parts: *parts, at })
-            }
-            MeshError::ZeroVolume { triangle, at, .. } => {
-                Some(NoVolume::Flat { triangle: *triangle, at: *at })
-            }
-            _ => None,
-        };
-        named.unwrap_or(NoVolume::Invalid)
-    }
-}
-
-impl fmt::Display for NoVolume {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            NoVolume::Open { edges, at } => {
-                write!(
-                    f,
-                    "the mesh is not closed: {}, {}",
-                    Counted(edges, "boundary edge"),
-                    Edge(at)
-                )
-            }
-            NoVolume::NonManifold { edges, most, at } => write!(
-                f,
-                "the mesh is not manifold: {} with up to {most} triangles, {}",
-                Counted(edges, "edge"),
-                Edge(at)
-            ),
-            NoVolume::Pinched { vertices, at } => {
-                write!(
-                    f,
-                    "the mesh is not manifold: several fans meet in {}, {}",
-                    Counted(vertices, "vertex"),
-                    Point(at)
-                )
-            }
-            NoVolume::OneSided { parts, at } => {
-                write!(
-                    f,
-                    "the mesh has no outside: {}, {}",
-                    Counted(parts, "one-sided part"),
-                    Edge(at)
-                )
-            }
-            NoVolume::MixedWinding { edges, at } => write!(
-                f,
-                "the mesh has no outside: triangles are wound against each other at {}, {}",
-                Counted(edges, "edge"),
-                Edge(at)
-            ),
-            NoVolume::InsideOut { parts, at } => {
-                write!(
-                    f,
-                    "the mesh is inside out: {}, {}",
-                    Counted(parts, "outermost part"),
-                    Point(at)
-                )
-            }
-            NoVolume::Flat { triangle, at } => {
-                write!(
-                    f,
-                    "a part of the mesh, that of triangle {triangle}, has a volume that cannot be told from 0, {}",
-                    Point(at)
-                )
-            }
-            NoVolume::Overlapping => f.write_str(
-                "the mesh overlaps itself, so that its volume counts places more than once",
-            ),
-            NoVolume::Indistinct => f.write_str("the mesh's volume cannot be told from 0"),
-            NoVolume::Invalid => f.write_str("the mesh is not a valid one"),
-        }
-    }
-}
-
-/// One of several edges, or the only one.
-struct Edge(EdgePlace);
-
-impl fmt::Display for Edge {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let EdgePlace { triangle, from, to } = self.0;
-        write!(f, "as at triangle {triangle} from {from:?} to {to:?}")
-    }
-}
-
-/// One of several places, or the only one.
-struct Point([f32; 3]);
-
-impl fmt::Display for Point {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "as at {:?}", self.0)
-    }
-}
 
 /// A mesh that bounds a volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Solid {
-    /// In the mesh's unit, above 0. What overlaps counts more than once.
+    /// In the mesh's unit, above 0. Where the mesh overlaps itself, places count more than once.
     pub volume: f64,
-    /// The same less what rounding may have added.
+    /// The same less the most that rounding may have added.
     least: f64,
+}
+
+type Triangles = Vec<[[f32; 3]; 3]>;
+
+fn signed_volume(triangles: &[[[f32; 3]; 3]]) -> SignedVolume {
+    SignedVolume::of(triangles.iter().map(|t| t.map(|p| DVec3::from(p.map(f64::from)))))
 }
 
 impl Solid {
     pub fn of(mesh: &Mesh) -> Result<Self, NoVolume> {
         require_closed_manifold(mesh).map_err(|error| NoVolume::of(&error))?;
-        let parts = parts(mesh);
+        let components: Vec<Triangles> = components(mesh.positions.len(), &mesh.triangles)
+            .into_iter()
+            .map(|triangles| {
+                triangles.into_iter().filter_map(|t| mesh.corners(t as usize)).collect()
+            })
+            .collect();
         let (mut volume, mut bound) = (0.0, 0.0);
         let mut faces_out = Vec::new();
-        for part in &parts {
-            volume += signed(part);
-            let of_part = mesh::volume(part);
-            // As many roundings more as there are parts to add.
-            bound +=
-                of_part.bound + (parts.len() as f64 + 2.0) * f64::EPSILON * of_part.value.abs();
-            faces_out.push(of_part.value > 0.0);
+        for component in &components {
+            let signed = signed_volume(component);
+            volume += signed.value;
+            // The sum adds one rounding for each component.
+            let roundings = components.len() as f64 + 2.0;
+            bound += signed.bound + roundings * f64::EPSILON * signed.value.abs();
+            faces_out.push(signed.value > 0.0);
         }
-        if volume <= -bound || winds_more_than_once(mesh, parts, &faces_out) {
+        if volume <= -bound || winds_more_than_once(mesh, components, &faces_out) {
             return Err(NoVolume::Overlapping);
         }
         if volume <= bound {
@@ -218,110 +50,54 @@ impl Solid {
         Ok(Self { volume, least: volume - 2.0 * bound })
     }
 
-    /// Whether there is certainly more than a closed surface holds that encloses the mesh: then it
-    /// overlaps. The surface by its triangles.
+    /// Whether the volume is certainly larger than that of a closed surface, by its triangles, that
+    /// encloses the mesh. The mesh then overlaps itself.
     pub fn is_more_than(&self, hull: &[[[f32; 3]; 3]]) -> bool {
-        let Volume { value, bound } = mesh::volume(hull);
+        let SignedVolume { value, bound } = signed_volume(hull);
         value + bound < self.least
     }
 
-    /// Volume of a hull beyond the mesh's, as a part of that.
+    /// Void of a hull: its volume beyond the mesh's, as a part of the mesh's volume.
     pub fn void(&self, hull: &Mesh, volume: f64) -> Result<f64, NoVolume> {
-        let triangles: Vec<[[f32; 3]; 3]> =
+        let triangles: Triangles =
             (0..hull.triangles.len()).filter_map(|t| hull.corners(t)).collect();
         if self.is_more_than(&triangles) {
             return Err(NoVolume::Overlapping);
         }
-        // There is some, if rounding leaves less.
+        // A hull always leaves some void, even if rounding shows none.
         let rounding = (self.volume - self.least) / self.volume;
         Ok((volume / self.volume - 1.0).max(rounding))
     }
 }
 
-/// The triangles of each connected part, by their corners.
-fn parts(mesh: &Mesh) -> Vec<Vec<[[f32; 3]; 3]>> {
-    let least = connected(mesh.positions.len(), &mesh.triangles);
-    let mut number = vec![usize::MAX; mesh.positions.len()];
-    let mut parts: Vec<Vec<[[f32; 3]; 3]>> = Vec::new();
-    for triangle in &mesh.triangles {
-        let part = &mut number[least[triangle[0] as usize] as usize];
-        if *part == usize::MAX {
-            *part = parts.len();
-            parts.push(Vec::new());
-        }
-        parts[*part].push(triangle.map(|v| mesh.positions[v as usize]));
-    }
-    parts
-}
-
-/// Signed volume of a closed part.
-fn signed(part: &[[[f32; 3]; 3]]) -> f64 {
-    let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));
-    // Around a vertex, so that nothing cancels far from the origin.
-    let origin = part.first().map_or(DVec3::ZERO, |&[a, ..]| wide(a));
-    let six = part.iter().map(|triangle| {
-        let [a, b, c] = triangle.map(|p| wide(p) - origin);
-        a.dot(b.cross(c))
-    });
-    six.sum::<f64>() / 6.0
-}
-
-/// Whether parts that do not meet lie in each other so that the mesh winds around a place other
-/// than never or once: solids in solids, cavities in cavities. Where parts meet: false.
-fn winds_more_than_once(mesh: &Mesh, parts: Vec<Vec<[[f32; 3]; 3]>>, faces_out: &[bool]) -> bool {
-    if parts.len() < 2 {
+/// Whether components that do not meet lie in each other so that a place has a winding number other
+/// than 0 or 1: solids in solids, cavities in cavities. False where components meet.
+fn winds_more_than_once(mesh: &Mesh, components: Vec<Triangles>, faces_out: &[bool]) -> bool {
+    if components.len() < 2 {
         return false;
     }
-    let parts: Vec<Enclosure> = parts.into_iter().map(Enclosure::new).collect();
-    let boxes: Vec<Bounds> = parts.iter().map(Bounds::around).collect();
-    let (tree, order) = BoxTree::new(&boxes);
+    let enclosures = Enclosures::new(components);
     let is_wrong = |i: usize| {
-        let p = parts[i].triangles[0][0];
-        let at = Bounds::of(&[DVec3::from(p.map(f64::from))]);
-        let mut around = 0;
-        tree.visit(
-            |of| of.meets(&at),
-            |item| {
-                let j = order[item] as usize;
-                if j != i && parts[j].holds(p) {
-                    around += if faces_out[j] { 1 } else { -1 };
-                }
-                true
-            },
-        );
-        around != i32::from(!faces_out[i])
+        let around = enclosures.around(enclosures.corner(i), Some(i));
+        let winding: i32 = around.into_iter().map(|j| if faces_out[j] { 1 } else { -1 }).sum();
+        winding != i32::from(!faces_out[i])
     };
-    if !(0..parts.len()).any(is_wrong) {
+    if !(0..faces_out.len()).any(is_wrong) {
         return false;
     }
-    // What touches may be counted as in each other and is not.
+    // Of components that touch, one may seem to be in the other.
     let positions: Vec<DVec3> =
         mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
     !crosses_itself(&positions, &mesh.triangles)
 }
 
-/// Whether triangles with area have more points in common than the corners and edges that they
-/// share: the surface crosses itself, or touches itself. Exact. Cost: that of a query of a tree of
-/// boxes for each triangle.
+/// Whether triangles with area share points besides common corners and edges: the surface crosses
+/// or touches itself. Exact.
 pub(crate) fn crosses_itself(positions: &[DVec3], triangles: &[[u32; 3]]) -> bool {
     let face = |ids: &[u32; 3]| Face { ids: *ids, at: ids.map(|v| positions[v as usize]) };
     let faces: Vec<Face> =
         triangles.iter().map(face).filter(|face| !is_degenerate(&face.at)).collect();
-    let boxes: Vec<Bounds> = faces.iter().map(|face| Bounds::of(&face.at)).collect();
-    let (tree, order) = BoxTree::new(&boxes);
-    let crosses = |i: usize| {
-        let mut clean = true;
-        tree.visit(
-            |of| of.meets(&boxes[i]),
-            |item| {
-                let j = order[item] as usize;
-                clean &= j <= i || !boxes[j].meets(&boxes[i]) || are_apart(&faces[i], &faces[j]);
-                clean
-            },
-        );
-        !clean
-    };
-    (0..faces.len()).any(crosses)
+    !is_embedded(&faces)
 }
 
 #[cfg(test)]

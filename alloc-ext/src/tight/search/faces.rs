@@ -1,362 +1,210 @@
-//! The best start, and from there as few faces as wanted, as tight as they can be.
+//! The tightest hull of a number of faces.
+//!
+//! | mesh | initial hulls, in this order |
+//! | --- | --- |
+//! | bounds a volume | levels of its own progressive hull; the voxel closures if none is proved |
+//! | any other | the voxel closures, the finest first, until one reaches the number of faces |
+//! | margin that is large beside the mesh | one voxel closure as fine as the margin needs |
+//! | any, few faces | all of them and the grown box compete; each is polished at once |
+//!
+//! With few faces a coarse closure may come to less volume, because it has fewer handles and narrow
+//! places.
 
+use super::HullSearch;
+use super::candidate::{CandidateHull, keep_better};
 use crate::collapse::Conditions;
-use crate::mesh::Mesh;
-use crate::precision::Stored;
-use crate::tight::initial::levels::{First, Place, first_box, first_closure, first_levels};
-use crate::tight::moves::editor::{Shape, Work};
-use crate::tight::moves::kick::Polish;
-use crate::tight::moves::rounding::Rounding;
-use crate::tight::options::{Goal, Options, Outcome, Progress, Stage, Start, WrapError};
-use crate::tight::proof::obstacle::Obstacle;
-use crate::tight::proof::volume::Solid;
+use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
+use crate::tight::moves::HullEditor;
+use crate::tight::options::WrapError;
+use crate::tight::report::{Outcome, Start};
 use std::time::Instant;
 
-/// Conditions while faces are plenty: the hull keeps room to move.
-pub(crate) const SHAPE: Shape =
-    Shape { min_compactness: 0.01, min_turn: 0.25, upright: Some(0.05), max_valence: 24 };
-
-/// Conditions where the first get stuck: whatever is proved will do.
-const LOOSE: Shape =
-    Shape { min_compactness: 0.001, min_turn: -0.9, upright: None, max_valence: 48 };
-
-/// Faces that a stage of the way down leaves; the hull is settled before the next.
-pub(crate) const STAGE: f64 = 0.7;
-
-/// Cubes along the longest side of closures, in the order in which they are tried after the
-/// [`finest`]; `None` is the box.
+/// Voxels along the longest side of the closures that are tried after the [`finest`]; `None` is the
+/// grown box.
 const COARSER: [Option<usize>; 4] = [Some(40), Some(16), LAST_RESORT, None];
 
-/// One that is tried only where all before it got stuck.
+/// A closure that is tried only where all before it got stuck.
 const LAST_RESORT: Option<usize> = Some(6);
 
-/// Faces that the box grows to first where faces are few, and how many times as many each time:
-/// with all at once the first splits decide, and no polish undoes them.
+/// Faces that the grown box is split to first, and the factor of each further step. If all splits
+/// came at once the first would decide, and no polish undoes them.
 const GROWTH: (f64, f64) = (16.0, 1.2);
 
-/// Cubes along the longest side of the finest closure for so many faces: gaps of a cube are filled
-/// for good, and faces that could follow them would be there for nothing. Beyond 160 the grid takes
+/// Voxels along the longest side of the finest closure for a number of faces. A hull never reopens
+/// a gap narrower than a voxel, so that more faces need smaller voxels. Above 160 the grid takes
 /// more time than the hull.
-pub(crate) fn finest(wanted: usize) -> usize {
-    let cells = (40.0 * (wanted as f64 / 200.0).sqrt()) as usize;
-    cells.clamp(40, 160)
+fn finest(faces: usize) -> usize {
+    let voxels = (40.0 * (faces as f64 / 200.0).sqrt()) as usize;
+    voxels.clamp(40, 160)
 }
 
-/// Part of the mesh's longest side from which on a margin is round: a few cubes of the first
-/// closure.
-const ROUND: f64 = 0.02;
+/// A margin above this part of the mesh's longest side is a few voxels of the first closure.
+const LARGE_MARGIN: f64 = 0.02;
 
-/// Least and most cubes along its longest side.
-const ROUND_CELLS: [usize; 2] = [12, 32];
+/// Least and most voxels along the longest side of the closure for a large margin.
+const LARGE_MARGIN_VOXELS: [usize; 2] = [12, 32];
 
-/// Faces up to which closures are tried beside the progressive hull.
-pub(crate) const FEW_FACES: usize = 60;
+/// Up to this number of faces all initial hulls compete.
+pub(super) const FEW_FACES: usize = 60;
 
-/// Void with which the solid's own faces are a hull that no other start can better by more.
-const NEXT_TO_NONE: f64 = 1e-4;
+/// Void of a hull that no other initial hull can improve by more.
+const NEXT_TO_NO_VOID: f64 = 1e-4;
 
-/// The most that may be due to the grid's steps.
-const NEARLY_NONE: f64 = 1e-2;
+/// Largest void that may be due to the steps of the grid.
+const MOST_GRID_VOID: f64 = 1e-2;
 
 /// Half-steps of the grid that keep such a hull off the mesh.
-const STEPS_OFF: f64 = 12.0;
+const HALF_STEPS_OFF: f64 = 12.0;
 
-/// What a hull is made of.
-pub(crate) struct From<'m> {
-    pub mesh: &'m Mesh,
-    /// The mesh in the frame of its own coordinates.
-    pub stored: &'m Stored,
-    /// How the hull is stored.
-    pub around: &'m Stored,
+/// The number of faces that is asked for.
+#[derive(Clone, Copy)]
+pub(super) struct Target {
+    pub faces: usize,
+    /// Whether hulls come down to that number. Otherwise they only come up to it, by splits.
+    pub descends: bool,
 }
 
-/// What is done with a start.
-struct How {
-    rounding: Rounding,
-    wanted: usize,
-    /// Whether it comes down to the wanted faces, or only up to them.
-    descends: bool,
-}
-
-impl How {
-    /// So few faces that all starts compete, each polished at once: that decides between them.
-    fn is_few(&self) -> bool {
-        self.descends && self.wanted <= FEW_FACES
+impl Target {
+    /// Whether all initial hulls compete, each polished at once, which decides between them.
+    fn is_few(self) -> bool {
+        self.descends && self.faces <= FEW_FACES
     }
 }
 
-/// A hull with the wanted number of faces, or as few as can be.
-pub(crate) struct Done<'a> {
-    pub work: Work<'a>,
-    pub start: Start,
-    pub filled: usize,
-    pub stop: Outcome,
-}
-
-impl Done<'_> {
-    /// One that reached the goal, then one with fewer faces if either is stuck or a slack is asked
-    /// for, then the one nearer to the mesh, or with less volume.
-    fn is_better_than(&self, other: &Self) -> bool {
-        if let (Outcome::TooLoose, Outcome::TooLoose) = (self.stop, other.stop) {
-            return self.work.slack() < other.work.slack();
-        }
-        let rank = |done: &Self| match done.stop {
-            Outcome::TooLoose => (2, 0),
-            Outcome::Stuck => (1, done.work.shell.face_count()),
-            Outcome::Reached | Outcome::OutOfTime => {
-                (0, if done.work.is_kept_near() { done.work.shell.face_count() } else { 0 })
-            }
-        };
-        let (ours, theirs) = (rank(self), rank(other));
-        ours < theirs || ours == theirs && self.work.shell.volume() < other.work.shell.volume()
-    }
-}
-
-/// Keeps the better of two, and the counts of both.
-pub(crate) fn better<'a>(best: &mut Option<Done<'a>>, mut done: Done<'a>) {
-    match best {
-        Some(best) => {
-            done.work.add_counts(&best.work);
-            if done.is_better_than(best) {
-                *best = done;
-            } else {
-                best.work.take_counts(&done.work);
-            }
-        }
-        None => *best = Some(done),
-    }
-}
-
-/// What is known while a hull is made.
-pub(crate) struct Builder<'a, 'o, 'p> {
-    pub obstacle: &'a Obstacle,
-    /// The mesh's volume, if it bounds one.
-    pub volume: Option<f64>,
-    pub solid: Option<Solid>,
-    pub options: &'o Options,
-    pub deadline: Option<Instant>,
-    /// Whether the best start was given up for lack of time.
-    pub is_hurried: bool,
-    pub on_progress: &'p mut dyn FnMut(Progress),
-}
-
-impl<'a> Builder<'a, '_, '_> {
-    /// What relaxing measures its gains against.
-    pub fn floor(&self) -> f64 {
-        self.volume.unwrap_or(0.0)
-    }
-
-    /// `around` is how the hull is stored.
-    pub fn build(
-        &mut self,
-        mesh: &Mesh,
-        stored: &Stored,
-        around: &Stored,
-    ) -> Result<Done<'a>, WrapError> {
-        let from = From { mesh, stored, around };
-        match self.options.goal {
-            Goal::Faces(faces) => self.begin(&from, faces, true),
-            Goal::Void(most) => self.least_faces_by_void(&from, most),
-            Goal::Slack(most) => self.least_faces_by_slack(&from, most),
-        }
-    }
-
-    /// Cubes of the first closure where the margin is so large that the mesh's own shape says less
-    /// than what is left of it at that distance: then cubes of half the margin show it all.
-    pub fn round_cells(&self) -> Option<usize> {
+impl<'a> HullSearch<'a, '_> {
+    /// Voxels of the first closure if the margin is so large that the mesh's shape shows little at
+    /// that distance. Voxels of half the margin then show all of it.
+    pub(super) fn large_margin_voxels(&self) -> Option<usize> {
         let margin = self.obstacle.margin();
-        let bounds = self.obstacle.bounds();
-        let longest = (bounds.high - bounds.low).max_element();
-        let cells = (longest + 2.0 * margin) / (0.5 * margin);
-        (margin > ROUND * longest).then(|| (cells as usize).clamp(ROUND_CELLS[0], ROUND_CELLS[1]))
+        let longest = self.longest_side();
+        let voxels = (longest + 2.0 * margin) / (0.5 * margin);
+        let [least, most] = LARGE_MARGIN_VOXELS;
+        (margin > LARGE_MARGIN * longest).then(|| (voxels as usize).clamp(least, most))
     }
 
-    /// The hull of the best start, without polish. A mesh that bounds a volume starts from its
-    /// progressive hull, any other from its closure. With few faces left, coarse
-    /// closures, which have fewer handles and narrow places, may come to less volume: then all are
-    /// tried.
-    pub fn begin(
-        &mut self,
-        &From { mesh, stored, around }: &From<'_>,
-        wanted: usize,
-        descends: bool,
-    ) -> Result<Done<'a>, WrapError> {
-        let rounding = Rounding::new(around.grid, around.scale_exponent);
-        let place =
-            Place { stored: around, obstacle: self.obstacle, rounding, deadline: self.deadline };
-        let how = How { rounding, wanted, descends };
-        let is_few = how.is_few();
-        let is_small = mesh.triangles.len() <= wanted;
-        let mut best: Option<Done<'a>> = None;
-        let round = self.round_cells();
-        if self.volume.is_some() && round.is_none() {
-            // The other half of the time is for what there is instead.
-            let half = self.deadline.map(|deadline| {
-                let now = Instant::now();
-                now + deadline.saturating_duration_since(now) / 2
-            });
-            let first = first_levels(
-                &Place { stored, deadline: half, ..place },
-                mesh,
-                wanted,
-                self.on_progress,
-            );
-            for first in [first.plenty, first.wanted].into_iter().flatten() {
-                if !is_small || !best.as_ref().is_some_and(|best| self.is_solid_itself(best)) {
-                    let done = self.prepare(first, &how);
-                    better(&mut best, done);
-                }
-            }
-            self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
+    /// The best hull of a number of faces. It is polished if it descends.
+    pub(super) fn of_faces(&mut self, target: Target) -> Result<CandidateHull<'a>, WrapError> {
+        let mut best: Option<CandidateHull<'a>> = None;
+        let large_margin = self.large_margin_voxels();
+        if self.solid.is_some() && large_margin.is_none() {
+            self.try_levels(target, &mut best);
         }
-        let is_itself = is_small && best.as_ref().is_some_and(|best| self.is_solid_itself(best));
-        let is_enough = best.is_some() || round.is_some();
-        let finest = Some(finest(wanted));
-        // Where the finest has narrow places that its levels grow together in, the grid next to it
-        // may do.
-        let finer = finest.map(|cells| cells * 2 / 3).filter(|&cells| Some(cells) > COARSER[0]);
-        let coarser =
-            finer.map(Some).into_iter().chain(COARSER.into_iter().filter(|&cells| cells != finest));
-        let first = if self.is_hurried { None } else { Some(finest) };
-        for cells in round.map(Some).into_iter().chain(first).chain(coarser) {
-            let late = self.is_late();
-            if late && best.is_none() && cells.is_some() {
+        let is_itself = self.is_solid_itself(best.as_ref(), target);
+        let is_enough = best.is_some() || large_margin.is_some();
+        let finest = finest(target.faces);
+        // If the levels of the finest closure meet themselves in narrow places, a slightly coarser
+        // grid may do.
+        let second = Some(finest * 2 / 3).filter(|&voxels| Some(voxels) > COARSER[0]);
+        let coarser = COARSER.into_iter().filter(|&voxels| voxels != Some(finest));
+        let finest = if self.is_hurried { None } else { Some(finest) };
+        let first = [large_margin, finest, second].into_iter().flatten().map(Some);
+        for voxels in first.chain(coarser) {
+            let is_late = self.is_late();
+            if is_late && best.is_none() && voxels.is_some() {
                 self.is_hurried = true;
                 continue;
             }
             let is_reached = best.as_ref().is_some_and(|best| best.stop != Outcome::Stuck);
-            let settled = is_enough && (!is_few || is_itself) && is_reached;
-            if best.is_some() && (settled || late) {
+            let is_settled = is_enough && (!target.is_few() || is_itself) && is_reached;
+            if best.is_some() && (is_settled || is_late) {
                 break;
             }
-            if is_reached && cells == LAST_RESORT {
+            if is_reached && voxels == LAST_RESORT {
                 continue;
             }
-            let first = match cells {
-                Some(cells) => {
-                    first_closure(&place, cells, wanted, Conditions::PAPER, self.on_progress)
+            let input = self.initial_input();
+            let initial = match voxels {
+                Some(voxels) => {
+                    closure_hull(&input, voxels, target.faces, Conditions::PAPER, self.on_progress)
                 }
-                None => first_box(self.obstacle, &rounding),
+                None => grown_box(&input),
             };
-            let Some(first) = first else { continue };
-            let done = self.prepare(first, &how);
-            better(&mut best, done);
+            if let Some(initial) = initial {
+                keep_better(&mut best, self.prepare(initial, target));
+            }
         }
-        let mut done = best.ok_or_else(|| self.no_room())?;
-        if descends && !is_few {
-            self.finish(&mut done);
+        let mut best = best.ok_or_else(|| self.no_room())?;
+        if target.descends && !target.is_few() {
+            self.finish(&mut best);
         }
-        Ok(done)
+        Ok(best)
     }
 
-    /// Whether a hull that reached its goal has next to no void. One that holds less than the
-    /// mesh's volume says nothing: parts overlap.
-    fn is_solid_itself(&self, done: &Done<'a>) -> bool {
-        let Work { shell, rounding, .. } = &done.work;
-        let bounds = self.obstacle.bounds();
-        let size = bounds.low.abs().max(bounds.high.abs()).max_element();
+    /// Tries levels of the mesh's own progressive hull, in half of the time: the other half is for
+    /// the other initial hulls.
+    fn try_levels(&mut self, target: Target, best: &mut Option<CandidateHull<'a>>) {
+        let half = self.deadline.map(|deadline| {
+            let now = Instant::now();
+            now + deadline.saturating_duration_since(now) / 2
+        });
+        let input = InitialInput { stored: self.stored, deadline: half, ..self.initial_input() };
+        let levels = lifted_levels(&input, self.mesh, target.faces, self.on_progress);
+        for initial in [levels.ample, levels.exact].into_iter().flatten() {
+            if !self.is_solid_itself(best.as_ref(), target) {
+                keep_better(best, self.prepare(initial, target));
+            }
+        }
+        self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
+    }
+
+    /// Whether the mesh has no more faces than asked for, and a hull that reached its goal has next
+    /// to no void. A hull of less volume than the mesh says nothing: components overlap.
+    fn is_solid_itself(&self, hull: Option<&CandidateHull<'a>>, target: Target) -> bool {
+        let Some((hull, volume)) = hull.zip(self.volume()) else { return false };
+        if self.mesh.triangles.len() > target.faces || hull.stop != Outcome::Reached {
+            return false;
+        }
+        let HullEditor { shell, rounding, .. } = &hull.editor;
         let area = shell.alive().map(|f| {
             let [a, b, c] = shell.triangle(f);
             0.5 * (b - a).cross(c - a).length()
         });
-        let off = STEPS_OFF * rounding.half_step(size) * area.sum::<f64>();
-        let near = |volume: f64| {
-            let more = volume * NEXT_TO_NONE + off.min(volume * NEARLY_NONE);
-            (volume..=volume + more).contains(&shell.volume())
-        };
-        done.stop == Outcome::Reached && self.volume.is_some_and(near)
+        let off =
+            HALF_STEPS_OFF * rounding.half_step(self.largest_coordinate()) * area.sum::<f64>();
+        let more = volume * NEXT_TO_NO_VOID + off.min(volume * MOST_GRID_VOID);
+        (volume..=volume + more).contains(&shell.volume())
     }
 
-    /// Why there is no start.
-    pub fn no_room(&self) -> WrapError {
-        if self.obstacle.margin() > 0.0 { WrapError::MarginTooLarge } else { WrapError::NoRoom }
-    }
-
-    pub fn is_late(&self) -> bool {
-        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
-    }
-
-    /// Settles a first hull and brings it to the wanted number of faces.
-    fn prepare(&mut self, first: First, how: &How) -> Done<'a> {
-        let First { shell, start, filled } = first;
-        let mut work = Work::new(self.obstacle, shell, how.rounding, SHAPE);
-        work.deadline = self.deadline;
+    /// Settles an initial hull and brings it to the number of faces.
+    fn prepare(&mut self, initial: InitialHull, target: Target) -> CandidateHull<'a> {
+        let InitialHull { start, filled, .. } = initial;
+        let mut editor = self.editor(initial);
         for _ in 0..2 {
-            work.sweep();
-            work.flip_all();
+            editor.sweep();
+            editor.flip_all();
         }
-        let stop =
-            if how.descends { self.descend(&mut work, how.wanted) } else { Outcome::Reached };
-        if how.is_few() && start == Start::Box {
-            self.grow(&mut work, how.wanted);
+        let stop = if target.descends {
+            self.descend(&mut editor, target.faces)
+        } else {
+            Outcome::Reached
+        };
+        if target.is_few() && start == Start::Box {
+            self.grow(&mut editor, target.faces);
         }
-        work.refine(how.wanted);
-        work.relax(self.floor(), 1e-2, 4);
-        let mut done = Done { work, start, filled, stop };
-        if how.is_few() && stop == Outcome::Reached {
-            self.finish(&mut done);
+        editor.refine(target.faces);
+        editor.relax(self.floor(), 1e-2, 4);
+        let mut hull = CandidateHull { editor, start, filled, stop };
+        if target.is_few() && stop == Outcome::Reached {
+            self.finish(&mut hull);
         }
-        done
+        hull
     }
 
-    fn grow(&mut self, work: &mut Work<'a>, wanted: usize) {
+    /// Splits in steps, each polished.
+    fn grow(&mut self, editor: &mut HullEditor<'a>, target: usize) {
         let mut faces = GROWTH.0;
-        while (faces as usize) < wanted && !work.is_late() {
-            work.refine(faces as usize);
-            work.relax(self.floor(), 1e-2, 4);
-            self.polish(work, self.options.effort);
+        while (faces as usize) < target && !editor.is_late() {
+            editor.refine(faces as usize);
+            editor.relax(self.floor(), 1e-2, 4);
+            self.polish(editor);
             faces *= GROWTH.1;
         }
     }
 
-    fn finish(&mut self, done: &mut Done<'a>) {
-        let polished = self.polish(&mut done.work, self.options.effort);
-        if done.stop == Outcome::Reached {
-            done.stop = polished;
+    fn finish(&mut self, hull: &mut CandidateHull<'a>) {
+        let polished = self.polish(&mut hull.editor);
+        if hull.stop == Outcome::Reached {
+            hull.stop = polished;
         }
-    }
-
-    /// Down to so many faces, or as few as can be, without polish.
-    pub fn descend(&mut self, work: &mut Work<'a>, faces: usize) -> Outcome {
-        let from = work.shell.face_count();
-        let mut stop = Outcome::Reached;
-        while work.shell.face_count() > faces {
-            if work.is_late() {
-                return Outcome::OutOfTime;
-            }
-            let next = ((work.shell.face_count() as f64 * STAGE) as usize).max(faces);
-            let on_progress = &mut *self.on_progress;
-            let mut show = |left: usize| {
-                on_progress(Progress {
-                    stage: Stage::Wrapping,
-                    done: from.saturating_sub(left),
-                    of: from.saturating_sub(faces),
-                });
-            };
-            let mut reached = work.decimate(next, &mut show);
-            if !reached && work.is_late() {
-                return Outcome::OutOfTime;
-            }
-            if !reached && work.shape != LOOSE {
-                work.shape = LOOSE;
-                reached = work.decimate(next, &mut show);
-            }
-            if !reached {
-                stop = Outcome::Stuck;
-                break;
-            }
-            work.relax(self.floor(), 1e-2, 4);
-        }
-        work.drop_swallowed();
-        stop
-    }
-
-    pub fn polish(&mut self, work: &mut Work<'a>, effort: f64) -> Outcome {
-        let on_progress = &mut *self.on_progress;
-        Polish::new(work, effort).run(work, self.volume.unwrap_or(0.0), |done, of| {
-            on_progress(Progress { stage: Stage::Polishing, done: done as usize, of: of as usize });
-        });
-        work.drop_swallowed();
-        if work.is_late() { Outcome::OutOfTime } else { Outcome::Reached }
     }
 }

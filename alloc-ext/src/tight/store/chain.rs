@@ -1,14 +1,16 @@
-//! From a mesh to the hulls of a chain.
+//! A chain of hulls of one mesh.
 
 use super::distances::{Distances, distances};
-use super::section::{Stored, TightTables};
-use crate::mesh::Mesh;
+use super::section::{Stored, sections};
+use crate::emit::Sections;
+use crate::mesh::Input;
 use crate::surface::VertexBits;
 use crate::tight::hull::{Hull, wrap};
-use crate::tight::options::{self, Goal, Options, WrapError};
-use crate::tight::proof::volume::NoVolume;
-use meshsweep_core::blob::layout::MAX_LEVELS;
-use meshsweep_core::num::Radius16;
+use crate::tight::options::{Goal, Options, WrapError};
+use crate::tight::proof::NoVolume;
+use crate::tight::report::{Progress, Report};
+use meshsweep_core::internal::format::layout::MAX_LEVELS;
+use meshsweep_core::internal::num::Radius16;
 use std::time::{Duration, Instant};
 
 /// Most hulls of a blob.
@@ -16,30 +18,31 @@ pub const MAX_HULLS: usize = MAX_LEVELS as usize;
 
 /// Which hulls to make, and how.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ChainOptions {
-    /// Most faces of each hull, in any order.
+    /// Most faces of each hull, in any order. If there are none, one hull of 200 faces is made.
     pub faces: Vec<usize>,
-    /// What one hull has to reach, instead of numbers of faces.
+    /// The goal of the one hull to make, instead of numbers of faces.
     pub goal: Option<Goal>,
     /// Distance that every hull keeps from the mesh; see [`Options::margin`]. Answers about the
-    /// mesh hold as they do without: of the margin they know nothing.
+    /// mesh do not depend on the margin.
     pub margin: f64,
     /// How long to polish; see [`Options::effort`].
     pub effort: f64,
     /// Bits of a hull vertex. The mesh is not moved: only the hull's vertices lie on a grid.
-    /// [`VertexBits::Auto`] takes 16 bits, which is what a leaf of a box tree stores, where
-    /// the mesh leaves room for them.
+    /// [`VertexBits::Auto`] stands for 16 bits, as in a leaf of a box tree, where the mesh leaves
+    /// room for them.
     pub vertex_bits: VertexBits,
-    /// Boxes for distances, which the hull's tree needs for questions about the mesh.
+    /// Whether to store boxes for distances, which questions about the mesh need.
     pub closest: bool,
-    /// Boxes for segments and overlap with the hull.
+    /// Whether to store boxes for segments and overlap with the hull.
     pub segments: bool,
 }
 
 impl Default for ChainOptions {
     fn default() -> Self {
         Self {
-            faces: vec![200],
+            faces: Vec::new(),
             goal: None,
             margin: 0.0,
             effort: 1.0,
@@ -50,33 +53,97 @@ impl Default for ChainOptions {
     }
 }
 
-/// Where the work stands.
+/// Faces of the hull if none are asked for.
+const FACES: usize = 200;
+
+impl ChainOptions {
+    /// One hull for each number of faces, with all boxes, no margin and an effort of 1.
+    #[must_use]
+    pub fn of_faces(faces: &[usize]) -> Self {
+        Self { faces: faces.to_vec(), ..Self::default() }
+    }
+
+    /// One hull for a goal, with all boxes, no margin and an effort of 1.
+    #[must_use]
+    pub fn of_goal(goal: Goal) -> Self {
+        Self { goal: Some(goal), ..Self::default() }
+    }
+
+    /// Sets the [margin](Self::margin).
+    #[must_use]
+    pub fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// Sets the [effort](Self::effort).
+    #[must_use]
+    pub fn with_effort(self, effort: f64) -> Self {
+        Self { effort, ..self }
+    }
+
+    /// Sets the [bits of a vertex](Self::vertex_bits).
+    #[must_use]
+    pub fn with_vertex_bits(self, vertex_bits: VertexBits) -> Self {
+        Self { vertex_bits, ..self }
+    }
+
+    /// Sets which boxes are stored: for [distances](Self::closest), for
+    /// [segments](Self::segments).
+    #[must_use]
+    pub fn with_boxes(self, closest: bool, segments: bool) -> Self {
+        Self { closest, segments, ..self }
+    }
+
+    /// The goals, from coarse to fine.
+    fn goals(&self) -> Vec<Goal> {
+        if let Some(goal) = self.goal {
+            return vec![goal];
+        }
+        let mut faces = self.faces.clone();
+        faces.sort_unstable();
+        faces.dedup();
+        if faces.is_empty() {
+            faces.push(FACES);
+        }
+        faces.into_iter().map(Goal::Faces).collect()
+    }
+
+    fn of_hull(&self, goal: Goal) -> Options {
+        let bits = match self.vertex_bits {
+            VertexBits::Auto => VertexBits::Grid16,
+            bits => bits,
+        };
+        Options::new(goal).with_margin(self.margin).with_effort(self.effort).with_vertex_bits(bits)
+    }
+}
+
+/// The state of the work on a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// A hull, counted from 0 in the order in which they are made, is being wrapped.
+    /// A hull is being made.
     Wrapping {
-        /// Number of the hull.
+        /// Number of the hull, from 0, in the order in which hulls are made.
         hull: usize,
         /// Hulls to be made.
         of: usize,
-        /// What is being done to it.
-        progress: options::Progress,
+        /// The state of the work on it.
+        progress: Progress,
     },
     /// Distances between a hull and the mesh are being certified.
     Certifying,
 }
 
-/// A hull of the chain, and what it took.
+/// Measures of a hull of the chain.
 #[derive(Clone, Debug)]
 pub struct HullReport {
-    /// What was asked for.
+    /// The goal.
     pub asked: Goal,
-    /// What `wrap` says of the hull.
-    pub wrapped: options::Report,
-    /// Both ways between hull and mesh, input units.
+    /// Measures from [`wrap()`].
+    pub wrapped: Report,
+    /// Distances both ways between hull and mesh, input units.
     pub distances: Distances,
-    /// Volume beyond that of the mesh as a part of it, or why the mesh has none to measure that
-    /// against.
+    /// Volume beyond that of the mesh, as a part of the mesh's volume; or why the mesh has no
+    /// volume.
     pub void: Result<f64, NoVolume>,
     /// Bytes in the blob.
     pub bytes: usize,
@@ -84,51 +151,33 @@ pub struct HullReport {
     pub time: Duration,
 }
 
-/// Wraps a mesh in tight hulls. Hulls that came out with as many faces as a finer one are left out:
-/// what was asked for and no report names is one of these.
+/// Makes tight hulls of a mesh. A hull with as many faces as a finer hull is left out, and no report
+/// names its goal.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::surface::snap)), 0 if none were. The hulls enclose the mesh where it is now,
-/// and what the blob answers holds for where it was. Cost: that of [`wrap()`] for each hull;
-/// some hundred distance queries for each triangle of the hulls, one for each
-/// triangle of the mesh. On a mesh, or hull, of more than
-/// [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES) it panics.
+/// The hulls enclose the vertices of `input.mesh`. The blob's answers hold for the input file: they
+/// include the distance that vertices were moved. Panics if the mesh or a hull has more than
+/// [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
+///
+/// Cost: that of [`wrap()`] for each hull; some hundred distance queries for each triangle of the
+/// hulls, and one for each triangle of the mesh.
 ///
 /// # Errors
 /// [`WrapError`].
 pub fn chain(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     options: &ChainOptions,
     mut on_progress: impl FnMut(Stage),
-) -> Result<(TightTables, Vec<HullReport>), WrapError> {
-    let mut faces = options.faces.clone();
-    faces.sort_unstable();
-    faces.dedup();
-    // A mesh that is to have no hull has the one that is made unless told otherwise.
-    let faces: Vec<usize> = if faces.is_empty() { ChainOptions::default().faces } else { faces };
-    let goals: Vec<Goal> = options
-        .goal
-        .map_or_else(|| faces.into_iter().map(Goal::Faces).collect(), |goal| vec![goal]);
+) -> Result<(Sections, Vec<HullReport>), WrapError> {
+    let Input { mesh, moved, .. } = input;
+    let goals = options.goals();
     let of = goals.len();
-    let wrap_options = |goal: Goal| Options {
-        goal,
-        margin: options.margin,
-        effort: options.effort,
-        vertex_bits: match options.vertex_bits {
-            VertexBits::Auto => VertexBits::Grid16,
-            bits => bits,
-        },
-        ..Options::default()
-    };
     // Fine to coarse: of equal hulls the one that was asked for with more faces is kept.
     let mut made: Vec<(Hull, HullReport)> = Vec::new();
     let mut overlaps = false;
     for (index, &goal) in goals.iter().rev().enumerate() {
         let started = Instant::now();
         let mut show = |progress| on_progress(Stage::Wrapping { hull: index, of, progress });
-        let hull = wrap(mesh, &wrap_options(goal), &mut show)?;
+        let hull = wrap(mesh, &options.of_hull(goal), &mut show)?;
         if made
             .last()
             .is_some_and(|(finer, _)| finer.mesh.triangles.len() <= hull.mesh.triangles.len())
@@ -138,7 +187,7 @@ pub fn chain(
         on_progress(Stage::Certifying);
         let mut distances = distances(&hull.mesh, mesh);
         if let Goal::Slack(_) = goal {
-            // Proved face by face, which bounds of the farthest point are not as fine as.
+            // The search proved a smaller distance, face by face, than branch and bound finds.
             let most = hull.report.slack.upper;
             let slacks = distances.slacks.iter_mut().chain([&mut distances.slack.upper]);
             slacks.for_each(|slack| *slack = slack.min(most));
@@ -160,26 +209,25 @@ pub fn chain(
     }
     made.reverse();
     if overlaps {
-        // What one hull proves of the mesh holds for all.
+        // One hull proves it of the mesh, so that no hull has a void.
         made.iter_mut().for_each(|(_, report)| report.void = Err(NoVolume::Overlapping));
     }
     let stored: Vec<Stored> = made
         .iter_mut()
         .map(|(hull, report)| {
-            // What `mesh` lost when it was read is a part of how far the hull may be from the
-            // input.
+            // The rounding of the mesh when it was read adds to the hull's distance from the input.
             hull.mesh.rounding = mesh.rounding;
             let stored = Stored::new(&hull.mesh, moved, report, options);
             report.bytes = stored.bytes();
             stored
         })
         .collect();
-    let tables = TightTables::new(mesh, moved, input_triangles, &stored);
+    let tables = sections(input, &stored);
     Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
 }
 
-/// Whether all distances are numbers of the format. Two bytes end a little before single precision
-/// does.
+/// Whether the format has numbers for all distances. Two bytes end a little before single
+/// precision.
 fn fits(distances: &Distances) -> bool {
     let all = distances.slacks.iter().chain([&distances.slack.upper, &distances.depth.upper]);
     all.into_iter().all(|&distance| Radius16::round_up(distance).get().is_finite())

@@ -2,13 +2,13 @@
 
 use crate::hausdorff::{Farthest, Nearest, farthest};
 use crate::mesh::Mesh;
-use crate::tight::proof::surface::Surface;
+use crate::tight::proof::Obstacle;
 use glam::DVec3;
 
-/// How far a hull and the mesh within are from each other, in their unit.
+/// Distances between a hull and the mesh within, in their unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distances {
-    /// For each face of the hull a distance from the mesh that none of its points exceeds.
+    /// For each face of the hull an upper bound of the distance of its points from the mesh.
     pub slacks: Vec<f64>,
     /// The largest distance from a point of the hull to the mesh.
     pub slack: Farthest,
@@ -16,30 +16,27 @@ pub struct Distances {
     pub depth: Farthest,
 }
 
-/// Part of the largest slack to which all are found: finer than what two bytes hold of the large
-/// ones.
+/// Accuracy of the slacks as a part of the largest: finer than the steps of two bytes at the large
+/// slacks.
 const FINE: f64 = 1.0 / 512.0;
 
-/// Distances of `hull` and `mesh`, which may be any triangles and wires. Cost: see [`farthest`], for each
-/// face of the hull and once for all of the mesh.
+/// Distances between `hull` and `mesh`, which may be any triangles and wires.
+///
+/// Cost: that of [`farthest`] for each face of the hull, and once for all of the mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
-    let (hull_surface, mesh_surface) = (Surface::new(hull), Surface::new(mesh));
-    let to = |surface: &Surface, p: DVec3| {
+    let (hull_surface, mesh_surface) = (Obstacle::of(hull), Obstacle::of(mesh));
+    let to = |surface: &Obstacle, p: DVec3| {
         let (triangle, [lower, upper]) = surface.nearest(p)?;
         Some(Nearest { lower, upper, triangle: Some(triangle) })
     };
-    let slack = farthest(corners(hull), 0.0, |p| to(&mesh_surface, p));
+    let slack = farthest(hull.corners_f64(), 0.0, |p| to(&mesh_surface, p));
     let enough = slack.lower * FINE;
-    let slacks = corners(hull)
+    let slacks = hull
+        .corners_f64()
         .map(|face| {
             farthest(std::iter::once(face), enough, |p| to(&mesh_surface, p)).upper.min(slack.upper)
         })
         .collect();
-    let depth = farthest(corners(mesh), 0.0, |p| to(&hull_surface, p));
+    let depth = farthest(mesh.all_corners_f64(), 0.0, |p| to(&hull_surface, p));
     Distances { slacks, slack, depth }
-}
-
-fn corners(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> + '_ {
-    mesh.all_triangles()
-        .map(|corners| corners.map(|v| DVec3::from(mesh.positions[v as usize].map(f64::from))))
 }

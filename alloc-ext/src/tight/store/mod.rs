@@ -20,4 +20,4 @@ mod section;
 
 pub use chain::{ChainOptions, HullReport, MAX_HULLS, Stage, chain};
 pub use distances::{Distances, distances};
-pub use section::{TightTables, cut, hull_mesh};
+pub use section::{cut, hull_mesh};

@@ -1,30 +1,20 @@
-//! Tight hulls as a section of a blob.
+//! The bytes of the section: writing, cutting, and reading a hull back.
 
 use super::chain::{ChainOptions, HullReport};
-use crate::bvh::{self, TreeOptions, TreeTables};
-use crate::emit::{Parts, assemble};
-use crate::mesh::Mesh;
+use crate::bvh::{self, TreeOptions};
+use crate::emit::Sections;
+use crate::mesh::{Input, Mesh};
 use crate::surface::{VertexBits, scale_exponent};
-use meshsweep_core::blob::TightRecord;
-use meshsweep_core::blob::layout::{SECTION_ALIGNMENT, TIGHT_BYTES, TIGHT_HULL_BYTES};
-use meshsweep_core::num::{Radius16, down_to_f32, exp2, up_to_f32};
-use meshsweep_core::{Model, TightHull, TightHulls};
+use glam::Vec3;
+use meshsweep_core::SectionKind;
+use meshsweep_core::TightRecord;
+use meshsweep_core::internal::format::Header;
+use meshsweep_core::internal::format::layout::SECTION_ALIGNMENT;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::num::{Radius16, down_to_f32, exp2, up_to_f32};
+use meshsweep_core::internal::tight::format::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES};
+use meshsweep_core::{Blob, TightHull, TightHulls};
 use std::collections::BTreeMap;
-
-/// Everything that a blob holds of tight hulls.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TightTables {
-    /// Input coordinate = local coordinate × 2^this.
-    pub scale_exponent: i32,
-    /// Triangles of the input file.
-    pub input_triangles: u32,
-    /// No vertex of the input is farther than this from the mesh that was wrapped, local frame.
-    pub surface_error: f32,
-    /// Box of the mesh, local frame.
-    pub bounds: [[f32; 3]; 2],
-    /// The section.
-    pub section: Vec<u8>,
-}
 
 /// A hull as the section holds it.
 pub(super) struct Stored {
@@ -40,8 +30,7 @@ impl Stored {
         report: &HullReport,
         options: &ChainOptions,
     ) -> Stored {
-        let blob =
-            assemble(&Parts { tree: Some(&hull_tree(hull, moved, options)), ..Parts::default() });
+        let blob = hull_tree(hull, moved, options);
         let distances = &report.distances;
         let slacks =
             distances.slacks.iter().flat_map(|&slack| Radius16::round_up(slack).0.to_le_bytes());
@@ -49,7 +38,7 @@ impl Stored {
             faces: hull.triangles.len() as u32,
             slack: up_to_f32(distances.slack.upper),
             depth: up_to_f32(distances.depth.upper),
-            // A volume that next to vanishes would give a ratio that f32 does not hold.
+            // A mesh of very little volume may give a ratio beyond the range of f32.
             void_ratio: report.void.map_or(0.0, |void| void.min(f64::from(f32::MAX)) as f32),
         };
         Stored { record, blob, slacks: slacks.collect() }
@@ -61,49 +50,41 @@ impl Stored {
     }
 }
 
-/// The hull's tree: on a grid of 16 bits if that moves no vertex.
-fn hull_tree(hull: &Mesh, moved: f64, options: &ChainOptions) -> TreeTables {
+/// The blob of the hull's tree, on a grid of 16 bits if that moves no vertex.
+fn hull_tree(hull: &Mesh, moved: f64, options: &ChainOptions) -> Vec<u8> {
     let of = |single: bool, moved: f64, rounding: f64| {
         let hull = Mesh { rounding, ..hull.clone() };
-        let faces = hull.triangles.len();
         let options = TreeOptions {
             closest: options.closest,
             segments: options.segments,
             single,
             ..Default::default()
         };
-        bvh::build(&hull, moved, faces, &options).0
+        bvh::build(Input { moved, ..hull.as_input() }, &options).0
     };
     let wide = matches!(options.vertex_bits, VertexBits::Grid24 | VertexBits::F32);
     let single = wide || of(false, 0.0, 0.0).header.surface_error > 0.0;
-    of(single, moved, hull.rounding)
+    of(single, moved, hull.rounding).to_bytes()
 }
 
-impl TightTables {
-    pub(super) fn new(
-        mesh: &Mesh,
-        moved: f64,
-        input_triangles: usize,
-        hulls: &[Stored],
-    ) -> TightTables {
-        let exponent = scale_exponent(mesh);
-        let local = exp2(-exponent);
-        let bound = |pick: fn(f32, f32) -> f32, from: f32, round: fn(f64) -> f32| {
-            [0, 1, 2].map(|axis| {
-                let all = mesh.positions.iter().map(|p| p[axis]);
-                round(f64::from(all.fold(from, pick)) * local)
-            })
-        };
-        let low = bound(f32::min, f32::INFINITY, down_to_f32);
-        let high = bound(f32::max, f32::NEG_INFINITY, up_to_f32);
-        TightTables {
-            scale_exponent: exponent,
-            input_triangles: input_triangles.max(mesh.all_triangles().count()) as u32,
-            surface_error: up_to_f32((mesh.rounding + moved) * local),
-            bounds: [low, high],
-            section: section(hulls),
-        }
-    }
+/// The section of a chain of hulls.
+pub(super) fn sections(input: Input<'_>, hulls: &[Stored]) -> Sections {
+    let mesh = input.mesh;
+    let exponent = scale_exponent(mesh);
+    let local = exp2(-exponent);
+    let bound = |pick: fn(f32, f32) -> f32, from: f32, round: fn(f64) -> f32| {
+        Vec3::from([0, 1, 2].map(|axis| {
+            let all = mesh.positions.iter().map(|p| p[axis]);
+            round(f64::from(all.fold(from, pick)) * local)
+        }))
+    };
+    let bounds = Aabb {
+        min: bound(f32::min, f32::INFINITY, down_to_f32),
+        max: bound(f32::max, f32::NEG_INFINITY, up_to_f32),
+    };
+    let bodies = vec![(SectionKind::TightHulls, section(hulls))];
+    let error = up_to_f32(input.error() * local);
+    Sections::new(exponent, error, input.triangle_count(), bounds, bodies)
 }
 
 fn section(hulls: &[Stored]) -> Vec<u8> {
@@ -125,21 +106,23 @@ fn section(hulls: &[Stored]) -> Vec<u8> {
     out
 }
 
-/// The tight hulls of a blob that have at most so many faces, or the coarsest; `None` if it has
-/// none.
+/// The tight hulls of a blob that have at most `faces` faces, and the coarsest in any case; `None` if
+/// the blob has no tight hulls.
 #[must_use]
-pub fn cut(model: &Model<'_>, faces: u32) -> Option<TightTables> {
-    let hulls = model.tight_hulls()?;
+pub fn cut(blob: &Blob<'_>, faces: u32) -> Option<Sections> {
+    let hulls = blob.tight_hulls().ok()?;
     let count = hulls.records().take_while(|record| record.faces <= faces).count().max(1);
     let kept: Option<Vec<Stored>> = (0..count as u32).map(|index| stored(&hulls, index)).collect();
-    let h = model.header();
-    Some(TightTables {
-        scale_exponent: h.scale_exponent,
-        input_triangles: h.input_triangles,
-        surface_error: h.surface_error,
-        bounds: [h.surface_box.min.to_array(), h.surface_box.max.to_array()],
-        section: section(&kept?),
-    })
+    let h = blob.header();
+    let bodies = vec![(SectionKind::TightHulls, section(&kept?))];
+    let Header { scale_exponent, surface_error, input_triangles, surface_box, .. } = *h;
+    Some(Sections::new(
+        scale_exponent,
+        surface_error,
+        input_triangles,
+        Aabb::of(surface_box),
+        bodies,
+    ))
 }
 
 fn stored(hulls: &TightHulls<'_>, index: u32) -> Option<Stored> {
@@ -154,16 +137,16 @@ fn stored(hulls: &TightHulls<'_>, index: u32) -> Option<Stored> {
 /// A stored hull as a mesh in its unit, vertices exactly as stored; faces in their own order.
 #[must_use]
 pub fn hull_mesh(hull: &TightHull<'_>) -> Mesh {
-    let tree = hull.tree();
+    let tree = hull.bvh();
     // A power of two: exact. Zeros lose their sign, by which no two corners differ.
     let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
-    let in_input_units = |p: glam::Vec3| p.to_array().map(|x| (f64::from(x) * unit) as f32 + 0.0);
+    let in_input_units = |p: Vec3| p.to_array().map(|x| (f64::from(x) * unit) as f32 + 0.0);
     let mut faces: Vec<(u32, [[f32; 3]; 3])> = Vec::new();
     for node in 0..tree.header().nodes {
         let Some(links) = tree.links(node) else { continue };
         for child in links.inner..links.count {
             let Some(patch) = tree.leaf(node, child) else { continue };
-            for lane in 0..patch.tag().triangles() {
+            for lane in 0..patch.shape().triangles() {
                 let number = tree.source(links.triangle(child).wrapping_add(lane as u32));
                 let corners = patch.corners(lane).map(in_input_units);
                 faces.extend(number.map(|number| (number, corners)));

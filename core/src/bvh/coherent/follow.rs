@@ -7,7 +7,7 @@ use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::leaf_distance::seen;
 use crate::bvh::node::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
 use crate::bvh::point_query::PointQuery;
-use crate::geom::fan::{Nearness, PointFan, WIDTH, point_patch};
+use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{FAN_DISTANCE, ROOT_AND_PRODUCTS, SHORTFALL, U32};
 use crate::query::Work;
@@ -88,9 +88,8 @@ impl<'a, 't> Follow<'a, 't> {
         ahead: f32,
         steps: u32,
     ) -> Self {
-        // The allowance is 2100 times the square of it.
-        let off = sqrt_approx(query.limit(0.0)) * (1.0 / 45.0);
-        let shortfall = tree.header().reach * (SHORTFALL + FAN_DISTANCE * U32);
+        let off = query.box_error();
+        let shortfall = tree.header().star_radius * (SHORTFALL + FAN_DISTANCE * U32);
         Follow {
             tree,
             query,
@@ -188,7 +187,7 @@ impl<'a, 't> Follow<'a, 't> {
             }
             let found = self.tree.child(child.node(), child.lane()).ok_or(Gap::Model)?;
             if found.is_leaf() {
-                let leaf = self.tree.patch(found.at, found.tag).ok_or(Gap::Model)?;
+                let leaf = self.tree.leaf_at(found.at, found.shape).ok_or(Gap::Model)?;
                 self.looks += 1;
                 let known = if is_sound(&leaf).ok_or(Gap::Model)? {
                     Known::Triangles
@@ -260,7 +259,7 @@ impl<'a, 't> Follow<'a, 't> {
     fn look(&mut self, i: usize, child: Child) -> Result<(), Gap> {
         let leaf = self.tree.leaf(child.node(), child.lane()).ok_or(Gap::Model)?;
         let (near, edges) = seen(&leaf, self.query.p).ok_or(Gap::Model)?;
-        self.work.triangles += leaf.tag().triangles() as u32;
+        self.work.triangles += leaf.shape().triangles() as u32;
         self.looks += 2;
         let distance_sq = near.distance_sq;
         if distance_sq < self.best.distance_sq
@@ -299,11 +298,11 @@ impl<'a, 't> Follow<'a, 't> {
 
     #[inline(always)]
     fn each(&mut self, leaf: &FanLeaf<'_>, mut then: impl FnMut(&mut Self, usize, Nearness)) {
-        let (p, tag) = (self.query.p, leaf.tag());
-        let s = [p - leaf.centre(0), p - leaf.centre(tag.centres() - 1)];
-        point_patch(
-            tag.triangles(),
-            tag.turn(),
+        let (p, shape) = (self.query.p, leaf.shape());
+        let s = [p - leaf.centre(0), p - leaf.centre(shape.centres() - 1)];
+        point_leaf(
+            shape.triangles(),
+            shape.turn(),
             s,
             |i, which| leaf.spoke(i, which),
             |lane, near| then(self, lane, near),
@@ -336,7 +335,7 @@ impl<'a, 't> Follow<'a, 't> {
                 lower_bound_sq = least(lower_bound_sq, near.lower_bound_sq);
             }
         });
-        self.work.triangles += leaf.tag().triangles() as u32;
+        self.work.triangles += leaf.shape().triangles() as u32;
         least(others, self.key_of_triangles(lower_bound_sq))
     }
 
@@ -346,7 +345,7 @@ impl<'a, 't> Follow<'a, 't> {
     pub(crate) fn same(&mut self, lane: usize, second: f32) -> Option<Nearest> {
         let (_, child) = self.front.get(0)?;
         let leaf = self.tree.leaf(child.node(), child.lane())?;
-        let which = usize::from(lane >= leaf.tag().turn());
+        let which = usize::from(lane >= leaf.shape().turn());
         let fan = PointFan::new(self.query.p - leaf.centre(which));
         let (e, g) = (fan.spoke(leaf.spoke(lane, which)), fan.spoke(leaf.spoke(lane + 1, which)));
         let Nearness { distance_sq, lower_bound_sq, v, w } = fan.triangle(&e, &g);

@@ -10,7 +10,7 @@ use glam::Vec3;
 /// one of a tree that was opened.
 pub(crate) fn is_sound(leaf: &FanLeaf<'_>) -> Option<bool> {
     if !WIDE {
-        let (count, turn) = (leaf.tag().triangles(), leaf.tag().turn());
+        let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
         return Some((0..count.min(WIDTH)).all(|lane| {
             let which = usize::from(lane >= turn);
             let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
@@ -19,9 +19,9 @@ pub(crate) fn is_sound(leaf: &FanLeaf<'_>) -> Option<bool> {
         }));
     }
     let edges =
-        if leaf.is_f32() { leaf.single_edges8(Vec3::ZERO)? } else { leaf.grid_edges8(Vec3::ZERO)? };
+        if leaf.is_f32() { leaf.f32_edges8(Vec3::ZERO)? } else { leaf.grid_edges8(Vec3::ZERO)? };
     let Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], .. } = &edges;
-    let used = LANES_BELOW.get(leaf.tag().triangles())?;
+    let used = LANES_BELOW.get(leaf.shape().triangles())?;
     let mut excess = [0f32; WIDTH];
     for i in 0..WIDTH {
         let (ex, ey, ez, gx, gy, gz) = (ex[i], ey[i], ez[i], gx[i], gy[i], gz[i]);

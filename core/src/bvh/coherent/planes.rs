@@ -57,7 +57,7 @@ impl Planes {
         margin: f32,
     ) {
         let found = match leaf.edges {
-            Some(edges) => separate_wide(edges, leaf.fans.tag().triangles(), near),
+            Some(edges) => separate_wide(edges, leaf.fans.shape().triangles(), near),
             None => separate_narrow(leaf.fans, leaf.p, near),
         };
         if let Some((normal, distance)) = found
@@ -118,11 +118,11 @@ fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(
 /// The same, vertex by vertex.
 #[inline(never)]
 fn separate_narrow(leaf: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec3, f32)> {
-    let (count, turn) = (leaf.tag().triangles(), leaf.tag().turn());
+    let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
     let which = usize::from(lane >= turn);
     let from = p - leaf.centre(which);
     let n = normal(from - leaf.spoke(lane, which) * v - leaf.spoke(lane + 1, which) * w)?;
-    let other = p - leaf.centre(leaf.tag().centres() - 1 - which.min(leaf.tag().centres() - 1));
+    let other = p - leaf.centre(leaf.shape().centres() - 1 - which.min(leaf.shape().centres() - 1));
     let along = dot(n, from);
     let nearest = (0..=count).fold(0.0, |least, i| less(least, -dot(n, leaf.spoke(i, which))));
     Some((n, less(along + nearest, dot(n, other))))

@@ -6,41 +6,39 @@
 use super::follow::{Follow, Gap, Nearest};
 use super::front::{Child, Extent, Known, TraversalFront};
 use super::planes::Planes;
-use crate::bvh::closest_point::{Hint, closest_point_from};
+use crate::bvh::closest_point::{Hint, closest_point, closest_point_from};
 use crate::bvh::format::Bvh;
 use crate::bvh::point_query::PointQuery;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{FAN_DISTANCE, LEAST_DENOMINATOR, LONG_PATH, ROOT_AND_PRODUCTS, U32};
-use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Work};
 use core::marker::PhantomData;
 use glam::Vec3;
 
-/// What a session answers.
+/// The answer of a [`CoherentQuery`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoherentClosest {
-    /// What [`closest_point`](super::closest_point) answers, with the same bits; `work` is what
-    /// the session did.
+    /// The answer of [`Bvh::closest_point`], with the same bits. `work` is that of this query.
     pub closest: ClosestPoint,
     /// While the query is no farther than this from where it is now, input units,
-    /// [`ClosestPoint::triangle`] remains the closest triangle of the input mesh. Rounded
-    /// down. 0 if that is not known: on edges and vertices, after a jump, and where it would be
-    /// less than the last step.
+    /// [`ClosestPoint::triangle`] remains the closest triangle of the input mesh. Rounded down. 0 if
+    /// that is not known: on edges and vertices, after a jump, and where it would be less than the
+    /// last step.
     pub safe_radius: f32,
 }
 
 /// A query that moves: it remembers what the last answers ruled out.
 ///
 /// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface,
-/// each with a lower bound of its distance. A bound stays true after a motion if the path length is
-/// taken off it. So a query looks only at what may have come near enough since. `N` = 128 is enough
-/// for steps of a thousandth of the model; RAM is 8·`N` bytes and about 800: 32 planes that part it
-/// from the leaves around.
+/// each with a lower bound of its distance. A bound less the path length since then stays a bound.
+/// So a query looks only at leaves that may have come near enough. `N` = 128 is enough for steps of
+/// a thousandth of the model. RAM: 8·`N` bytes and about 800, for 32 planes that part the query from
+/// the leaves around.
 ///
-/// Where steps are so long that nothing is won, the session notices and asks [`closest_point_from`]
-/// for a while.
+/// Where steps are so long that nothing is won, it asks the plain query for a while.
 ///
-/// A session is about one tree at a time; asked about another it begins anew. Its lifetime makes
-/// sure that bytes do not change behind its back.
+/// It is about one tree at a time. Asked about another it begins anew. Its lifetime makes sure that
+/// bytes do not change behind its back.
 #[derive(Clone, Debug)]
 pub struct CoherentQuery<'t, const N: usize = 128> {
     memory: Memory,
@@ -56,7 +54,7 @@ impl<const N: usize> Default for CoherentQuery<'_, N> {
 }
 
 impl<'t, const N: usize> CoherentQuery<'t, N> {
-    /// A session that knows nothing yet. May initialise a `static`.
+    /// A query that knows nothing yet. May initialise a `static`.
     pub const fn new() -> Self {
         CoherentQuery {
             memory: Memory::EMPTY,
@@ -71,27 +69,40 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
         self.memory = Memory::EMPTY;
     }
 
-    /// As [`closest_point`](super::closest_point), with the same bits in `lower`, `upper`, `point`
-    /// and `triangle`, and the less work the less the query moved.
+    /// [`Bvh::closest_point`], with the same bits in `distance`, `point` and `triangle`, and the less
+    /// work the less the query moved.
     ///
-    /// With a tolerance in `stop` it is that function. A step budget bounds what the session does
-    /// and, where that was not enough, the plain query after it: at most twice as many nodes.
-    /// The session's answer then may be exact where the plain query's is not.
+    /// With a tolerance in `budget` it is that function. A step budget bounds the search on the front
+    /// and, where that was not enough, the plain query after it: at most twice as many nodes. The
+    /// answer then may be exact where the plain query's is not.
     ///
-    /// Cost: within [`CoherentClosest::safe_radius`] of the last answer one triangle; for steps of 3e-4 of
-    /// the model's diagonal one to three leaves and now and then a node; for jumps that of
-    /// [`closest_point_from`].
+    /// Cost: within [`CoherentClosest::safe_radius`] of the last answer one triangle. For steps of
+    /// 3e-4 of the model's diagonal one to three leaves and now and then a node. For jumps that of
+    /// the plain query.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, CoherentQuery, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let mut tip = CoherentQuery::<128>::new();
+    /// for step in 0..100 {
+    ///     let point = [3.0, 0.01 * step as f32, 4.0];
+    ///     let near = tip.closest_point(&part, point, Budget::EXACT, &mut scratch)?;
+    ///     assert!(near.safe_radius >= 0.0);
+    /// }
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of [`closest_point`](super::closest_point); the session stays as it was.
+    /// Those of [`Bvh::closest_point`]. The state stays as it was.
     pub fn closest_point(
         &mut self,
         tree: &Bvh<'t>,
         point: [f32; 3],
-        stop: &Budget,
-        stack: &mut [ScratchEntry],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        self.memory.closest_point(&mut self.keys, &mut self.children, tree, point, stop, stack)
+        self.memory.closest_point(&mut self.keys, &mut self.children, tree, point, &budget, scratch)
     }
 }
 
@@ -228,17 +239,17 @@ impl Memory {
         children: &mut [Child],
         tree: &Bvh<'_>,
         point: [f32; 3],
-        stop: &Budget,
-        stack: &mut [ScratchEntry],
+        budget: &Budget,
+        scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        stop.check()?;
-        if stack.is_empty() {
-            return Err(QueryError::NoQueue);
+        budget.check()?;
+        if scratch.is_empty() {
+            return Err(QueryError::NoScratch);
         }
         let query = PointQuery::new(tree, point)?;
-        let first = tree.frame(0).ok_or(QueryError::NotServed)?;
-        if query.far || stop.relative > 0.0 || stop.absolute > 0.0 {
-            let closest = closest_point_from(tree, point, stop, stack, &mut Hint::NONE.clone())?;
+        let first = tree.frame(0).ok_or(QueryError::NO_DISTANCES)?;
+        if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
+            let closest = closest_point(tree, point, budget, scratch)?;
             return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
@@ -251,9 +262,9 @@ impl Memory {
             + LEAST_DENOMINATOR;
         self.last.p = query.p;
         if self.pace.follows(step) {
-            match self.follow(keys, children, tree, &query, (step, stop.steps), &mut spent) {
+            match self.follow(keys, children, tree, &query, (step, budget.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
-                Err(Gap::Model) => return Err(QueryError::Model),
+                Err(Gap::Model) => return Err(QueryError::Unchecked),
                 Err(Gap::Undecided) => {}
                 Err(Gap::Lost) => self.extent = Extent::EMPTY,
             }
@@ -262,9 +273,9 @@ impl Memory {
             self.extent = Extent::EMPTY;
             (self.last.known, self.last.second) = (false, 0.0);
         }
-        let mut closest = closest_point_from(tree, point, stop, stack, &mut self.hint)?;
+        let mut closest = closest_point_from(tree, point, &mut self.hint, budget, scratch)?;
         self.pace.plain_query(&closest.work);
-        self.last.reach = query.units.inward(closest.upper) + query.units.surface_error;
+        self.last.reach = query.units.inward(closest.distance.upper) + query.units.surface_error;
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
         closest.work.triangles = closest.work.triangles.saturating_add(spent.triangles);
         closest.work.splits = closest.work.splits.saturating_add(spent.splits);
@@ -325,7 +336,7 @@ impl Memory {
         };
         let distance = sqrt_approx(nearest.distance_sq);
         let below = query.refine_below(nearest.distance_sq);
-        let error = tree.header().reach * (FAN_DISTANCE * U32) + query.units.surface_error;
+        let error = tree.header().star_radius * (FAN_DISTANCE * U32) + query.units.surface_error;
         let path = follow.front.extent.path;
         let safe = |second: f32| {
             0.5 * ((second - path) * (1.0 - ROOT_AND_PRODUCTS)
@@ -341,8 +352,10 @@ impl Memory {
         let safe_radius = safe(last.second);
         let leaf = tree.leaf(nearest.child.node(), nearest.child.lane()).ok_or(Gap::Model)?;
         let closest = ClosestPoint {
-            lower: query.lower(sqrt_approx(if below > 0.0 { below } else { 0.0 })),
-            upper: query.upper(distance),
+            distance: Interval::new(
+                query.lower(sqrt_approx(if below > 0.0 { below } else { 0.0 })),
+                query.upper(distance),
+            ),
             point: query.units.point(leaf.point(nearest.lane, nearest.v, nearest.w)),
             triangle: last.triangle,
             work: follow.work,

@@ -2,7 +2,7 @@
 
 use super::header::BvhHeader;
 use super::layout::{
-    FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, TREE_BYTES, boxes,
+    BVH_BYTES, FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes,
 };
 use super::leaf::{FanLeaf, LeafShape};
 use super::view::{Bvh, GridScale};
@@ -67,7 +67,7 @@ impl<'a> Bvh<'a> {
             source: Bytes(&[]),
             cones: &[],
         };
-        let wants = |kind: SectionKind| kind.is_tree();
+        let wants = |kind: SectionKind| kind.is_bvh();
         place_sections(&header, Bytes(bytes), check, wants, |index, kind, data| {
             let rest: &[u8];
             match kind {
@@ -82,7 +82,7 @@ impl<'a> Bvh<'a> {
             }
             if rest.is_empty() { Ok(()) } else { Err(OpenError::Section { index }) }
         })?;
-        if head.len() != TREE_BYTES {
+        if head.len() != BVH_BYTES {
             return Err(OpenError::MissingSection { section: SectionKind::Bvh });
         }
         tree.header = BvhHeader::read(Bytes(head))?;
@@ -115,8 +115,8 @@ impl<'a> Bvh<'a> {
         }
         if !(h.surface_error >= 0.0
             && h.surface_error.is_finite()
-            && h.reach >= 0.0
-            && h.reach <= 1e7)
+            && h.star_radius >= 0.0
+            && h.star_radius <= 1e7)
         {
             return wrong("negative or infinite error bound of the tree");
         }
@@ -162,7 +162,7 @@ impl<'a> Bvh<'a> {
             if !sound {
                 return Err(bad);
             }
-            if (0..links.inner).any(|lane| links.tag(lane) != LeafShape(0)) {
+            if (0..links.inner).any(|lane| links.shape(lane) != LeafShape(0)) {
                 return Err(bad);
             }
             if links.count > links.inner
@@ -171,20 +171,20 @@ impl<'a> Bvh<'a> {
                 return Err(bad);
             }
             for lane in links.inner..links.count {
-                let tag = links.tag(lane);
-                if !tag.is_sound() {
+                let shape = links.shape(lane);
+                if !shape.is_sound() {
                     return Err(bad);
                 }
-                let leaf = self.patch(vertices, tag).ok_or(bad)?;
-                vertices += tag.vertices() as u32;
-                triangles += tag.triangles() as u32;
+                let leaf = self.leaf_at(vertices, shape).ok_or(bad)?;
+                vertices += shape.vertices() as u32;
+                triangles += shape.triangles() as u32;
                 leaves += 1;
                 if vertices > h.vertices {
                     return Err(bad);
                 }
-                self.check_patch(&leaf, leaves - 1)?;
+                self.check_leaf(&leaf, leaves - 1)?;
             }
-            if (links.count..WIDTH as u32).any(|lane| links.tag(lane) != LeafShape(0)) {
+            if (links.count..WIDTH as u32).any(|lane| links.shape(lane) != LeafShape(0)) {
                 return Err(bad);
             }
         }
@@ -274,7 +274,7 @@ impl<'a> Bvh<'a> {
         Ok(())
     }
 
-    fn check_patch(&self, leaf: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
+    fn check_leaf(&self, leaf: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
         let h = &self.header;
         let bad = OpenError::Record { section: SectionKind::TreeFans, index };
         let inside = |p: glam::Vec3| {
@@ -285,16 +285,16 @@ impl<'a> Bvh<'a> {
                     && x <= (o + i32::from(h.high[axis])) as f32
             })
         };
-        let tag = leaf.tag();
-        let sound = (0..tag.centres()).all(|which| inside(leaf.centre(which)))
-            && (0..=tag.triangles()).all(|i| inside(leaf.ring(i)))
-            && (0..tag.triangles()).all(|i| {
-                let which = usize::from(i >= tag.turn());
+        let shape = leaf.shape();
+        let sound = (0..shape.centres()).all(|which| inside(leaf.centre(which)))
+            && (0..=shape.triangles()).all(|i| inside(leaf.ring(i)))
+            && (0..shape.triangles()).all(|i| {
+                let which = usize::from(i >= shape.turn());
                 let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
                 // Exact on the grid; with f32 vertices off by a few roundings, which the bounds
-                // that `reach` enters have room for.
+                // that `star_radius` enters have room for.
                 norm(leaf.spoke(i, which)) + norm(leaf.spoke(i + 1, which))
-                    <= h.reach * (1.0 + 8.0 * U32)
+                    <= h.star_radius * (1.0 + 8.0 * U32)
             });
         if sound { Ok(()) } else { Err(bad) }
     }

@@ -1,6 +1,6 @@
 //! The box tree's own header: counts, grid, error bound.
 
-use super::layout::{TREE_BYTES, TREE_CLOSED, TREE_SINGLE, field};
+use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, field};
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError};
 
@@ -10,7 +10,7 @@ use crate::format::{Bytes, OpenError};
 /// coordinate on the grid is a u16 plus `grid_origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BvhHeader {
-    /// [`TREE_CLOSED`] and [`TREE_SINGLE`].
+    /// [`BVH_CLOSED`] and [`BVH_F32`].
     pub flags: u8,
     /// Local coordinate = grid coordinate × 2^this.
     pub grid_exponent: i32,
@@ -30,7 +30,7 @@ pub struct BvhHeader {
     /// local frame.
     pub surface_error: f32,
     /// The largest sum of the 1-norms of the two spokes of a triangle, grid units, rounded up.
-    pub reach: f32,
+    pub star_radius: f32,
     /// Box of the leaves' vertices, as u16 on the grid, rounded outward.
     pub low: [u16; 3],
     /// See [`low`](Self::low).
@@ -49,19 +49,19 @@ impl BvhHeader {
         triangles: 0,
         stack_entries: 0,
         surface_error: 0.0,
-        reach: 0.0,
+        star_radius: 0.0,
         low: [0; 3],
         high: [0; 3],
     };
 
     /// Whether the sign of a distance is defined.
     pub fn is_closed(&self) -> bool {
-        self.flags & TREE_CLOSED != 0
+        self.flags & BVH_CLOSED != 0
     }
 
     /// Whether leaf vertices are f32.
     pub fn is_f32(&self) -> bool {
-        self.flags & TREE_SINGLE != 0
+        self.flags & BVH_F32 != 0
     }
 
     /// Bytes of one leaf vertex.
@@ -83,7 +83,7 @@ impl BvhHeader {
         let reserved = bytes.u8(field::RESERVED) == Some(0)
             && bytes.u16(field::RESERVED_BESIDE_FLAGS) == Some(0)
             && word(field::RESERVED_AT_END)? == 0;
-        if !reserved || flags & !(TREE_CLOSED | TREE_SINGLE) != 0 {
+        if !reserved || flags & !(BVH_CLOSED | BVH_F32) != 0 {
             return Err(OpenError::Reserved);
         }
         Ok(BvhHeader {
@@ -100,15 +100,15 @@ impl BvhHeader {
             triangles: word(field::TRIANGLES)?,
             stack_entries: word(field::STACK_ENTRIES)?,
             surface_error: f32::from_bits(word(field::SURFACE_ERROR)?),
-            reach: f32::from_bits(word(field::STAR_RADIUS)?),
+            star_radius: f32::from_bits(word(field::STAR_RADIUS)?),
             low: short3(field::LOW)?,
             high: short3(field::HIGH)?,
         })
     }
 
     /// Writes the header.
-    pub fn write(&self) -> [u8; TREE_BYTES] {
-        let mut out = [0u8; TREE_BYTES];
+    pub fn write(&self) -> [u8; BVH_BYTES] {
+        let mut out = [0u8; BVH_BYTES];
         let mut put = |at: usize, bytes: &[u8]| {
             for (slot, byte) in out.iter_mut().skip(at).zip(bytes) {
                 *slot = *byte;
@@ -127,7 +127,7 @@ impl BvhHeader {
             (field::TRIANGLES, self.triangles),
             (field::STACK_ENTRIES, self.stack_entries),
             (field::SURFACE_ERROR, self.surface_error.to_bits()),
-            (field::STAR_RADIUS, self.reach.to_bits()),
+            (field::STAR_RADIUS, self.star_radius.to_bits()),
         ];
         for (at, word) in words {
             put(at, &word.to_le_bytes());

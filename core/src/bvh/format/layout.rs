@@ -1,7 +1,7 @@
 //! Where everything stands in the sections of the box tree.
 
 /// Bytes of the box tree's header.
-pub const TREE_BYTES: usize = 64;
+pub const BVH_BYTES: usize = 64;
 /// Bytes of a node's links.
 pub const LINK_BYTES: usize = 20;
 /// Bytes of a node's boxes in a shared frame.
@@ -21,9 +21,9 @@ pub const SOURCE_PADDING: usize = 8;
 pub const CONE_BYTES: usize = 4;
 /// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so
 /// that the sign of a distance is defined.
-pub const TREE_CLOSED: u8 = 1;
+pub const BVH_CLOSED: u8 = 1;
 /// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
-pub const TREE_SINGLE: u8 = 2;
+pub const BVH_F32: u8 = 2;
 
 /// Offsets in the box tree's header.
 pub mod field {

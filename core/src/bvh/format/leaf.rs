@@ -12,7 +12,7 @@ use glam::Vec3;
 pub struct LeafShape(pub u8);
 
 impl LeafShape {
-    /// The tag of a leaf of `triangles` with the second fan beginning at triangle `turn` (0: one
+    /// The shape of a leaf of `triangles` with the second fan beginning at triangle `turn` (0: one
     /// fan).
     pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
         let vertices = triangles + 2 + usize::from(turn > 0);
@@ -65,7 +65,7 @@ impl LeafShape {
 #[derive(Clone, Copy, Debug)]
 pub struct FanLeaf<'a> {
     pub(crate) bytes: &'a [u8],
-    pub(crate) tag: LeafShape,
+    pub(crate) shape: LeafShape,
     pub(crate) is_f32: bool,
     pub(crate) origin: [i32; 3],
 }
@@ -165,8 +165,8 @@ fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
 impl<'a> FanLeaf<'a> {
     /// Its shape.
     #[inline(always)]
-    pub fn tag(&self) -> LeafShape {
-        self.tag
+    pub fn shape(&self) -> LeafShape {
+        self.shape
     }
 
     /// Centre 0 or 1, grid units, exactly. What is asked beyond a leaf's centres, ring or
@@ -193,12 +193,12 @@ impl<'a> FanLeaf<'a> {
     pub fn stored_vertices(&self) -> [[f32; CORNERS]; 3] {
         let mut out = [[0f32; CORNERS]; 3];
         if self.is_f32 {
-            self.single_vertices(&mut out);
+            self.f32_vertices(&mut out);
             return out;
         }
         let Some(window) = self.bytes.first_chunk::<GRID_WINDOW>() else { return out };
-        let second = 6 * (self.tag.centres() - 1);
-        let step = 2 * (self.tag.triangles() + 1);
+        let second = 6 * (self.shape.centres() - 1);
+        let step = 2 * (self.shape.triangles() + 1);
         for (axis, out) in out.iter_mut().enumerate() {
             let ring = (6 + second + step * axis).min(GRID_WINDOW - 18);
             let [first, next, rest @ ..] = out;
@@ -214,9 +214,9 @@ impl<'a> FanLeaf<'a> {
     }
 
     #[inline(never)]
-    fn single_vertices(&self, out: &mut [[f32; CORNERS]; 3]) {
-        let second = self.tag.centres() - 1;
-        let used = self.tag.triangles() + 3;
+    fn f32_vertices(&self, out: &mut [[f32; CORNERS]; 3]) {
+        let second = self.shape.centres() - 1;
+        let used = self.shape.triangles() + 3;
         for slot in 0..CORNERS {
             let vertex = match slot {
                 0 => self.centre(0),
@@ -240,9 +240,9 @@ impl<'a> FanLeaf<'a> {
     /// Ring vertex `i ≤ triangles`, grid units, exactly.
     #[inline(always)]
     pub fn ring(&self, i: usize) -> Vec3 {
-        let entries = self.tag.triangles() + 1;
+        let entries = self.shape.triangles() + 1;
         if self.is_f32 {
-            let at = 12 * self.tag.centres() + 4 * i;
+            let at = 12 * self.shape.centres() + 4 * i;
             let step = 4 * entries;
             return Vec3::new(
                 f32_at(self.bytes, at),
@@ -250,7 +250,7 @@ impl<'a> FanLeaf<'a> {
                 f32_at(self.bytes, at + 2 * step),
             );
         }
-        let [x, y, z] = self.stored(6 * self.tag.centres() + 2 * i, 2 * entries);
+        let [x, y, z] = self.stored(6 * self.shape.centres() + 2 * i, 2 * entries);
         let [ox, oy, oz] = self.origin;
         Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
     }
@@ -261,9 +261,9 @@ impl<'a> FanLeaf<'a> {
         if self.is_f32 {
             return self.ring(i) - self.centre(which);
         }
-        let step = 2 * (self.tag.triangles() + 1);
+        let step = 2 * (self.shape.triangles() + 1);
         let [cx, cy, cz] = self.stored(6 * which, 2);
-        let [x, y, z] = self.stored(6 * self.tag.centres() + 2 * i, step);
+        let [x, y, z] = self.stored(6 * self.shape.centres() + 2 * i, step);
         Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
     }
 
@@ -271,8 +271,8 @@ impl<'a> FanLeaf<'a> {
     #[inline(always)]
     pub fn grid_ring(&self) -> Option<GridRing<'a>> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
-        let entries = self.tag.triangles() + 1;
-        let ring = self.bytes.get(6 * self.tag.centres()..)?;
+        let entries = self.shape.triangles() + 1;
+        let ring = self.bytes.get(6 * self.shape.centres()..)?;
         let (x, rest) = ring.split_at_checked(2 * entries)?;
         let (y, rest) = rest.split_at_checked(2 * entries)?;
         let z = rest.get(..2 * entries)?;
@@ -297,19 +297,19 @@ impl<'a> FanLeaf<'a> {
     /// is a lot of code.
     #[inline(never)]
     pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
-        let which = usize::from(lane >= self.tag.turn());
+        let which = usize::from(lane >= self.shape.turn());
         [self.centre(which), self.spoke(lane, which), self.spoke(lane + 1, which)]
     }
 
     /// Corners of triangle `lane`, grid units, in the input's winding.
     pub fn corners(&self, lane: usize) -> [Vec3; 3] {
-        let second = lane >= self.tag.turn();
+        let second = lane >= self.shape.turn();
         let centre = self.centre(usize::from(second));
         let (a, b) = (self.ring(lane), self.ring(lane + 1));
-        if second && self.tag.second_reversed() { [centre, b, a] } else { [centre, a, b] }
+        if second && self.shape.second_reversed() { [centre, b, a] } else { [centre, a, b] }
     }
 
-    /// Whether vertices are f32: then [`single_edges8`](Self::single_edges8) is to be asked.
+    /// Whether vertices are f32: then [`f32_edges8`](Self::f32_edges8) is to be asked.
     #[inline(always)]
     pub fn is_f32(&self) -> bool {
         self.is_f32
@@ -319,10 +319,10 @@ impl<'a> FanLeaf<'a> {
     #[inline(always)]
     pub fn grid_edges8(&self, p: Vec3) -> Option<Edges8> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
-        let two = self.tag.centres() == 2;
+        let two = self.shape.centres() == 2;
         let ring = if two { 12 } else { 6 };
-        let step = 2 * (self.tag.triangles() + 1);
-        let turn = LANES_BELOW.get(self.tag.turn())?;
+        let step = 2 * (self.shape.triangles() + 1);
+        let turn = LANES_BELOW.get(self.shape.turn())?;
         let (c, d) = (three(window, 0), three(window, 6));
         let [ox, oy, oz] = self.origin;
         let (ex, gx, sx) = grid_axis(window, ring, turn, [c[0], d[0]], ox, p.x);
@@ -333,15 +333,15 @@ impl<'a> FanLeaf<'a> {
 
     /// All triangles as seen from `p` (grid units), for the wide kernel: f32 vertices.
     #[inline(always)]
-    pub fn single_edges8(&self, p: Vec3) -> Option<Edges8> {
-        let turn = self.tag.turn();
-        let (first, second) = (self.centre(0), self.centre(self.tag.centres() - 1));
+    pub fn f32_edges8(&self, p: Vec3) -> Option<Edges8> {
+        let turn = self.shape.turn();
+        let (first, second) = (self.centre(0), self.centre(self.shape.centres() - 1));
         let (first_s, second_s) = ((p - first).to_array(), (p - second).to_array());
         let (first, second) = (first.to_array(), second.to_array());
         let mut edges = Edges8 { e: [[0.0; WIDTH]; 3], g: [[0.0; WIDTH]; 3], s: [[0.0; WIDTH]; 3] };
-        let entries = self.tag.triangles() + 1;
+        let entries = self.shape.triangles() + 1;
         for axis in 0..3 {
-            let at = 12 * self.tag.centres() + 4 * entries * axis;
+            let at = 12 * self.shape.centres() + 4 * entries * axis;
             let chunk = self.bytes.get(at..)?.first_chunk::<36>()?;
             for i in 0..WIDTH {
                 let centre = if i < turn { first[axis] } else { second[axis] };
@@ -359,14 +359,14 @@ impl<'a> FanLeaf<'a> {
     /// Ring and centres in the order of `axes`, grid units, exactly, for the wide segment kernel.
     #[inline(always)]
     pub fn ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
-        if self.is_f32 { self.single_ring8(axes) } else { self.grid_ring8(axes) }
+        if self.is_f32 { self.f32_ring8(axes) } else { self.grid_ring8(axes) }
     }
 
     #[inline(always)]
     fn grid_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
-        let second = 6 * (self.tag.centres() - 1);
-        let step = 2 * (self.tag.triangles() + 1);
+        let second = 6 * (self.shape.centres() - 1);
+        let step = 2 * (self.shape.triangles() + 1);
         let axis = |axis: usize| {
             let at = 6 + second + step * axis;
             let origin = self.origin.get(axis).copied().unwrap_or(0) as f32;
@@ -388,9 +388,9 @@ impl<'a> FanLeaf<'a> {
     }
 
     #[inline(never)]
-    fn single_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
-        let second = 12 * (self.tag.centres() - 1);
-        let step = 4 * (self.tag.triangles() + 1);
+    fn f32_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        let second = 12 * (self.shape.centres() - 1);
+        let step = 4 * (self.shape.triangles() + 1);
         let mut ring =
             Ring8 { here: [[0.0; WIDTH]; 3], next: [[0.0; WIDTH]; 3], centres: [[0.0; 3]; 2] };
         for (k, axis) in axes.into_iter().enumerate() {

@@ -83,38 +83,38 @@ pub struct Links {
     pub first_triangle: u32,
     /// Shapes of the leaves, a byte for each child; 0 for a node. Two words: a Cortex-M has no
     /// 64-bit shifts.
-    tags: [u32; 2],
+    shapes: [u32; 2],
 }
 
 /// A child of a node: another node, or a leaf. Plain numbers rather than an enum of views: the
-/// descent decides by the tag when it has to.
+/// descent decides by the shape when it has to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BvhChild {
     /// Number of the node, or first vertex of the leaf.
     pub at: u32,
     /// Shape of the leaf; 0 for a node.
-    pub tag: LeafShape,
+    pub shape: LeafShape,
 }
 
 impl BvhChild {
     /// Whether it is a leaf.
     #[inline(always)]
     pub fn is_leaf(self) -> bool {
-        self.tag.0 != 0
+        self.shape.0 != 0
     }
 }
 
-/// Sum of the low nibbles of four tags.
+/// Sum of the low nibbles of four shapes.
 #[inline(always)]
-fn nibbles(tags: u32) -> u32 {
-    (tags & 0x0F0F_0F0F).wrapping_mul(0x0101_0101) >> 24
+fn nibbles(shapes: u32) -> u32 {
+    (shapes & 0x0F0F_0F0F).wrapping_mul(0x0101_0101) >> 24
 }
 
-/// The tags of the children before `lane`.
+/// The shapes of the children before `lane`.
 #[inline(always)]
-fn before(tags: [u32; 2], lane: u32) -> [u32; 2] {
+fn before(shapes: [u32; 2], lane: u32) -> [u32; 2] {
     let below = !(u32::MAX << (8 * (lane & 3)));
-    let [low, high] = tags;
+    let [low, high] = shapes;
     if lane < 4 { [low & below, 0] } else { [low, high & below] }
 }
 
@@ -129,7 +129,7 @@ impl Links {
             count: node >> 28,
             first_vertex: vertex,
             first_triangle: triangle,
-            tags: [low, high],
+            shapes: [low, high],
         })
     }
 
@@ -139,21 +139,21 @@ impl Links {
         inner: usize,
         first_vertex: u32,
         first_triangle: u32,
-        tags: &[LeafShape],
+        shapes: &[LeafShape],
     ) -> [u8; LINK_BYTES] {
         let mut out = [0u8; LINK_BYTES];
-        let count = inner + tags.len();
+        let count = inner + shapes.len();
         let node = first_node & 0xFF_FFFF | (inner as u32 & 0xF) << 24 | (count as u32) << 28;
         let words = [node, first_vertex, first_triangle].into_iter().flat_map(u32::to_le_bytes);
-        let tags = core::iter::repeat_n(0, inner).chain(tags.iter().map(|tag| tag.0));
-        out.iter_mut().zip(words.chain(tags)).for_each(|(slot, byte)| *slot = byte);
+        let shapes = core::iter::repeat_n(0, inner).chain(shapes.iter().map(|shape| shape.0));
+        out.iter_mut().zip(words.chain(shapes)).for_each(|(slot, byte)| *slot = byte);
         out
     }
 
     /// Shape of child `lane`; 0 for a node.
     #[inline(always)]
-    pub fn tag(&self, lane: u32) -> LeafShape {
-        let [low, high] = self.tags;
+    pub fn shape(&self, lane: u32) -> LeafShape {
+        let [low, high] = self.shapes;
         let word = if lane < 4 { low } else { high };
         LeafShape((word >> (8 * (lane & 3))) as u8)
     }
@@ -162,15 +162,16 @@ impl Links {
     #[inline(always)]
     pub fn child(&self, lane: u32) -> BvhChild {
         let (node, vertex) = (self.first_node.wrapping_add(lane), self.vertex(lane));
-        BvhChild { at: if lane < self.inner { node } else { vertex }, tag: self.tag(lane) }
+        BvhChild { at: if lane < self.inner { node } else { vertex }, shape: self.shape(lane) }
     }
 
     /// First triangle of leaf `lane`.
     pub fn triangle(&self, lane: u32) -> u32 {
         // Vertices less two for each leaf and less one for each second fan.
-        let [low, high] = before(self.tags, lane);
-        let turns = |tags: u32| {
-            ((tags >> 4 | tags >> 5 | tags >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101) >> 24
+        let [low, high] = before(self.shapes, lane);
+        let turns = |shapes: u32| {
+            ((shapes >> 4 | shapes >> 5 | shapes >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101)
+                >> 24
         };
         let leaves = lane.saturating_sub(self.inner);
         let less = 2 * leaves + turns(low) + turns(high);
@@ -180,11 +181,73 @@ impl Links {
     /// First vertex of leaf `lane`.
     #[inline(always)]
     pub fn vertex(&self, lane: u32) -> u32 {
-        let [low, high] = before(self.tags, lane);
+        let [low, high] = before(self.shapes, lane);
         self.first_vertex.wrapping_add(nibbles(low) + nibbles(high))
     }
 }
 
+impl Bvh<'_> {
+    /// Scratch entries with which no question about one point or one segment can end for want of
+    /// memory.
+    #[inline]
+    pub fn scratch_entries(&self) -> usize {
+        self.header.stack_entries as usize
+    }
+
+    /// Least and greatest corner of the box of the stored vertices, input units, rounded to f32.
+    pub fn bounds(&self) -> [[f32; 3]; 2] {
+        let [first, second] = self.scale.outward;
+        [self.scale.low, self.scale.high]
+            .map(|corner| corner.to_array().map(|x| x * first * second))
+    }
+
+    /// Triangles of the tree.
+    pub fn triangle_count(&self) -> u32 {
+        self.header.triangles
+    }
+
+    /// No point of the input surface is farther than this from the stored surface, nor the other way
+    /// round. Input units, rounded up.
+    pub fn surface_error(&self) -> f32 {
+        let [first, second] = self.scale.outward;
+        let error = self.scale.surface_error * first * second;
+        // Below f32's normal range the product may have been rounded down.
+        if self.scale.surface_error > 0.0 && error < f32::MIN_POSITIVE {
+            f32::MIN_POSITIVE
+        } else {
+            error
+        }
+    }
+
+    /// Whether every edge belongs to two triangles that run through it in opposite directions, so
+    /// that the sign of a distance is defined.
+    pub fn is_closed(&self) -> bool {
+        self.header.is_closed()
+    }
+
+    /// Triangles of the input file.
+    pub fn input_triangles(&self) -> u32 {
+        self.input_triangles
+    }
+
+    /// Whether the tree was built for distances.
+    pub fn serves_distances(&self) -> bool {
+        !self.frames.is_empty()
+    }
+
+    /// Whether the tree was built for segments and overlaps.
+    pub fn serves_segments(&self) -> bool {
+        !self.boxes.is_empty()
+    }
+
+    /// Whether the tree was built for [`front_facing`](Bvh::front_facing).
+    pub fn serves_culling(&self) -> bool {
+        !self.cones.is_empty()
+    }
+}
+
+/// The records, for the builder and the checker.
+#[doc(hidden)]
 impl<'a> Bvh<'a> {
     /// The tree's header.
     pub fn header(&self) -> &BvhHeader {
@@ -200,26 +263,6 @@ impl<'a> Bvh<'a> {
     #[inline(always)]
     pub(crate) fn scale(&self) -> &GridScale {
         &self.scale
-    }
-
-    /// Triangles of the input file.
-    pub fn input_triangles(&self) -> u32 {
-        self.input_triangles
-    }
-
-    /// Whether there are boxes in shared frames, which distances need.
-    pub fn serves_distances(&self) -> bool {
-        !self.frames.is_empty()
-    }
-
-    /// Whether there are axis-aligned boxes, which segments need.
-    pub fn serves_segments(&self) -> bool {
-        !self.boxes.is_empty()
-    }
-
-    /// Whether there are normal cones.
-    pub fn serves_culling(&self) -> bool {
-        !self.cones.is_empty()
     }
 
     /// Links of a node.
@@ -255,15 +298,20 @@ impl<'a> Bvh<'a> {
     #[inline(always)]
     pub fn leaf(&self, node: u32, lane: u32) -> Option<FanLeaf<'a>> {
         let child = self.child(node, lane)?;
-        if child.is_leaf() { self.patch(child.at, child.tag) } else { None }
+        if child.is_leaf() { self.leaf_at(child.at, child.shape) } else { None }
     }
 
     /// The leaf whose vertices begin at `vertex`.
     #[inline(always)]
-    pub fn patch(&self, vertex: u32, tag: LeafShape) -> Option<FanLeaf<'a>> {
+    pub fn leaf_at(&self, vertex: u32, shape: LeafShape) -> Option<FanLeaf<'a>> {
         let is_f32 = self.header.is_f32();
         let at = (vertex as usize).wrapping_mul(if is_f32 { 12 } else { 6 });
-        Some(FanLeaf { bytes: self.fans.get(at..)?, tag, is_f32, origin: self.header.grid_origin })
+        Some(FanLeaf {
+            bytes: self.fans.get(at..)?,
+            shape,
+            is_f32,
+            origin: self.header.grid_origin,
+        })
     }
 
     /// Number in the input file of a triangle of the tree.

@@ -1,17 +1,17 @@
 //! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet
 //! leaves.
 //!
-//! A pair of nodes is settled at once for all pairs of their children, as 64 bits: that is all that
-//! has to wait, so memory is 16 bytes for each level.
+//! A pair of nodes is settled at once for all pairs of their children, as 64 bits. An entry of the
+//! stack is two scratch entries: the two nodes, and with each 32 of the bits. The bits are a byte for
+//! each child of the first node, a bit in it for each child of the second.
 
 use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;
-use super::pair_entry::PairEntry;
 use super::relative_pose::RelativePose;
 use crate::bvh::format::layout::boxes;
 use crate::bvh::format::{Bvh, BvhChild};
 use crate::geom::{Contact, Pose};
-use crate::query::{Ended, QueryError, Work};
+use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// Where two triangles are: node, child and lane in each tree.
 pub(crate) type Place = [[u32; 3]; 2];
@@ -36,20 +36,20 @@ const LARGER: f32 = 4.0;
 /// Visits every pair of leaves whose boxes meet; says why it missed some, if it did.
 #[inline(always)]
 pub(crate) fn descend(
-    a: &Bvh<'_>,
-    b: &Bvh<'_>,
+    [a, b]: [&Bvh<'_>; 2],
     pose: &Pose,
     steps: u32,
-    stack: &mut [PairEntry],
+    scratch: &mut [ScratchEntry],
     collect: &mut impl Collect,
 ) -> Result<(Option<Ended>, Work), QueryError> {
     let mut work = Work::default();
     if !(a.serves_segments() && b.serves_segments()) {
-        return Err(QueryError::NotServed);
+        return Err(QueryError::NO_SEGMENTS);
     }
-    if stack.is_empty() {
-        return Err(QueryError::NoQueue);
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
     }
+    let (stack, _) = scratch.as_chunks_mut::<2>();
     let Some(place) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
     let units = [place.sides[0].unit, place.sides[1].unit];
     let mut missed = None;
@@ -61,7 +61,7 @@ pub(crate) fn descend(
             return Ok((Some(Ended::Steps), work));
         }
         work.splits += 1;
-        let pairs = open(a, b, &place, nodes, wanted, &mut work).ok_or(QueryError::Model)?;
+        let pairs = open(a, b, &place, nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
         let mut next = None;
         if pairs.bits != [0; 2] {
             // Surfaces that meet mostly do so where boxes overlap most.
@@ -70,10 +70,10 @@ pub(crate) fn descend(
             if left != [0; 2] {
                 match stack.get_mut(waiting) {
                     Some(slot) => {
-                        *slot = PairEntry { nodes, left };
+                        *slot = entry(nodes, left);
                         waiting += 1;
                     }
-                    None => missed = Some(Ended::Capacity),
+                    None => missed = Some(Ended::Scratch),
                 }
             }
         }
@@ -83,9 +83,11 @@ pub(crate) fn descend(
                 return Ok((missed, work));
             };
             let child = |tree: &Bvh<'_>, which: usize| tree.child(parents[which], lanes[which]);
-            let children =
-                [child(a, 0).ok_or(QueryError::Model)?, child(b, 1).ok_or(QueryError::Model)?];
-            let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Model)?;
+            let children = [
+                child(a, 0).ok_or(QueryError::Unchecked)?,
+                child(b, 1).ok_or(QueryError::Unchecked)?,
+            ];
+            let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Unchecked)?;
             if opens_a || opens_b {
                 let down = |opens: bool, which: usize| {
                     if opens {
@@ -100,28 +102,34 @@ pub(crate) fn descend(
                 break;
             }
             let go_on = leaves(a, b, &place, parents, lanes, children, collect, &mut work);
-            if !go_on.ok_or(QueryError::Model)? {
+            if !go_on.ok_or(QueryError::Unchecked)? {
                 return Ok((missed, work));
             }
         }
     }
 }
 
+/// An entry of the stack. Node numbers are below 2^24.
+#[inline(always)]
+fn entry([a, b]: [u32; 2], [low, high]: [u32; 2]) -> [ScratchEntry; 2] {
+    [[a, low], [b, high]].map(ScratchEntry::of_words)
+}
+
 /// Takes the next pair off the stack: its parents, and which children.
 #[inline(always)]
-fn take(stack: &mut [PairEntry], waiting: &mut usize) -> Option<([u32; 2], [u32; 2])> {
+fn take(stack: &mut [[ScratchEntry; 2]], waiting: &mut usize) -> Option<([u32; 2], [u32; 2])> {
     let top = waiting.checked_sub(1)?;
-    let entry = stack.get_mut(top)?;
-    let [low, high] = entry.left;
+    let slot = stack.get_mut(top)?;
+    let [[a, low], [b, high]] = slot.map(ScratchEntry::words);
     let (word, base) = if low != 0 { (low, 0) } else { (high, 4) };
     let bit = word.trailing_zeros() & 31;
     let lanes = [base + (bit >> 3), bit & 7];
-    entry.left = without(entry.left, lanes);
-    let nodes = entry.nodes;
-    if entry.left == [0; 2] {
+    let rest = without([low, high], lanes);
+    *slot = entry([a, b], rest);
+    if rest == [0; 2] {
         *waiting = top;
     }
-    Some((nodes, lanes))
+    Some(([a, b], lanes))
 }
 
 #[inline(always)]
@@ -181,7 +189,7 @@ fn leaves(
     collect: &mut impl Collect,
     work: &mut Work,
 ) -> Option<bool> {
-    let (p, q) = (a.patch(first.at, first.tag)?, b.patch(second.at, second.tag)?);
+    let (p, q) = (a.leaf_at(first.at, first.shape)?, b.leaf_at(second.at, second.shape)?);
     let mut pair = LeafPair::new(place, &p, &q);
     for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
         while bits != 0 {

@@ -30,8 +30,8 @@ impl Corners {
     /// As stored: grid units from the grid's origin.
     #[inline(always)]
     fn stored(leaf: &FanLeaf<'_>) -> Corners {
-        let tag = leaf.tag();
-        let triangles = tag.triangles().min(WIDTH);
+        let shape = leaf.shape();
+        let triangles = shape.triangles().min(WIDTH);
         let mut at = [[0.0; SLOTS]; 3];
         let used = (RING + triangles + 1).min(SLOTS);
         for (at, stored) in at.iter_mut().zip(leaf.stored_vertices()) {
@@ -39,7 +39,7 @@ impl Corners {
             *at = [stored[0]; SLOTS];
             at.iter_mut().zip(stored).take(used).for_each(|(x, stored)| *x = stored);
         }
-        Corners { at, used, triangles, turn: tag.turn() }
+        Corners { at, used, triangles, turn: shape.turn() }
     }
 
     #[inline(always)]

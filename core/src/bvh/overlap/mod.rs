@@ -11,9 +11,7 @@
 mod axis_intervals;
 mod descent;
 mod leaf_pair;
-mod pair_entry;
 mod question;
 mod relative_pose;
 
-pub use pair_entry::PairEntry;
-pub use question::{Overlap, Overlaps, TrianglePair, all_overlaps, overlap};
+pub use question::{Overlap, Overlaps, TrianglePair};

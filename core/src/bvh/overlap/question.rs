@@ -1,26 +1,22 @@
 //! Two box trees, one of them moved: whether their surfaces meet, and where.
 
 use super::descent::{Collect, Place, descend};
-use super::pair_entry::PairEntry;
 use crate::bvh::format::Bvh;
 use crate::geom::{Contact, Pose};
-use crate::query::{Ended, QueryError, Work};
+use crate::query::{Budget, Ended, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Whether two surfaces meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {
-    /// The answer, about the input meshes.
-    pub contact: Contact,
-    /// With [`Contact::Meets`] two triangles that do, the first mesh's first; with
-    /// [`Contact::Open`] and [`Ended::Level`] two of which it is open. Numbers in the input files.
+    /// `Yes`: the surfaces of the input meshes meet. `No`: they have no common point. Undecided for
+    /// [`Resolution`](Undecided::Resolution): they come too near to each other for what is stored.
+    pub verdict: Verdict,
+    /// With `Yes` two triangles that meet, the first mesh's first. With an undecided
+    /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input files.
     pub triangles: Option<[u32; 2]>,
-    /// What it cost: pairs of boxes as `nodes`, of triangles as `triangles` (in f32) and `exact`
-    /// (in f64), of nodes opened as `splits`.
+    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles as `triangles` (in f32)
+    /// and `exact` (in f64), pairs of nodes opened as `splits`.
     pub work: Work,
-    /// [`Ended::Exact`] with `Apart` and `Meets`. With `Open`: [`Ended::Level`] if surfaces come
-    /// too near to each other for what is stored, [`Ended::Steps`] or [`Ended::Capacity`] if
-    /// the search was cut short.
-    pub ended: Ended,
 }
 
 /// Two triangles that meet or may meet: their numbers in the input files, the first mesh's first.
@@ -28,7 +24,7 @@ pub struct Overlap {
 pub struct TrianglePair {
     /// The triangles.
     pub triangles: [u32; 2],
-    /// Proved that they do.
+    /// Whether it is proved that they meet.
     pub is_certain: bool,
 }
 
@@ -42,98 +38,111 @@ impl TrianglePair {
 pub struct Overlaps {
     /// Pairs in the slice.
     pub stored: usize,
-    /// Pairs that did not fit; those kept are the first that were found.
+    /// Pairs that did not fit. The slice keeps the first ones that were found.
     pub dropped: u32,
-    /// What it cost, as in [`Overlap::work`].
+    /// The work of the search, as in [`Overlap::work`].
     pub work: Work,
-    /// [`Ended::Exact`]: these are the input's pairs, all of them. [`Ended::Level`]: the pairs that are not certain may not meet; no other pair does.
-    /// [`Ended::Capacity`] if some did not fit, here or on the stack, [`Ended::Steps`]: more exist or may exist.
+    /// [`Ended::Exact`]: these are all of the input's pairs. [`Ended::Resolution`]: pairs that are
+    /// not certain may not meet; no other pair does. [`Ended::Scratch`]: some pairs did not fit the
+    /// slice or the scratch memory. [`Ended::Steps`]: more pairs may exist.
     pub ended: Ended,
 }
 
-/// Whether the surface of `b`, moved by `pose` from its frame to that of `a` (both in input units),
-/// meets the surface of `a`.
-///
-/// Never a wrong "apart", and never a wrong "meets": both are proved of the input meshes as they
-/// were after repair, whatever grids did to vertices, with the numbers of the pose taken as they
-/// are, in real arithmetic. Surfaces that touch without passing through each other are
-/// [`Contact::Open`], and so are such as come within rounding and the blobs' surface errors of it.
-/// Surfaces alone count: of closed meshes one may lie inside the other, which
-/// [`signed_distance`](super::signed_distance) of a vertex tells. Triangles without area are never
-/// proved to meet anything.
-///
-/// It ends at the first pair that is proved to meet; which one that is does not depend on the
-/// target. At most `steps` pairs of nodes are opened. [`PairEntry::ENOUGH`] entries are always
-/// enough; a shorter `stack` may turn an answer into `Open`, never into a wrong one.
-///
-/// Cost: what lies near the other surface; on scanned parts some dozens of pairs of nodes (`cargo
-/// xtask measure --overlap`).
-///
-/// ```
-/// use meshsweep_core::{Bvh, tribox::Pose, query::tree::{Contact, PairEntry, overlap}};
-/// # fn query(part: &[u8], tool: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
-/// let (part, tool) = (Bvh::open(part)?, Bvh::open(tool)?); // of blobs built with `--for segment`
-/// let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
-/// let pose = Pose { translation: [30.0, 0.0, 0.0], ..Pose::IDENTITY };
-/// let found = overlap(&part, &tool, &pose, u32::MAX, &mut stack)?;
-/// match found.contact {
-///     Contact::Apart => { /* proved: no point of the moved tool's surface is on the part's */ }
-///     Contact::Meets => { /* proved: `found.triangles` of the input files meet */ }
-///     Contact::Open => { /* nearer than rounding and grids can tell, or cut short */ }
-/// }
-/// # Ok(()) }
-/// ```
-///
-/// # Errors
-/// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond
-/// 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid units;
-/// [`QueryError::NotServed`] unless both have boxes for segments; [`QueryError::NoQueue`].
-pub fn overlap(
-    a: &Bvh<'_>,
-    b: &Bvh<'_>,
-    pose: &Pose,
-    steps: u32,
-    stack: &mut [PairEntry],
-) -> Result<Overlap, QueryError> {
-    let mut first = First::default();
-    let (missed, work) = descend(a, b, pose, steps, stack, &mut first)?;
-    let (contact, place, ended) = match (first.met, missed, first.open) {
-        (Some(place), _, _) => (Contact::Meets, Some(place), Ended::Exact),
-        (None, Some(why), _) => (Contact::Open, None, why),
-        (None, None, Some(place)) => (Contact::Open, Some(place), Ended::Level),
-        (None, None, None) => (Contact::Apart, None, Ended::Exact),
-    };
-    let triangles =
-        place.map(|place| numbers(a, b, &place).ok_or(QueryError::Model)).transpose()?;
-    Ok(Overlap { contact, triangles, work, ended })
-}
+impl Bvh<'_> {
+    /// Scratch entries with which no overlap can end for want of memory. Every pair of entries is
+    /// deeper in one of the trees, and no tree has more than 64 levels.
+    pub const OVERLAP_ENTRIES: usize = 256;
 
-/// All pairs of triangles of `a` and of `b`, moved by `pose`, that meet or that cannot be told to
-/// be apart, into `pairs`.
-///
-/// What [`overlap`] says of its arguments, errors and degenerate cases holds here. Every pair is
-/// found once; the order is that of the search and the same on every target. Cost: what lies along
-/// the curves where the surfaces meet.
-///
-/// # Errors
-/// Those of [`overlap`].
-pub fn all_overlaps(
-    a: &Bvh<'_>,
-    b: &Bvh<'_>,
-    pose: &Pose,
-    steps: u32,
-    pairs: &mut [TrianglePair],
-    stack: &mut [PairEntry],
-) -> Result<Overlaps, QueryError> {
-    let mut all = All { a, b, pairs, stored: 0, dropped: 0, is_open: false };
-    let (missed, work) = descend(a, b, pose, steps, stack, &mut all)?;
-    let ended = match missed {
-        Some(why) => why,
-        None if all.dropped > 0 => Ended::Capacity,
-        None if all.is_open => Ended::Level,
-        None => Ended::Exact,
-    };
-    Ok(Overlaps { stored: all.stored, dropped: all.dropped, work, ended })
+    /// Whether the surface of `other`, moved by `pose` from its frame to this tree's (both in input
+    /// units), meets the surface of this tree.
+    ///
+    /// Both verdicts are proved, of the input meshes as they were after repair, whatever grids did
+    /// to vertices. The numbers of the pose are taken as they are, in real arithmetic. Surfaces that
+    /// touch without passing through each other are undecided, and so are surfaces within rounding
+    /// and the surface errors of it. Two triangles without area are
+    /// never proved to meet.
+    /// Surfaces alone count: of closed meshes one may lie inside the other, which
+    /// [`signed_distance`](Bvh::signed_distance) of a vertex decides.
+    ///
+    /// It ends at the first pair that is proved to meet. Which pair that is does not depend on the
+    /// target. `scratch`: [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter one
+    /// may leave the question undecided. Of the budget only `steps` matters: pairs of nodes.
+    ///
+    /// Cost: everything near the other surface. On scanned parts some dozens of pairs of nodes.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Pose, Scratch, Verdict};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::OVERLAP_ENTRIES }>::new());
+    /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
+    /// let found = part.overlap(&part, pose, Budget::EXACT, &mut scratch)?;
+    /// assert_eq!(found.verdict, Verdict::No);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond
+    /// 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid
+    /// units; [`QueryError::NotServed`] unless both trees have boxes for segments;
+    /// [`QueryError::NoScratch`].
+    pub fn overlap(
+        &self,
+        other: &Bvh<'_>,
+        pose: Pose,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Overlap, QueryError> {
+        let mut first = First::default();
+        let (missed, work) = descend([self, other], &pose, budget.steps, scratch, &mut first)?;
+        let (verdict, place) = match (first.met, missed, first.open) {
+            (Some(place), _, _) => (Verdict::Yes, Some(place)),
+            (None, Some(why), _) => (Verdict::Undecided(why.undecided()), None),
+            (None, None, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
+            (None, None, None) => (Verdict::No, None),
+        };
+        let numbers = |place| numbers(self, other, &place).ok_or(QueryError::Unchecked);
+        let triangles = place.map(numbers).transpose()?;
+        Ok(Overlap { verdict, triangles, work })
+    }
+
+    /// All pairs of triangles of this tree and of `other`, moved by `pose`, that meet or that may
+    /// meet, into `pairs`.
+    ///
+    /// Arguments, errors and degenerate cases as for [`overlap`](Bvh::overlap). Every pair is found
+    /// once. The order is that of the search and the same on every target. Cost: everything along
+    /// the curves where the surfaces meet.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Pose, Scratch, TrianglePair};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::OVERLAP_ENTRIES }>::new());
+    /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
+    /// let mut pairs = [TrianglePair::EMPTY; 8];
+    /// let found = part.overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
+    /// assert_eq!((found.stored, found.dropped), (0, 0));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`overlap`](Bvh::overlap).
+    pub fn overlaps(
+        &self,
+        other: &Bvh<'_>,
+        pose: Pose,
+        pairs: &mut [TrianglePair],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Overlaps, QueryError> {
+        let mut all = All { a: self, b: other, pairs, stored: 0, dropped: 0, is_open: false };
+        let (missed, work) = descend([self, other], &pose, budget.steps, scratch, &mut all)?;
+        let ended = match missed {
+            Some(why) => why,
+            None if all.dropped > 0 => Ended::Scratch,
+            None if all.is_open => Ended::Resolution,
+            None => Ended::Exact,
+        };
+        Ok(Overlaps { stored: all.stored, dropped: all.dropped, work, ended })
+    }
 }
 
 /// Their numbers in the input files.

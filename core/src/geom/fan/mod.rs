@@ -14,7 +14,7 @@ mod ray8;
 
 pub use cone::NormalCone;
 pub use lanes::{LANES_BELOW, WIDTH};
-pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, point_patch, refined};
-pub use point8::{Edges8, Nearness8, point_patch8};
-pub use ray::{Crossing, FanRay, Shadow, ray_patch};
-pub use ray8::{Ring8, ray_patch8};
+pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, point_leaf, refined};
+pub use point8::{Edges8, Nearness8, point_leaf8};
+pub use ray::{Crossing, FanRay, Shadow, ray_leaf};
+pub use ray8::{Ring8, ray_leaf8};

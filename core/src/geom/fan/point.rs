@@ -186,7 +186,7 @@ fn above(a: f32, b: f32) -> f32 {
 /// `spoke(i)` ring vertex `i` less the centre of triangle `i` (or of the triangle before, for the
 /// last), `turn` is where the second fan begins (`count` or more: nowhere).
 #[inline(always)]
-pub fn point_patch(
+pub fn point_leaf(
     count: usize,
     turn: usize,
     s: [Vec3; 2],

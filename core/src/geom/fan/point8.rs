@@ -38,7 +38,7 @@ const UNUSED: u32 = 0x7F00_0000;
 
 /// All triangles of a patch; 2^127 in lanes that `used` leaves out, whatever they hold.
 #[inline(always)]
-pub fn point_patch8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
+pub fn point_leaf8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
     let mut distance_sq = [0f32; WIDTH];
     let mut lower_bound_sq = [0f32; WIDTH];
     let (mut along_e, mut along_g) = ([0f32; WIDTH], [0f32; WIDTH]);

@@ -362,7 +362,7 @@ fn less(a: f32, b: f32) -> f32 {
 /// ring's end or later: nowhere). A spoke serves the triangles on both sides, and the outer edge is
 /// looked at only if the spokes leave the triangle open.
 #[inline(always)]
-pub fn ray_patch(
+pub fn ray_leaf(
     ray: &FanRay,
     turn: usize,
     centres: [Shadow; 2],

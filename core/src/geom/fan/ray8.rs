@@ -25,10 +25,10 @@ fn blend(mask: u32, first: f32, second: f32) -> f32 {
     f32::from_bits(first.to_bits() & mask | second.to_bits() & !mask)
 }
 
-/// Triangles of a patch that the segment's line may meet, as [`ray_patch`](super::ray_patch) says.
+/// Triangles of a patch that the segment's line may meet, as [`ray_leaf`](super::ray_leaf) says.
 /// `first` has ones in the lanes of the first fan, `used` in those of triangles.
 #[inline(always)]
-pub fn ray_patch8(ray: &FanRay, ring: &Ring8, first: &[u32; WIDTH], used: &[u32; WIDTH]) -> u32 {
+pub fn ray_leaf8(ray: &FanRay, ring: &Ring8, first: &[u32; WIDTH], used: &[u32; WIDTH]) -> u32 {
     let [ox, oy, oz] = ray.origin();
     let [sx, sy] = ray.shear();
     let doubt = ray.doubt();

@@ -2,11 +2,92 @@
 
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
 use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING};
-use super::view::{Children, Model};
-use crate::format::OpenError;
+use super::view::{Children, Hull, Vertices, Widths};
 use crate::format::layout::{MAX_LEVELS, SectionKind, VertexFormat};
+use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::geom::Aabb;
 
-impl Model<'_> {
+impl<'a> Hull<'a> {
+    /// Opens the hull hierarchy of a blob where it lies and checks all of it: CRCs, every index,
+    /// every coordinate, every order that the queries rely on. Any bytes are safe to open. Other
+    /// sections are not looked at, so that the code that checks them is not linked.
+    ///
+    /// Cost: linear in the hierarchy, no allocation; once per start. Alignment of `bytes` does not
+    /// matter.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a hull.
+    pub fn open(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
+        let hull = Hull::place(bytes, true)?;
+        if !hull.has_hull() {
+            return Err(OpenError::MissingSection { section: SectionKind::Cover });
+        }
+        hull.check()?;
+        Ok(hull)
+    }
+
+    /// The sections where they lie, of the right lengths, their CRCs checked if `check`. A blob
+    /// without a hull hierarchy has none of them.
+    pub(crate) fn place(bytes: &'a [u8], check: bool) -> Result<Hull<'a>, OpenError> {
+        let all = Bytes(bytes);
+        let header = if check { read_header(bytes)? } else { Header::read(all)? };
+        let mut hull = Hull {
+            header,
+            widths: Widths::of(&header),
+            vertices: Vertices::new(header.vertex_format, &[]),
+            base: Bytes(&[]),
+            groups: Bytes(&[]),
+            splits: Bytes(&[]),
+            rings: Bytes(&[]),
+            radii: Bytes(&[]),
+            splits_with: Bytes(&[]),
+            cover: Bytes(&[]),
+            surface: Bytes(&[]),
+            source: Bytes(&[]),
+            levels: Bytes(&[]),
+        };
+        let wants = SectionKind::is_hull;
+        let seen = place_sections(&header, all, check, wants, |index, kind, data| {
+            if Some(data.len()) != hull.section_len(kind) {
+                return Err(OpenError::Section { index });
+            }
+            hull.place_section(kind, data);
+            Ok(())
+        })?;
+        let has = |kind: SectionKind| seen.checked_shr(kind as u32).unwrap_or(0) & 1 != 0;
+        let missing = SectionKind::ALL
+            .into_iter()
+            .filter(|kind| kind.is_hull())
+            .find(|&kind| !has(kind) && hull.section_len(kind) != Some(0));
+        match missing {
+            Some(section) => Err(OpenError::MissingSection { section }),
+            None => Ok(hull),
+        }
+    }
+
+    fn place_section(&mut self, kind: SectionKind, data: &'a [u8]) {
+        let slot = match kind {
+            SectionKind::Vertices => {
+                self.vertices = Vertices::new(self.header.vertex_format, data);
+                return;
+            }
+            SectionKind::BaseTriangles => &mut self.base,
+            SectionKind::BaseGroups => &mut self.groups,
+            SectionKind::Splits => &mut self.splits,
+            SectionKind::Rings => &mut self.rings,
+            SectionKind::Radii => &mut self.radii,
+            SectionKind::SplitsWith => &mut self.splits_with,
+            SectionKind::Cover => &mut self.cover,
+            SectionKind::Surface => &mut self.surface,
+            SectionKind::Source => &mut self.source,
+            SectionKind::Levels => &mut self.levels,
+            _ => return,
+        };
+        *slot = Bytes(data);
+    }
+}
+
+impl Hull<'_> {
     /// Bytes that a section must have, by the header's counts; `None` if they overflow.
     pub(crate) fn section_len(&self, kind: SectionKind) -> Option<usize> {
         let h = &self.header;
@@ -43,7 +124,7 @@ impl Model<'_> {
     }
 
     /// A blob without a hull hierarchy says nothing of one.
-    pub(crate) fn check_without_hull(&self) -> Result<(), OpenError> {
+    pub(crate) fn check_absent(&self) -> Result<(), OpenError> {
         let h = &self.header;
         let counts = [
             h.vertices,
@@ -96,10 +177,12 @@ impl Model<'_> {
         if h.surface_error.is_sign_negative() {
             return wrong("negative surface error");
         }
-        let ordered = |b: &crate::geom::Aabb| {
-            b.min.cmple(b.max).all() && b.min.abs().max(b.max.abs()).max_element() <= 16.0
+        let ordered = |[low, high]: [[f32; 3]; 2]| {
+            low.iter()
+                .zip(&high)
+                .all(|(low, high)| low <= high && low.abs().max(high.abs()) <= 16.0)
         };
-        if !ordered(&h.hull_box) || !ordered(&h.surface_box) {
+        if !ordered(h.hull_box) || !ordered(h.surface_box) {
             return wrong("a box is inverted or far outside the local frame");
         }
         let grid = h.vertex_format != VertexFormat::F32;
@@ -116,7 +199,7 @@ impl Model<'_> {
     /// Every vertex lies in the hull's box: which makes it finite, and the rounding margins of
     /// queries true.
     fn check_vertices(&self) -> Result<(), OpenError> {
-        let bounds = &self.header.hull_box;
+        let bounds = Aabb::of(self.header.hull_box);
         for index in 0..self.header.vertices {
             let inside = self
                 .position(VertIdx(index))
@@ -143,7 +226,7 @@ impl Model<'_> {
                 return Err(OpenError::Record { section: SectionKind::BaseGroups, index });
             }
         }
-        let bounds = &self.header.surface_box;
+        let bounds = Aabb::of(self.header.surface_box);
         for index in 0..self.header.surface_triangles {
             let inside = self
                 .surface_triangle(TriIdx(index))

@@ -13,5 +13,4 @@ pub mod layout;
 mod view;
 
 pub use index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-pub use view::{Capacities, Children, Level, Model, Node, Split};
-pub(crate) use view::{Vertices, Widths};
+pub use view::{Children, Hull, Level, Node, Split};

@@ -1,6 +1,6 @@
 //! Checked views of an opened blob.
 //!
-//! If [`Model::open`] returned `Ok`, then every index that the blob stores is in range, every ring
+//! If [`Hull::open`] returned `Ok`, then every index that the blob stores is in range, every ring
 //! vertex exists before its split, every child of a cover node comes after it, and every coordinate
 //! is finite. The accessors still return `Option`: an index past the end gives `None` (or, where
 //! its byte offset wraps on a 32-bit target, some record), and no path can panic.
@@ -9,15 +9,16 @@ use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
 use super::layout::{LEAF_FLAG, LEVEL_BYTES, level};
 use crate::format::layout::{FLAG_CUT, VertexFormat, none};
 use crate::format::{Bytes, Header};
-use crate::num::{Radius8, Radius16, exp2};
+use crate::geom::Aabb;
+use crate::num::{Radius8, Radius16, exp2, up_to_f32};
 use glam::Vec3;
 
-/// A blob that was opened. Copies are cheap: it borrows the bytes and holds the header.
+/// The hull hierarchy of a blob: nested outer hulls under split tables, and the cover tree over the
+/// surface. Copies are cheap: it borrows the bytes and holds the header.
 #[derive(Clone, Copy, Debug)]
-pub struct Model<'a> {
+pub struct Hull<'a> {
     pub(crate) header: Header,
     pub(crate) widths: Widths,
-    pub(crate) bytes: Bytes<'a>,
     pub(crate) vertices: Vertices<'a>,
     pub(crate) base: Bytes<'a>,
     pub(crate) groups: Bytes<'a>,
@@ -77,18 +78,6 @@ impl Widths {
     }
 }
 
-/// What fixed-capacity storage must hold so that no query on this model ends for want of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Capacities {
-    /// Entries of a [`QueueEntry`](crate::hull::QueueEntry) slice for queries on the cover tree.
-    pub queue: usize,
-    /// Words of u32 for each of the two bit sets of a [`Front`](crate::refine::Front).
-    pub front_words: usize,
-    /// Longest chain of splits of which each needs the one before it: how deep one refinement may
-    /// have to search.
-    pub dependency_depth: usize,
-}
-
 /// One vertex split: the inverse of an edge collapse (Guéziec 2000, 4.2; Platis & Theoharis 2003,
 /// 3.2.1).
 ///
@@ -105,7 +94,7 @@ pub struct Split<'a> {
     pub right: usize,
     /// No point of the fine triangles is farther than this from `vertex`, local frame.
     pub reach: f32,
-    /// Number of the split's first triangle, for [`Model::radius`].
+    /// Number of the split's first triangle, for [`Hull::radius`].
     pub first_triangle: u32,
     ring: Bytes<'a>,
     width: usize,
@@ -215,15 +204,32 @@ fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
     )
 }
 
-impl<'a> Model<'a> {
-    /// The header.
-    pub fn header(&self) -> &Header {
-        &self.header
+impl Hull<'_> {
+    /// Scratch entries with which no question on the cover tree can end for want of memory.
+    pub fn scratch_entries(&self) -> usize {
+        self.header.queue_capacity as usize
     }
 
-    /// The bytes that the model was opened from.
-    pub fn bytes(&self) -> &'a [u8] {
-        self.bytes.0
+    /// Words of each of the two bit sets of a [`RefinedHull`](crate::RefinedHull) with which every
+    /// split can be performed.
+    pub fn refined_words(&self) -> usize {
+        (self.header.splits as usize).div_ceil(32)
+    }
+
+    /// Least and greatest corner of the surface's box, input units, rounded to f32.
+    pub fn bounds(&self) -> [[f32; 3]; 2] {
+        self.header.surface_box.map(|corner| corner.map(|x| (f64::from(x) * self.scale()) as f32))
+    }
+
+    /// Triangles of the surface. 0 of a cut blob.
+    pub fn triangle_count(&self) -> u32 {
+        self.header.surface_triangles
+    }
+
+    /// No point of the input surface is farther than this from the stored surface, nor the other way
+    /// round. Input units, rounded up.
+    pub fn surface_error(&self) -> f32 {
+        up_to_f32(f64::from(self.header.surface_error) * self.scale())
     }
 
     /// Whether finer levels were cut off. Then answers are intervals as wide as the level's error.
@@ -231,13 +237,37 @@ impl<'a> Model<'a> {
         self.header.flags & FLAG_CUT != 0
     }
 
-    /// Storage with which no query ends early for want of it.
-    pub fn capacities(&self) -> Capacities {
-        Capacities {
-            queue: self.header.queue_capacity as usize,
-            front_words: (self.header.splits as usize).div_ceil(32),
-            dependency_depth: self.header.dependency_depth as usize,
-        }
+    /// A level, 0 being the base hull and the last the finest that the blob holds.
+    pub fn level(&self, index: u32) -> Option<Level> {
+        let at = (index as usize).checked_mul(LEVEL_BYTES)?;
+        Some(Level {
+            faces: self.levels.u32(at + level::FACES)?,
+            splits: self.levels.u32(at + level::SPLITS)?,
+            nodes: self.levels.u32(at + level::NODES)?,
+            hull_to_surface: self.levels.f32(at + level::HULL_TO_SURFACE)?,
+            surface_to_hull: self.levels.f32(at + level::SURFACE_TO_HULL)?,
+            void_ratio: self.levels.f32(at + level::VOID_RATIO)?,
+        })
+    }
+
+    /// Levels, coarse to fine.
+    pub fn levels(&self) -> impl Iterator<Item = Level> + '_ {
+        (0..self.header.levels).map_while(|index| self.level(index))
+    }
+
+    /// Coordinates of a vertex, input units, rounded to f32.
+    pub fn vertex(&self, vertex: VertIdx) -> Option<[f32; 3]> {
+        let position = self.position(vertex)?;
+        Some((position.as_dvec3() * self.scale()).to_array().map(|x| x as f32))
+    }
+}
+
+/// The records, for the builder and the checker.
+#[doc(hidden)]
+impl<'a> Hull<'a> {
+    /// The header.
+    pub fn header(&self) -> &Header {
+        &self.header
     }
 
     /// Coordinates of a vertex, local frame.
@@ -404,25 +434,17 @@ impl<'a> Model<'a> {
         Some(Node { corners, radius, children })
     }
 
-    /// A level, 0 being the base hull and the last the finest that the blob holds.
-    pub fn level(&self, index: u32) -> Option<Level> {
-        let at = (index as usize).checked_mul(LEVEL_BYTES)?;
-        Some(Level {
-            faces: self.levels.u32(at + level::FACES)?,
-            splits: self.levels.u32(at + level::SPLITS)?,
-            nodes: self.levels.u32(at + level::NODES)?,
-            hull_to_surface: self.levels.f32(at + level::HULL_TO_SURFACE)?,
-            surface_to_hull: self.levels.f32(at + level::SURFACE_TO_HULL)?,
-            void_ratio: self.levels.f32(at + level::VOID_RATIO)?,
-        })
+    /// Box of every vertex of every level, local frame.
+    pub(crate) fn hull_box(&self) -> Aabb {
+        Aabb::of(self.header.hull_box)
     }
 
-    /// Levels, coarse to fine.
-    pub fn levels(&self) -> impl Iterator<Item = Level> + '_ {
-        (0..self.header.levels).map_while(|index| self.level(index))
+    /// Whether there is a hull hierarchy. Always, of a view that [`Hull::open`] returned.
+    pub fn has_hull(&self) -> bool {
+        self.header.nodes != 0
     }
 
-    /// What one unit of the local frame is in input units: a power of two.
+    /// Input units of one unit of the local frame: a power of two.
     #[inline]
     pub fn scale(&self) -> f64 {
         exp2(self.header.scale_exponent)

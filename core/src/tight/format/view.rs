@@ -32,15 +32,15 @@ pub struct TightHulls<'a> {
     pub(crate) data: Bytes<'a>,
 }
 
-/// A tight hull: a closed surface of few triangles that encloses the mesh, exactly, and what is
-/// known of the mesh by it.
+/// A tight hull: a closed surface of few triangles that encloses the mesh, and bounds of how far
+/// the mesh is from it.
 ///
-/// Its [tree](Self::tree) answers all questions about the hull itself: whether two hulls are
-/// [apart](crate::bvh::overlap::overlap), where a segment [first](crate::bvh::first_hit)
-/// enters. [`query::tight`](crate::tight::) answers about the mesh within. Copies are cheap.
+/// Its [box tree](Self::bvh) answers every question about the hull itself: whether two hulls
+/// [overlap](Bvh::overlap), where a segment [enters](Bvh::first_hit). Its own methods answer about
+/// the mesh inside. Copies are cheap.
 #[derive(Clone, Copy, Debug)]
 pub struct TightHull<'a> {
-    pub(crate) tree: Bvh<'a>,
+    pub(crate) bvh: Bvh<'a>,
     pub(crate) record: TightRecord,
     pub(crate) slacks: &'a [[u8; 2]],
     pub(crate) bytes: &'a [u8],
@@ -98,7 +98,7 @@ impl<'a> TightHulls<'a> {
     pub fn get(&self, index: u32) -> Option<TightHull<'a>> {
         let (place, record) = read(self.records.get(index as usize)?)?;
         let (bytes, slacks) = self.parts(place, record.faces)?;
-        Some(TightHull { tree: Bvh::view(bytes).ok()?, record, slacks, bytes })
+        Some(TightHull { bvh: Bvh::view(bytes).ok()?, record, slacks, bytes })
     }
 
     /// The finest hull: the tightest.
@@ -116,9 +116,14 @@ impl<'a> TightHulls<'a> {
 }
 
 impl<'a> TightHull<'a> {
-    /// The hull's own box tree; source numbers are those of its faces.
-    pub fn tree(&self) -> &Bvh<'a> {
-        &self.tree
+    /// The hull's own box tree. Source numbers are those of its faces.
+    pub fn bvh(&self) -> &Bvh<'a> {
+        &self.bvh
+    }
+
+    /// Scratch entries with which no question about one point can end for want of memory.
+    pub fn scratch_entries(&self) -> usize {
+        self.bvh.scratch_entries()
     }
 
     /// The hull as a blob of its own: a box tree, without what is known of the mesh.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use meshsweep::collapse::{Conditions, Engine};
-use meshsweep::precision::{VertexBits, store};
+use meshsweep::surface::{VertexBits, store};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 

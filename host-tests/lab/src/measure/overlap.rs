@@ -1,8 +1,7 @@
 //! A mesh against itself in random motions: answers held to exact predicates, and time beside
 //! parry3d's.
 
-use meshsweep::emit;
-use meshsweep::tree::{TreeOptions, build};
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::Work;
 use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
@@ -143,8 +142,15 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let mut work = Table::new("overlap_work", "What that took, in mean", &columns);
     for (name, single) in [("16-bit grid", false), ("f32 vertices", true)] {
         let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
-        let bytes =
-            emit::blob(None, Some(&build(&subject.mesh, 0.0, subject.triangles_read, &options).0));
+        let bytes = build(
+            meshsweep::mesh::Input {
+                input_triangles: subject.triangles_read,
+                ..subject.mesh.as_input()
+            },
+            &options,
+        )
+        .0
+        .to_bytes();
         let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
         let verdicts = ours(&tree, &cases)?;
         let [apart, meets] = verdicts.time;

@@ -90,7 +90,7 @@ fn hulls(
         let [lp, span] = nested;
         let start = match report.start {
             Start::Progressive { faces } => format!("level {faces}"),
-            Start::Closure { cells, .. } => format!("closure {cells}"),
+            Start::VoxelClosure { voxels, .. } => format!("closure {voxels}"),
             Start::Box => "box".into(),
         };
         let stop = match report.stop {

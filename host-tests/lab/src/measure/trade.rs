@@ -1,6 +1,6 @@
 //! Speed for accuracy: what a query that stops early guarantees, and what it found.
 
-use meshsweep::emit::cut;
+use meshsweep::cut::cut;
 use meshsweep_core::Model;
 use meshsweep_core::query::Budget;
 use meshsweep_host_tests::workload::Subject;

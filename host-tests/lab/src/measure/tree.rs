@@ -3,9 +3,9 @@
 mod accuracy;
 mod trade;
 
-use meshsweep::emit;
-use meshsweep::fan::{Fan, FanLeaf, FanReport, Weights, decompose, pack};
-use meshsweep::tree::{TreeOptions, TreeReport, TreeTables, build};
+use meshsweep::bvh::fans::{Fan, FanLeaf, FanReport, Weights, decompose, pack};
+use meshsweep::bvh::{TreeOptions, TreeReport, build};
+use meshsweep::emit::Sections;
 use meshsweep_core::Bvh;
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::query::tree::{ScratchEntry, closest_point};
@@ -31,15 +31,21 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
 
 /// A tree's blob and what building it said.
 struct Built {
-    tables: TreeTables,
+    tables: Sections,
     report: TreeReport,
     bytes: Vec<u8>,
 }
 
 impl Built {
     fn new(subject: &Subject, options: &TreeOptions) -> Self {
-        let (tables, report) = build(&subject.mesh, 0.0, subject.triangles_read, options);
-        let bytes = emit::blob(None, Some(&tables));
+        let (tables, report) = build(
+            meshsweep::mesh::Input {
+                input_triangles: subject.triangles_read,
+                ..subject.mesh.as_input()
+            },
+            options,
+        );
+        let bytes = tables.to_bytes();
         Self { tables, report, bytes }
     }
 
@@ -85,7 +91,7 @@ fn shape(built: &Built) -> Table {
         "surface error",
     ];
     let mut table = Table::new("tree", "Box tree, 16-bit grid", &columns);
-    let (report, header) = (&built.report, &built.tables.header);
+    let (report, header) = (&built.report, &built.report.header);
     table.push(row![
         report.triangles,
         report.patches,
@@ -118,7 +124,7 @@ fn sections(subject: &Subject) -> Table {
     let triangles = subject.mesh.triangles.len() as f64;
     for kind in SectionKind::ALL.into_iter().filter(|kind| kind.is_tree()) {
         let bytes = |built: &Built| {
-            let section = built.tables.sections.iter().find(|(found, _)| *found == kind);
+            let section = built.tables.bodies.iter().find(|(found, _)| *found == kind);
             section.map_or(Cell::Empty, |(_, body)| fixed(body.len() as f64 / triangles, 2))
         };
         let cells = built.iter().map(bytes);

@@ -1,7 +1,6 @@
 //! Tribox hierarchies as stored: what they cost, and how often they prove a mesh apart from its
 //! moved copy.
 
-use meshsweep::emit::{Parts, assemble};
 use meshsweep::tribox::store;
 use meshsweep_core::Triboxes;
 use meshsweep_core::query::tribox::{NodePair, apart, candidates, stack_entries};
@@ -23,9 +22,8 @@ const TRIBOXES: u32 = 64;
 /// A coordinate is out of the domain.
 pub fn blob(subject: &Subject, count: u32) -> Result<Vec<u8>, String> {
     let mesh = &subject.mesh;
-    let (tables, _) =
-        store(mesh, 0.0, mesh.triangles.len(), count).map_err(|error| error.to_string())?;
-    Ok(assemble(&Parts { triboxes: Some(&tables), ..Parts::default() }))
+    let (tables, _) = store(mesh.as_input(), count).map_err(|error| error.to_string())?;
+    Ok(tables.to_bytes())
 }
 
 /// The tables.

@@ -5,8 +5,7 @@
 
 use std::hint::black_box;
 
-use meshsweep::emit;
-use meshsweep::tree::{TreeOptions, build as build_tree};
+use meshsweep::bvh::{TreeOptions, build as build_tree};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{
     CoherentQuery, Facing, Hint, ScratchEntry, closest_point, closest_points, first_hit,
@@ -31,8 +30,14 @@ fn open<'a>(
     options: &TreeOptions,
     blob: &'a mut Vec<u8>,
 ) -> Result<(usize, Bvh<'a>), String> {
-    let (tables, _) = build_tree(&subject.mesh, 0.0, subject.triangles_read, options);
-    *blob = emit::blob(None, Some(&tables));
+    let (tables, _) = build_tree(
+        meshsweep::mesh::Input {
+            input_triangles: subject.triangles_read,
+            ..subject.mesh.as_input()
+        },
+        options,
+    );
+    *blob = tables.to_bytes();
     let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
     Ok((blob.len(), tree))
 }

@@ -5,10 +5,9 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use meshsweep::emit::blob;
+use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::tree::{self, TreeOptions};
 use meshsweep_host_tests::generate::{Rng, rough_sphere};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points, segments};
@@ -79,9 +78,8 @@ impl Course {
             records.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect()
         };
         let Mesh { positions, triangles, .. } = &self.subject.mesh;
-        let (tables, _) =
-            tree::build(&self.subject.mesh, 0.0, triangles.len(), &TreeOptions::default());
-        file("tree.msw", blob(None, Some(&tables)))?;
+        let (tables, _) = bvh::build(self.subject.mesh.as_input(), &TreeOptions::default());
+        file("tree.msw", tables.to_bytes())?;
         file("vertices.f32", numbers(positions))?;
         file(
             "triangles.u32",

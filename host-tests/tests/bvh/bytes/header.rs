@@ -1,7 +1,7 @@
 //! Sections that are missing or too short, and fields of the tree's header.
 
 use super::{blob_of, edited, open, record, sphere};
-use meshsweep::tree::TreeOptions;
+use meshsweep::bvh::TreeOptions;
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::{Bvh, OpenError};
 use meshsweep_host_tests::corrupt::{entries, entry, put_u32, seal, word};

@@ -1,9 +1,9 @@
 //! Links: counts, places and shapes of children.
 
 use super::{ask_everything, edited, open, record, sphere};
-use meshsweep::emit;
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
+use meshsweep_core::blob::BvhHeader;
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::{Bvh, OpenError};
 use meshsweep_host_tests::corrupt::{put_u32, word};
@@ -94,12 +94,12 @@ fn tags_of_no_shape_name_the_node() {
 /// One triangle below a chain of so many nodes.
 fn chain(nodes: usize) -> Vec<u8> {
     let mesh = Mesh::new(vec![[0.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.0, 1.0, 0.25]], vec![[0, 1, 2]]);
-    let (mut tables, _) = build(&mesh, 0.0, 1, &TreeOptions::default());
-    tables.header.nodes = nodes as u32;
-    for (kind, bytes) in &mut tables.sections {
+    let (mut tables, report) = build(mesh.as_input(), &TreeOptions::default());
+    let header = BvhHeader { nodes: nodes as u32, ..report.header };
+    for (kind, bytes) in &mut tables.bodies {
         let one = bytes.clone();
         match kind {
-            SectionKind::Bvh => *bytes = tables.header.write().to_vec(),
+            SectionKind::Bvh => *bytes = header.write().to_vec(),
             SectionKind::TreeLinks => {
                 let mut last = one;
                 let inner = |node: u32| ((node + 1) | 1 << 24 | 1 << 28).to_le_bytes();
@@ -114,7 +114,7 @@ fn chain(nodes: usize) -> Vec<u8> {
             _ => {}
         }
     }
-    emit::blob(None, Some(&tables))
+    tables.to_bytes()
 }
 
 #[test]

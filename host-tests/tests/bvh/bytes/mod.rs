@@ -6,9 +6,8 @@ mod links;
 mod records;
 mod whole;
 
-use meshsweep::emit;
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::query::Budget;
 use meshsweep_core::query::tree::CoherentQuery;
@@ -19,7 +18,7 @@ use meshsweep_host_tests::generate::{Triangles, icosphere};
 
 fn blob_of((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+    build(mesh.as_input(), options).0.to_bytes()
 }
 
 /// A sphere of 320 triangles: more than one level of nodes, and every section that needs no choice.

@@ -1,7 +1,7 @@
 //! Bytes changed anywhere.
 
 use super::{ask_everything, blob_of, open, single, sphere};
-use meshsweep::tree::TreeOptions;
+use meshsweep::bvh::TreeOptions;
 use meshsweep_core::Bvh;
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_host_tests::corrupt::{

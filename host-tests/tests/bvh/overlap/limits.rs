@@ -1,9 +1,8 @@
 //! Memory, steps, and what is refused.
 
 use super::motions::{ask, ask_all, motions, truth};
-use meshsweep::emit::blob;
-use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::mesh::{Input, Mesh};
 use meshsweep_core::Bvh;
 use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
 use meshsweep_core::query::{Ended, QueryError};
@@ -91,10 +90,11 @@ fn what_cannot_be_answered_is_refused() {
     assert_eq!(refused(&tiny.trees()[0], &tree, Pose::IDENTITY, None), QueryError::PoseOutOfDomain);
     let mesh = Mesh::new(cube(1).0, cube(1).1);
     let options = TreeOptions { segments: false, ..TreeOptions::default() };
-    let bytes = blob(None, Some(&build(&mesh, 0.0, 12, &options).0));
+    let bytes = build(mesh.as_input(), &options).0.to_bytes();
     let closest_only = Bvh::open(&bytes).expect("opens");
     // A surface error beside which the model is nothing.
-    let bytes = blob(None, Some(&build(&mesh, 1e37, 12, &TreeOptions::default()).0));
+    let bytes =
+        build(Input { moved: 1e37, ..mesh.as_input() }, &TreeOptions::default()).0.to_bytes();
     let vague = Bvh::open(&bytes).expect("opens");
     let flat = Pose { rotation: [[0.0; 3]; 3], ..Pose::IDENTITY };
     for pose in [Pose::IDENTITY, flat] {

@@ -2,7 +2,7 @@
 
 use super::{mesh, of, options};
 use meshsweep::mesh::Mesh;
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep::tight::{ChainOptions, HullReport, hull_mesh};
 use meshsweep_core::blob::TightHull;
 use meshsweep_core::query::tight::{closest_point, is_within};

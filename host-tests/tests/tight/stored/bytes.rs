@@ -1,9 +1,9 @@
 //! Whatever is wrong with the bytes is a typed error, and whatever opens is safe to ask.
 
 use super::{mesh, of, options};
-use meshsweep::emit::{Parts, assemble};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::emit::assemble;
 use meshsweep::tight::chain;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::{Bvh, Model, OpenError, TightHulls};
 use meshsweep_host_tests::corrupt::{
@@ -127,14 +127,13 @@ fn tables_that_contradict_themselves_are_named() {
 #[test]
 fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let mesh = mesh(&icosphere(1));
-    let all = mesh.triangles.len();
-    let (tight, _) = chain(&mesh, 0.0, all, &options(&[64]), |_| {}).expect("room");
-    let (tree, _) = build(&mesh, 0.0, all, &TreeOptions::default());
-    let both = assemble(&Parts { tight: Some(&tight), tree: Some(&tree), ..Parts::default() });
+    let (tight, _) = chain(mesh.as_input(), &options(&[64]), |_| {}).expect("room");
+    let (tree, _) = build(mesh.as_input(), &TreeOptions::default());
+    let both = assemble([&tight, &tree]);
     let model = Model::open(&both).expect("opens");
     assert!(model.tree().is_some() && model.tight_hulls().is_some() && !model.has_hull());
     assert!(Bvh::open(&both).is_ok());
-    let alone = assemble(&Parts { tree: Some(&tree), ..Parts::default() });
+    let alone = tree.to_bytes();
     let missing = OpenError::MissingSection { section: SectionKind::TightHulls };
     assert_eq!(open(&alone), Err(missing));
     assert!(Model::open(&alone).expect("opens").tight_hulls().is_none());

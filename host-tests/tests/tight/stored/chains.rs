@@ -1,9 +1,9 @@
 //! Chains: hulls of falling numbers of faces.
 
 use super::{mesh, of, options};
-use meshsweep::emit::{Keep, Parts, assemble, cut_blob};
+use meshsweep::cut::{Keep, cut_blob};
 use meshsweep::mesh::Mesh;
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep::tight::{ChainOptions, cut, hull_mesh};
 use meshsweep::tribox::volume;
 use meshsweep::wrap::Goal;
@@ -74,7 +74,7 @@ fn a_cut_keeps_the_coarse_hulls_as_they_are() {
     let all: Vec<_> = model.tight_hulls().expect("there").records().collect();
     for (kept, record) in (1..).zip(&all) {
         let tables = cut(&model, record.faces).expect("hulls");
-        let cut = assemble(&Parts { tight: Some(&tables), ..Parts::default() });
+        let cut = tables.to_bytes();
         let left = TightHulls::open(&cut).expect("opens");
         assert!(left.records().eq(all[..kept].iter().copied()));
         for index in 0..left.count() {

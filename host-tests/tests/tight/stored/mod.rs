@@ -5,7 +5,6 @@ mod answers;
 mod bytes;
 mod chains;
 
-use meshsweep::emit::{Parts, assemble};
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, HullReport, chain};
 use meshsweep_host_tests::generate::Triangles;
@@ -23,6 +22,7 @@ fn options(faces: &[usize]) -> ChainOptions {
 /// most.
 fn of(mesh: &Mesh, moved: f64, options: &ChainOptions) -> (Vec<u8>, Vec<HullReport>) {
     let (tables, reports) =
-        chain(mesh, moved, mesh.triangles.len(), options, |_| {}).expect("there is room around it");
-    (assemble(&Parts { tight: Some(&tables), ..Parts::default() }), reports)
+        chain(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options, |_| {})
+            .expect("there is room around it");
+    (tables.to_bytes(), reports)
 }

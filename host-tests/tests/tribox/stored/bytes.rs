@@ -1,9 +1,9 @@
 //! Whatever is wrong with the bytes is a typed error, and whatever opens is safe to ask.
 
 use super::{mesh, of};
-use meshsweep::emit::{self, Parts, assemble};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::emit::assemble;
 use meshsweep::hull::{self, BuildOptions};
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep::tribox::{cut, store};
 use meshsweep_core::blob::layout::SectionKind;
 use meshsweep_core::{Bvh, Model, OpenError, Triboxes};
@@ -186,19 +186,17 @@ fn planes_that_do_not_touch_or_leave_the_parent_name_the_node() {
 #[test]
 fn blobs_hold_triboxes_beside_anything_or_alone() {
     let torus = mesh(&groove_block());
-    let count = torus.triangles.len();
-    let (triboxes, _) = store(&torus, 0.0, count, 8).expect("in the domain");
-    let (tree, _) = build(&torus, 0.0, count, &TreeOptions::default());
+    let (triboxes, _) = store(torus.as_input(), 8).expect("in the domain");
+    let (tree, _) = build(torus.as_input(), &TreeOptions::default());
     let options = BuildOptions { base_faces: 40, ..BuildOptions::default() };
-    let hull = hull::build(&torus, 0.0, count, &options, |_| ()).expect("a hull").tables;
+    let hull = hull::build(torus.as_input(), &options, |_| ()).expect("a hull").tables.sections();
     for parts in 1..8 {
         let has = |bit: i32| parts >> bit & 1 == 1;
-        let bytes = assemble(&Parts {
-            hull: has(0).then_some(&hull),
-            tree: has(1).then_some(&tree),
-            triboxes: has(2).then_some(&triboxes),
-            ..Parts::default()
-        });
+        let bytes = assemble(
+            [has(0).then_some(&hull), has(1).then_some(&tree), has(2).then_some(&triboxes)]
+                .into_iter()
+                .flatten(),
+        );
         let model = Model::open(&bytes).expect("opens");
         assert_eq!(
             (model.has_hull(), model.tree().is_some(), model.triboxes().is_some()),
@@ -216,10 +214,9 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
             assert!(Model::open(&older).is_ok());
         }
     }
-    assert!(Model::open(&assemble(&Parts::default())).is_err());
+    assert!(Model::open(&assemble([])).is_err());
     // A section that a tree's reader does not look at may hold anything.
-    let mut bytes =
-        assemble(&Parts { tree: Some(&tree), triboxes: Some(&triboxes), ..Parts::default() });
+    let mut bytes = assemble([&tree, &triboxes]);
     let at = entry(&bytes, SectionKind::Triboxes as u32).offset as usize;
     bytes[at + 50] ^= 1;
     assert!(Bvh::open(&bytes).is_ok() && Model::open(&bytes).is_err());
@@ -232,7 +229,7 @@ fn every_cut_is_the_blob_that_the_prefix_of_splits_makes() {
     let all = model.triboxes().expect("there");
     for level in all.levels() {
         let tables = cut(&model, level.triboxes).expect("a level");
-        let bytes = assemble(&Parts { triboxes: Some(&tables), ..Parts::default() });
+        let bytes = tables.to_bytes();
         let cut_model = Model::open(&bytes).expect("opens");
         let left = cut_model.triboxes().expect("there");
         assert_eq!(left.leaf_count(), level.triboxes);
@@ -253,8 +250,12 @@ fn every_cut_is_the_blob_that_the_prefix_of_splits_makes() {
         assert!(left.levels().eq(all.levels().take(left.level_count() as usize)));
     }
     // Between two levels, the coarser; below all, the first; without a limit, what it was.
-    let leaves =
-        |count: u32| word(&cut(&model, count).expect("there").section, 20).expect("nodes") / 2 + 1;
+    let leaves = |count: u32| {
+        word(&cut(&model, count).expect("there").bodies[0].1, 20).expect("nodes") / 2 + 1
+    };
     assert_eq!([leaves(0), leaves(1), leaves(7), leaves(u32::MAX)], [1, 1, 4, 24]);
-    assert_eq!(emit::cut_blob(&model, &emit::Keep::default()).expect("a blob"), bytes);
+    assert_eq!(
+        meshsweep::cut::cut_blob(&model, &meshsweep::cut::Keep::default()).expect("a blob"),
+        bytes
+    );
 }

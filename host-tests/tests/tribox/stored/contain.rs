@@ -1,7 +1,6 @@
 //! Every level holds the mesh, and of a solid its inside, by parameters as stored and sums in f64.
 
 use super::{blob, mesh};
-use meshsweep::emit::{Parts, assemble};
 use meshsweep::mesh::Mesh;
 use meshsweep::tribox::store;
 use meshsweep_core::{Model, Triboxes};
@@ -148,8 +147,9 @@ fn triboxes_hold_the_input_that_may_be_off() {
     let mut mesh = mesh(&torus(2.0, 0.75, 16, 8));
     for (rounding, moved) in [(0.0, 0.01), (0.02, 0.0), (0.005, 0.005), (1e-9, 0.0)] {
         mesh.rounding = rounding;
-        let (tables, _) = store(&mesh, moved, mesh.triangles.len(), 16).expect("in the domain");
-        let bytes = assemble(&Parts { triboxes: Some(&tables), ..Parts::default() });
+        let (tables, _) =
+            store(meshsweep::mesh::Input { moved, ..mesh.as_input() }, 16).expect("in the domain");
+        let bytes = tables.to_bytes();
         let model = Model::open(&bytes).expect("opens");
         let by = rounding + moved;
         assert!(f64::from(model.header().surface_error) * model.scale() >= by);

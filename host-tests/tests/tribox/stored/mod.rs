@@ -5,7 +5,6 @@ mod bytes;
 mod contain;
 mod nearest;
 
-use meshsweep::emit::{Parts, assemble};
 use meshsweep::mesh::Mesh;
 use meshsweep::tribox::store;
 use meshsweep_host_tests::generate::Triangles;
@@ -30,8 +29,8 @@ fn blob(mesh: &Mesh, count: u32) -> Vec<u8> {
         })
     };
     let build = || {
-        let (tables, _) = store(mesh, 0.0, mesh.triangles.len(), count).expect("in the domain");
-        assemble(&Parts { triboxes: Some(&tables), ..Parts::default() })
+        let (tables, _) = store(mesh.as_input(), count).expect("in the domain");
+        tables.to_bytes()
     };
     built.get_or_init(build).clone()
 }

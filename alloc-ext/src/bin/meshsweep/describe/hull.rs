@@ -1,31 +1,32 @@
 //! The hull hierarchy: memory, levels, surface error.
 
-use super::{AtMost, Percent};
-use crate::counted::Counted;
+use crate::number::{AtMost, Percent};
+use meshsweep::counted::Counted;
 use meshsweep_core::blob::layout::VertexFormat;
 use meshsweep_core::blob::{Header, Level};
 use meshsweep_core::num::{exp2, up_to_f32};
 use meshsweep_core::{Model, QueueEntry};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// Bytes of one word of a front's bit set.
+/// Bytes of one word of a refined hull's bit set.
 const WORD: usize = size_of::<u32>();
 
 /// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
-pub fn surface_error(header: &Header) -> f32 {
+fn surface_error(header: &Header) -> f32 {
     up_to_f32(f64::from(header.surface_error) * exp2(header.scale_exponent))
 }
 
-/// Certified distances of a level, in the mesh's unit and to the mesh as it was read.
+/// Certified distances of a level to the mesh as it was read, in its unit.
 #[derive(Clone, Copy, Debug)]
-pub struct LevelDistances {
+struct LevelDistances {
     /// No point of the level's covering triangles is farther than this from the mesh.
-    pub cover_to_mesh: f32,
+    cover_to_mesh: f32,
     /// No point of the mesh is farther than this from them.
-    pub mesh_to_cover: f32,
+    mesh_to_cover: f32,
 }
 
-pub fn distances(header: &Header, level: &Level) -> LevelDistances {
+fn distances(header: &Header, level: &Level) -> LevelDistances {
     // One rounding of the sum, so a bound stays one.
     let up = |local: f32| {
         let sum = (f64::from(local) + f64::from(header.surface_error)) * (1.0 + f64::EPSILON);
@@ -38,17 +39,17 @@ pub fn distances(header: &Header, level: &Level) -> LevelDistances {
 }
 
 /// Bytes of a queue with which no query overflows.
-pub fn queue_bytes(model: &Model<'_>) -> usize {
+fn queue_bytes(model: &Model<'_>) -> usize {
     model.capacities().queue * size_of::<QueueEntry>()
 }
 
-/// Bytes of both bit sets of a front that can perform every split.
-pub fn front_bytes(model: &Model<'_>) -> usize {
+/// Bytes of both bit sets of a refined hull that can perform every split.
+fn front_bytes(model: &Model<'_>) -> usize {
     2 * model.capacities().front_words * WORD
 }
 
 /// How coordinates are stored.
-pub fn format_name(format: VertexFormat) -> &'static str {
+fn format_name(format: VertexFormat) -> &'static str {
     match format {
         VertexFormat::F32 => "f32",
         VertexFormat::Grid16 => "16-bit grid",
@@ -112,4 +113,44 @@ fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
         )?;
     }
     Ok(())
+}
+
+pub(super) fn as_json(model: &Model<'_>, hull_box: [[f64; 3]; 2]) -> Value {
+    let h = model.header();
+    let capacities = model.capacities();
+    let levels: Vec<Value> = model
+        .levels()
+        .map(|level| {
+            let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(h, &level);
+            json!({
+                "faces": level.faces,
+                "splits": level.splits,
+                "nodes": level.nodes,
+                "void_ratio": level.void_ratio,
+                "cover_to_mesh": cover_to_mesh,
+                "mesh_to_cover": mesh_to_cover,
+            })
+        })
+        .collect();
+    json!({
+        "is_cut": model.is_cut(),
+        "vertex_format": format_name(h.vertex_format),
+        "surface_error": surface_error(h),
+        "vertices": h.vertices,
+        "base_vertices": h.base_vertices,
+        "base_triangles": h.base_triangles,
+        "splits": h.splits,
+        "ring_entries": h.rings,
+        "cover_nodes": h.nodes,
+        "surface_triangles": h.surface_triangles,
+        "hull_box": hull_box,
+        "capacities": {
+            "queue": capacities.queue,
+            "queue_bytes": queue_bytes(model),
+            "front_words": capacities.front_words,
+            "front_bytes": front_bytes(model),
+            "dependency_depth": capacities.dependency_depth,
+        },
+        "levels": levels,
+    })
 }

@@ -1,8 +1,8 @@
 //! Tight hulls: faces, void, distances, bytes, memory.
 
-use super::tree::{stack_bytes, tree_format_name};
-use super::{AtMost, Percent};
-use crate::counted::Counted;
+use super::tree::{format_name, stack_bytes};
+use crate::number::{AtMost, Percent};
+use meshsweep::counted::Counted;
 use meshsweep_core::blob::TightRecord;
 use meshsweep_core::{TightHull, TightHulls};
 use serde_json::{Value, json};
@@ -18,8 +18,7 @@ fn bytes(hull: &TightHull<'_>) -> usize {
     hull.bytes().len() + 2 * hull.record().faces as usize
 }
 
-/// Volume beyond that of the mesh as a part of it, if the mesh bounds one: a hull that encloses it
-/// leaves some.
+/// Void as a part of the mesh's volume, if the mesh bounds one. The void of such a mesh is not 0.
 pub fn void(record: &TightRecord) -> Option<f32> {
     (record.void_ratio != 0.0).then_some(record.void_ratio)
 }
@@ -33,7 +32,8 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     writeln!(out, "  {}: {encloses}", Counted(hulls.count(), "hull"))?;
     writeln!(
         out,
-        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to hull, at most"
+        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to \
+         hull, at most"
     )?;
     for hull in all(hulls) {
         let record = hull.record();
@@ -45,7 +45,7 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
             record.faces,
             bytes(&hull),
             stack_bytes(hull.tree()),
-            tree_format_name(hull.tree()),
+            format_name(hull.tree()),
             AtMost(record.slack),
             AtMost(record.depth)
         )?;
@@ -53,7 +53,7 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     Ok(())
 }
 
-pub fn as_json(hulls: &TightHulls<'_>) -> Value {
+pub(super) fn as_json(hulls: &TightHulls<'_>) -> Value {
     let hull = |hull: TightHull<'_>| {
         let record = hull.record();
         json!({
@@ -62,7 +62,7 @@ pub fn as_json(hulls: &TightHulls<'_>) -> Value {
             "slack": record.slack,
             "depth": record.depth,
             "bytes": bytes(&hull),
-            "vertex_format": tree_format_name(hull.tree()),
+            "vertex_format": format_name(hull.tree()),
             "serves_distances": hull.tree().serves_distances(),
             "serves_segments": hull.tree().serves_segments(),
             "stack_entries": hull.tree().header().stack_entries,

@@ -1,7 +1,7 @@
 //! The tribox hierarchy: size, levels, memory.
 
-use super::{AtMost, Percent};
-use crate::counted::Counted;
+use crate::number::{AtMost, Percent};
+use meshsweep::counted::Counted;
 use meshsweep_core::Triboxes;
 use meshsweep_core::blob::TriboxLevel;
 use serde_json::{Value, json};
@@ -37,7 +37,7 @@ pub(super) fn write(out: &mut dyn Write, triboxes: &Triboxes<'_>) -> io::Result<
     Ok(())
 }
 
-pub fn as_json(triboxes: &Triboxes<'_>) -> Value {
+pub(super) fn as_json(triboxes: &Triboxes<'_>) -> Value {
     let level = |level: TriboxLevel| {
         json!({
             "triboxes": level.triboxes,

@@ -1,6 +1,7 @@
 //! Asks for the values of rows of samples, on several threads.
 
 use super::lattice::Lattice;
+use crate::ask::threads;
 use crate::progress::Bar;
 use crate::signed;
 use meshsweep_core::Bvh;
@@ -11,8 +12,8 @@ use std::fmt;
 use std::io::{self, Write};
 use std::sync::Mutex;
 
-/// Samples that are computed before they are written: a bound of the memory, and enough for every
-/// thread.
+/// Samples that are computed before they are written: this bounds the memory, and suffices for all
+/// threads.
 const AT_ONCE: usize = 1 << 22;
 
 /// The value of a sample without a sign: these bits on every machine.
@@ -41,7 +42,7 @@ impl fmt::Display for NoSign {
     }
 }
 
-/// What is asked of a tree.
+/// A lattice of samples, and the tree that answers for them.
 pub struct Sampler<'a> {
     pub tree: &'a Bvh<'a>,
     pub lattice: Lattice,
@@ -50,7 +51,7 @@ pub struct Sampler<'a> {
 }
 
 impl Sampler<'_> {
-    /// Numbers that a sample has.
+    /// Numbers of a sample.
     pub fn values(&self) -> usize {
         1 + usize::from(self.interval)
     }
@@ -74,8 +75,8 @@ impl Sampler<'_> {
         Ok(no_sign)
     }
 
-    /// Computes the rows from `first` on. Threads take rows as they get done; a row's values do not
-    /// depend on which thread takes it.
+    /// Computes the rows from `first` on. A thread that is done takes the next row. The values of a
+    /// row do not depend on the thread.
     fn sample(
         &self,
         first: usize,
@@ -97,17 +98,12 @@ impl Sampler<'_> {
                 bar.advance(1);
             }
         };
-        std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let mine = work();
-            let join = |other: std::thread::ScopedJoinHandle<'_, _>| {
-                other.join().unwrap_or(Err(QueryError::Model))
-            };
-            others.into_iter().map(join).fold(mine, |all, other| Ok(all?.add(&other?)))
-        })
+        let all = threads::each(threads, work);
+        all.into_iter().try_fold(NoSign::default(), |sum, one| Ok(sum.add(&one?)))
     }
 
-    /// Row `row`: samples next to each other, so that each answer is a good start for the next.
+    /// Row `row`. Neighbouring samples follow each other, so an answer is a good hint for the next
+    /// sample.
     fn row(
         &self,
         row: usize,

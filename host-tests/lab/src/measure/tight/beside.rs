@@ -1,9 +1,8 @@
 //! Void of other bounds: convex ones, and triboxes.
 
 use glam::DVec3;
-use meshsweep::emit::{Parts, assemble};
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
 use meshsweep_core::Bvh;
 use meshsweep_core::blob::layout::{
@@ -28,8 +27,8 @@ const MOST_TRIBOXES: usize = 256;
 fn hull_bytes(hull: &Mesh) -> usize {
     let faces = hull.triangles.len();
     let options = TreeOptions { closest: true, segments: false, ..TreeOptions::default() };
-    let (tree, _) = build(hull, 0.0, faces, &options);
-    let blob = assemble(&Parts { tree: Some(&tree), ..Parts::default() });
+    let (tree, _) = build(hull.as_input(), &options);
+    let blob = tree.to_bytes();
     TIGHT_BYTES + TIGHT_HULL_BYTES + blob.len() + faces * size_of::<Radius16>()
 }
 
