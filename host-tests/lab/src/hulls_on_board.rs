@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use meshsweep::tight::{ChainOptions, chain, cut};
-use meshsweep_core::{Model, TightHulls};
+use meshsweep_core::{Hull, TightHulls};
 use meshsweep_host_tests::blobs::expected;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_lab::measure::tight::FACES;
@@ -21,7 +21,7 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let (tables, _) =
         chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     let all = tables.to_bytes();
-    let model = Model::open(&all).map_err(|error| error.to_string())?;
+    let model = Hull::open(&all).map_err(|error| error.to_string())?;
     let [board, ..] = BOARDS;
     let mut table = Table::new(
         "tight_firmware",
