@@ -18,11 +18,12 @@
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`hausdorff`] | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`] | one structure each, as in core |
-//! | [`emit`] | sections to bytes |
-//! | [`cut`](mod@cut) | coarser blobs out of finer ones |
+//! | [`emit`] | sections to bytes; it knows no builder |
+//! | [`cut`] | a coarser blob out of a finer one |
 //!
-//! Arrows: `{lp, mesh} ← surface ← {collapse, bvh, hausdorff} ← {hull, tight, tribox} ← cut` ← the
-//! program. All structures name `emit`, which names none of them. No others.
+//! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
+//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox}` ← `cut` ← the program. A test keeps that
+//! (`host-tests/tests/house.rs`).
 
 pub mod bvh;
 pub mod collapse;
@@ -49,6 +50,6 @@ pub use surface as precision;
 pub mod wrap {
     pub use crate::tight::{
         Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
-        WrapError, parts, wrap,
+        WrapError, split_components, wrap,
     };
 }

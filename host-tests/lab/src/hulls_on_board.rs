@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use meshsweep::tight::{ChainOptions, chain, cut};
-use meshsweep_core::{Model, TightHulls};
+use meshsweep_core::{Hull, TightHulls};
 use meshsweep_host_tests::blobs::expected;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_lab::measure::tight::FACES;
@@ -17,12 +17,11 @@ use meshsweep_xtask::workspace;
 /// The table of a mesh. The bits of all answers are the host's, or it is an error.
 pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
-    let options =
-        ChainOptions { faces: FACES.to_vec(), segments: false, ..ChainOptions::default() };
+    let options = ChainOptions::of_faces(&FACES).with_boxes(true, false);
     let (tables, _) =
         chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     let all = tables.to_bytes();
-    let model = Model::open(&all).map_err(|error| error.to_string())?;
+    let model = Hull::open(&all).map_err(|error| error.to_string())?;
     let [board, ..] = BOARDS;
     let mut table = Table::new(
         "tight_firmware",

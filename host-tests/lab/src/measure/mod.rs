@@ -35,7 +35,7 @@ pub mod triboxes;
 use std::path::Path;
 
 use meshsweep::collapse::Priority;
-use meshsweep_core::Model;
+use meshsweep_core::Hull;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Table, fixed, row};
 
@@ -138,6 +138,6 @@ fn subject_table(subject: &Subject) -> Table {
 }
 
 /// Opens a blob that was built.
-fn open(bytes: &[u8]) -> Result<Model<'_>, String> {
-    Model::open(bytes).map_err(|error| error.to_string())
+fn open(bytes: &[u8]) -> Result<Hull<'_>, String> {
+    Hull::open(bytes).map_err(|error| error.to_string())
 }

@@ -2,10 +2,8 @@
 //! parry3d's.
 
 use meshsweep::bvh::{TreeOptions, build};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::Work;
-use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::internal::geom::Contact;
+use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry, TrianglePair, Work};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
 use meshsweep_host_tests::workload::pose::{FARTHEST, Pose as Motion, poses, sphere};
@@ -77,9 +75,9 @@ struct Verdicts {
 }
 
 fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
-    let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+    let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     let ask = |case: &Case| {
-        overlap(tree, tree, &case.pose, u32::MAX, &mut stack).map_err(|error| error.to_string())
+        tree.overlap(tree, case.pose, Budget::EXACT, &mut stack).map_err(|error| error.to_string())
     };
     let Run { answers, nanoseconds } = fastest_run(cases, ask)?;
     let mut verdicts = Verdicts {
@@ -102,7 +100,7 @@ fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
     }
     let mut pairs = vec![TrianglePair::EMPTY; 1 << 20];
     let every = |case: &Case| {
-        let found = all_overlaps(tree, tree, &case.pose, u32::MAX, &mut pairs, &mut stack);
+        let found = tree.overlaps(tree, case.pose, &mut pairs, Budget::EXACT, &mut stack);
         found.map(|found| found.stored).map_err(|error| error.to_string())
     };
     verdicts.all_pairs = run(cases, every)?.nanoseconds;

@@ -1,7 +1,7 @@
 //! What a blob takes and holds: sections, limits, levels, and the time of each stage that made it.
 
 use meshsweep::hull::Built;
-use meshsweep_core::Model;
+use meshsweep_core::Hull;
 use meshsweep_xtask::table::{Table, fixed, row};
 
 /// Stages of a whole build.
@@ -34,7 +34,7 @@ pub fn build_times(built: &Built) -> Table {
 }
 
 /// Bytes of each section.
-pub fn sections(model: &Model<'_>) -> Table {
+pub fn sections(model: &Hull<'_>) -> Table {
     let mut table =
         Table::new("sections", "Bytes of the blob", &["section", "bytes", "bytes/triangle"]);
     let triangles = f64::from(model.header().surface_triangles.max(1));
@@ -52,7 +52,7 @@ pub fn sections(model: &Model<'_>) -> Table {
 }
 
 /// Capacities and counts.
-pub fn limits(model: &Model<'_>) -> Table {
+pub fn limits(model: &Hull<'_>) -> Table {
     let columns = [
         "nodes",
         "splits",
@@ -68,7 +68,7 @@ pub fn limits(model: &Model<'_>) -> Table {
         model.header().nodes,
         model.header().splits,
         capacities.queue,
-        capacities.queue * size_of::<meshsweep_core::QueueEntry>(),
+        capacities.queue * size_of::<meshsweep_core::ScratchEntry>(),
         capacities.front_words,
         2 * capacities.front_words * size_of::<u32>(),
         capacities.dependency_depth,
@@ -100,7 +100,7 @@ pub fn proofs(bytes: &[u8]) -> Result<Table, String> {
 }
 
 /// The level table.
-pub fn levels(model: &Model<'_>) -> Table {
+pub fn levels(model: &Hull<'_>) -> Table {
     let columns =
         ["level", "faces", "splits", "nodes", "hull to surface", "surface to hull", "void %"];
     let mut table = Table::new("levels", "Levels; distances certified, of the diagonal", &columns);

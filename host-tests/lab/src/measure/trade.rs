@@ -1,8 +1,7 @@
 //! Speed for accuracy: what a query that stops early guarantees, and what it found.
 
 use meshsweep::cut::cut;
-use meshsweep_core::Model;
-use meshsweep_core::query::Budget;
+use meshsweep_core::{Budget, Hull};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points};
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
@@ -19,20 +18,20 @@ const MEASURED: [&str; 6] =
     ["ns", "nodes", "triangles", "guaranteed width", "mean error", "largest error"];
 
 /// A relative tolerance against cost.
-pub fn tolerances(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
+pub fn tolerances(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
     let columns = ["points", "tolerance"].iter().chain(&MEASURED).copied().collect::<Vec<_>>();
     let mut table = Table::new("tolerance", "Closest point within a relative tolerance", &columns);
     let stops = TOLERANCES
-        .map(|relative| (fixed(f64::from(relative), 3), Budget { relative, ..Budget::EXACT }));
+        .map(|relative| (fixed(f64::from(relative), 3), Budget::EXACT.with_relative(relative)));
     fill(&mut table, subject, model, &stops)?;
     Ok(table)
 }
 
 /// A budget of steps against width.
-pub fn steps(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
+pub fn steps(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
     let columns = ["points", "steps"].iter().chain(&MEASURED).copied().collect::<Vec<_>>();
     let mut table = Table::new("steps", "Closest point after so many opened nodes", &columns);
-    let stops = STEPS.map(|steps| (Cell::from(steps), Budget { steps, ..Budget::EXACT }));
+    let stops = STEPS.map(|steps| (Cell::from(steps), Budget::EXACT.with_steps(steps)));
     fill(&mut table, subject, model, &stops)?;
     Ok(table)
 }
@@ -40,7 +39,7 @@ pub fn steps(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
 fn fill(
     table: &mut Table,
     subject: &Subject,
-    model: &Model<'_>,
+    model: &Hull<'_>,
     stops: &[(Cell, Budget)],
 ) -> Result<(), String> {
     for kind in KINDS {
@@ -74,7 +73,7 @@ fn errors(run: &Answers, truth: &Answers) -> Vec<f64> {
 }
 
 /// Levels cut off: bytes against width.
-pub fn cuts(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
+pub fn cuts(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
     let columns = [
         "level",
         "faces",

@@ -6,10 +6,7 @@ mod trade;
 use meshsweep::bvh::fans::{Fan, FanLeaf, FanReport, Weights, decompose, pack};
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
 use meshsweep::emit::Sections;
-use meshsweep_core::Bvh;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::query::tree::{ScratchEntry, closest_point};
-use meshsweep_core::query::{Budget, ClosestPoint};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, ScratchEntry, SectionKind};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
@@ -67,7 +64,7 @@ impl Answers {
         let begun = Stopwatch::start();
         for &point in points {
             answers.push(
-                closest_point(tree, point, stop, &mut stack).map_err(|error| error.to_string())?,
+                tree.closest_point(point, *stop, &mut stack).map_err(|error| error.to_string())?,
             );
         }
         Ok(Self { answers, nanoseconds: begun.nanoseconds_each(points.len()) })

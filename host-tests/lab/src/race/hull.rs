@@ -1,8 +1,7 @@
 //! The library's split hierarchy: certified answers from the cover tree of swept triangles.
 
 use meshsweep::collapse::Priority;
-use meshsweep_core::query::{Budget, closest_point, first_hit};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::{Budget, Hull, ScratchEntry};
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, try_each};
@@ -14,8 +13,8 @@ const BASE_FACES: usize = 200;
 const QUERIES: usize = 10_000;
 
 struct Hull<'a> {
-    model: Model<'a>,
-    queue: Vec<QueueEntry>,
+    model: Hull<'a>,
+    queue: Vec<ScratchEntry>,
 }
 
 /// On closed meshes that are not too large.
@@ -31,8 +30,8 @@ pub fn build<'a>(
         return Ok(None);
     }
     *blob = subject.build(BASE_FACES, Priority::Program)?.bytes;
-    let model = Model::open(blob).map_err(|error| error.to_string())?;
-    let queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+    let model = Hull::open(blob).map_err(|error| error.to_string())?;
+    let queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
     Ok(Some(Box::new(Hull { model, queue })))
 }
 
@@ -47,7 +46,7 @@ impl Engine for Hull<'_> {
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         try_each(points, answers, |point| {
-            let found = closest_point(&self.model, point, &Budget::EXACT, &mut self.queue);
+            let found = self.model.closest_point(point, Budget::EXACT, &mut self.queue);
             found.map(|found| Answer::Distance(found.upper)).map_err(|error| error.to_string())
         })
     }
@@ -58,7 +57,7 @@ impl Engine for Hull<'_> {
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
-            let found = first_hit(&self.model, a, b, &Budget::EXACT, &mut self.queue);
+            let found = self.model.first_hit(a, b, Budget::EXACT, &mut self.queue);
             let found = found.map_err(|error| error.to_string())?;
             Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
         })

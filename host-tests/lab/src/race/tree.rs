@@ -6,11 +6,9 @@
 use std::hint::black_box;
 
 use meshsweep::bvh::{TreeOptions, build as build_tree};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{
-    CoherentQuery, Facing, Hint, ScratchEntry, closest_point, closest_points, first_hit,
+use meshsweep_core::{
+    Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, Hint, ScratchEntry, Work,
 };
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work};
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, try_each};
@@ -89,8 +87,7 @@ impl Engine for Alone<'_> {
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         try_each(points, answers, |point| {
-            let found =
-                black_box(closest_point(&self.tree, point, &Budget::EXACT, &mut self.stack));
+            let found = black_box(self.tree.closest_point(point, Budget::EXACT, &mut self.stack));
             found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
         })
     }
@@ -101,7 +98,8 @@ impl Engine for Alone<'_> {
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
-            let found = black_box(first_hit(&self.tree, a, b, &Facing::Both, &mut self.stack));
+            let found =
+                black_box(self.tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut self.stack));
             let found = found.map_err(|error| error.to_string())?;
             Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
         })
@@ -203,7 +201,7 @@ impl Engine for Batched<'_> {
         self.found.resize(points.len(), NONE);
         self.order.resize(2 * points.len(), 0);
         let Self { tree, stack, order, found, .. } = self;
-        closest_points(tree, points, found, &Budget::EXACT, stack, order, &mut Hint::NONE.clone())
+        tree.closest_points(points, &mut Hint::NONE.clone(), found, Budget::EXACT, stack)
             .map_err(|error| error.to_string())?;
         answers.clear();
         answers.extend(self.found.iter().map(|found| Answer::Point(found.point)));

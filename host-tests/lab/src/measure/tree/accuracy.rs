@@ -1,8 +1,7 @@
 //! Answers against every triangle in f64: of the surface that the blob stores, and of the input.
 
 use glam::{DVec3, Vec3};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
+use meshsweep_core::{Budget, Bvh};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points};
 use meshsweep_xtask::table::{Table, row, scientific};
@@ -113,7 +112,7 @@ fn stored(tree: &Bvh<'_>) -> Result<Vec<[DVec3; 3]>, String> {
         for lane in links.inner..links.count {
             let patch = tree.leaf(node, lane).ok_or("no leaf")?;
             let corners = |triangle| patch.corners(triangle).map(|corner| corner.as_dvec3() * unit);
-            triangles.extend((0..patch.tag().triangles()).map(corners));
+            triangles.extend((0..patch.shape().triangles()).map(corners));
         }
     }
     Ok(triangles)

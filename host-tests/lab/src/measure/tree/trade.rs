@@ -1,7 +1,6 @@
 //! Speed for accuracy: what an early stop costs, guarantees and finds.
 
-use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
+use meshsweep_core::{Budget, Bvh};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points};
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
@@ -37,12 +36,12 @@ pub fn tables(subject: &Subject, built: &Built) -> Result<[Table; 2], String> {
     let title = "Box tree, closest point within a relative tolerance";
     let mut tolerances = Table::new("tree_tolerance", title, &columns("tolerance %"));
     let stops = TOLERANCES.map(|relative| {
-        (fixed(100.0 * f64::from(relative), 1), Budget { relative, ..Budget::EXACT })
+        (fixed(100.0 * f64::from(relative), 1), Budget::EXACT.with_relative(relative))
     });
     fill(&mut tolerances, subject, &tree, &stops)?;
     let title = "Box tree, closest point after so many opened nodes";
     let mut steps = Table::new("tree_steps", title, &columns("steps"));
-    let stops = STEPS.map(|steps| (Cell::from(steps), Budget { steps, ..Budget::EXACT }));
+    let stops = STEPS.map(|steps| (Cell::from(steps), Budget::EXACT.with_steps(steps)));
     fill(&mut steps, subject, &tree, &stops)?;
     Ok([tolerances, steps])
 }
@@ -93,9 +92,6 @@ fn fill(
 }
 
 /// By how much an upper bound is above the exact query's.
-fn above(
-    early: &meshsweep_core::query::ClosestPoint,
-    exact: &meshsweep_core::query::ClosestPoint,
-) -> f64 {
+fn above(early: &meshsweep_core::ClosestPoint, exact: &meshsweep_core::ClosestPoint) -> f64 {
     f64::from(early.upper) - f64::from(exact.upper)
 }
