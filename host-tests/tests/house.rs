@@ -21,13 +21,14 @@ const CORE: [(&str, &[&str]); 10] = [
 
 /// Rooms that all structures of the builder may use.
 const BENEATH: &[&str] =
-    &["counted", "emit", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
+    &["counted", "emit", "error", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
 
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted`
-/// prints numbers. `cut` is above: it knows all structures.
-const BUILDER: [(&str, &[&str]); 13] = [
+/// prints numbers, `error` says why there is no blob. `cut` is above: it knows all structures.
+const BUILDER: [(&str, &[&str]); 14] = [
     ("counted", &[]),
     ("emit", &[]),
+    ("error", &[]),
     ("lp", &[]),
     ("mesh", &["counted"]),
     ("surface", &["counted", "lp", "mesh"]),
@@ -38,7 +39,10 @@ const BUILDER: [(&str, &[&str]); 13] = [
     ("tight", BENEATH),
     ("tribox", BENEATH),
     ("curve", BENEATH),
-    ("cut", &["counted", "emit", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"]),
+    (
+        "cut",
+        &["counted", "emit", "error", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
+    ),
 ];
 
 /// A module's path from its crate's root: `["bvh", "node"]`.
