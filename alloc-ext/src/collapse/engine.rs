@@ -136,7 +136,7 @@ impl Engine {
         None
     }
 
-    /// Ends the loop: labels and instances of what is left go into the history.
+    /// Ends the loop. Labels and instances of the faces left go into the history.
     pub fn finish(self) -> History {
         let Edges { surface, labels, instances, mut history, .. } = self.edges;
         for t in surface.mesh.alive() {
