@@ -276,7 +276,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// Where a triangle is.
+/// The place of a triangle.
 #[derive(Clone, Copy)]
 struct Place {
     distance_sq: f32,
