@@ -1,17 +1,21 @@
 //! The stages in order, and what they report.
 
-use super::one_sided::hull_to_surface;
+use super::cover::{Cover, Offspring, plant};
+use super::forest::{Forest, grow};
+use super::groups::{base_groups, sort_base};
+use super::tables::{NodeRecord, SplitRecord, Tables};
+use super::wires::wires_off_surface;
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
-use crate::emit::{NodeRecord, SplitRecord, Tables};
-use crate::mesh::Mesh;
-use crate::precision::{Stored, VertexBits, store};
-use crate::sweep::{Cover, Forest, Offspring, base_groups, grow, plant, sort_base};
+use crate::error::BuildError;
+use crate::hausdorff::hull_to_surface;
+use crate::mesh::{Input, Mesh};
+use crate::surface::{SignedVolume, Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::Hull;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::MAX_RING;
 use meshsweep_core::internal::hull::format::{Children, NodeIdx};
-use meshsweep_core::internal::num::{Radius8, Radius16, up_to_f32};
+use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
 use meshsweep_core::{Level, OpenError};
 use std::time::{Duration, Instant};
 
@@ -56,6 +60,8 @@ pub struct BuildReport {
     pub certify_time: Duration,
     /// Volume of the mesh, input units.
     pub volume: f64,
+    /// What the surface error carries of wires, input units; see [`wires_off_surface`].
+    pub wires: f64,
 }
 
 /// A blob and how it came about.
@@ -69,45 +75,6 @@ pub struct Built {
     pub report: BuildReport,
 }
 
-/// Why there is no blob.
-#[derive(Clone, Debug, PartialEq)]
-pub enum BuildError {
-    /// More records than a blob can address.
-    TooLarge {
-        /// Triangles of the mesh.
-        triangles: usize,
-    },
-    /// The signed volume is not positive: the mesh is inside out where it passes through itself.
-    NotPositive {
-        /// The volume, input units.
-        volume: f64,
-    },
-    /// The reader refused what was written: a defect of this program.
-    Reopen(OpenError),
-}
-
-impl std::fmt::Display for BuildError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            BuildError::TooLarge { triangles } => {
-                write!(
-                    f,
-                    "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh"
-                )
-            }
-            BuildError::NotPositive { volume } => write!(
-                f,
-                "the enclosed volume is {volume}: the mesh passes through itself and is inside out there; unite its parts first"
-            ),
-            BuildError::Reopen(error) => {
-                write!(f, "internal error: the blob does not open: {error}; please report it")
-            }
-        }
-    }
-}
-
-impl std::error::Error for BuildError {}
-
 /// Most triangles of a mesh: instances and ring entries must fit the format's counts.
 const MAX_TRIANGLES: usize = 20_000_000;
 
@@ -118,23 +85,23 @@ const MAX_TRIANGLES: usize = 20_000_000;
 /// points negatively, its hulls do not enclose it; distances and
 /// [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::precision::snap)), 0 if none were.
+/// How far [wires](crate::mesh::Wire) are from the triangles with an area is part of the surface
+/// error: the hulls need not enclose them.
 ///
 /// # Errors
 /// [`BuildError`].
 pub fn build(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     options: &BuildOptions,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Built, BuildError> {
+    let mesh = input.mesh;
     if mesh.triangles.len() > MAX_TRIANGLES {
         return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
     }
-    let stored = store(mesh, options.vertex_bits);
+    let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
+    let wires = wires_off_surface(mesh);
     let started = Instant::now();
     let (history, stuck, programs) =
         collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
@@ -146,10 +113,14 @@ pub fn build(
     let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
-    let mut tables =
-        assemble(&stored, mesh, moved, input_triangles, &history, &order, &forest, &cover);
+    let mut tables = assemble(&stored, input, &history, &order, &forest, &cover);
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
+    // Levels were measured to the triangles with an area, without it.
+    if wires > 0.0 {
+        let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
+        tables.surface_error = sum_up(tables.surface_error, up_to_f32(off));
+    }
     let bytes = tables.to_bytes();
     Hull::open(&bytes).map_err(BuildError::Reopen)?;
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
@@ -161,12 +132,24 @@ pub fn build(
         sweep_time,
         certify_time: started.elapsed(),
         volume: volume * scale * scale * scale,
+        wires,
     };
     Ok(Built { tables, bytes, report })
 }
 
+/// Vertices that only wires use do not count, but for the frame, which all structures of a blob
+/// share.
+fn store_solid(mesh: &Mesh, bits: VertexBits) -> Stored {
+    let mut stored = store(mesh, bits);
+    let used = mesh.triangles.iter().flatten().fold(0, |most, &v| most.max(v as usize + 1));
+    if !mesh.wires.is_empty() {
+        stored.positions.truncate(used);
+    }
+    stored
+}
+
 /// A hull alone: its triangles in input units, the void it adds as a part of the mesh's volume, and
-/// why it stopped early.
+/// why it stopped early. It encloses the mesh without its wires.
 ///
 /// # Errors
 /// [`BuildError::NotPositive`].
@@ -176,7 +159,7 @@ pub fn hull_of(
     options: &BuildOptions,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<(Mesh, f64, Option<Stuck>), BuildError> {
-    let stored = store(mesh, options.vertex_bits);
+    let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
     let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
     let order = VertexOrder::new(&history);
@@ -192,7 +175,8 @@ pub fn hull_of(
 
 /// Volume in the local frame, which void is measured against.
 fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
-    let volume = signed_volume(&stored.positions, &mesh.triangles);
+    let corners = mesh.triangles.iter().map(|t| t.map(|v| stored.positions[v as usize]));
+    let volume = SignedVolume::of(corners).value;
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     if volume > 0.0 {
         Ok(volume)
@@ -220,14 +204,6 @@ fn collapse(
     let mut history = engine.finish();
     sort_base(&mut history);
     (history, stuck, programs)
-}
-
-fn signed_volume(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    // Around a vertex of the mesh, so that a part far from the origin loses nothing to
-    // cancellation.
-    let Some(&origin) = positions.first() else { return 0.0 };
-    let at = |v: u32| positions[v as usize] - origin;
-    triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
 }
 
 /// Split counts of the levels: the base hull, then every doubling of the faces, then all.
@@ -265,12 +241,9 @@ fn levels(history: &History, cover: &Cover, level_splits: &[u32], volume: f64) -
         .collect()
 }
 
-#[expect(clippy::too_many_arguments, reason = "the one place where all stages meet")]
 fn assemble(
     stored: &Stored,
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     history: &History,
     order: &VertexOrder,
     forest: &Forest,
@@ -324,7 +297,7 @@ fn assemble(
     Tables {
         scale_exponent: stored.scale_exponent,
         grid: stored.grid,
-        surface_error: up_to_f32((stored.surface_error + moved * scale) * (1.0 + 1e-15)),
+        surface_error: up_to_f32((stored.surface_error + input.moved * scale) * (1.0 + 1e-15)),
         vertices: order.label.iter().map(|&l| single(history.positions[l as usize])).collect(),
         base_vertices: order.base,
         base: history.base.iter().map(|t| t.map(index)).collect(),
@@ -342,10 +315,8 @@ fn assemble(
             .iter()
             .map(|&t| history.original_triangles[t as usize].map(index))
             .collect(),
-        source: cover.triangles.iter().map(|&t| mesh.source[t as usize]).collect(),
-        input_triangles: input_triangles
-            .max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0))
-            as u32,
+        source: cover.triangles.iter().map(|&t| input.mesh.source[t as usize]).collect(),
+        input_triangles: input.triangle_count(),
         surface_box: Aabb { min: low, max: high },
         levels: Vec::new(),
         queue_capacity: cover.queue_capacity,

@@ -10,13 +10,15 @@ use std::collections::VecDeque;
 use super::collinear::{collinear, middle};
 use super::duplicate::retain;
 use super::report::{PLACES_KEPT, RepairReport};
+use super::wire::{TakenOut, Wire};
 
-/// Removes all triangles with collinear corners, by a flip if there is one, else by dropping them.
+/// Removes all triangles with collinear corners, by a flip if there is one, else by taking them out.
 /// Expects three distinct vertices at distinct positions in each triangle and no duplicates.
 pub(super) fn remove_caps(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
     source: &mut Vec<u32>,
+    taken_out: &mut Vec<TakenOut>,
     report: &mut RepairReport,
 ) {
     let flat = |t: [u32; 3]| {
@@ -66,13 +68,14 @@ pub(super) fn remove_caps(
         flip.apply(triangles, &mut stars, cap);
         postponed = 0;
     }
-    drop_flat(positions, triangles, source, report, flat);
+    take_out_flat(positions, triangles, source, taken_out, report, flat);
 }
 
-fn drop_flat(
+fn take_out_flat(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
     source: &mut Vec<u32>,
+    taken_out: &mut Vec<TakenOut>,
     report: &mut RepairReport,
     flat: impl Fn([u32; 3]) -> bool,
 ) {
@@ -84,7 +87,8 @@ fn drop_flat(
                 return true;
             }
             let corners = triangle.map(|v| positions[v as usize]);
-            report.zero_area.triangle(number, corners[0]);
+            let wire = Wire::of(positions, triangle, number);
+            taken_out.push(TakenOut { wire, first: triangle[0], repeats_corner: false });
             // Enough to explain the holes that an error will list.
             if report.dropped.len() < 64 * PLACES_KEPT {
                 report.dropped.push((number, corners));

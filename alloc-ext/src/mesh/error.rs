@@ -52,8 +52,8 @@ pub enum MeshError {
     TooLarge { file: PathBuf, vertex: usize, at: [f64; 3] },
     /// No coordinate reaches the smallest normal `f32`.
     TooSmall { file: PathBuf, largest: f64 },
-    /// Every triangle had zero area.
-    NoArea { file: PathBuf, dropped: usize },
+    /// Every triangle has zero area: a mesh of segments and points encloses no volume.
+    NoArea { count: usize },
     /// Edges with one triangle only, so the mesh does not enclose a volume. Places: one edge of
     /// each of five holes.
     Open {
@@ -152,11 +152,10 @@ impl fmt::Display for MeshError {
                 "{}: the largest coordinate, {largest:e}, is below f32's normal range (1.2e-38); choose a smaller unit",
                 file.display()
             ),
-            Self::NoArea { file, dropped } => write!(
+            Self::NoArea { count } => write!(
                 f,
-                "{}: no triangle has an area ({} read); export with more digits or in a smaller unit",
-                file.display(),
-                Counted(*dropped, "triangle")
+                "no triangle has an area, all are segments or points ({}); export with more digits or in a smaller unit",
+                Counted(*count, "triangle")
             ),
             Self::Open {
                 edge_count,

@@ -15,7 +15,7 @@ use super::{EdgePlace, Mesh, MeshError};
 /// That triangles do not cross each other is not checked.
 ///
 /// # Errors
-/// In this order: an array that breaks [`Mesh`]'s promise, boundary edges (as holes), non-manifold
+/// In this order: an array that breaks [`Mesh`]'s promise, no triangle with an area, boundary edges (as holes), non-manifold
 /// edges, non-manifold vertices, one-sided parts, inconsistent winding, a part without volume,
 /// inside-out parts. The last four kinds but one-sided parts and zero volume cannot occur after
 /// [`repair`](super::repair()).
@@ -86,6 +86,11 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
 fn check_arrays(mesh: &Mesh) -> Result<(), MeshError> {
     let invalid = |reason: String| Err(MeshError::Invalid { reason });
     let vertex_count = mesh.positions.len();
+    let repeats = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+    let count = mesh.triangles.len() + mesh.wires.len();
+    if count > 0 && mesh.triangles.iter().all(repeats) {
+        return Err(MeshError::NoArea { count });
+    }
     if mesh.triangles.is_empty() {
         return invalid("no triangles".into());
     }
@@ -108,7 +113,7 @@ fn check_arrays(mesh: &Mesh) -> Result<(), MeshError> {
                 "triangle {t} names a vertex beyond the {vertex_count} there are"
             ));
         }
-        if a == b || b == c || c == a {
+        if repeats(&[a, b, c]) {
             return invalid(format!("triangle {t} has a vertex twice"));
         }
     }

@@ -20,6 +20,7 @@ mod duplicate;
 mod edges;
 mod error;
 mod hash;
+mod input;
 mod manifold;
 mod nesting;
 mod obj;
@@ -32,25 +33,33 @@ mod round;
 mod stl;
 mod text;
 mod vertex_fans;
+mod volume;
 mod weld;
 mod winding;
+mod wire;
 mod write_ply;
 
+use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};
 
+pub(crate) use edges::{EdgeTable, UnionFind, ends};
 pub use error::{EdgePlace, MeshError};
+pub use input::Input;
 pub use manifold::require_closed_manifold;
 pub(crate) use nesting::Part as Enclosure;
-pub(crate) use outward::{Volume, volume};
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};
+pub(crate) use volume::SignedVolume;
+pub use wire::Wire;
 pub use write_ply::write_ply;
 
 /// A triangle mesh as the rest of the builder takes it.
 ///
 /// [`repair`] guarantees: coordinates finite and without −0.0, indices in range, every vertex used,
 /// no triangle with a repeated vertex or zero area, no two triangles on the same three vertices.
+/// Every point of the input lies on one of `triangles` or on one of `wires`. Vertices that only
+/// wires use come last.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Vertex positions in the file's unit and frame.
@@ -61,6 +70,8 @@ pub struct Mesh {
     /// then numbered from 0. Two triangles share a number where an edge flip removed a flat
     /// cap (see [`RepairReport::flipped_caps`]).
     pub source: Vec<u32>,
+    /// The points of triangles without area that no triangle above covers.
+    pub wires: Vec<Wire>,
     /// Upper bound, rounded up, of the Euclidean distance that any vertex moved when it was
     /// rounded to `f32`, in the file's unit; 0 if every coordinate was an `f32` already. For
     /// text, the input is the decimal number as written, except that a decimal whose nearest
@@ -74,7 +85,30 @@ impl Mesh {
     #[must_use]
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let source = (0..triangles.len() as u32).collect();
-        Self { positions, triangles, source, rounding: 0.0 }
+        Self { positions, triangles, source, ..Self::default() }
+    }
+
+    /// Triangles that have all points of the mesh: those with an area, then one for each
+    /// [`Wire`].
+    pub fn all_triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        self.triangles.iter().copied().chain(self.wires.iter().map(Wire::triangle))
+    }
+
+    /// Numbers in the input file of [`all_triangles`](Self::all_triangles).
+    pub fn all_sources(&self) -> impl Iterator<Item = u32> + '_ {
+        self.source.iter().copied().chain(self.wires.iter().map(|wire| wire.source))
+    }
+
+    /// Corners of the wires' triangles.
+    pub fn wire_corners(&self) -> impl Iterator<Item = [[f32; 3]; 3]> + '_ {
+        self.wires.iter().map(|wire| wire.triangle().map(|v| self.positions[v as usize]))
+    }
+
+    /// The mesh without its wires and their vertices.
+    #[must_use]
+    pub fn without_wires(&self) -> Self {
+        let used = self.triangles.iter().flatten().fold(0, |most, &v| most.max(v as usize + 1));
+        Self { positions: self.positions[..used].to_vec(), wires: Vec::new(), ..self.clone() }
     }
 
     /// Corners of triangle `triangle`, or `None` if it or one of its vertices does not exist.
@@ -83,6 +117,20 @@ impl Mesh {
         let [a, b, c] = *self.triangles.get(triangle)?;
         let at = |v: u32| self.positions.get(v as usize).copied();
         Some([at(a)?, at(b)?, at(c)?])
+    }
+
+    /// Corners of all triangles, in the file's unit and frame. Indices must be in range.
+    pub(crate) fn corners_f64(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        self.triangles.iter().map(|&triangle| self.wide(triangle))
+    }
+
+    /// Corners of [`all_triangles`](Self::all_triangles), in f64.
+    pub(crate) fn all_corners_f64(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        self.all_triangles().map(|triangle| self.wide(triangle))
+    }
+
+    fn wide(&self, triangle: [u32; 3]) -> [DVec3; 3] {
+        triangle.map(|v| Vec3::from(self.positions[v as usize]).as_dvec3())
     }
 }
 

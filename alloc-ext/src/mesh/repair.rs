@@ -10,14 +10,16 @@ use super::round::round;
 use super::vertex_fans::{fans, split};
 use super::weld::weld;
 use super::winding::{Parts, propagate};
+use super::wire::{TakenOut, Wire, uncovered};
 use super::{Mesh, MeshError, RawMesh};
 
 /// Mends what can be mended without moving the surface (beyond the rounding to `f32`), and says
 /// what it did.
 ///
-/// In this order: round to `f32`; weld equal positions; drop triangles with a repeated corner; drop
-/// duplicates, keeping the first of each whatever the winding; remove zero-area triangles, by an
-/// edge flip where that keeps the mesh closed; split vertices in which several fans meet; wind each
+/// In this order: round to `f32`; weld equal positions; take out triangles with a repeated corner;
+/// drop duplicates, keeping the first of each whatever the winding; remove zero-area triangles, by
+/// an edge flip where that keeps the mesh closed; keep as [`Wire`]s those segments and points of
+/// what was taken out that no edge of a triangle covers; split vertices in which several fans meet; wind each
 /// part consistently, as most of its triangles are; turn closed outermost parts that are inside
 /// out, with all that lies inside them; drop unreferenced vertices.
 ///
@@ -30,11 +32,11 @@ use super::{Mesh, MeshError, RawMesh};
 ///
 /// # Errors
 /// A coordinate that is not finite or beyond `f32`, a mesh wholly below `f32`'s normal range, an
-/// index out of range, no triangles, or none with an area.
+/// index out of range, or no triangles.
 pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     check(&raw)?;
     let (mut positions, rounding) = round(&raw)?;
-    let RawMesh { mut triangles, file, polygons_split, .. } = raw;
+    let RawMesh { mut triangles, polygons_split, .. } = raw;
     let mut report = RepairReport {
         vertices_read: positions.len(),
         triangles_read: triangles.len(),
@@ -46,12 +48,10 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
 
     let first_at = weld(&positions, &mut report.welded);
     triangles.iter_mut().flatten().for_each(|v| *v = first_at[*v as usize]);
-    drop_repeated_corners(&positions, &mut triangles, &mut source, &mut report);
+    let mut taken_out = take_out_repeated_corners(&positions, &mut triangles, &mut source);
     drop_duplicates(&positions, &mut triangles, &mut source, &mut report);
-    remove_caps(&positions, &mut triangles, &mut source, &mut report);
-    if triangles.is_empty() {
-        return Err(MeshError::NoArea { file, dropped: report.triangles_read });
-    }
+    remove_caps(&positions, &mut triangles, &mut source, &mut taken_out, &mut report);
+    let mut wires = uncovered(&positions, &triangles, &taken_out, &mut report);
 
     let edges = EdgeTable::new(positions.len(), &triangles);
     let fans = fans(&triangles, &edges);
@@ -64,33 +64,34 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     let parts = propagate(&triangles, &edges.twins());
     wind(&positions, &mut triangles, &source, &parts, &mut report);
     turn_outwards(&positions, &mut triangles, &source, &parts, &mut report);
-    drop_unreferenced(&mut positions, &mut triangles, &first_at, &mut report);
+    drop_unreferenced(&mut positions, &mut triangles, &mut wires, &first_at, &mut report);
 
     report.part_count = parts.kinds.len();
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
-    Ok((Mesh { positions, triangles, source, rounding }, report))
+    Ok((Mesh { positions, triangles, source, wires, rounding }, report))
 }
 
-fn drop_repeated_corners(
+fn take_out_repeated_corners(
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
     source: &mut Vec<u32>,
-    report: &mut RepairReport,
-) {
-    let keep: Vec<bool> = triangles
+) -> Vec<TakenOut> {
+    let repeats = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+    let taken_out = triangles
         .iter()
         .zip(source.iter())
-        .map(|(&[a, b, c], &number)| {
-            let repeated = a == b || b == c || c == a;
-            if repeated {
-                report.repeated_corner.triangle(number, positions[a as usize]);
-            }
-            !repeated
+        .filter(|(triangle, _)| repeats(triangle))
+        .map(|(&triangle, &number)| TakenOut {
+            wire: Wire::of(positions, triangle, number),
+            first: triangle[0],
+            repeats_corner: true,
         })
         .collect();
+    let keep: Vec<bool> = triangles.iter().map(|triangle| !repeats(triangle)).collect();
     retain(triangles, &keep);
     retain(source, &keep);
+    taken_out
 }
 
 fn wind(
@@ -142,22 +143,28 @@ fn turn_outwards(
     }
 }
 
-/// Vertices welded into another are counted as welded, not here.
+/// Vertices welded into another are counted as welded, not here. Those that only wires use go to
+/// the end.
 fn drop_unreferenced(
     positions: &mut Vec<[f32; 3]>,
     triangles: &mut [[u32; 3]],
+    wires: &mut [Wire],
     first_at: &[u32],
     report: &mut RepairReport,
 ) {
     let mut used = vec![false; positions.len()];
     triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    let mut of_wires: Vec<u32> =
+        wires.iter().flat_map(|wire| wire.ends).filter(|&v| !used[v as usize]).collect();
+    of_wires.sort_unstable();
+    of_wires.dedup();
     for (v, &first) in first_at.iter().enumerate() {
-        if !used[v] && first as usize == v {
+        if !used[v] && first as usize == v && of_wires.binary_search(&(v as u32)).is_err() {
             report.unreferenced.vertex(v as u32, positions[v]);
         }
     }
     let mut next = 0;
-    let renumbered: Vec<u32> = used
+    let mut renumbered: Vec<u32> = used
         .iter()
         .map(|&used| {
             let number = next;
@@ -165,6 +172,13 @@ fn drop_unreferenced(
             number
         })
         .collect();
+    for &v in &of_wires {
+        renumbered[v as usize] = next;
+        next += 1;
+    }
+    let at_wires: Vec<[f32; 3]> = of_wires.iter().map(|&v| positions[v as usize]).collect();
     retain(positions, &used);
+    positions.extend(at_wires);
+    wires.iter_mut().flat_map(|wire| &mut wire.ends).for_each(|v| *v = renumbered[*v as usize]);
     triangles.iter_mut().flatten().for_each(|v| *v = renumbered[*v as usize]);
 }

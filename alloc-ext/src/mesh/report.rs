@@ -65,15 +65,19 @@ pub struct RepairReport {
     /// Vertices merged into an earlier one at the same position (after rounding to `f32`; −0.0
     /// equals 0.0).
     pub welded: Finding,
-    /// Triangles dropped because two of their corners are the same vertex. The mesh stays closed.
+    /// Triangles dropped because two of their corners are the same vertex and edges of others cover
+    /// what is left of them. The mesh stays closed.
     pub repeated_corner: Finding,
     /// Zero-area triangles (three distinct collinear corners) removed by an edge flip with the
     /// neighbour across their longest edge. The surface is the same point set and stays
     /// closed; the triangle count too.
     pub flipped_caps: Finding,
-    /// Zero-area triangles simply dropped, because no neighbour could take them up. This can leave
-    /// a slit.
+    /// Zero-area triangles dropped because no neighbour could take them up and edges of others
+    /// cover them. This can leave a slit, but no point is lost.
     pub zero_area: Finding,
+    /// Triangles without area, or with a repeated corner, kept as [`Wire`](super::Wire)s: as
+    /// segments and points that no other triangle covers.
+    pub wires: Finding,
     /// Further copies of a triangle, same three vertices, same winding. The first stays.
     pub duplicate: Finding,
     /// Further copies of a triangle, opposite winding. The first stays, so that no surface is
@@ -93,7 +97,7 @@ pub struct RepairReport {
     /// One-sided parts; left as they are, refused for a hull. The place is a triangle at which the
     /// winding fails.
     pub non_orientable: Finding,
-    /// The corners of the first [`zero_area`](Self::zero_area) triangles, for
+    /// The corners of the first zero-area triangles that were taken out, for
     /// [`explain`](Self::explain).
     pub(super) dropped: Vec<(u32, [[f32; 3]; 3])>,
 }
@@ -102,16 +106,17 @@ impl RepairReport {
     /// All findings: a key for machines, for people a noun and what is said of it, the finding. For
     /// printing and JSON.
     #[must_use]
-    pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 12] {
+    pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 13] {
         [
             ("welded", ["vertex", "welded to an equal one"], &self.welded),
             (
                 "repeated_corner",
-                ["triangle", "with a repeated corner dropped"],
+                ["triangle", "with a repeated corner dropped, covered by others"],
                 &self.repeated_corner,
             ),
             ("flipped_caps", ["flat cap", "removed by an edge flip"], &self.flipped_caps),
-            ("zero_area", ["zero-area triangle", "dropped"], &self.zero_area),
+            ("zero_area", ["zero-area triangle", "dropped, covered by others"], &self.zero_area),
+            ("wires", ["triangle", "without area kept as a segment or a point"], &self.wires),
             ("duplicate", ["duplicate triangle", "dropped"], &self.duplicate),
             (
                 "opposite_duplicate",
@@ -140,32 +145,14 @@ impl RepairReport {
     /// of the first dropped whose corner lies on one of the edges that the error lists. Any
     /// other error is returned as it is.
     #[must_use]
-    pub fn explain(&self, error: MeshError) -> MeshError {
-        match error {
-            MeshError::Open {
-                edge_count,
-                hole_count,
-                largest_hole,
-                slit_count,
-                places,
-                dropped_triangle: None,
-            } => {
-                let on_hole = |corners: &[[f32; 3]; 3]| {
-                    places.iter().any(|e| corners.contains(&e.from) && corners.contains(&e.to))
-                };
-                let dropped_triangle =
-                    self.dropped.iter().find(|(_, corners)| on_hole(corners)).map(|&(t, _)| t);
-                MeshError::Open {
-                    edge_count,
-                    hole_count,
-                    largest_hole,
-                    slit_count,
-                    places,
-                    dropped_triangle,
-                }
-            }
-            other => other,
+    pub fn explain(&self, mut error: MeshError) -> MeshError {
+        if let MeshError::Open { places, dropped_triangle: cause @ None, .. } = &mut error {
+            let on_hole = |corners: &[[f32; 3]; 3]| {
+                places.iter().any(|e| corners.contains(&e.from) && corners.contains(&e.to))
+            };
+            *cause = self.dropped.iter().find(|(_, corners)| on_hole(corners)).map(|&(t, _)| t);
         }
+        error
     }
 }
 

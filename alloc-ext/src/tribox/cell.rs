@@ -32,6 +32,7 @@ pub(super) enum Trust {
 
 /// What all cells of a mesh share.
 pub(super) struct Whole<'a> {
+    /// Those with an area: wires have higher numbers, and do not change winding numbers.
     pub triangles: Vec<[[f64; 3]; 3]>,
     /// Whether winding numbers exist, so that the solid counts and not only its surface.
     pub is_solid: bool,
@@ -69,7 +70,7 @@ impl<'a> Whole<'a> {
 
     /// The cell that no plane bounds.
     pub fn root(&self, mesh: &Mesh) -> Result<Cell, TriboxError> {
-        let used = mesh.triangles.iter().flatten().map(|&v| mesh.positions[v as usize]);
+        let used = mesh.all_triangles().flatten().map(|v| mesh.positions[v as usize]);
         let tribox = Tribox::of_points(used)?;
         let [x, y, z, ..] = tribox.high.map(f64::from);
         let size = tribox
@@ -85,8 +86,9 @@ impl<'a> Whole<'a> {
 
     /// Winding number of a point of a cell, if it can be told.
     fn winding(&self, cell: &Cell, point: [f64; 3]) -> Option<i32> {
+        let loops = cell.polygons.loops.iter();
         let triangles =
-            cell.polygons.loops.iter().map(|&(triangle, _)| self.triangles[triangle as usize]);
+            loops.filter_map(|&(triangle, _)| self.triangles.get(triangle as usize).copied());
         winding(point, &cell.references, triangles)
     }
 

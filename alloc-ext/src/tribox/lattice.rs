@@ -1,7 +1,7 @@
 //! The grid that a blob stores triboxes on.
 
 use crate::mesh::Mesh;
-use crate::precision::scale_exponent;
+use crate::surface::scale_exponent;
 use meshsweep_core::internal::num::exp2;
 use meshsweep_core::internal::tribox::{DIRECTIONS, SLABS};
 use meshsweep_core::{Tribox, TriboxError};
@@ -35,7 +35,7 @@ impl Lattice {
     /// If a coordinate is not finite or beyond [`Tribox::DOMAIN`]; a mesh without triangles is on
     /// any grid.
     pub fn of(mesh: &Mesh, padding: f64) -> Result<Lattice, TriboxError> {
-        let used = mesh.triangles.iter().flatten().map(|&v| mesh.positions[v as usize]);
+        let used = mesh.all_triangles().flatten().map(|v| mesh.positions[v as usize]);
         let whole = Tribox::of_points(used)?;
         let scale = scale_exponent(mesh);
         // Room for what f64 does to it.

@@ -53,11 +53,11 @@ pub(super) fn margin(size: f64) -> f64 {
 }
 
 impl Polygons {
-    /// All triangles of a mesh.
+    /// All triangles of a mesh, those of its wires among them.
     pub fn of(mesh: &Mesh) -> Polygons {
         let corner = |v: u32| Corner { at: mesh.positions[v as usize].map(f64::from), exact: 7 };
-        let corners = mesh.triangles.iter().flatten().map(|&v| corner(v)).collect();
-        let loops = (0..mesh.triangles.len() as u32).map(|t| (t, 3 * t + 3)).collect();
+        let corners: Vec<Corner> = mesh.all_triangles().flatten().map(corner).collect();
+        let loops = (0..corners.len() as u32 / 3).map(|t| (t, 3 * t + 3)).collect();
         Polygons { corners, loops }
     }
 

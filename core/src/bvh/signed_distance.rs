@@ -86,7 +86,8 @@ impl Bvh<'_> {
     /// The side is never wrong. It is undecided if the mesh is not closed and consistently wound
     /// ([`is_closed`](Bvh::is_closed)), if the distance is not clear of the surface error and
     /// rounding, next to walls and gaps thinner than these, next to slivers so flat that they have
-    /// no certain normal, and where only triangles without area are near.
+    /// no certain normal, and where a triangle without area is certainly nearer than every other:
+    /// it has no sides.
     ///
     /// `scratch` as for [`closest_point`](Bvh::closest_point). If it is too short, or the steps too
     /// few, the side is undecided too. Of the budget only `steps` matters: a side needs the closest
@@ -128,7 +129,8 @@ impl Bvh<'_> {
             Some(survey) => survey.closest(&search, point)?,
             None => closest_point(tree, point, &Budget::EXACT.with_steps(steps), search.stack)?,
         };
-        let clear = closed && closest.distance.lower > 0.0;
+        let clear =
+            closed && closest.distance.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
         let mut side = match &survey {
             Some(survey) if clear => search.side(survey)?,
             _ => OPEN,
@@ -319,6 +321,16 @@ struct Survey<'p> {
 }
 
 impl Survey<'_> {
+    /// Whether a triangle with an area may be the closest one.
+    fn has_sides(&self) -> bool {
+        if self.solid.distance_sq <= self.best.distance_sq {
+            return true;
+        }
+        let band = Candidates::new(self.query, self.margin, self.best.distance_sq).band;
+        let [front, back, unclear, _] = self.least;
+        front <= band || back <= band || unclear <= band
+    }
+
     /// Lower bound of the distance to the input mesh, input units, without the nodes that were not
     /// opened.
     fn lower(&self) -> f32 {

@@ -83,12 +83,6 @@ fn unreadable() -> Vec<Evil> {
         ),
         file("index.obj", beyond.into(), "IndexOutOfRange", "a face names vertex 9 of 4"),
         file("index.ply", index, "IndexOutOfRange", "a face names vertex -1"),
-        file(
-            "line.obj",
-            b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".to_vec(),
-            "NoArea",
-            "its triangle has no area",
-        ),
         file("lying_count.stl", count, "Truncated", "announces 4,294,967,295 triangles"),
         file(
             "lying_elements.ply",
@@ -143,6 +137,12 @@ fn no_solid() -> Vec<Evil> {
             obj(&twisted_torus()),
             "NonOrientable",
             "a Klein bottle: closed but one-sided",
+        ),
+        file(
+            "line.obj",
+            b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".to_vec(),
+            "NoArea",
+            "its triangle has no area",
         ),
         file("moebius.obj", obj(&moebius()), "Open", "a Möbius strip"),
         file(

@@ -61,7 +61,7 @@ impl Bvh<'_> {
     /// Both verdicts are proved for the input meshes as they were after repair, even if a grid
     /// moved vertices. The pose's numbers are taken as exact. Surfaces that touch without passing
     /// through each other are undecided, and so are surfaces nearer than rounding and the surface
-    /// errors. Triangles without area are never proved to meet anything. Only surfaces count: one
+    /// errors. Two triangles without area are never proved to meet. Only surfaces count: one
     /// closed mesh may lie inside the other. [`signed_distance`](Bvh::signed_distance) of a vertex
     /// decides that.
     ///

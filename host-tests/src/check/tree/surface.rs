@@ -7,18 +7,19 @@ use super::TreeProof;
 use super::parse::TreeBlob;
 use crate::oracle::dyadic::Dyadic;
 
-/// Every triangle of the mesh is stored exactly once, with its number, its winding, and its corners
+/// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its winding, and its corners
 /// within the surface error.
 ///
 /// Triangles that share a number, which a repaired mesh may have, are told apart by their corners.
 pub(super) fn triangles(tree: &TreeBlob, mesh: &Mesh, proof: &mut TreeProof) -> Result<(), String> {
-    if tree.source.len() != mesh.triangles.len() {
-        return Err(format!("{} triangles of {}", tree.source.len(), mesh.triangles.len()));
+    let all: Vec<[u32; 3]> = mesh.all_triangles().collect();
+    if tree.source.len() != all.len() {
+        return Err(format!("{} triangles of {}", tree.source.len(), all.len()));
     }
     if let Some(number) = tree.source.iter().find(|&&number| number >= tree.input_triangles) {
         return Err(format!("triangle {number} of an input of {}", tree.input_triangles));
     }
-    let mut wanted: Vec<(u32, usize)> = mesh.source.iter().copied().zip(0..).collect();
+    let mut wanted: Vec<(u32, usize)> = mesh.all_sources().zip(0..).collect();
     wanted.sort_unstable();
     let mut used = vec![false; wanted.len()];
     let near = Near::new(tree, mesh);
@@ -35,7 +36,7 @@ pub(super) fn triangles(tree: &TreeBlob, mesh: &Mesh, proof: &mut TreeProof) -> 
             let free = candidates.filter(|&(place, _)| !used[place]);
             let mut found = None;
             for (place, &(_, input)) in free {
-                if near.matches(stored, mesh.triangles[input], proof) {
+                if near.matches(stored, all[input], proof) {
                     found = Some(place);
                     break;
                 }
@@ -127,7 +128,7 @@ pub(super) fn claims(tree: &TreeBlob, mesh: &Mesh) -> Result<(), String> {
     }
     edges.sort_unstable();
     let balanced = |edge: &[(u32, u32, i32)]| edge.iter().map(|(_, _, way)| way).sum::<i32>() == 0;
-    let closed = edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced);
+    let closed = !edges.is_empty() && edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(balanced);
     if closed == tree.closed {
         Ok(())
     } else {
