@@ -40,7 +40,12 @@ impl Scene {
             TreeOptions { cull: true, single: kind == Kind::F32, ..TreeOptions::default() };
         let (tables, _) = build(&mesh, moved, raw.1.len(), &options);
         let bytes = blob(None, Some(&tables));
-        if moved == 0.0 {
+        // The checker tells the halves of a flipped cap apart by their corners: not if the grid
+        // makes them alike.
+        let mut numbers: Vec<u32> = mesh.all_sources().collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        if moved == 0.0 && (kind == Kind::F32 || numbers.len() == mesh.all_sources().count()) {
             check_tree(&bytes, &mesh).expect("the tree of the mesh and its wires");
         }
         let corners = raw.1.iter().map(|t| t.map(|v| raw.0[v as usize])).collect();
