@@ -73,7 +73,8 @@ fn hulls(
     );
     for faces in FACES {
         let begun = Stopwatch::start();
-        let options = Options { goal: Goal::Faces(faces), ..Options::default() };
+        let mut options = Options::default();
+        options.goal = Goal::Faces(faces);
         let Hull { mesh, report } =
             wrap(&subject.mesh, &options, |_| {}).map_err(|error| error.to_string())?;
         let seconds = begun.seconds();
