@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use meshsweep::tight::{ChainOptions, chain, cut};
-use meshsweep_core::{Hull, TightHulls};
+use meshsweep_core::{Blob, TightHulls};
 use meshsweep_host_tests::blobs::expected;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_lab::measure::tight::FACES;
