@@ -1,48 +1,9 @@
 //! A coarser blob out of a finer one: each structure cuts its own sections.
 
 use crate::emit::assemble;
+use crate::error::BuildError;
 use crate::{bvh, hull, tight, tribox};
 use meshsweep_core::{Blob, Hull};
-
-/// Why a blob was not cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CutError {
-    /// There is no such level.
-    NoLevel {
-        /// Asked for.
-        wanted: u32,
-        /// Levels there are.
-        levels: u32,
-    },
-    /// The blob has no triboxes.
-    NoTriboxes,
-    /// The blob has no tight hulls.
-    NoTightHulls,
-    /// The bytes changed after the blob was opened.
-    Unchecked,
-}
-
-impl std::fmt::Display for CutError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            CutError::NoLevel { levels: 0, .. } => {
-                write!(f, "the blob has no hull hierarchy to cut: build it with --for hull")
-            }
-            CutError::NoLevel { wanted, levels } => {
-                write!(f, "level {wanted} does not exist: the blob has levels 0 to {}", levels - 1)
-            }
-            CutError::NoTriboxes => {
-                write!(f, "the blob has no triboxes to cut: build it with --for triboxes")
-            }
-            CutError::NoTightHulls => {
-                write!(f, "the blob has no tight hulls to cut: build it with --for tight")
-            }
-            CutError::Unchecked => write!(f, "the blob changed after it was opened"),
-        }
-    }
-}
-
-impl std::error::Error for CutError {}
 
 /// What to keep of a blob; what nothing is said of stays as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -58,20 +19,20 @@ pub struct Keep {
 /// What is left of a blob.
 ///
 /// # Errors
-/// [`CutError`] if there is nothing of the kind to cut.
-pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
+/// [`BuildError`] if there is nothing of the kind to cut.
+pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
     let hierarchy = match (keep.level, blob.hull()) {
         (Some(level), Ok(hull)) => Some(cut(&hull, level)?),
-        (Some(wanted), Err(_)) => return Err(CutError::NoLevel { wanted, levels: 0 }),
-        (None, Ok(hull)) => Some(hull::Tables::from_hull(&hull).ok_or(CutError::Unchecked)?),
+        (Some(wanted), Err(_)) => return Err(BuildError::NoLevel { wanted, levels: 0 }),
+        (None, Ok(hull)) => Some(hull::Tables::from_hull(&hull).ok_or(BuildError::Unchecked)?),
         (None, Err(_)) => None,
     };
     let tree = if keep.level.is_none() { bvh::sections_of(blob) } else { None };
     if keep.triboxes.is_some() && blob.triboxes().is_err() {
-        return Err(CutError::NoTriboxes);
+        return Err(BuildError::NoTriboxes);
     }
     if keep.tight.is_some() && blob.tight_hulls().is_err() {
-        return Err(CutError::NoTightHulls);
+        return Err(BuildError::NoTightHulls);
     }
     let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
     let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
@@ -82,8 +43,8 @@ pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, CutError> {
 /// Tables of a hull hierarchy after level `index`: see [`hull::cut()`].
 ///
 /// # Errors
-/// [`CutError::NoLevel`].
-pub fn cut(whole: &Hull<'_>, index: u32) -> Result<hull::Tables, CutError> {
+/// [`BuildError::NoLevel`].
+pub fn cut(whole: &Hull<'_>, index: u32) -> Result<hull::Tables, BuildError> {
     let levels = whole.header().levels;
-    hull::cut(whole, index).ok_or(CutError::NoLevel { wanted: index, levels })
+    hull::cut(whole, index).ok_or(BuildError::NoLevel { wanted: index, levels })
 }

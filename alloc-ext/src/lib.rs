@@ -18,16 +18,19 @@
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`hausdorff`] | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`] | one structure each, as in core |
-//! | [`emit`] | sections to bytes, and cutting a blob |
+//! | [`emit`] | sections to bytes; it knows no builder |
+//! | [`cut`] | a coarser blob out of a finer one |
 //!
-//! Arrows: `{lp, mesh} ← surface ← {collapse, bvh, hausdorff} ← {hull, tight, tribox} ← emit` ← the
-//! program. No others.
+//! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
+//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox}` ← `cut` ← the program. A test keeps that
+//! (`host-tests/tests/house.rs`).
 
 pub mod bvh;
 pub mod collapse;
 pub mod counted;
 pub mod cut;
 pub mod emit;
+mod error;
 pub mod hausdorff;
 pub mod hull;
 pub mod lp;
@@ -35,6 +38,8 @@ pub mod mesh;
 pub mod surface;
 pub mod tight;
 pub mod tribox;
+
+pub use error::BuildError;
 
 // Paths of before, until their users are moved.
 pub use bvh as tree;
@@ -45,6 +50,6 @@ pub use surface as precision;
 pub mod wrap {
     pub use crate::tight::{
         Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
-        WrapError, parts, wrap,
+        WrapError, split_components, wrap,
     };
 }

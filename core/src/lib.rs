@@ -47,12 +47,13 @@
 //! | `tight` | tight hulls, whose index is a box tree |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
 //!
-//! Each structure has its bytes in a folder `format`: `layout` (sizes and offsets), `view`, `check`.
+//! Each structure has its bytes in a folder `format`: `layout` (sizes and offsets), `view`,
+//! `check`.
 //!
 //! # The same bits everywhere
-//! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is `libm`'s,
-//! which is correctly rounded on every target; the box tree has its own, of products and sums. The
-//! same blob and query give the same bits on a workstation and on a Cortex-M0.
+//! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is
+//! `libm`'s, which is correctly rounded on every target; the box tree has its own, of products and
+//! sums. The same blob and query give the same bits on a workstation and on a Cortex-M0.
 
 #![no_std]
 #![forbid(unsafe_code)]

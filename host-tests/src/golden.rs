@@ -81,8 +81,7 @@ pub fn bracket_hulls() -> Vec<u8> {
     let (positions, triangles) = bracket();
     let mesh = Mesh::new(positions, triangles);
     // Little polish: a test makes them again.
-    let mut options = ChainOptions::of_faces(&[64, 160]);
-    options.effort = 0.1;
+    let options = ChainOptions::of_faces(&[64, 160]).with_effort(0.1);
     let (tables, _) = chain(mesh.as_input(), &options, |_| {}).expect("room around it");
     tables.to_bytes()
 }

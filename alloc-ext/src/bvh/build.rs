@@ -10,6 +10,7 @@ use super::source;
 use super::store::{OnGrid, store};
 use crate::emit::Sections;
 use crate::mesh::{Input, Mesh, Wire};
+use crate::surface::{EdgeTable, ends};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::bvh::format::BvhHeader;
@@ -57,7 +58,7 @@ pub struct TreeReport {
     /// Triangles.
     pub triangles: usize,
     /// Leaves.
-    pub patches: usize,
+    pub leaves: usize,
     /// Nodes.
     pub nodes: usize,
     /// Children per node.
@@ -89,13 +90,13 @@ pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) 
     assert!(triangles <= MAX_TRIANGLES, "more than 2^24 triangles");
     let started = Instant::now();
     let grid = store(input, options.single);
-    let mut patches = fans::pack(&mesh.triangles, &grid.positions);
-    patches.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
-    let points: Vec<Vec<DVec3>> = patches.iter().map(|patch| points(patch, &grid)).collect();
+    let mut leaves = fans::pack(&mesh.triangles, &grid.positions);
+    leaves.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
+    let points: Vec<Vec<DVec3>> = leaves.iter().map(|leaf| points(leaf, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
     let bounds: Vec<(DVec3, DVec3)> = points.iter().map(|points| bounds(points)).collect();
     let topology = topology_with(&bounds, &options.topology);
-    let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &patches))];
+    let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &leaves))];
     if options.closest || !options.segments {
         let frames = shared_frames(&topology, &views, &options.frames);
         sections.push((SectionKind::TreeFrames, encode::frames(&frames, grid.origin)));
@@ -106,27 +107,26 @@ pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) 
             encode::boxes(&axis_aligned_boxes(&topology, &views), grid.origin),
         ));
     }
-    sections
-        .push((SectionKind::TreeFans, encode::fans(&topology, &patches, &grid, options.single)));
+    sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, options.single)));
     let sources: Vec<u32> = mesh.all_sources().collect();
     let numbers: Vec<u32> = topology
         .leaf_order
         .iter()
-        .flat_map(|&item| patches[item as usize].triangles())
+        .flat_map(|&item| leaves[item as usize].triangles())
         .map(|t| sources[t as usize])
         .collect();
     sections.push((SectionKind::TreeSource, source::pack(&numbers)));
     if options.cull {
-        sections.push((SectionKind::TreeCones, cones(&topology, &patches, &grid.positions)));
+        sections.push((SectionKind::TreeCones, cones(&topology, &leaves, &grid.positions)));
     }
-    let header = header(mesh, &grid, &patches, &bounds, options, topology.stack_entries);
+    let header = header(mesh, &grid, &leaves, &bounds, options, topology.stack_entries);
     let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
     sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
     debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
     let children: usize = topology.nodes.iter().map(|node| node.child_count()).sum();
     let report = TreeReport {
         triangles,
-        patches: patches.len(),
+        leaves: leaves.len(),
         nodes: topology.nodes.len(),
         mean_children: children as f64 / topology.nodes.len().max(1) as f64,
         depth: topology.depth,
@@ -144,8 +144,8 @@ fn wire_leaf((number, wire): (u32, &Wire)) -> FanLeaf {
     FanLeaf { first: Fan { centre, ring, triangles: vec![number], reversed: false }, second: None }
 }
 
-fn points(patch: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {
-    let (centres, ring) = encode::vertices(patch);
+fn points(leaf: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {
+    let (centres, ring) = encode::vertices(leaf);
     let origin = DVec3::from(grid.origin.map(f64::from));
     centres.iter().chain(&ring).map(|&v| grid.positions[v as usize] - origin).collect()
 }
@@ -157,15 +157,15 @@ fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
 fn header(
     mesh: &Mesh,
     grid: &OnGrid,
-    patches: &[FanLeaf],
+    leaves: &[FanLeaf],
     bounds: &[(DVec3, DVec3)],
     options: &TreeOptions,
     stack_entries: usize,
 ) -> BvhHeader {
     let norm = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
     let mut reach = 0f64;
-    for patch in patches {
-        for fan in std::iter::once(&patch.first).chain(&patch.second) {
+    for leaf in leaves {
+        for fan in std::iter::once(&leaf.first).chain(&leaf.second) {
             let spoke =
                 |v: u32| norm(grid.positions[v as usize] - grid.positions[fan.centre as usize]);
             for pair in fan.ring.windows(2) {
@@ -177,14 +177,14 @@ fn header(
         .iter()
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
-    let vertices: usize = patches.iter().map(|patch| encode::tag(patch).vertices()).sum();
-    let closed = if is_closed(&mesh.triangles) { BVH_CLOSED } else { 0 };
+    let vertices: usize = leaves.iter().map(|leaf| encode::tag(leaf).vertices()).sum();
+    let closed = if is_closed(mesh.positions.len(), &mesh.triangles) { BVH_CLOSED } else { 0 };
     BvhHeader {
         flags: closed | if options.single { BVH_F32 } else { 0 },
         grid_exponent: grid.exponent,
         grid_origin: grid.origin,
         nodes: 0,
-        leaves: patches.len() as u32,
+        leaves: leaves.len() as u32,
         vertices: vertices as u32,
         triangles: (mesh.triangles.len() + mesh.wires.len()) as u32,
         stack_entries: (stack_entries + WIDTH) as u32,
@@ -198,17 +198,15 @@ fn header(
 
 /// Whether as many triangles run through every edge in one direction as in the other: then the
 /// surface bounds a volume. Wires bound none.
-fn is_closed(triangles: &[[u32; 3]]) -> bool {
+fn is_closed(vertex_count: usize, triangles: &[[u32; 3]]) -> bool {
     if triangles.is_empty() {
         return false;
     }
-    let mut edges: Vec<(u32, u32, i32)> = triangles
-        .iter()
-        .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
-        .map(|(a, b)| if a < b { (a, b, 1) } else { (b, a, -1) })
-        .collect();
-    edges.sort_unstable();
-    edges
-        .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
-        .all(|edge| edge.iter().map(|e| e.2).sum::<i32>() == 0)
+    let is_up = |&&(_, half_edge): &&(u32, u32)| {
+        let [from, to] = ends(triangles, half_edge);
+        from < to
+    };
+    EdgeTable::new(vertex_count, triangles)
+        .edges()
+        .all(|edge| 2 * edge.iter().filter(is_up).count() == edge.len())
 }

@@ -14,14 +14,14 @@ const FLAT: f64 = 1e-18;
 const ROUNDING: f64 = 1e-8;
 
 /// The section's bytes, in leaf order; `positions` in grid units, as stored.
-pub(super) fn cones(topology: &Topology, patches: &[FanLeaf], positions: &[DVec3]) -> Vec<u8> {
-    topology.leaf_order.iter().flat_map(|&item| cone(&patches[item as usize], positions)).collect()
+pub(super) fn cones(topology: &Topology, leaves: &[FanLeaf], positions: &[DVec3]) -> Vec<u8> {
+    topology.leaf_order.iter().flat_map(|&item| cone(&leaves[item as usize], positions)).collect()
 }
 
 /// The cone of a leaf. Triangles without area face nowhere and do not count.
-fn cone(patch: &FanLeaf, positions: &[DVec3]) -> [u8; 4] {
+fn cone(leaf: &FanLeaf, positions: &[DVec3]) -> [u8; 4] {
     let mut normals = Vec::new();
-    for fan in patch.fans() {
+    for fan in leaf.fans() {
         let centre = positions[fan.centre as usize];
         for pair in fan.ring.windows(2) {
             let [e, g] = [pair[0], pair[1]].map(|v| positions[v as usize] - centre);

@@ -44,34 +44,34 @@ pub fn sections_of(blob: &Blob<'_>) -> Option<Sections> {
     Some(sections(tree.scale_exponent(), tree.input_triangles(), tree.header(), bodies.collect()))
 }
 
-/// Shape of a patch.
-pub(super) fn tag(patch: &FanLeaf) -> LeafShape {
-    match &patch.second {
-        None => LeafShape::new(patch.triangle_count(), 0, false),
+/// Shape of a leaf.
+pub(super) fn tag(leaf: &FanLeaf) -> LeafShape {
+    match &leaf.second {
+        None => LeafShape::new(leaf.triangle_count(), 0, false),
         Some(second) => {
-            LeafShape::new(patch.triangle_count(), patch.first.triangles.len(), second.reversed)
+            LeafShape::new(leaf.triangle_count(), leaf.first.triangles.len(), second.reversed)
         }
     }
 }
 
-/// Vertices of a patch in stored order: centres, then the ring.
-pub(super) fn vertices(patch: &FanLeaf) -> (Vec<u32>, Vec<u32>) {
-    let mut centres = vec![patch.first.centre];
-    let mut ring = patch.first.ring.clone();
-    if let Some(second) = &patch.second {
+/// Vertices of a leaf in stored order: centres, then the ring.
+pub(super) fn vertices(leaf: &FanLeaf) -> (Vec<u32>, Vec<u32>) {
+    let mut centres = vec![leaf.first.centre];
+    let mut ring = leaf.first.ring.clone();
+    if let Some(second) = &leaf.second {
         centres.push(second.centre);
         ring.extend(&second.ring[1..]);
     }
     (centres, ring)
 }
 
-/// Links of all nodes; `patches` in item order.
-pub(super) fn links(topology: &Topology, patches: &[FanLeaf]) -> Vec<u8> {
+/// Links of all nodes; `leaves` in item order.
+pub(super) fn links(topology: &Topology, leaves: &[FanLeaf]) -> Vec<u8> {
     let mut out = Vec::new();
     let (mut vertex, mut triangle) = (0u32, 0u32);
     for node in &topology.nodes {
         let tags: Vec<LeafShape> =
-            node.leaves.iter().map(|&item| tag(&patches[item as usize])).collect();
+            node.leaves.iter().map(|&item| tag(&leaves[item as usize])).collect();
         let first = node.inner.first().copied().unwrap_or(0);
         out.extend(Links::write(first, node.inner.len(), vertex, triangle, &tags));
         vertex += tags.iter().map(|tag| tag.vertices() as u32).sum::<u32>();
@@ -83,14 +83,14 @@ pub(super) fn links(topology: &Topology, patches: &[FanLeaf]) -> Vec<u8> {
 /// Vertices of all leaves, in leaf order.
 pub(super) fn fans(
     topology: &Topology,
-    patches: &[FanLeaf],
+    leaves: &[FanLeaf],
     grid: &OnGrid,
     single: bool,
 ) -> Vec<u8> {
     let mut out = Vec::new();
     let origin = DVec3::from(grid.origin.map(f64::from));
     for &item in &topology.leaf_order {
-        let (centres, ring) = vertices(&patches[item as usize]);
+        let (centres, ring) = vertices(&leaves[item as usize]);
         let at = |v: u32| grid.positions[v as usize];
         let mut put = |x: f64, origin: f64| {
             if single {

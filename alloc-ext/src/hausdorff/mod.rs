@@ -1,45 +1,46 @@
-//! How far the hull can be from the surface: a certified bound of the one-sided Hausdorff distance
-//! from triangles to a model.
+//! Certified bounds of the one-sided Hausdorff distance from triangles to a surface.
 //!
 //! Branch and bound. The distance to the surface is 1-Lipschitz, so a triangle is bounded from its
-//! centre; the distance to one surface triangle is convex, so it is also bounded from its corners.
-//! Until the bound is within a few percent of a distance that was found, the worst piece is split:
-//! in halves, or, if it is many times as large as it is far away, where it reaches beyond the
-//! surface triangle next to it. A hull that all but lies on a flat wall is so cut into what lies
+//! centre. The distance to one surface triangle is convex, so a triangle is also bounded from its
+//! corners. The piece with the largest bound is cut, until that bound is within a few percent of a
+//! distance that was found.
+//!
+//! A piece is cut in halves. A piece that is many times as large as it is far away is cut along an
+//! edge of the surface triangle next to it. So a hull close to a flat wall is cut into the parts
 //! over each of the wall's triangles.
 
+use crate::mesh::Mesh;
 use arrayvec::ArrayVec;
-use glam::DVec3;
-use meshsweep_core::Budget;
+use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::point_triangle;
-use meshsweep_core::{Hull, ScratchEntry};
+use meshsweep_core::{Budget, Bvh, Hull, Interval, ScratchEntry};
 use std::collections::BinaryHeap;
 
 /// The bound may exceed the true distance by this factor.
 const SLACK: f64 = 1.05;
 
-/// Where a piece is cut is rounded, so the parts miss what they were cut from by less than 2.2 ·
-/// 2^-51 of a coordinate: this for [`DEEPEST`] cuts, one in another.
+/// Part of a coordinate by which the parts of a piece may miss it after [`DEEPEST`] cuts. The point
+/// of a cut is rounded: each cut adds less than 2.2 · 2^-51.
 const MIDPOINTS: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// Cuts that a piece comes of at most: it keeps its bound then.
+/// Most cuts behind a piece. A deeper one keeps its bound.
 const DEEPEST: u32 = 14_000;
 
-/// Cuts in all: enough to settle any mesh at hand, where each of its triangles may cut a hull that
-/// hugs it a few times. What is left over keeps its bound.
+/// Most cuts of a search. They suffice where each triangle of a mesh cuts a close hull a few times.
+/// The pieces that are left keep their bounds.
 const BUDGET: usize = 200_000;
 
 struct Piece {
     bound: f64,
     corners: [DVec3; 3],
-    /// Cuts that it comes of.
+    /// Cuts behind it.
     depth: u32,
-    /// The surface triangle that it is to be cut along, not halved.
+    /// The surface triangle along whose edge it is cut; it is halved if there is none.
     along: Option<[DVec3; 3]>,
 }
 
-/// Sizes of a piece in its distance from the surface beyond which halving would take too many
-/// steps.
+/// Ratio of a piece's size and its distance from the surface above which it is not halved: that
+/// would take too many steps.
 const WIDE: f64 = 4.0;
 
 /// The centre of a triangle, and the distance of its farthest corner from there.
@@ -68,7 +69,7 @@ impl Piece {
         });
         let along = near.triangle.filter(|_| reach > WIDE * near.upper);
         let bound = lipschitz.min(convex) * (1.0 + 1e-12);
-        // What is no number is no bound.
+        // NaN is no bound.
         let bound = if bound.is_nan() || reach.is_nan() { f64::INFINITY } else { bound };
         Self { bound, corners, depth, along }
     }
@@ -100,26 +101,46 @@ impl Eq for Piece {}
 
 /// Where a point's nearest surface is.
 pub struct Nearest {
-    /// Not above the distance.
+    /// Lower bound of the distance.
     pub lower: f64,
-    /// Not below the distance.
+    /// Upper bound of the distance.
     pub upper: f64,
-    /// Corners of a triangle of the surface, best of the nearest one, if one is known.
+    /// Corners of the nearest triangle of the surface, or of one that is almost as near.
     pub triangle: Option<[DVec3; 3]>,
+}
+
+impl Nearest {
+    /// By a query in `f32`, which gives an interval of the distance and a triangle. One unit of the
+    /// point's frame has `scale` units of the query's.
+    fn of_query(
+        point: DVec3,
+        scale: f64,
+        query: impl FnOnce([f32; 3]) -> Option<(Interval, Option<[DVec3; 3]>)>,
+    ) -> Option<Self> {
+        let asked = (point * scale).as_vec3();
+        // The query's point is rounded to f32. The distance to it is part of the bounds.
+        let offset = (asked.as_dvec3() / scale - point).length();
+        let (distance, triangle) = query(asked.to_array())?;
+        Some(Self {
+            lower: f64::from(distance.lower) / scale - offset,
+            upper: f64::from(distance.upper) / scale + offset,
+            triangle,
+        })
+    }
 }
 
 /// Bounds of the largest distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Farthest {
-    /// A distance that a point has at least.
+    /// Lower bound: the distance of some point.
     pub lower: f64,
-    /// A distance that no point exceeds; infinite if a query failed.
+    /// Upper bound; infinite if a query failed.
     pub upper: f64,
 }
 
-/// Largest distance from a point of `triangles` to the surface that `nearest` knows; `upper`
-/// exceeds `lower` by a twentieth where 200,000 cuts do for that, and by more where it is not above
-/// `enough`.
+/// Bounds of the largest distance from a point of `triangles` to the surface of `nearest`. `upper`
+/// exceeds `lower` by at most a twentieth, unless `upper` is at most `enough` or 200,000 cuts do not
+/// suffice.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
 pub fn farthest(
@@ -149,9 +170,9 @@ pub fn farthest(
     Farthest { lower: found, upper: found }
 }
 
-/// Whether no point of a triangle is farther than `most` from the surface that `nearest` knows, as
-/// far as `budget` pieces of it tell: false if they do not. `about` gives cheaper, wider bounds of
-/// a point's distance, which often suffice.
+/// Whether `budget` pieces of a triangle prove that none of its points is farther than `most` from
+/// the surface of `nearest`. `about` gives cheaper, wider bounds of a point's distance, which often
+/// suffice.
 pub fn is_within(
     triangle: [DVec3; 3],
     most: f64,
@@ -185,34 +206,46 @@ pub fn is_within(
     true
 }
 
-/// Least found upper bound of the largest distance from a point of `triangles` (local frame) to the
-/// model's surface; local frame.
+/// Upper bound of the largest distance from a point of `triangles` to a hull's surface, in the local
+/// frame.
 ///
-/// `surface[source]` are corners of the surface's triangle with that number, local frame. Cost: as
-/// [`farthest`].
+/// `surface` gives the corners of the surface's triangle of a number, in the local frame.
+///
+/// Cost: that of [`farthest`].
 pub fn hull_to_surface(
-    model: &Hull<'_>,
+    hull: &Hull<'_>,
     triangles: impl Iterator<Item = [DVec3; 3]>,
     surface: impl Fn(u32) -> Option<[DVec3; 3]>,
 ) -> f64 {
-    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries() + 1024];
-    let scale = model.scale();
+    let mut scratch = vec![ScratchEntry::EMPTY; hull.scratch_entries() + 1024];
     let nearest = |point: DVec3| {
-        // The query is rounded to f32: the distance to what was asked is part of the bound.
-        let asked = (point * scale).as_vec3();
-        let offset = (asked.as_dvec3() / scale - point).length();
-        let answer = model.closest_point(asked.to_array(), Budget::EXACT, &mut queue).ok()?;
-        Some(Nearest {
-            lower: f64::from(answer.distance.lower) / scale - offset,
-            upper: f64::from(answer.distance.upper) / scale + offset,
-            triangle: answer.triangle.and_then(&surface),
+        Nearest::of_query(point, hull.scale(), |p| {
+            let answer = hull.closest_point(p, Budget::EXACT, &mut scratch).ok()?;
+            Some((answer.distance, answer.triangle.and_then(&surface)))
         })
     };
     farthest(triangles, 0.0, nearest).upper
 }
 
-/// What of a piece lies on this and on that side of an edge of `along`, as seen along its normal:
-/// of the edge that it reaches over farthest; `None` if it reaches over none.
+/// Where the nearest triangle of a mesh is, by the mesh's [box tree](crate::bvh::exact_blob).
+pub fn nearest_in<'a>(
+    tree: &'a Bvh<'a>,
+    mesh: &'a Mesh,
+) -> impl FnMut(DVec3) -> Option<Nearest> + 'a {
+    let mut scratch = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    let all: Vec<[u32; 3]> = mesh.all_triangles().collect();
+    let wide = |v: u32| Vec3::from(mesh.positions[v as usize]).as_dvec3();
+    move |point| {
+        Nearest::of_query(point, 1.0, |p| {
+            let answer = tree.closest_point(p, Budget::EXACT, &mut scratch).ok()?;
+            let corners = answer.triangle.and_then(|number| all.get(number as usize));
+            Some((answer.distance, corners.map(|corners| corners.map(wide))))
+        })
+    }
+}
+
+/// The parts of a piece on both sides of an edge of `along`, seen along its normal: of the edge that
+/// the piece reaches over farthest. `None` if it reaches over none.
 fn cut(corners: [DVec3; 3], along: [DVec3; 3]) -> Option<[[DVec3; 3]; 3]> {
     let [p, q, r] = along;
     let normal = (q - p).cross(r - p);

@@ -6,6 +6,7 @@ use super::groups::{base_groups, sort_base};
 use super::tables::{NodeRecord, SplitRecord, Tables};
 use super::wires::wires_off_surface;
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
+use crate::error::BuildError;
 use crate::hausdorff::hull_to_surface;
 use crate::mesh::{Input, Mesh};
 use crate::surface::{SignedVolume, Stored, VertexBits, store};
@@ -73,45 +74,6 @@ pub struct Built {
     /// What it took.
     pub report: BuildReport,
 }
-
-/// Why there is no blob.
-#[derive(Clone, Debug, PartialEq)]
-pub enum BuildError {
-    /// More records than a blob can address.
-    TooLarge {
-        /// Triangles of the mesh.
-        triangles: usize,
-    },
-    /// The signed volume is not positive: the mesh is inside out where it passes through itself.
-    NotPositive {
-        /// The volume, input units.
-        volume: f64,
-    },
-    /// The reader refused what was written: a defect of this program.
-    Reopen(OpenError),
-}
-
-impl std::fmt::Display for BuildError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            BuildError::TooLarge { triangles } => {
-                write!(
-                    f,
-                    "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh"
-                )
-            }
-            BuildError::NotPositive { volume } => write!(
-                f,
-                "the enclosed volume is {volume}: the mesh passes through itself and is inside out there; unite its parts first"
-            ),
-            BuildError::Reopen(error) => {
-                write!(f, "internal error: the blob does not open: {error}; please report it")
-            }
-        }
-    }
-}
-
-impl std::error::Error for BuildError {}
 
 /// Most triangles of a mesh: instances and ring entries must fit the format's counts.
 const MAX_TRIANGLES: usize = 20_000_000;

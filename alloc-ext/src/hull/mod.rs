@@ -16,7 +16,7 @@ mod swept;
 mod tables;
 mod wires;
 
-pub use build::{BuildError, BuildOptions, BuildReport, Built, build, hull_of};
+pub use build::{BuildOptions, BuildReport, Built, build, hull_of};
 pub use cut::cut;
 pub use tables::{NodeRecord, SplitRecord, Tables};
 pub use wires::wires_off_surface;

@@ -52,6 +52,7 @@
 //! Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete &
 //! Computational Geometry 6 (1991), §2.
 
+mod half_space;
 mod insertion;
 mod interval;
 mod line;
@@ -59,22 +60,11 @@ mod plane;
 mod tolerance;
 
 use glam::DVec3;
+pub use half_space::HalfSpace;
 use insertion::insert;
 pub use interval::Interval;
 use plane::Plane;
 use tolerance::DESCENT;
-
-/// The points `x` with `normal · x >= offset`.
-///
-/// The normal has length 1 to within rounding, or is zero: then the half-space is everything if
-/// `offset <= 0` and nothing otherwise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSpace {
-    /// Unit vector into the half-space, or zero.
-    pub normal: DVec3,
-    /// Distance of the bounding plane from the origin, along `normal`, in star radii.
-    pub offset: f64,
-}
 
 /// What a program came to.
 #[derive(Clone, Copy, Debug, PartialEq)]

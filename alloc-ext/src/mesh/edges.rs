@@ -9,13 +9,13 @@ pub(super) const NON_MANIFOLD: u32 = u32::MAX - 1;
 
 /// All half-edges, grouped by undirected edge. Built by a counting sort over the lower vertex and a
 /// short sort for each vertex, which is several times faster than sorting all of them.
-pub(super) struct EdgeTable {
+pub(crate) struct EdgeTable {
     starts: Vec<u32>,
     uses: Vec<(u32, u32)>,
 }
 
 impl EdgeTable {
-    pub(super) fn new(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
         let mut starts = vec![0u32; vertex_count + 1];
         for_each_half_edge(triangles, |_, low, _| starts[low as usize + 1] += 1);
         for v in 0..vertex_count {
@@ -35,7 +35,7 @@ impl EdgeTable {
     }
 
     /// For each edge its half-edges in ascending order, as `(higher vertex, half-edge)`.
-    pub(super) fn edges(&self) -> impl Iterator<Item = &[(u32, u32)]> {
+    pub(crate) fn edges(&self) -> impl Iterator<Item = &[(u32, u32)]> {
         self.starts.windows(2).flat_map(|pair| {
             self.uses[pair[0] as usize..pair[1] as usize].chunk_by(|a, b| a.0 == b.0)
         })
@@ -68,7 +68,7 @@ fn for_each_half_edge(triangles: &[[u32; 3]], mut visit: impl FnMut(u32, u32, u3
 }
 
 /// The vertices that half-edge `half_edge` runs from and to.
-pub(super) fn ends(triangles: &[[u32; 3]], half_edge: u32) -> [u32; 2] {
+pub(crate) fn ends(triangles: &[[u32; 3]], half_edge: u32) -> [u32; 2] {
     let triangle = triangles[half_edge as usize / 3];
     let k = half_edge as usize % 3;
     [triangle[k], triangle[(k + 1) % 3]]

@@ -86,8 +86,10 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
 fn check_arrays(mesh: &Mesh) -> Result<(), MeshError> {
     let invalid = |reason: String| Err(MeshError::Invalid { reason });
     let vertex_count = mesh.positions.len();
-    if mesh.triangles.is_empty() && !mesh.wires.is_empty() {
-        return Err(MeshError::NoArea { count: mesh.wires.len() });
+    let repeats = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+    let count = mesh.triangles.len() + mesh.wires.len();
+    if count > 0 && mesh.triangles.iter().all(repeats) {
+        return Err(MeshError::NoArea { count });
     }
     if mesh.triangles.is_empty() {
         return invalid("no triangles".into());
@@ -111,7 +113,7 @@ fn check_arrays(mesh: &Mesh) -> Result<(), MeshError> {
                 "triangle {t} names a vertex beyond the {vertex_count} there are"
             ));
         }
-        if a == b || b == c || c == a {
+        if repeats(&[a, b, c]) {
             return invalid(format!("triangle {t} has a vertex twice"));
         }
     }

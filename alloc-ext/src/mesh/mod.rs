@@ -42,7 +42,7 @@ mod write_ply;
 use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};
 
-pub(crate) use edges::UnionFind;
+pub(crate) use edges::{EdgeTable, UnionFind, ends};
 pub use error::{EdgePlace, MeshError};
 pub use input::Input;
 pub use manifold::require_closed_manifold;

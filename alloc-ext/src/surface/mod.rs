@@ -8,7 +8,7 @@ mod enclosures;
 mod precision;
 mod tree;
 
-pub(crate) use crate::mesh::{Enclosure, SignedVolume};
+pub(crate) use crate::mesh::{EdgeTable, Enclosure, SignedVolume, ends};
 pub(crate) use bounds::{Bounds, Plane};
 pub(crate) use compact::{compact, compact_in_order};
 pub(crate) use components::{components, least_connected};

@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 /// Cost: n log n, and one point test for each component and each closed component whose box holds
 /// that point.
 #[must_use]
-pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
+pub fn split_components(mesh: &Mesh) -> Vec<Mesh> {
     let parts = triangle_parts(mesh);
     if mesh.wires.is_empty() { parts } else { distribute(mesh, parts) }
 }
@@ -111,8 +111,8 @@ fn place(p: [f32; 3]) -> [u32; 3] {
     p.map(|x| (x + 0.0).to_bits())
 }
 
-/// Takes components out of a mesh, each in time that does not depend on the mesh's size. There may be
-/// thousands.
+/// Takes components out of a mesh, each in time that does not depend on the mesh's size. There may
+/// be thousands.
 struct Selection<'a> {
     mesh: &'a Mesh,
     /// Per vertex of the mesh its number in the component that is being taken; `u32::MAX`
@@ -175,7 +175,7 @@ mod tests {
             mesh.triangles.extend(triangles.into_iter().map(|t| t.map(|v| v + first)));
         }
         mesh.source = (0..mesh.triangles.len() as u32).collect();
-        let parts = parts(&mesh);
+        let parts = split_components(&mesh);
         let sources: Vec<_> = parts.iter().map(|p| p.source.clone()).collect();
         assert_eq!(sources, [vec![0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15], vec![4, 5, 6, 7]]);
         assert!(parts.iter().all(|p| p.positions.len() == p.triangles.len()));

@@ -12,7 +12,8 @@
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
 //! | `options.rs` | what a hull is asked for, and why there may be none |
 //! | `report.rs` | what a hull is, what it took, and where the work stands |
-//! | `components.rs` | splits a mesh into parts that get a hull each |
+//! | `components.rs` | splits a mesh into the components that get a hull each |
+//! | `random.rs` | the same pseudo-random numbers in every run |
 //! | `initial/` | the first hull: a progressive level, a voxel closure, or the grown bounding box |
 //! | `moves/` | local edits of a hull: vertex placement, collapse, flip, split, kick |
 //! | `proof/` | exact predicates, distances, enclosure: whether an edit keeps the invariant |
@@ -46,11 +47,12 @@ mod initial;
 mod moves;
 mod options;
 mod proof;
+mod random;
 mod report;
 mod search;
 mod store;
 
-pub use components::parts;
+pub use components::split_components;
 pub use hull::{Hull, wrap};
 pub use options::{Goal, Options, WrapError};
 pub use proof::NoVolume;

@@ -1,14 +1,15 @@
 //! Tribox hierarchies as a section of a blob.
 
 use super::lattice::Lattice;
-use super::level::{Level, box_tree, level};
+use super::level::{Level, level};
 use super::split::{Hierarchy, Node, SplitOptions};
+use crate::bvh::exact_blob;
 use crate::emit::Sections;
+use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
 use crate::surface::SignedVolume;
 use glam::Vec3;
 use meshsweep_core::SectionKind;
-use meshsweep_core::TriboxError;
 use meshsweep_core::TriboxLevel;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{Radius16, exp2, up_to_f32};
@@ -42,7 +43,7 @@ pub struct TriboxReport {
 ///
 /// # Panics
 /// On a mesh of more than [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
-pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), TriboxError> {
+pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), BuildError> {
     let started = Instant::now();
     let mesh = input.mesh;
     let lattice = Lattice::of(mesh, input.error())?;
@@ -51,7 +52,7 @@ pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), T
         let tables = sections(lattice.scale_exponent, 0.0, 0, bounds, Vec::new());
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
     }
-    let bytes = box_tree(mesh);
+    let bytes = exact_blob(mesh);
     let tree = Bvh::open(&bytes).expect("just built");
     let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
     let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };

@@ -26,8 +26,6 @@ fn wrong_usage_is_status_2() {
         &["closest", "a.msw", "p.csv", "--rel=-1"],
         &["closest", "a.msw", "p.csv", "--abs", "inf"],
         &["closest", "a.msw", "p.csv", "--queue", "0"],
-        &["segment", "a.msw", "s.csv", "--all", "--steps", "3"],
-        &["segment", "a.msw", "s.csv", "--engine", "tree", "--steps", "3"],
         &["build", "a.stl", "-o", "-"],
         &["build", "a.stl", "-o", "b", "--base", "100"],
         &["build", "a.stl", "-o", "b", "--for", "closest", "--max-valence", "9"],

@@ -305,17 +305,25 @@ fn a_segment_query_that_ends_early_is_unknown_and_clear_before_its_parameter() {
     let rows = random_queries::<6>(&mesh, 100);
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
-    let path = hull_blob(&directory, "bracket.stl", &[]);
-    let text = ok(["segment", arg(&path), arg(&segments), "--steps", "4"]);
-    let answers = parse_csv(&text, SEGMENT);
-    assert!(answers.iter().any(|answer| answer[0] == "unknown"));
-    for (answer, row) in answers.iter().zip(&rows).filter(|(answer, _)| answer[0] == "unknown") {
-        let truth =
-            first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh).unwrap_or(f64::INFINITY);
-        assert!(
-            number(&answer[1]) <= truth * (1.0 + SLACK) && answer[5].is_empty(),
-            "{answer:?} {truth}"
-        );
+    let path = blob(&directory, "bracket.stl", &["--for", "segment,hull"]);
+    for engine in ["tree", "cover"] {
+        let ask = ["segment", arg(&path), arg(&segments), "--engine", engine, "--steps", "1"];
+        let answers = parse_csv(&ok(ask), SEGMENT);
+        let all = parse_csv(&ok([&ask[..], &["--all"]].concat()), &format!("query,{SEGMENT}"));
+        let is_unknown = |row: &[String]| row[0] == "unknown";
+        assert!(answers.iter().any(|answer| is_unknown(answer)), "{engine}");
+        for (query, (answer, row)) in answers.iter().zip(&rows).enumerate() {
+            if !is_unknown(answer) {
+                continue;
+            }
+            let truth =
+                first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh).unwrap_or(f64::INFINITY);
+            let is_clear_before = number(&answer[1]) <= truth * (1.0 + SLACK);
+            assert!(is_clear_before && answer[5].is_empty(), "{engine} {answer:?} {truth}");
+            // Among all hits a last row says that some may be missing.
+            let last = all.iter().rfind(|hit| hit[0] == query.to_string()).unwrap();
+            assert!(is_unknown(&last[1..]) && last[6].is_empty(), "{engine} {last:?}");
+        }
     }
 }
 

@@ -8,14 +8,14 @@ use crate::geom::fan::Crossing;
 use crate::query::{AllHits, Budget, Ended, Hit, Hits, QueryError, ScratchEntry, Work};
 
 impl Bvh<'_> {
-    /// All common points of the closed segment `a b` (input units) and the stored surface, by rising
-    /// parameter, into `hits`.
+    /// All common points of the closed segment `a b` (input units) and the stored surface, by
+    /// rising parameter, into `hits`.
     ///
     /// Each triangle gives one hit at most. So a segment through an edge or a vertex may give one
-    /// for each triangle there. [`AllHits::dropped`] counts the hits that do not fit; the slice keeps
-    /// the first ones. With [`Ended::Exact`] these are exactly the input's triangles that the segment
-    /// meets, for certain. With [`Ended::Resolution`] rounding or the surface error leaves some of
-    /// them open.
+    /// for each triangle there. [`AllHits::dropped`] counts the hits that do not fit; the slice
+    /// keeps the first ones. With [`Ended::Exact`] these are exactly the input's triangles that the
+    /// segment meets, for certain. With [`Ended::Resolution`] rounding or the surface error leaves
+    /// some of them open.
     ///
     /// `a`, `b`, `facing`, `budget`, `scratch` and degenerate cases as for
     /// [`first_hit`](Bvh::first_hit). Cost: all leaves that the segment enters.

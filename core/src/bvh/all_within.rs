@@ -28,11 +28,11 @@ pub struct AllWithin {
 }
 
 impl Bvh<'_> {
-    /// All triangles of the input mesh that are, or may be, at most `distance` from `point` (both in
-    /// input units), into `out`, by rising distance.
+    /// All triangles of the input mesh that are, or may be, at most `distance` from `point` (both
+    /// in input units), into `out`, by rising distance.
     ///
-    /// Order, ties, triangles without area and far points as for [`nearest`](Bvh::nearest). An empty
-    /// `out` counts. After an error its contents are undefined. `scratch` as for
+    /// Order, ties, triangles without area and far points as for [`nearest`](Bvh::nearest). An
+    /// empty `out` counts. After an error its contents are undefined. `scratch` as for
     /// [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters.
     ///
     /// Cost: linear in everything within the distance, dropped triangles too; log n for each

@@ -10,15 +10,17 @@ use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AnyHit {
     /// `Yes`: the segment meets the input mesh. `No`: no point of the segment lies on a triangle of
-    /// the wanted facing. Undecided for [`Resolution`](Undecided::Resolution): the segment passes so
-    /// near an edge, or ends so near the surface, that rounding and the surface error leave it open.
+    /// the wanted facing. Undecided for [`Resolution`](Undecided::Resolution): the segment passes
+    /// so near an edge, or ends so near the surface, that rounding and the surface error leave it
+    /// open.
     pub verdict: Verdict,
     /// The work of the search.
     pub work: Work,
 }
 
 impl Bvh<'_> {
-    /// Whether the closed segment `a b` (input units) meets the surface. It ends at the first proof.
+    /// Whether the closed segment `a b` (input units) meets the surface. It ends at the first
+    /// proof.
     ///
     /// Arguments, errors and degenerate cases as for [`first_hit`](Bvh::first_hit). Cost: less than
     /// that of [`first_hit`](Bvh::first_hit).

@@ -13,13 +13,13 @@ use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
 
-/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe. A bad
-/// one costs a leaf.
+/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe. A
+/// bad one costs a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hint(u32);
 
 impl Hint {
-    /// Nothing is known.
+    /// No hint.
     pub const NONE: Hint = Hint(u32::MAX);
 }
 
@@ -27,9 +27,9 @@ impl Bvh<'_> {
     /// Closest point of the surface to `point`, with an interval that contains the distance to the
     /// input mesh.
     ///
-    /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer the
-    /// interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in input
-    /// units, in the mesh's frame.
+    /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer
+    /// the interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in
+    /// input units, in the mesh's frame.
     ///
     /// Of equidistant triangles the answer is the least in blob order. A point on the surface has a
     /// lower bound of 0. Farther than a million model sizes the model's box gives the interval.
@@ -139,7 +139,7 @@ struct Best {
 
 struct Closest<'a> {
     tree: &'a Bvh<'a>,
-    /// As it was asked.
+    /// The query's point, input units.
     point: [f32; 3],
     query: &'a PointQuery,
     budget: &'a Budget,
@@ -148,9 +148,9 @@ struct Closest<'a> {
     /// The same without the tolerance: no triangle beyond this square can improve the answer.
     beyond: f32,
     best: Best,
-    /// Certified squares below this are weak.
+    /// A triangle whose squared lower bound is below this is refined as a sliver.
     refine_below: f32,
-    /// Least certified square of a triangle whose own distance says too little.
+    /// Least squared lower bound of the refined triangles.
     certified: f32,
     tolerant: bool,
 }
@@ -172,20 +172,20 @@ impl<'a> Closest<'a> {
         }
     }
 
-    /// Lowers the limit by a leaf that the descent will come to again.
+    /// Lowers the limit by a leaf that the descent reaches again.
     #[inline(always)]
     fn bound_by(&mut self, leaf: &FanLeaf<'_>) -> Option<()> {
         let near = nearest_triangle(leaf, self.query.p)?;
         self.beyond = self.query.limit(near.distance_sq);
         self.limit = self.beyond;
-        // Farther leaves do not count, on whichever target they are told to be beyond the limit
-        // before they are computed.
+        // Leaves beyond the limit never change the result. Scalar targets skip them before the
+        // kernel, vector targets after it.
         self.best.distance_sq = near.distance_sq;
         self.refine_below = self.query.refine_below(near.distance_sq);
         Some(())
     }
 
-    /// With a tolerance, what is not nearer by that much is not wanted.
+    /// With a tolerance, only triangles that are nearer by the tolerance are wanted.
     #[cold]
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
         let distance = sqrt_approx(distance_sq);
@@ -217,10 +217,9 @@ impl<'a> Closest<'a> {
         first(visit.node, visit.lane) > first(self.best.node, self.best.child)
     }
 
-    /// Triangles whose supporting plane is worse than the best distance by more than rounding:
-    /// slivers, and points next to the surface. Each is looked at again. A triangle that is
-    /// weak beside the final best is weak beside every one before it, so the order of visits does
-    /// not decide what is found.
+    /// Refines triangles whose lower bound falls short of the best distance by more than rounding:
+    /// slivers, and triangles next to the point. A triangle that falls short of the final best
+    /// falls short of every best before it. So the order of visits does not change the result.
     #[cold]
     #[inline(never)]
     fn certify(&mut self, visit: &LeafVisit<'_>) {
@@ -250,7 +249,7 @@ impl<'a> Closest<'a> {
             let lower = lower_bound(s, e, g);
             let lower_sq = square(lower);
             let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
-            // Not less than what it counts for beside a farther best, where it is not weak.
+            // Not less than its bound beside a farther best, of which it does not fall short.
             let lower_sq =
                 if lower_sq > near.lower_bound_sq { lower_sq } else { near.lower_bound_sq };
             if lower_sq < self.certified {
@@ -267,7 +266,7 @@ impl<'a> Closest<'a> {
         hint: &mut Hint,
     ) -> Result<ClosestPoint, QueryError> {
         let Best { distance_sq, node, child, lanes } = self.best;
-        // What is not weak is certified to this part of the best square, and no more.
+        // All other triangles have at least this part of the best square as lower bound.
         let mut least_sq = match self.refine_below {
             below if below > 0.0 => below,
             // No leaf was looked at.
@@ -331,9 +330,9 @@ impl LeafVisitor for Closest<'_> {
     }
 }
 
-/// The interval of the model's box, and a point of the surface: from far enough away every point is
-/// the closest, within a rounding of f32. In input units, scaled by a power of two so that no
-/// square leaves f32's range.
+/// The interval of the model's box, and a point of the surface. From far enough away every point is
+/// the closest, up to a rounding of f32. Computed in input units, scaled by a power of two so that
+/// no square leaves f32's range.
 #[cold]
 #[inline(never)]
 fn from_afar(

@@ -1,8 +1,7 @@
-//! Closest points of many queries at once: in an order in which each begins where the one before
-//! ended.
+//! Closest points of many queries at once, each beginning where the one before ended.
 //!
-//! Neighbours in Morton order need the same nodes and leaves, which the cache then holds, and the
-//! last answer's leaf bounds the next distance before the descent begins.
+//! Neighbours in Morton order need the same nodes and leaves, and the cache holds them. The leaf of
+//! the last answer bounds the next distance before the descent begins.
 
 use super::closest_point::{Hint, closest_point, closest_point_from};
 use crate::bvh::format::Bvh;
@@ -22,8 +21,8 @@ impl Bvh<'_> {
     ///
     /// Cost: that of the queries. Measured, sorting included: random queries around a model of
     /// 270,000 triangles take a fifth less than one at a time, next to its surface a tenth less. A
-    /// grid row by row, as it comes, takes a tenth less. Where the tree fits the cache, sorting gains
-    /// nothing.
+    /// grid row by row, as it comes, takes a tenth less. Where the tree fits the cache, sorting
+    /// gains nothing.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, Scratch};
@@ -98,7 +97,7 @@ impl Bvh<'_> {
     }
 }
 
-/// Cells along an axis of the box of all points, as a power of two: finer ones cost a pass of
+/// Cells along an axis of the box of all points, as a power of two. Finer cells cost a pass of
 /// sorting and gain nothing.
 const CELL_BITS: u32 = 8;
 
@@ -119,7 +118,7 @@ fn in_morton_order<'o>(
             *high = if x > *high { x } else { *high };
         }
     }
-    // Halved, for the difference may leave f32's range. Where it does, or is 0, one cell is all.
+    // Halved, for the difference may leave f32's range. Where it does, or is 0, there is one cell.
     let mut cells = [0f32; 3];
     for (cells, (low, high)) in cells.iter_mut().zip(low.iter().zip(high)) {
         let scale = (1u32 << CELL_BITS) as f32 / (high * 0.5 - low * 0.5);

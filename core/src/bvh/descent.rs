@@ -17,8 +17,8 @@ pub(crate) trait NodeQuery {
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;
 
     /// Keys of the children of a node: lower bounds, not below `bound`, with the lane in the low
-    /// bits. Children beyond the visitor's limit may have any greater key. `None` says that the tree
-    /// is unchecked.
+    /// bits. Children beyond the visitor's limit may have any greater key. `None` says that the
+    /// tree is unchecked.
     fn keys(
         &self,
         tree: &Bvh<'_>,
@@ -122,8 +122,8 @@ impl Stack<'_> {
     }
 }
 
-/// Visits every leaf within the visitor's limit. At most `steps` nodes are opened, those that `work`
-/// counts already included.
+/// Visits every leaf within the visitor's limit. At most `steps` nodes are opened, those that
+/// `work` counts already included.
 #[inline(always)]
 pub(crate) fn descend<Q: NodeQuery>(
     tree: &Bvh<'_>,

@@ -10,11 +10,11 @@ use crate::query::{Budget, Ended, FirstHit, Interval, QueryError, ScratchEntry, 
 impl Bvh<'_> {
     /// First common point of the closed segment `a b` (input units) and the surface.
     ///
-    /// It never says "clear" wrongly: if [`FirstHit::is_clear`], no point of the segment lies on the
-    /// input mesh. With [`Ended::Exact`] and a hit the segment is proved to meet the input mesh, and
-    /// the first common parameter lies in `t`, whatever the grid did to the vertices. With
-    /// [`Ended::Resolution`] the segment passes an outer edge of a fan, or ends, so near the surface
-    /// that rounding and the surface error leave open whether they meet.
+    /// It never says "clear" wrongly: if [`FirstHit::is_clear`], no point of the segment lies on
+    /// the input mesh. With [`Ended::Exact`] and a hit the segment is proved to meet the input
+    /// mesh, and the first common parameter lies in `t`, whatever the grid did to the vertices.
+    /// With [`Ended::Resolution`] the segment passes an outer edge of a fan, or ends, so near the
+    /// surface that rounding and the surface error leave open whether they meet.
     ///
     /// `hit` is the first triangle of the *stored* surface that is met, in f32, without a gap along
     /// edges and at vertices. The input's surface may only come near it, or `hit` may be missing

@@ -94,9 +94,9 @@ impl Bvh<'_> {
 /// The eye in grid units.
 enum GridEye {
     At(Vec3),
-    /// So far away that squares would leave f32's range: the ways to it are scaled down.
+    /// So far away that squares would leave f32's range: the ways to the eye are scaled down.
     FarAt(Vec3),
-    /// Towards it, no component above 1.
+    /// Direction to the eye, no component above 1.
     Towards(Vec3),
 }
 
@@ -123,7 +123,7 @@ impl GridEye {
         }
     }
 
-    /// Whether no triangle of a leaf faces it, for certain.
+    /// Whether certainly no triangle of a leaf faces the eye.
     fn is_behind(&self, cone: &NormalCone, leaf: &FanLeaf<'_>) -> bool {
         let all = |way: &dyn Fn(Vec3) -> Vec3| {
             (0..leaf.shape().centres()).all(|which| cone.is_behind(way(leaf.centre(which))))

@@ -1,5 +1,5 @@
-//! The nearest triangle of a leaf, eight at once where the target has vectors, else one after the
-//! other. Same bits.
+//! The nearest triangle of a leaf: eight triangles at once on targets with vectors, else one after
+//! the other. Both give the same bits.
 
 use crate::bvh::format::FanLeaf;
 use crate::geom::fan::Edges8;
@@ -10,7 +10,7 @@ pub(crate) use narrow::{Lanes, nearest_within, seen};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) use wide::{Lanes, nearest_within, seen};
 
-/// The nearest triangle of a leaf, wherever it is.
+/// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
 pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<NearestOf> {
     nearest_within(leaf, p, f32::INFINITY)
@@ -20,20 +20,19 @@ pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<NearestOf>
 /// once.
 pub(crate) type Seen = (NearestOf, Option<Edges8>);
 
-/// The nearest triangle of a leaf. One that is proved to be beyond a squared limit may be left out
-/// of it.
+/// The nearest triangle of a leaf. Triangles proved to be beyond a squared limit may be left out.
 #[derive(Clone, Copy)]
 pub(crate) struct NearestOf {
     /// Its squared distance.
     pub(crate) distance_sq: f32,
-    /// Least certified square of all triangles of the leaf.
+    /// Least squared lower bound of all triangles of the leaf.
     pub(crate) lower_bound_sq: f32,
     /// Which triangle it is.
     pub(crate) lanes: Lanes,
 }
 
 impl NearestOf {
-    /// The least lane that is so near, and where on its triangle the closest point lies (see
+    /// The least lane at this distance, and the closest point on its triangle (see
     /// [`FanLeaf::point`]).
     #[inline(always)]
     pub(crate) fn lane(&self) -> (usize, f32, f32) {
@@ -46,8 +45,8 @@ mod wide {
     use super::{Edges8, FanLeaf, NearestOf, Seen, Vec3};
     use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_leaf8};
 
-    /// All lanes of a leaf: which one is the nearest is found out once at the end, for no branch
-    /// can guess it.
+    /// All lanes of a leaf. The nearest lane is found once at the end: no branch predictor can
+    /// guess it.
     #[derive(Clone, Copy)]
     pub(crate) struct Lanes(Nearness8);
 
@@ -80,7 +79,7 @@ mod wide {
         }
     }
 
-    /// `limit` is for the scalar kernel; here leaving a lane out would gain nothing.
+    /// `limit` is for the scalar kernel. Here a lane that is left out saves nothing.
     #[inline(always)]
     pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<NearestOf> {
         let near = if leaf.is_f32() {
@@ -110,7 +109,7 @@ mod wide {
         leaf.f32_edges8(p)
     }
 
-    /// A call of its own, so that the two ways to read a leaf do not meet in memory.
+    /// A call of its own, so that the two ways to read a leaf share no memory.
     #[inline(never)]
     fn f32_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
         Some(point_leaf8(&leaf.f32_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?))

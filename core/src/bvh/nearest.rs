@@ -1,4 +1,4 @@
-//! The n closest triangles.
+//! The nearest triangles.
 
 use super::closest_point::closest_point;
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
@@ -16,8 +16,8 @@ use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 pub struct KNearest {
     /// Triangles in the slice.
     pub stored: usize,
-    /// No other triangle of the input mesh is nearer than this, input units. Infinite if there is no
-    /// other.
+    /// No other triangle of the input mesh is nearer than this, input units. Infinite if there is
+    /// no other.
     pub rest_lower: f32,
     /// The work of the search.
     pub work: Work,
@@ -33,11 +33,11 @@ impl Bvh<'_> {
     /// that f32 or the stored surface cannot tell apart may stand in either order, always the same
     /// one; each has its own interval. Triangles without area count like others.
     ///
-    /// If `out` is longer than the mesh, all triangles are stored. If it is empty, nothing is looked
-    /// at. After an error its contents are undefined. `scratch` as for
+    /// If `out` is longer than the mesh, all triangles are stored. If it is empty, nothing is
+    /// looked at. After an error its contents are undefined. `scratch` as for
     /// [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters. Farther than a
-    /// million model sizes all triangles are alike: the first of the blob, each with the interval of
-    /// the model's box.
+    /// million model sizes all triangles are alike: the first of the blob, each with the interval
+    /// of the model's box.
     ///
     /// Cost: for few triangles that of the closest point, and a scalar kernel for each leaf near
     /// the end. `out` is a heap: log n for each triangle that enters.

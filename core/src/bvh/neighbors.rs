@@ -142,7 +142,7 @@ impl<'a> Heap<'a> {
         self.stored
     }
 
-    /// The squared distance that a triangle must not exceed to be stored, once there is no room.
+    /// The squared distance of the farthest stored triangle, once the slice is full.
     pub(crate) fn farthest_sq(&self) -> Option<f32> {
         if self.stored < self.slots.len() {
             None
@@ -151,7 +151,7 @@ impl<'a> Heap<'a> {
         }
     }
 
-    /// Stores a triangle; what there is no room for comes back.
+    /// Stores a triangle. Returns the triangle that has no room, if any.
     pub(crate) fn offer(&mut self, candidate: Candidate) -> Option<Candidate> {
         let held = candidate.stored();
         if self.stored < self.slots.len() {
@@ -195,7 +195,7 @@ impl<'a> Heap<'a> {
         }
     }
 
-    /// Mends the heap of the first `end` slots after its top has changed.
+    /// Restores the heap of the first `end` slots after its top has changed.
     fn sink(&mut self, end: usize) {
         let mut at = 0;
         loop {
@@ -215,7 +215,7 @@ impl<'a> Heap<'a> {
         }
     }
 
-    /// Sorts by rising distance and writes the answers; how many there are.
+    /// Sorts by rising distance and writes the answers. Returns their number.
     pub(crate) fn finish(
         mut self,
         tree: &Bvh<'_>,
@@ -227,7 +227,7 @@ impl<'a> Heap<'a> {
             }
             self.sink(end);
         }
-        // Squares rise; roots that are rounded may not.
+        // Squares rise. Rounded roots may not.
         let mut farthest = 0f32;
         for slot in self.slots.iter_mut().take(self.stored) {
             let mut near = Candidate::of(slot).answer(tree, query).ok_or(QueryError::Unchecked)?;
@@ -247,8 +247,8 @@ impl<'a> Heap<'a> {
     }
 }
 
-/// The first triangles of the blob, each with the interval of the whole model; how many. For points
-/// from which all are alike.
+/// Stores the first triangles of the blob, each with the interval of the whole model. Returns their
+/// number. For points from which all triangles are alike.
 pub(crate) fn first_triangles(
     tree: &Bvh<'_>,
     query: &PointQuery,

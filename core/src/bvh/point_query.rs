@@ -1,5 +1,4 @@
-//! A query point in the tree's grid units, and everything that rounding may do to an answer about
-//! it.
+//! A query point in the tree's grid units, and the rounding of its answers.
 
 use super::descent::{LeafVisitor, NodeQuery};
 use super::node::{NodeFrame, box_distances};
@@ -12,12 +11,12 @@ use crate::num::tolerance::{
 use crate::query::QueryError;
 use glam::Vec3;
 
-/// Units of a tree: how lengths go between the input's and the grid's, by powers of two.
+/// Conversion between input units and grid units, by powers of two.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Units {
     /// `2^-(scale + grid)` in two factors, each within f32's range.
     inward: [f32; 2],
-    /// The other way.
+    /// The other way round.
     outward: [f32; 2],
     /// Surface error, grid units.
     pub(crate) surface_error: f32,
@@ -61,13 +60,13 @@ impl Units {
     }
 }
 
-/// A lower bound that is kept in f32's normal range, or 0.
+/// A lower bound in f32's normal range, or 0.
 #[inline(always)]
 pub(crate) fn at_least(x: f32) -> f32 {
     if x >= f32::MIN_POSITIVE { x.min(f32::MAX) } else { 0.0 }
 }
 
-/// An upper bound that is kept in f32's normal range, or infinite.
+/// An upper bound in f32's normal range, or infinite.
 #[inline(always)]
 pub(crate) fn at_most(x: f32) -> f32 {
     if x >= f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE }
@@ -79,14 +78,14 @@ pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
     pub(crate) units: Units,
-    /// What a distance in grid units may be off by: this, and [`FAN_RELATIVE`] roundings of
-    /// itself.
+    /// Error of a distance in grid units, beside [`FAN_RELATIVE`] roundings of itself.
     margin: f32,
-    /// What is added to a squared limit, so that no rounding hides a candidate.
+    /// Addition to a squared limit, so that no rounding hides a candidate.
     allowance: f32,
-    /// Square that a certificate may fall short by: [`CERTIFIED_SHORTFALL`], or 0 for exact vertices.
+    /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
+    /// vertices.
     short: f32,
-    /// Farther than [`BVH_FAR`]: the box is all that matters.
+    /// Farther than [`BVH_FAR`]: only the box matters.
     pub(crate) far: bool,
 }
 
@@ -111,22 +110,22 @@ impl PointQuery {
     }
 
     /// The squared bound above which a node cannot hold anything at the squared distance
-    /// `distance_sq` as computed. (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + 2100·b²: no root is
+    /// `distance_sq` as computed. (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + 2100·b², so that no root is
     /// needed.
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
         distance_sq * (1.0 + 1.0 / 1024.0) + self.allowance
     }
 
-    /// What a certified square has to reach beside the best computed one; below it is looked at
-    /// again.
+    /// The squared lower bound that every other triangle must have beside a best square. A triangle
+    /// with less is refined as a sliver.
     #[inline(always)]
     pub(crate) fn refine_below(&self, distance_sq: f32) -> f32 {
         distance_sq * CERTIFIED_PART - self.short
     }
 
-    /// A computed distance to the stored surface as an upper bound of the true one to the input's,
-    /// input units.
+    /// From a computed distance to the stored surface to an upper bound of the distance to the
+    /// input surface, input units.
     #[inline(always)]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
         self.units.upper(
@@ -134,8 +133,8 @@ impl PointQuery {
         )
     }
 
-    /// Rounding of a box's distance, grid units. The allowance is its square times 2100, which is
-    /// 45² and something.
+    /// Rounding of a box's distance, grid units. The allowance is its square times 2100, a little
+    /// more than 45².
     #[inline(always)]
     pub(crate) fn box_error(&self) -> f32 {
         sqrt_approx(self.limit(0.0)) * (1.0 / 45.0)
@@ -146,7 +145,7 @@ impl PointQuery {
         self.margin + self.units.surface_error
     }
 
-    /// A computed distance as a lower bound.
+    /// From a computed distance to a lower bound.
     #[inline(always)]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
         self.units.lower(

@@ -1,14 +1,15 @@
-//! Angle-weighted pseudonormals where no mesh connectivity is stored: what meets at a feature is
-//! found by a descent, by equal coordinates.
+//! Angle-weighted pseudonormals without stored mesh connectivity. A descent finds the triangles of
+//! a feature by equal coordinates.
 //!
-//! The sum of [`signed_distance`](super::signed_distance) is taken about a vertex (or edge) that all triangles share
-//! which may be the closest. That it is the closest feature itself is not certain, only nearly so.
-//! Let u be the direction from it to the query, and let no triangle about it reach a direction x
-//! with x·u > η. Then the winding number is the same, w₀, wherever x·u > η. What is left of the sum
-//! over 0 < x·u ≤ η is 2·∫x·u ≤ 2πη² about a vertex and, by the same argument in the plane across
-//! it, η² about an edge. Nothing crosses the way from the feature to the query: triangles about the
-//! feature do not contain the direction u, and any other one would be nearer than the feature and
-//! so among those considered. So a product with u beyond that and rounding has the right sign.
+//! The sum of [`signed_distance`](super::signed_distance) is taken about a vertex (or edge) that
+//! all possibly closest triangles share. It is nearly the closest feature, not certainly. Let u be
+//! the direction from the feature to the query, and let no triangle about the feature reach a
+//! direction x with x·u > η. Then the winding number is the same, w₀, wherever x·u > η. The rest of
+//! the sum, over 0 < x·u ≤ η, is 2·∫x·u ≤ 2πη² about a vertex. By the same argument in the plane
+//! across an edge it is η² about an edge. Nothing crosses the way from the feature to the query.
+//! Triangles about the feature do not contain the direction u. Any other triangle there would be
+//! nearer than the feature, and so among the possibly closest. So a product with u that exceeds
+//! this rest and rounding has the right sign.
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::point_query::PointQuery;
@@ -58,7 +59,7 @@ pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
     }
     let s = p - leaf.centre(which);
     let volume = normal.dot(s);
-    // What underflow may add is some hundred times below the last term.
+    // Underflow adds some hundred times less than the last term.
     let rounding =
         SIGN_TRIPLE_PRODUCT * U32 * size.dot(s.abs()) + f32::MIN_POSITIVE * (1.0 + norm_1(s));
     let volume = if second && leaf.shape().second_reversed() { -volume } else { volume };
@@ -71,7 +72,7 @@ pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
     }
 }
 
-/// Whether a triangle whose normal came out as zero has no area: a repeated corner, or integers so
+/// Whether a triangle with a computed normal of zero has no area: a repeated corner, or integers so
 /// small that the normal is exact.
 #[cold]
 fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
@@ -86,10 +87,10 @@ fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
 /// The triangles that may be the closest one.
 pub(crate) struct Candidates<'p> {
     query: &'p PointQuery,
-    /// Lower bound, grid units, up to which a triangle is one of them: twice and more what
-    /// rounding asks for.
+    /// Lower bound, grid units, up to which a triangle is a candidate: more than twice the need of
+    /// rounding.
     pub(crate) band: f32,
-    /// Distance, grid units, up to which a feature has all nearer triangles among them.
+    /// Distance, grid units, up to which all triangles nearer than a feature are candidates.
     reach: f32,
 }
 
@@ -158,17 +159,17 @@ impl LeafVisitor for Shared<'_> {
     }
 }
 
-/// A sum of weighted unit normals, and what rounding may have done to it.
+/// A sum of weighted unit normals, and its rounding.
 #[derive(Default)]
 struct Sum {
     normal: Vec3,
-    /// Weights times how much a normal's rounding exceeds that of a well-shaped triangle's.
+    /// Weights times the excess of a normal's rounding over that of a well-shaped triangle.
     unsure: f32,
     weight: f32,
     count: f32,
     /// No triangle reaches a direction whose cosine to the query is greater.
     eta: f32,
-    /// A triangle whose normal or directions are not to be trusted.
+    /// Some triangle has no trusted normal or directions.
     broken: bool,
 }
 
@@ -184,9 +185,9 @@ impl Sum {
         self.eta = if eta > self.eta { eta } else { self.eta };
     }
 
-    /// The side that the product with `to_query` says; `open` is the product's part that a feature
-    /// not quite the closest may be wrong by, in units of η², `inexact` the sum of absolute
-    /// values whose roundings `to_query` carries.
+    /// The side by the product with `to_query`. `open`: the error of the product, in units of η²,
+    /// for a feature that is not exactly the closest. `inexact`: the sum of absolute values whose
+    /// roundings `to_query` carries.
     fn side(&self, to_query: Vec3, open: f32, inexact: f32) -> Side {
         let product = self.normal.dot(to_query);
         let count = self.count;
@@ -224,8 +225,8 @@ impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
     }
 }
 
-/// Whether a normal's components are large enough for none of its products' underflow to count, and
-/// are numbers.
+/// Whether a normal's components are numbers, and so large that the underflow of products does not
+/// count.
 fn is_sound(normal: Vec3, size: Vec3) -> bool {
     norm_1(size) > TRUSTED_DIRECTION_SQ && normal.abs().max_element() > 64.0 * U32 * norm_1(size)
 }
@@ -297,7 +298,7 @@ fn about_edge(
     let rounding = SIGN_COSINE * U32 * norm_1(s) * norm_1(edge);
     let across = s - edge * (along / length_sq);
     let far = sqrt_approx(across.dot(across));
-    // The foot has to be within the edge, and clear of its ends.
+    // The foot must lie within the edge, and clear of its ends.
     if !(along > rounding && length_sq - along > rounding && far > 0.0)
         || far + SIGN_COSINE * U32 * norm_1(s) > candidates.reach
     {

@@ -2,7 +2,8 @@
 //!
 //! A segment visits two nodes and less than one leaf on scanned parts, so the work once for each
 //! segment decides. The fan kernels flag the triangles that may be met. Only flagged triangles are
-//! looked at one by one, with the interval of parameters in which the *input's* triangle can be met.
+//! looked at one by one, with the interval of parameters in which the *input's* triangle can be
+//! met.
 
 use super::descent::{LeafVisit, LeafVisitor, NodeQuery};
 use super::node::WIDE;
@@ -49,7 +50,7 @@ pub(crate) struct Place {
     pub(crate) lane: u32,
 }
 
-/// What a question does with triangles that may be met, in any order.
+/// The part of a question that handles triangles that may be met, in any order.
 pub(crate) trait Collect {
     /// Nothing that begins later matters.
     fn limit(&self) -> f32;
@@ -124,7 +125,7 @@ fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
 }
 
 impl<C: Collect> SegmentVisitor<'_, C> {
-    /// Settles the flagged triangles of a leaf.
+    /// Decides about the flagged triangles of a leaf.
     #[inline(never)]
     fn settle(&mut self, visit: &LeafVisit<'_>, flagged: u32) -> Option<()> {
         let (leaf, bound) = (&visit.leaf, visit.key);

@@ -1,4 +1,4 @@
-//! A segment in the tree's grid units, ready for boxes and fans, and what rounding may do to it.
+//! A segment in the tree's grid units, ready for boxes and fans, and its rounding.
 
 use super::descent::{LeafVisitor, NodeQuery};
 use super::node::box_entries;
@@ -12,7 +12,7 @@ use crate::num::two_sum;
 use crate::query::{Hit, QueryError};
 use glam::Vec3;
 
-/// A segment, and how its parameters go back to the caller's.
+/// A segment, and the conversion of its parameters to the caller's.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentQuery {
     pub(crate) ray: FanRay,
@@ -28,7 +28,7 @@ pub(crate) struct SegmentQuery {
 }
 
 impl SegmentQuery {
-    /// `None`: the segment is proved clear of all.
+    /// Prepares a segment. `None`: it is proved clear of the model.
     #[inline(always)]
     pub(crate) fn new(
         tree: &Bvh<'_>,
@@ -60,8 +60,8 @@ impl SegmentQuery {
         Ok(Some(SegmentQuery::at(units, a, b - a, far, 0.0, 0.0)))
     }
 
-    /// The line from `origin`, whose farthest corner is `far` away, with what the origin may be off
-    /// the segment by.
+    /// The line from `origin`. `far`: the way to the farthest corner. `off`: the distance of the
+    /// origin from the segment.
     #[inline(always)]
     fn at(
         units: Units,
@@ -74,8 +74,8 @@ impl SegmentQuery {
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
-        // The way and a unit more: a node that is flat, or thinner than a grid unit, has an origin
-        // that is an integer.
+        // The way and one unit more: the origin of a node that is flat, or thinner than a grid
+        // unit, is an integer.
         let margin = |far: f32| surface + (BOX_ENTRY * U32 * far + BOX_ENTRY * U32);
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
@@ -91,7 +91,7 @@ impl SegmentQuery {
         }
     }
 
-    /// A parameter of the caller's that is not above the one that belongs to `t`.
+    /// A lower bound of the caller's parameter for `t`.
     #[inline(always)]
     pub(crate) fn lower(&self, t: f32) -> f32 {
         if t == f32::INFINITY {
@@ -105,14 +105,14 @@ impl SegmentQuery {
         }
     }
 
-    /// A parameter of the caller's that is not below the one that belongs to `t`.
+    /// An upper bound of the caller's parameter for `t`.
     #[inline(always)]
     pub(crate) fn upper(&self, t: f32) -> f32 {
         let up = if self.start > 0.0 { (self.start + t) * (1.0 + 4.0 * U32) } else { t };
         if up < 1.0 { up } else { 1.0 }
     }
 
-    /// What the caller hears of a triangle that is met at `t`.
+    /// The caller's hit for a triangle that is met at `t`.
     #[inline(always)]
     pub(crate) fn hit(&self, t: f32, triangle: Option<u32>) -> Hit {
         let point = self.units.point(self.origin + self.direction * t);
@@ -155,10 +155,10 @@ fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     Vec3::new(far(l.x, h.x), far(l.y, h.y), far(l.z, h.z))
 }
 
-/// Whether a segment is proved clear of the model's box: the six separating axes that are theirs,
-/// all lengths doubled (Ericson, *Real-Time Collision Detection*, 2005, 5.3.3). Most segments that
-/// miss the model end here, without a division. `size` is what both ends' farthest corners are
-/// away, `core/docs/rounding.md` §9 has the margin.
+/// Whether a segment is proved clear of the model's box, by their six separating axes, all lengths
+/// doubled (Ericson, *Real-Time Collision Detection*, 2005, 5.3.3). Most segments that miss the
+/// model end here, without a division. `size`: the distance of both ends' farthest corners. The
+/// margin is in `core/docs/rounding.md` §9.
 #[inline(always)]
 fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f32) -> bool {
     let margin = 2.0 * surface_error + size * (32.0 * U32) + LEAST_DENOMINATOR;
@@ -176,9 +176,9 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
         | across([m.z, m.x], [d.z, d.x], [half.z, half.x])
 }
 
-/// Moves a far start along the segment to where it enters the model's box, generously enlarged, in
-/// numbers of twice f32's precision: so the strip along edges in which nothing is decided stays as
-/// narrow as the model allows. See `core/docs/rounding.md` §9.
+/// Moves a far start along the segment to where it enters the model's box, generously enlarged,
+/// with twice f32's precision. So the strip along edges in which nothing is decided stays as narrow
+/// as the model allows. See `core/docs/rounding.md` §9.
 #[cold]
 #[inline(never)]
 fn approach(
@@ -188,13 +188,13 @@ fn approach(
     size: f32,
 ) -> Option<SegmentQuery> {
     let direction = b - a;
-    // Eight times what the slab test below can be off by.
+    // Eight times the error of the slab test below.
     let pad =
         norm_1(high - low) + 2.0 * units.surface_error + size * (256.0 * U32) + LEAST_DENOMINATOR;
     let (mut enter, mut leave) = (0f32, 1f32);
     for axis in 0..3 {
         let (a, d) = (a.to_array()[axis], direction.to_array()[axis]);
-        // In this order the rounding is that of the way, wherever the model lies.
+        // In this order only the way is rounded, wherever the model lies.
         let (low, high) = (low.to_array()[axis] - a - pad, high.to_array()[axis] - a + pad);
         if d.abs() > STILL {
             let (low, high) = (low / d, high / d);
@@ -215,7 +215,7 @@ fn approach(
     Some(SegmentQuery::at(units, origin, direction, far, start, off))
 }
 
-/// `a + t·(b − a)`, rounded once and to twice f32's precision before (Dekker 1971; Knuth, TAOCP
+/// `a + t·(b − a)`, computed with twice f32's precision and rounded once (Dekker 1971; Knuth, TAOCP
 /// 4.2.2).
 fn along(a: f32, b: f32, t: f32) -> f32 {
     let (d, d_rest) = two_sum(b, -a);

@@ -8,7 +8,7 @@ use crate::query::{Ended, QueryError, ScratchEntry, Side, Undecided, Work};
 /// No side is proved yet.
 pub(crate) const OPEN: Side = Side::Undecided(Undecided::Feature);
 
-/// What the descents of one question share.
+/// The state that the descents of one question share.
 pub(crate) struct Search<'a, 't> {
     pub(crate) tree: &'a Bvh<'t>,
     pub(crate) steps: u32,
@@ -19,7 +19,7 @@ pub(crate) struct Search<'a, 't> {
 }
 
 impl Search<'_, '_> {
-    /// One descent; whether it ran to its end.
+    /// One descent. Returns whether it ran to its end.
     pub(crate) fn descend(
         &mut self,
         query: &PointQuery,

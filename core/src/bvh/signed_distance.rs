@@ -1,37 +1,37 @@
 //! Signed distance.
 //!
-//! *What the sign means.* A closed mesh, whose every edge is run through as often in one direction
-//! as in the other, has a winding number at every point off the surface, which rises by one where a
-//! triangle is crossed from its front to its back. `Inside` says that the surface next to the point
-//! has its back to it, `Outside` its front. For a mesh that bounds a solid (winding number 1 in it,
-//! 0 elsewhere) that is what it sounds like. For an inverted one the sides are exchanged: the solid
-//! is all the rest of space. Parts that *overlap* are not united: a point within one part whose
-//! nearest surface is that of another, which it is not in, is outside of that other. Parts within
-//! parts (cavities) are as their winding says.
+//! *What the sign means.* In a closed mesh, triangles run through every edge as often in one
+//! direction as in the other. It has a winding number at every point off the surface. The number
+//! rises by one where a triangle is crossed from its front to its back. `Inside` says that the
+//! surface next to the point has its back to it, `Outside` its front. For a mesh that bounds a
+//! solid (winding number 1 in it, 0 elsewhere) these are the usual inside and outside. For an
+//! inverted mesh the sides are exchanged: the solid is the rest of space. Parts that *overlap* are
+//! not united: a point may lie in one part while the nearest surface belongs to another part and
+//! has its front to the point. Then the answer is outside. Cavities are as their winding says.
 //!
-//! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from where
-//! it was to where it is stored. Every point of every triangle moves by `surface_error` at most, so
-//! a point farther than that from the stored surface is never touched, and its winding number
-//! cannot change. At a lesser distance the side is undefined.
+//! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from its
+//! input place to its stored place. Every point of every triangle moves by at most `surface_error`.
+//! So the surface never touches a point farther from the stored surface, and the point's winding
+//! number cannot change. At a smaller distance the side is undecided.
 //!
-//! *How it is found.* Let q be the closest point, and w₀ the winding number where the query p is:
-//! no surface is nearer than q, so it is the same all over a half-space's worth of directions about
-//! q. Let triangles i about q have unit normals nᵢ and angles αᵢ at q (π where q lies on an edge,
-//! 2π within a face). The divergence theorem on a small ball about q gives Σ αᵢ·nᵢ = −2·∫(w(x) −
-//! w₀)·x over the directions x, for any arrangement of triangles, manifold or not; and only
-//! directions with x·(p − q) ≤ 0 contribute. So (p − q)·Σ αᵢ·nᵢ is positive if the winding number
-//! is greater behind q than at p: outside. (Bærentzen & Aanæs, *Signed Distance Computation Using
-//! the Angle Weighted Pseudonormal*, 2005, prove it for manifolds.)
+//! *How it is found.* Let q be the closest point, and w₀ the winding number at the query p. No
+//! surface is nearer than q. So the winding number is w₀ in a half-space of directions about q. Let
+//! triangles i about q have unit normals nᵢ and angles αᵢ at q (π where q lies on an edge, 2π
+//! within a face). The divergence theorem on a small ball about q gives Σ αᵢ·nᵢ = −2·∫(w(x) − w₀)·x
+//! over the directions x, for any arrangement of triangles, manifold or not; and only directions
+//! with x·(p − q) ≤ 0 contribute. So (p − q)·Σ αᵢ·nᵢ is positive if the winding number is greater
+//! behind q than at p: outside. (Bærentzen & Aanæs, *Signed Distance Computation Using the Angle
+//! Weighted Pseudonormal*, 2005, prove it for manifolds.)
 //!
-//! *Rounding.* Which triangle is the closest is not certain in f32. So all are considered that may
-//! be: if every one of them clearly has its front to p, all terms of the sum at the true q are
-//! positive, wherever it is; likewise for backs. That decides faces, smooth edges and vertices, and
-//! ties. Else [`pseudonormal`](super::pseudonormal) sums about the feature that they all share.
-//! Where rounding leaves that open, too, the question is asked from a place nearer the surface,
-//! within the ball about p that it does not enter: far above a face and next to its edge the face
-//! beyond the edge is as near as rounding can tell, and from a sixteenth of the distance it is not.
-//! If that does not help either, the side is undefined. A point outside of the model's box is asked
-//! about from a place nearer by: all points outside of the box are on one side.
+//! *Rounding.* In f32 the closest triangle is not certain. So all triangles that may be the closest
+//! are candidates. If every candidate clearly has its front to p, all terms of the sum at the true
+//! q are positive; likewise for backs. This decides faces, smooth edges and vertices, and ties.
+//! Else [`pseudonormal`](super::pseudonormal) sums about the feature that all candidates share. If
+//! rounding leaves this open too, the search starts again from a place nearer to the surface,
+//! within the empty ball about p. Far above a face and next to its edge, rounding cannot tell the
+//! face beyond the edge from the face; from a sixteenth of the distance it can. If this does not
+//! help either, the side is undecided. A point outside the model's box is replaced by a nearer
+//! point: all points outside the box are on one side.
 
 use super::closest_point::closest_point;
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
@@ -168,10 +168,11 @@ impl Bvh<'_> {
     }
 }
 
-/// How often a side is asked about from nearer by: each time the distance falls to a sixteenth.
+/// Searches from nearer places. Each time the distance falls to a sixteenth.
 const NEARER: usize = 3;
 
-/// For a point outside of the model's box another one, a quarter of the model's size off it.
+/// For a point outside the model's box another point outside, a quarter of the model's size from
+/// the box.
 fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
     let (low, high) = bounds(tree);
     let size = (high - low).max_element();
@@ -221,11 +222,11 @@ impl Search<'_, '_> {
         Ok(Survey { query, margin, best, solid, seen, least, missed })
     }
 
-    /// The side that points on the ways to the surface have: there is none of it in the ball about
-    /// the surveyed point that touches it, so the winding number is the same in all of the
-    /// ball. What two features' distances differ by grows as the inverse of the distance. Where
-    /// parts overlap, surfaces that are equally near may have different sides of it: the ways
-    /// to the closest triangles of either facing have to agree.
+    /// The side of points on the ways to the surface. The ball about the surveyed point that
+    /// touches the surface is empty, so the winding number is the same in all of it. The difference
+    /// of two features' distances grows as the inverse of the distance. Where parts overlap,
+    /// equally near surfaces may show different sides: the ways to the closest triangles of either
+    /// facing must agree.
     fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
         let band = Candidates::new(survey.query, survey.margin, survey.solid.distance_sq).band;
         let mut agreed = None;
@@ -242,8 +243,8 @@ impl Search<'_, '_> {
         Ok(agreed.unwrap_or(OPEN))
     }
 
-    /// The side of the first point on the way to a triangle, and from there to what is closest,
-    /// that has one.
+    /// The first decided side of the points on the way to a triangle, and from there to the closest
+    /// triangle.
     fn side_on_the_way(&mut self, survey: &Survey<'_>, place: Place) -> Result<Side, QueryError> {
         let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
@@ -293,7 +294,7 @@ impl Place {
         Some(tree.links(self.node)?.triangle(self.child).wrapping_add(self.lane as u32))
     }
 
-    /// Takes the nearer one; of two that are equally near the one with the lesser number.
+    /// Takes the nearer triangle; of two equally near ones the lesser number.
     fn improve(&mut self, tree: &Bvh<'_>, other: Place) {
         if other.distance_sq < self.distance_sq
             || (other.distance_sq == self.distance_sq && other.number(tree) < self.number(tree))
@@ -303,19 +304,19 @@ impl Place {
     }
 }
 
-/// What is near a point.
+/// The triangles near a point.
 struct Survey<'p> {
     query: &'p PointQuery,
     margin: f32,
     /// The closest triangle.
     best: Place,
-    /// The closest one with an area.
+    /// The closest triangle with an area.
     solid: Place,
-    /// The closest triangle that has its front to the point, its back, that leaves it open.
+    /// The closest triangle with its front to the point, with its back, with an open facing.
     seen: [Place; 3],
-    /// For each [`Facing`] the least lower bound of a triangle that faces so, grid units.
+    /// For each [`Facing`] the least lower bound of its triangles, grid units.
     least: [f32; 4],
-    /// Squared box bound of what was not looked at.
+    /// Squared box bound of the nodes that were not opened.
     missed: f32,
 }
 
@@ -330,7 +331,8 @@ impl Survey<'_> {
         front <= band || back <= band || unclear <= band
     }
 
-    /// Not above the distance to the input mesh, input units; what was missed is not counted.
+    /// Lower bound of the distance to the input mesh, input units, without the nodes that were not
+    /// opened.
     fn lower(&self) -> f32 {
         let distance = sqrt_approx(self.best.distance_sq);
         self.query.lower(
@@ -338,8 +340,8 @@ impl Survey<'_> {
         )
     }
 
-    /// A point on the way to a triangle, a sixteenth of the distance off it and within the ball
-    /// about this one that is proved to be empty.
+    /// A point on the way to a triangle, a sixteenth of the distance from the triangle, within the
+    /// ball about this point that is proved empty.
     fn nearer(&self, tree: &Bvh<'_>, to: Place) -> Option<PointQuery> {
         let query = self.query;
         let leaf = tree.leaf(to.node, to.child)?;
@@ -359,7 +361,7 @@ impl Survey<'_> {
         let tree = search.tree;
         let ended = search.cut.unwrap_or(Ended::Exact);
         if best.node == u32::MAX {
-            // No step was allowed, or there was room for nothing: the box of the model.
+            // No step was allowed, or the scratch memory was full: the box of the model.
             let none = Budget::EXACT.with_steps(0);
             let closest = closest_point(tree, point, &none, &mut [ScratchEntry::EMPTY])?;
             return Ok(ClosestPoint { ended, ..closest });
@@ -382,7 +384,7 @@ impl Survey<'_> {
     }
 }
 
-/// Looks for the closest triangle and for how all those face that may be it.
+/// Finds the closest triangle, and the facings of all that may be the closest.
 struct Sides<'a, 't> {
     tree: &'a Bvh<'t>,
     query: &'a PointQuery,

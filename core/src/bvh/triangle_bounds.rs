@@ -1,5 +1,4 @@
-//! Bounds of single triangles of a leaf, for the questions that ask about more than the nearest
-//! one.
+//! Bounds of single triangles of a leaf, for questions about more than the nearest triangle.
 
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;
@@ -8,8 +7,8 @@ use crate::num::sqrt_approx;
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
 use glam::Vec3;
 
-/// What is known of a triangle: as computed, or, where its certificate says that this may be far
-/// off and it is, refined. Depends on the triangle alone, so that all questions agree.
+/// The distance of a triangle as computed; or refined, if its lower bound falls far short. The
+/// result depends on the triangle alone, so that all questions agree.
 #[inline(always)]
 pub(crate) fn refine_sliver(query: &PointQuery, seen: &[Vec3; 3], near: Nearness) -> Nearness {
     if near.lower_bound_sq >= query.refine_below(near.distance_sq) {
@@ -54,8 +53,8 @@ pub(crate) fn witness(query: &PointQuery, leaf: &FanLeaf<'_>, lane: usize) -> Ve
     leaf.point(lane, near.v, near.w)
 }
 
-/// Distance, grid units, that a triangle is not nearer than, but for the rounding that
-/// [`PointQuery::lower`] takes off.
+/// Lower bound of a triangle's distance, grid units, before [`PointQuery::lower`] takes off the
+/// rounding.
 #[inline]
 pub(crate) fn lower_of(
     leaf: &FanLeaf<'_>,
@@ -80,7 +79,7 @@ fn certified(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> f32 {
 
 /// Squared bound above which nothing is within `distance` (input units) of the input mesh.
 pub(crate) fn limit_within(query: &PointQuery, distance: f32) -> f32 {
-    // The roundings here are less than what `limit` adds.
+    // The roundings here are less than the addition of `limit`.
     limit_of(query, query.units.inward(distance) + query.units.surface_error)
 }
 
@@ -91,15 +90,14 @@ pub(crate) fn limit_of(query: &PointQuery, distance: f32) -> f32 {
     if limit < EVERYTHING_SQ { limit } else { EVERYTHING_SQ }
 }
 
-/// Distance, grid units, that a box's squared bound stands for, but for the rounding that
-/// [`PointQuery::lower`] takes off. Unlike a triangle's it carries the rounding of boxes, whose
-/// 2100-fold square is the limit's allowance.
+/// Distance for a box's squared bound, grid units, before [`PointQuery::lower`] takes off the
+/// rounding of triangles. The rounding of boxes is taken off here.
 pub(crate) fn distance_of_box(query: &PointQuery, key: f32) -> f32 {
     let distance = sqrt_approx(key) - query.box_error();
     if distance > 0.0 { distance } else { 0.0 }
 }
 
-/// What it says of the distance to the input mesh, input units.
+/// Lower bound of the distance to the input mesh for a box's squared bound, input units.
 pub(crate) fn lower_of_box(query: &PointQuery, key: f32) -> f32 {
     query.lower(distance_of_box(query, key))
 }

@@ -14,9 +14,9 @@ use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Ve
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Within {
     /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther; of a tight hull,
-    /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the distance
-    /// is so near to the one asked about that the stored surface or rounding leaves it open, or a
-    /// tighter hull may decide.
+    /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the
+    /// distance is so near to the one asked about that the stored surface or rounding leaves it
+    /// open, or a tighter hull may decide.
     pub verdict: Verdict,
     /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
     /// the closest one. `None` of a tight hull, which knows no triangles.
@@ -59,6 +59,7 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
     /// NaN or infinite; [`QueryError::NoScratch`]; [`QueryError::NotServed`].
+    #[inline]
     pub fn within(
         &self,
         point: [f32; 3],
@@ -66,34 +67,43 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Within, QueryError> {
-        let tree = self;
         budget.check()?;
-        if !(distance >= 0.0 && distance.is_finite()) {
-            return Err(QueryError::Tolerance);
-        }
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let query = PointQuery::new(tree, point)?;
-        if query.far {
-            return from_afar(tree, point, distance, scratch);
-        }
-        let mut work = Work::default();
-        let limit = limit_within(&query, distance);
-        let mut visitor =
-            Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
-        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        if let Some(number) = visitor.near {
-            let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
-            return Ok(Within { verdict: Verdict::Yes, triangle, work });
-        }
-        let verdict = match descent {
-            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-            _ if visitor.doubtful => Verdict::Undecided(Undecided::Resolution),
-            _ => Verdict::No,
-        };
-        Ok(Within { verdict, triangle: None, work })
+        within(self, point, distance, budget.steps, scratch)
     }
+}
+
+fn within(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    distance: f32,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+) -> Result<Within, QueryError> {
+    if !(distance >= 0.0 && distance.is_finite()) {
+        return Err(QueryError::Tolerance);
+    }
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
+    }
+    let query = PointQuery::new(tree, point)?;
+    if query.far {
+        return from_afar(tree, point, distance, scratch);
+    }
+    let mut work = Work::default();
+    let limit = limit_within(&query, distance);
+    let mut visitor =
+        Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
+    let descent = descend(tree, &query, steps, scratch, &mut visitor, &mut work)?;
+    if let Some(number) = visitor.near {
+        let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
+        return Ok(Within { verdict: Verdict::Yes, triangle, work });
+    }
+    let verdict = match descent {
+        Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
+        _ if visitor.doubtful => Verdict::Undecided(Undecided::Resolution),
+        _ => Verdict::No,
+    };
+    Ok(Within { verdict, triangle: None, work })
 }
 
 #[cold]
@@ -161,8 +171,8 @@ impl Threshold<'_> {
         Some(first.wrapping_add(lane as u32))
     }
 
-    /// A leaf near the limit: is one of its triangles not certainly beyond the distance? It may be
-    /// a sliver that is certainly within.
+    /// Looks at a leaf near the limit: for a triangle that is not certainly beyond the distance,
+    /// and for a sliver that is certainly within.
     #[cold]
     #[inline(never)]
     fn doubt(&mut self, visit: &LeafVisit<'_>) -> Option<()> {

@@ -1,4 +1,4 @@
-//! Little-endian reads that cannot fail in any way but `None`.
+//! Little-endian reads. A read past the end gives `None`.
 
 /// A byte slice read by offset.
 #[derive(Clone, Copy, Debug)]

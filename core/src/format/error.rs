@@ -6,7 +6,7 @@ use super::layout::SectionKind;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OpenError {
-    /// Fewer bytes than the header announces (or than a header has).
+    /// Fewer bytes than the header announces, or than a header has.
     Truncated {
         /// Bytes needed.
         needed: u32,
@@ -32,7 +32,7 @@ pub enum OpenError {
         /// The code.
         found: u8,
     },
-    /// A number that must be finite is not.
+    /// A number is not finite and must be.
     NotFinite {
         /// Which one.
         field: &'static str,
@@ -44,7 +44,7 @@ pub enum OpenError {
         /// What is wrong.
         what: &'static str,
     },
-    /// The header or a section does not have the CRC that is written beside it.
+    /// The header or a section does not have its stored CRC.
     Crc {
         /// Which section; `None` for the header.
         section: Option<SectionKind>,
@@ -55,12 +55,12 @@ pub enum OpenError {
         /// Index in the section table.
         index: u32,
     },
-    /// A section that this blob must have is not there.
+    /// A required section is missing.
     MissingSection {
         /// Which.
         section: SectionKind,
     },
-    /// A record refers to something that does not exist or, read as a graph, has a cycle.
+    /// A record refers to something that does not exist, or its links form a cycle.
     Record {
         /// Which section.
         section: SectionKind,

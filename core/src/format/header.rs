@@ -6,8 +6,7 @@ use super::layout::{
     FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, field, index_bytes,
 };
 
-/// Everything that the fixed header says. Lengths are in the local frame: input units divided by
-/// `2^scale_exponent`.
+/// The fixed header. Lengths are in the local frame: input units divided by `2^scale_exponent`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Header {
     /// Bytes of header and section table.
@@ -44,20 +43,21 @@ pub struct Header {
     pub levels: u32,
     /// Triangles of the input file, an upper bound of every source number plus one.
     pub input_triangles: u32,
-    /// No point of the input surface is farther than this from the stored one, nor the other way.
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round.
     pub surface_error: f32,
     /// Box of every vertex of every level.
     pub hull_box: [[f32; 3]; 2],
     /// Box of the surface.
     pub surface_box: [[f32; 3]; 2],
-    /// Queue entries with which no query on the cover tree can overflow.
+    /// Scratch entries with which no query on the cover tree can overflow.
     pub queue_capacity: u32,
-    /// Longest chain of splits of which each needs the one before it.
+    /// Longest chain of splits in which each split needs the one before it.
     pub dependency_depth: u32,
 }
 
 impl Header {
-    /// Reads and checks the fixed header; the CRC is the caller's.
+    /// Reads and checks the fixed header. The caller checks the CRC.
     pub(crate) fn read(bytes: Bytes<'_>) -> Result<Header, OpenError> {
         let short = OpenError::Truncated { needed: HEADER_BYTES as u32, found: bytes.len() as u32 };
         if bytes.slice(field::MAGIC, MAGIC.len()).ok_or(short)? != MAGIC {

@@ -1,11 +1,11 @@
-//! Where everything stands in a blob. The reader of this crate and the writer of `meshsweep`
-//! share these constants; `core/FORMAT.md` is the normative text.
+//! Sizes and offsets that all structures share. The reader of this crate, the writer of `meshsweep`
+//! and the checker use these constants. `core/FORMAT.md` is the normative text.
 
 /// First eight bytes of every blob.
 pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
 pub const VERSION_MAJOR: u16 = 1;
-/// A reader accepts any minor version: additions that an older reader may ignore.
+/// A reader accepts any minor version: an older reader may ignore its additions.
 pub const VERSION_MINOR: u16 = 3;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
@@ -17,8 +17,7 @@ pub const SECTION_ALIGNMENT: usize = 4;
 pub const MAX_LEVELS: u32 = 32;
 /// Most sections that a table may list.
 pub const MAX_SECTIONS: usize = 32;
-/// Header flag: finer levels were cut off, so that the triangles of the surface are not in the
-/// blob.
+/// Header flag: finer levels were cut off. The triangles of the surface are not in the blob.
 pub const FLAG_CUT: u32 = 1;
 
 /// The contents of a section.
@@ -31,7 +30,7 @@ pub enum SectionKind {
     /// Corners of the base hull's triangles.
     BaseTriangles = 2,
     /// One record for each split, coarse to fine: vertex, start of its ring, position of the right
-    /// wing in it, reach.
+    /// wing in the ring, star radius.
     Splits = 3,
     /// Rings of all splits: the vertices that must exist before the split.
     Rings = 4,
@@ -47,11 +46,11 @@ pub enum SectionKind {
     Source = 9,
     /// Level table, coarse to fine.
     Levels = 10,
-    /// One swept triangle for each [`BASE_GROUP`] triangles of the base hull, which it contains.
+    /// One swept triangle for each group of triangles of the base hull. It contains them.
     BaseGroups = 11,
     /// Counts, grid and error bound of the box tree.
     Bvh = 12,
-    /// For each node of the box tree where its children are.
+    /// Links to the children of each node of the box tree.
     TreeLinks = 13,
     /// Boxes of the children of each node, in a frame that they share: for distances.
     TreeFrames = 14,
@@ -65,8 +64,8 @@ pub enum SectionKind {
     TreeCones = 18,
     /// A hierarchy of triboxes that hold the mesh: unions of 1, 2, 4, … of them.
     Triboxes = 19,
-    /// Tight hulls of the mesh, each a blob with a box tree of its own, and how far its faces are
-    /// from the mesh.
+    /// Tight hulls of the mesh: each a blob with a box tree of its own, and the distances of its
+    /// faces from the mesh.
     TightHulls = 20,
 }
 
@@ -144,7 +143,7 @@ impl SectionKind {
     }
 }
 
-/// A value of `meshsweep build --for`: what a blob is built for. It prints as that value.
+/// A value of `meshsweep build --for`. It prints as that value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BuildFor {

@@ -1,4 +1,4 @@
-//! What all structures share of the bytes: the header, the section table, CRCs, reading numbers.
+//! The bytes that all structures share: the header, the section table, CRCs, reading numbers.
 //!
 //! | file | owns |
 //! | --- | --- |

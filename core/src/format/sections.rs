@@ -1,4 +1,4 @@
-//! The section table: where sections lie, and that their bytes are those that were written.
+//! The section table: where sections lie, and their CRCs.
 
 use super::bytes::Bytes;
 use super::error::OpenError;
@@ -8,7 +8,7 @@ use super::layout::{
 };
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 
-/// Sixteen-bit tables would be faster and 3 KiB larger; a blob is opened once.
+/// Larger tables would be faster and take 3 KiB more. A blob is opened once.
 const CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// CRC-32 (ISO-HDLC) of a section, as the table stores it.
@@ -27,7 +27,7 @@ fn header_crc(bytes: &[u8]) -> Option<u32> {
 /// A section as the table lists it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Section {
-    /// What it holds.
+    /// Its contents.
     pub kind: SectionKind,
     /// First byte.
     pub offset: u32,
@@ -37,8 +37,7 @@ pub struct Section {
     pub crc: u32,
 }
 
-/// Reads the header and checks that it, the section table and the length of `bytes` belong
-/// together.
+/// Reads the header. Checks its CRC, the size of the section table, and the length of `bytes`.
 pub(crate) fn read_header(bytes: &[u8]) -> Result<Header, OpenError> {
     let all = Bytes(bytes);
     let header = Header::read(all)?;
@@ -74,8 +73,8 @@ pub(crate) fn section(bytes: Bytes<'_>, index: u32) -> Result<Option<Section>, O
     Ok(kind.map(|kind| Section { kind, offset, bytes, crc }))
 }
 
-/// Hands `place` every section that `wants` names, with its index in the table, its CRC checked if
-/// `check`. Returns a bit for each kind that was there.
+/// Hands `place` every section that `wants` names, with its index in the table. Checks the
+/// section's CRC if `check`. Returns a bit for each kind in the table.
 pub(crate) fn place_sections<'a>(
     header: &Header,
     bytes: Bytes<'a>,
@@ -87,8 +86,7 @@ pub(crate) fn place_sections<'a>(
     let mut seen = 0u32;
     for index in 0..header.section_count {
         let malformed = OpenError::Section { index };
-        // An unknown kind still has to lie where sections may lie; a later minor version may add
-        // one.
+        // An unknown kind must lie where sections may lie too. A later minor version may add one.
         let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
         let offset = bytes.u32(at + entry::OFFSET).ok_or(malformed)?;
         let length = bytes.u32(at + entry::BYTES).ok_or(malformed)?;

@@ -1,5 +1,4 @@
-//! Closed-form kernels. They know vectors and nothing of blobs, so the builder calls the very same
-//! code.
+//! Closed-form kernels. They know vectors and no bytes. The builder calls the same code.
 
 mod boxes;
 pub mod fan;

@@ -1,9 +1,9 @@
 //! A motion of one frame into another.
 
-/// A motion: `rotation · p + translation`, each row of the matrix gives a coordinate.
+/// A motion: `rotation · p + translation`. Each row of the matrix gives a coordinate.
 ///
-/// It is taken as it is, in real arithmetic: if the matrix is a rotation up to rounding only, then
-/// so is the motion.
+/// The numbers are taken as they are, in real arithmetic. If the matrix is a rotation up to
+/// rounding, the motion is rigid up to the same rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Rows of the matrix; entries of at most 1, up to rounding.

@@ -26,7 +26,7 @@ impl Support {
     }
 }
 
-/// The greater of two numbers, by one instruction: `f32::max` spends four on NaN, which does not
+/// The greater of two numbers, by one instruction. `f32::max` spends four on NaN, which does not
 /// occur here.
 #[inline(always)]
 pub(crate) fn greater(x: f32, y: f32) -> f32 {

@@ -1,8 +1,8 @@
 //! Lower bounds, in f32, of the distance from a point or a segment to a triangle swept by a sphere
 //! (Guéziec 2000, 3.1).
 //!
-//! A bound of this file may be too low by rounding but never too high: it is a supporting plane,
-//! which holds for any direction, so a region misjudged on a sliver costs tightness and not truth.
+//! A bound of this file may be too low by rounding, but never too high. It is a supporting plane,
+//! which holds for any direction. So a region misjudged on a sliver costs tightness and not truth.
 //! Derivation: `core/docs/rounding.md` §2, §3.
 
 use super::boxes::{Aabb, Clipped};
@@ -38,9 +38,8 @@ impl SweptPoint {
         SweptPoint { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
     }
 
-    /// Not above the distance from the point to the triangle swept by `radius`, and never negative;
-    /// `None` if that distance certainly exceeds `limit`, which is found out without a square
-    /// root.
+    /// A lower bound of the distance from the point to the triangle swept by `radius`, never
+    /// negative. `None` if the distance certainly exceeds `limit`, which needs no square root.
     #[inline(always)]
     pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<f32> {
         self.bound(Support::new(a - self.point, b - self.point, c - self.point), radius, limit)
@@ -77,7 +76,7 @@ pub struct SweptSegment {
     inverse_sq: f32,
     length: f32,
     margin: f32,
-    /// Parameter of `start` on the unclipped segment, and what one unit of `direction` is there.
+    /// Parameter of `start` on the unclipped segment, and the parameter of one unit of `direction`.
     t_start: f32,
     t_scale: f32,
 }
@@ -113,8 +112,8 @@ impl SweptSegment {
         }
     }
 
-    /// `Some(t)` if the segment may come within `radius` of the triangle, and then at no parameter
-    /// below `t` of the unclipped segment; `None` only if it certainly does not.
+    /// `Some(t)` if the segment may come within `radius` of the triangle, at no parameter of the
+    /// unclipped segment below `t`. `None` only if it certainly does not.
     #[inline(always)]
     pub fn enter(&self, corners: [Vec3; 3], radius: f32) -> Option<f32> {
         let reach = radius + self.margin;
@@ -126,8 +125,8 @@ impl SweptSegment {
         if first > 1.0 || last < 0.0 {
             return None;
         }
-        // Seen along the segment, the distance of its line and the triangle is that of a point and
-        // a triangle.
+        // Seen along the segment, the distance of its line and the triangle is the distance of a
+        // point and a triangle.
         let across = direction_bound(
             a - self.direction * sa,
             b - self.direction * sb,

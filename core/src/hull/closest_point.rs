@@ -20,8 +20,8 @@ impl Hull<'_> {
     /// `scratch`: [`scratch_entries`](Hull::scratch_entries) make overflow impossible. More give a
     /// tighter interval to a query that stops early. With fewer the interval still holds, and
     /// [`Ended::Scratch`] says so. A point on the surface has a lower bound of 0. Of equidistant
-    /// triangles the answer is the least in blob order, whatever the order of visits. A point farther
-    /// than 2^40 times the model's size gets the interval of the model's box.
+    /// triangles the answer is the least in blob order, whatever the order of visits. A point
+    /// farther than 2^40 times the model's size gets the interval of the model's box.
     ///
     /// Cost: some hundreds of nodes and triangles near a scanned part. The worst case is all of
     /// them, at the centre of a sphere. Where time is bounded, set [`Budget::with_steps`]. The box

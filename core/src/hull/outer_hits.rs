@@ -29,8 +29,8 @@ pub enum Search {
 /// The answer of the refined hull about a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OuterHits {
-    /// The parameter of the first common point. `lower` is infinite if there is none at all, `upper`
-    /// if none is known.
+    /// The parameter of the first common point. `lower` is infinite if there is none at all,
+    /// `upper` if none is known.
     pub t: Interval,
     /// Hits in the slice.
     pub stored: usize,
@@ -54,8 +54,8 @@ impl Hull<'_> {
     /// [`first_hit`](Hull::first_hit) instead: the segment may start between hull and surface. The
     /// surface must be stored exactly (no grid rounding, no cut), or the answer is
     /// [`Ended::Resolution`] and says nothing. It must not wind around any point negatively, as a
-    /// solid that is turned inside out where it passes through itself does: the hulls of such a mesh
-    /// do not enclose it there. [`first_hit`](Hull::first_hit) has no such conditions.
+    /// solid that is turned inside out where it passes through itself does: the hulls of such a
+    /// mesh do not enclose it there. [`first_hit`](Hull::first_hit) has no such conditions.
     ///
     /// Of the budget only `steps` matters: vertex splits. Cost: faces tested and splits as in Table
     /// 3 of Platis & Theoharis 2003.

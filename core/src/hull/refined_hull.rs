@@ -53,7 +53,7 @@ impl Face {
 
 /// Memory of a refinement: two bit sets of one bit per split, candidates, and a path.
 ///
-/// Any length is correct. With [`Capacities::front_words`](crate::hull::format::Capacities::front_words)
+/// Any length is correct. With [`Hull::refined_words`]
 /// words in each bit set every split can be performed; with fewer, only the coarsest are, and a
 /// query says that capacity ended it. A short candidate list costs repeated scans, a short path
 /// repeated searches; neither costs an answer.

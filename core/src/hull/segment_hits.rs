@@ -19,8 +19,8 @@ impl Hull<'_> {
     /// If [`FirstHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the
     /// lengths involved, or within the surface error, of an edge may be reported as a hit. Segments
     /// in the plane of a triangle hit where they enter it. A segment of no length hits if its point
-    /// lies on the surface. On a cut blob, and where a grid moved vertices, `hit` is the first place
-    /// where the surface may be, and [`Ended::Resolution`] says so.
+    /// lies on the surface. On a cut blob, and where a grid moved vertices, `hit` is the first
+    /// place where the surface may be, and [`Ended::Resolution`] says so.
     ///
     /// `scratch` as for [`closest_point`](Hull::closest_point). Of the budget only `steps` matters.
     /// Cost: some dozens of nodes on scanned parts.

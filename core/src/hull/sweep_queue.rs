@@ -2,13 +2,14 @@
 //!
 //! Best first while there is room: a binary heap grows from the left. Where the heap could leave
 //! too little room for a descent, the search goes depth first on a stack that grows from the right,
-//! and comes back to the heap when that is empty.
-//! So `Hull::scratch_entries`, the depth-first worst case that the builder counted, are enough for an exact answer, and every entry more buys tighter
+//! and comes back to the heap when that is empty. So `Hull::scratch_entries`, the depth-first worst
+//! case that the builder counted, are enough for an exact answer, and every entry more buys tighter
 //! intervals for a query that is stopped early.
 
 use crate::query::ScratchEntry;
 
-/// Total order by key, then node, so that the order of visits does not depend on the heap's history.
+/// Total order by key, then node, so that the order of visits does not depend on the heap's
+/// history.
 pub(crate) fn before(a: &ScratchEntry, b: &ScratchEntry) -> bool {
     a.key() < b.key() || (a.key() == b.key() && a.node() < b.node())
 }

@@ -1,15 +1,15 @@
-//! A square root of additions and products alone.
+//! A square root of additions and products.
 //!
-//! `libm`'s is exact, but costs a Cortex-M4F some hundred instructions, and on x86-64 it is an SSE
-//! instruction between AVX ones, which stalls (a tenth of a microsecond a query, measured). Where a
-//! bound is wanted two units of rounding do not matter.
+//! The root of `libm` is exact. It costs a Cortex-M4F some hundred instructions. On x86-64 it is an
+//! SSE instruction between AVX ones, which stalls (measured: a tenth of a microsecond a query). For
+//! a bound, two units of rounding do not matter.
 
 /// Square root of `x ≥ 0`, off by less than 2 units of f32 relative; 0 for 0, infinity for
 /// infinity.
 ///
 /// Newton's iteration for the reciprocal root from the well-known guess by bits (relative error
-/// below 0.035, then 0.002, 5e-6, rounding), and one correction of the root itself. A call where
-/// code is dear.
+/// below 0.035, then 0.002, 5e-6, rounding), and one correction of the root itself. On targets
+/// without vectors it is a call, to save code.
 #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
 #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
 pub fn sqrt_approx(x: f32) -> f32 {

@@ -43,21 +43,21 @@ impl Frame {
         (local * self.scale).to_array().map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
-    /// A lower bound of the distance to the stored surface as one to the input surface, in input
-    /// units.
+    /// From a lower bound of the distance to the stored surface to one of the distance to the input
+    /// surface, input units.
     pub(crate) fn lower(&self, local: f64) -> f32 {
         let bound = (local - self.surface_error) * self.scale;
         down_to_f32((bound - 2.0 * U64 * bound.abs()).max(0.0))
     }
 
-    /// An upper bound of the distance to the stored surface as one to the input surface, in input
-    /// units.
+    /// From an upper bound of the distance to the stored surface to one of the distance to the
+    /// input surface, input units.
     pub(crate) fn upper(&self, local: f64) -> f32 {
         let bound = (local + self.surface_error) * self.scale;
         up_to_f32(bound + 2.0 * U64 * bound.abs())
     }
 
-    /// A length in the local frame, as a number to compare with.
+    /// A length in the local frame.
     pub(crate) fn length(&self, input: f32) -> f64 {
         f64::from(input) * self.inverse
     }

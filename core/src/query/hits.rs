@@ -25,9 +25,9 @@ impl Hit {
 /// [`Ended::Exact`], the first common point has a parameter in `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstHit {
-    /// The parameter of the first common point. `lower` is infinite if there is none at all. `upper`
-    /// is infinite if none is known, and 1 where the segment touches an edge or a plane so flatly
-    /// that rounding leaves more open.
+    /// The parameter of the first common point. `lower` is infinite if there is none at all.
+    /// `upper` is infinite if none is known, and 1 where the segment touches an edge or a plane so
+    /// flatly that rounding leaves more open.
     pub t: Interval,
     /// The first hit found. With [`Ended::Resolution`] the first place where the surface may be.
     /// With [`Ended::Steps`] or [`Ended::Scratch`] perhaps not the first.

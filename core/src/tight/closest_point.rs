@@ -14,10 +14,11 @@ impl TightHull<'_> {
     /// slack there. Inside, or where rounding leaves the side open, it is less by the hull's depth,
     /// and at least 0. [`point`](ClosestPoint::point) lies on the hull. There is no triangle.
     ///
-    /// `scratch` as for [`Bvh::closest_point`], for the hull's [`bvh`](TightHull::bvh). The
-    /// tolerances of the budget shorten nothing: a hull as tight as the tolerance ends with
-    /// [`Ended::Tolerance`], any other with [`Ended::Resolution`]. [`Ended::Steps`] and
-    /// [`Ended::Scratch`] as there, with a lower end of 0 where the side was not found.
+    /// `scratch` as for [`Bvh::closest_point`](crate::Bvh::closest_point), for the hull's
+    /// [`bvh`](TightHull::bvh). The tolerances of the budget shorten nothing: a hull as tight as
+    /// the tolerance ends with [`Ended::Tolerance`], any other with [`Ended::Resolution`].
+    /// [`Ended::Steps`] and [`Ended::Scratch`] as there, with a lower end of 0 where the side was
+    /// not found.
     ///
     /// Cost: that of the box tree's closest point outside the hull's box, of its signed distance
     /// inside.

@@ -7,8 +7,8 @@
 //! | `within` | whether the mesh is within a distance |
 //! | `side` | whether a point is certainly outside a hull |
 //!
-//! *The interval.* Let H be the hull, P the mesh, p the point. If p is outside H, every way from p to
-//! P crosses H: |p P| ≥ |p H|. Wherever p is, a way to P may be continued to H: |p P| ≥ |p H| −
+//! *The interval.* Let H be the hull, P the mesh, p the point. If p is outside H, every way from p
+//! to P crosses H: |p P| ≥ |p H|. Wherever p is, a way to P may be continued to H: |p P| ≥ |p H| −
 //! depth. With q the point of face f that is closest to p, |p P| ≤ |p q| + |q P| ≤ |p H| + slack of
 //! f. All three take the box tree's interval of |p H|, which holds for the hull as it was proved to
 //! enclose the mesh, and round outward (`core/docs/rounding.md` §12).

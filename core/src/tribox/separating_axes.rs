@@ -78,14 +78,14 @@ impl Axes {
         Axes { sides: [[none; SLABS]; 2] }
     };
 
-    /// For a motion of `b`.
+    /// Prepares the directions for a motion of `b`.
     ///
-    /// Let w be a direction, M and t the motion. The value of a moved point is w·(Mp + t) = (Mᵀw)·p
-    /// + w·t. Along the slabs of `a`, w is a direction of small integers and e = Mᵀw is computed;
-    /// along those of `b` w = Mf is computed from a direction f, and Mᵀw is f up to the
-    /// rounding of M. That and e's rounding count with the largest coordinate of `b`. No gap is
-    /// rounded by more than [`TRIBOX_AXIS`] units of what is summed (`core/docs/rounding.md` has
-    /// the count).
+    /// Let w be a direction, M and t the motion. The value of a moved point is w·(Mp + t), which is
+    /// (Mᵀw)·p and w·t. Along the slabs of `a`, w is a direction of small integers, and e = Mᵀw is
+    /// computed. Along the slabs of `b`, w = Mf is computed from a direction f, and Mᵀw is f up to
+    /// the rounding of M. This rounding and the rounding of e count with the largest coordinate of
+    /// `b`. No gap is rounded by more than [`TRIBOX_AXIS`] units of the sum of its terms
+    /// (`core/docs/rounding.md` §10).
     pub(crate) fn prepare(
         &mut self,
         a: &Triboxes<'_>,

@@ -41,8 +41,8 @@ impl Separation {
     }
 }
 
-/// Where two models may meet. The pairs are in the caller's slice. Without any the models are proved
-/// to be apart.
+/// Where two models may meet. The pairs are in the caller's slice. Without any the models are
+/// proved to be apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Candidates {
     /// Pairs in the slice.
@@ -51,8 +51,8 @@ pub struct Candidates {
     pub dropped: u32,
     /// The work of the search: pairs tested, pairs opened.
     pub work: Work,
-    /// [`Ended::Scratch`] or [`Ended::Steps`]: some pairs are not of leaves. Between all other pairs
-    /// there is no common point all the same.
+    /// [`Ended::Scratch`] or [`Ended::Steps`]: some pairs are not of leaves. Between all other
+    /// pairs there is no common point all the same.
     pub ended: Ended,
 }
 

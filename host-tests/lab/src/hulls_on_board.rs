@@ -1,6 +1,7 @@
 //! Tight hulls on a Cortex-M4F: bytes, memory, and instructions of a conservative "closer than d?",
 //! by the number of faces.
 
+use meshsweep_core::{Blob};
 use std::path::Path;
 
 use meshsweep::tight::{ChainOptions, chain, cut};
@@ -17,8 +18,7 @@ use meshsweep_xtask::workspace;
 /// The table of a mesh. The bits of all answers are the host's, or it is an error.
 pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let subject = Subject::load(mesh)?;
-    let mut options = ChainOptions::of_faces(&FACES);
-    options.segments = false;
+    let options = ChainOptions::of_faces(&FACES).with_boxes(true, false);
     let (tables, _) =
         chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     let all = tables.to_bytes();

@@ -18,19 +18,13 @@ use std::sync::OnceLock;
 pub fn tight_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
-        let options = |faces: &[usize]| {
-            let mut options = ChainOptions::of_faces(faces);
-            options.effort = 0.0;
-            options
-        };
-        let mut single = options(&[64]);
-        single.vertex_bits = VertexBits::F32;
+        let options = |faces: &[usize]| ChainOptions::of_faces(faces).with_effort(0.0);
         let mut open = rough_sphere(1, 0.4, 5);
         open.1.truncate(50);
         vec![
             blob(&cube(1), &options(&[64]), false),
             blob(&torus(2.0, 0.75, 10, 6), &options(&[64, 76]), false),
-            blob(&open, &single, false),
+            blob(&open, &options(&[64]).with_vertex_bits(VertexBits::F32), false),
             blob(&icosphere(1), &options(&[64, 70]), true),
         ]
     })

@@ -1,8 +1,9 @@
 //! Corners of the domain, each once a defect.
 
 use super::scenes::options;
+use meshsweep::BuildError;
 use meshsweep::cut::cut;
-use meshsweep::hull::{BuildError, build};
+use meshsweep::hull::build;
 use meshsweep::mesh::{RawMesh, repair};
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Budget, Ended, Face, Hull, RefinedHull, ScratchEntry, Search};

@@ -203,6 +203,29 @@ fn crumbs(count: usize, seed: u64) -> Raw {
     }))
 }
 
+/// Triangles of all sizes, most of them with next to no area or with none, that share corners.
+fn random(seed: u64) -> Raw {
+    let rng = &mut Rng::new(seed);
+    let place = [0.0, 0.0, 3.0, 1e4][rng.below(4)];
+    let mut positions: Vec<[f64; 3]> = Vec::new();
+    let mut triangles = Vec::new();
+    for _ in 0..30 {
+        let first = positions.len();
+        let at = rng.point_in([-1.0; 3], [1.0; 3]).map(|x| f64::from(x) + place);
+        let long = 10f64.powf(f64::from(rng.range(-12.0, 0.0)));
+        let way = rng.direction().map(f64::from);
+        let along = |t: f64| std::array::from_fn(|k| f64::from((at[k] + t * long * way[k]) as f32));
+        positions.extend([along(0.0), along(1.0), along(rng.unit_f64()), along(-0.5)]);
+        let mut corner = || {
+            let of = if rng.below(5) == 0 { positions.len() } else { 4 };
+            let from = if of == 4 { first } else { 0 };
+            (from + rng.below(of)) as u32
+        };
+        triangles.extend([[corner(), corner(), corner()], [corner(), corner(), corner()]]);
+    }
+    (positions, triangles)
+}
+
 fn fixture(name: &str) -> Raw {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/evil").join(name);
     let raw = read(&file).expect("a fixture");
@@ -226,7 +249,7 @@ pub fn inputs() -> Vec<(&'static str, Raw)> {
     let ring = wide(torus(1.0, 0.25, 12, 8));
     let scaled = |by: f64| move |p: [f64; 3]| p.map(|x| f64::from((x * by) as f32));
     let mixed = joined(&joined(&ring, &wires(30, 5)), &points(10, 6));
-    vec![
+    let mut all = vec![
         ("wires", wires(40, 1)),
         ("one wire", separate([[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]])),
         ("one slanted wire", separate([[[0.5, 0.25, 1.0], [1.5, 1.25, 4.0], [1.0, 0.75, 2.5]]])),
@@ -246,7 +269,10 @@ pub fn inputs() -> Vec<(&'static str, Raw)> {
         ("wires × 1e-30", mapped(&wires(20, 7), scaled(1e-30))),
         ("wires × 1e30", mapped(&wires(20, 7), scaled(1e30))),
         ("wires far from the origin", mapped(&wires(20, 8), |p| p.map(|x| x + 262_144.0))),
-    ]
+    ];
+    let names = ["random", "another", "a third", "a fourth", "a fifth", "a sixth"];
+    all.extend(names.into_iter().zip((100..).map(random)));
+    all
 }
 
 pub fn scenes() -> Vec<Scene> {

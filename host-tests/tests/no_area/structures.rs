@@ -8,7 +8,6 @@ use meshsweep::mesh::{Input, Mesh, MeshError, require_closed_manifold};
 use meshsweep::tight::{self, ChainOptions, hull_mesh};
 use meshsweep::tribox;
 use meshsweep_core::{Budget, Hull, ScratchEntry, TightHulls, Triboxes, Verdict};
-use meshsweep_host_tests::with;
 use std::cmp::Ordering::{Greater, Less};
 
 const KINDS: [Kind; 2] = [Kind::Grid, Kind::Snapped];
@@ -41,7 +40,7 @@ fn winding(p: [f64; 3], hull: &Mesh) -> f64 {
 }
 
 fn hulls_of(mesh: &Mesh, moved: f64, faces: usize) -> Vec<u8> {
-    let options = with!(ChainOptions::default(), faces: vec![faces], effort: 0.01);
+    let options = ChainOptions::of_faces(&[faces]).with_effort(0.01);
     let count = mesh.all_triangles().count();
     let (tables, _) = tight::chain(Input { mesh, moved, input_triangles: count }, &options, |_| {})
         .expect("there is room");

@@ -1,14 +1,15 @@
 //! Tight hulls enclose what they were made of: proved from the two surfaces alone, by a checker
 //! that shares no code with the builder.
 
-use meshsweep_host_tests::with;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;
 
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, RawMesh, Wire, read_bytes, repair};
-use meshsweep::wrap::{Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, parts, wrap};
+use meshsweep::wrap::{
+    Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, split_components, wrap,
+};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
@@ -23,7 +24,7 @@ fn mesh_of((positions, triangles): &Triangles) -> Mesh {
 
 /// Little polish: what is shown here does not depend on how tight a hull is.
 fn options(faces: usize) -> Options {
-    with!(Options::default(), goal: Goal::Faces(faces), effort: 0.02)
+    Options::new(Goal::Faces(faces)).with_effort(0.02)
 }
 
 /// So few that all ways to begin compete, which takes seconds where it is not what a test is about.
@@ -36,7 +37,10 @@ fn proved(name: &str, mesh: &Mesh, options: &Options) -> Hull {
 }
 
 fn prove(name: &str, mesh: &Mesh, hull: &Hull) {
-    let surface = |m: &Mesh| Surface::new(&m.positions, &m.triangles);
+    let surface = |m: &Mesh| {
+        let all: Vec<[u32; 3]> = m.all_triangles().collect();
+        Surface::new(&m.positions, &all)
+    };
     let proof = check_enclosure(&surface(mesh), &surface(&hull.mesh))
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(proof.inside, mesh.positions.len(), "{name}");
@@ -216,14 +220,16 @@ fn wires_are_enclosed_with_the_mesh() {
     let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
     let all = Surface::new(&mesh.positions, &triangles);
     for margin in [0.0, 0.1] {
-        let options = with!(options(100), margin: margin);
+        let options = options(100).with_margin(margin);
         let hull = wrap(&mesh, &options, |_| {}).unwrap();
         check_margin(&all, &Surface::new(&hull.mesh.positions, &hull.mesh.triangles), margin)
             .unwrap();
         assert!(hull.report.void.is_ok(), "the mesh is still a solid");
     }
-    let counts: Vec<_> =
-        parts(&mesh).iter().map(|part| [part.triangles.len(), part.wires.len()]).collect();
+    let counts: Vec<_> = split_components(&mesh)
+        .iter()
+        .map(|part| [part.triangles.len(), part.wires.len()])
+        .collect();
     assert_eq!(counts, [[48, 2], [0, 1], [0, 1], [0, 1]], "three are at no vertex of the cube");
 }
 
@@ -232,7 +238,7 @@ fn a_short_time_has_a_hull_and_says_so() {
     let mesh = mesh_of(&rough_sphere(5, 0.3, 2));
     for micros in [0, 20_000] {
         let limit = Some(Duration::from_micros(micros));
-        let hull = proved("hurried", &mesh, &with!(options(200), time_limit: limit, effort: 1e6));
+        let hull = proved("hurried", &mesh, &options(200).with_time_limit(limit).with_effort(1e6));
         assert_eq!(hull.report.stop, Outcome::OutOfTime);
     }
 }
@@ -269,7 +275,7 @@ fn the_same_mesh_gives_the_same_hull() {
 fn effort_makes_hulls_tighter() {
     let mesh = mesh_of(&rough_sphere(3, 0.3, 5));
     let void =
-        |effort| proved("rough", &mesh, &with!(options(80), effort: effort)).report.void.unwrap();
+        |effort| proved("rough", &mesh, &options(80).with_effort(effort)).report.void.unwrap();
     let [none, some] = [0.0, 0.2].map(void);
     assert!(some < 0.97 * none, "{some} {none}");
 }
@@ -279,7 +285,7 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
     let mesh = mesh_of(&rough_sphere(2, 0.3, 9));
     let mut last = usize::MAX;
     for most in [0.05, 0.2, 0.8] {
-        let hull = proved("void", &mesh, &with!(options(0), goal: Goal::Void(most), effort: 0.0));
+        let hull = proved("void", &mesh, &Options::new(Goal::Void(most)).with_effort(0.0));
         assert!(
             hull.report.void.unwrap() <= most && hull.report.stop == Outcome::Reached,
             "{:?}",
@@ -290,7 +296,7 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
     }
     last = usize::MAX;
     for most in [0.03, 0.1, 0.4] {
-        let hull = proved("slack", &mesh, &with!(options(0), goal: Goal::Slack(most), effort: 0.0));
+        let hull = proved("slack", &mesh, &Options::new(Goal::Slack(most)).with_effort(0.0));
         assert!(
             hull.report.slack.upper <= most && hull.report.stop == Outcome::Reached,
             "{:?}",
@@ -301,7 +307,7 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
     }
     let (positions, triangles) = torus(1.0, 0.3, 20, 10);
     let open = mesh_of(&(positions, triangles[..50].to_vec()));
-    let refused = wrap(&open, &with!(options(0), goal: Goal::Void(0.1)), |_| {});
+    let refused = wrap(&open, &Options::new(Goal::Void(0.1)).with_effort(0.02), |_| {});
     assert!(matches!(refused.unwrap_err(), WrapError::NoVolume(NoVolume::Open { .. })));
 }
 
@@ -393,7 +399,7 @@ fn within_a_slack_no_point_of_a_hull_is_farther_and_faces_are_fewer_than_by_numb
         let mesh = mesh_of(&triangles);
         let by_number = proved(name, &mesh, &options(faces));
         let most = by_number.report.slack.upper;
-        let by_slack = proved(name, &mesh, &with!(options(0), goal: Goal::Slack(most)));
+        let by_slack = proved(name, &mesh, &Options::new(Goal::Slack(most)).with_effort(0.02));
         assert_eq!(by_slack.report.stop, Outcome::Reached, "{name}");
         assert!(by_slack.report.slack.upper <= most, "{name}");
         let found = farthest_of(&by_slack.mesh, &mesh);
@@ -412,7 +418,7 @@ fn within_a_slack_no_point_of_a_hull_is_farther_and_faces_are_fewer_than_by_numb
 #[test]
 fn a_slack_beyond_a_margin_leaves_no_spikes() {
     let mesh = mesh_of(&turned(&cube(1)));
-    let options = with!(options(0), goal: Goal::Slack(0.3), margin: 0.2, effort: 0.1);
+    let options = Options::new(Goal::Slack(0.3)).with_margin(0.2).with_effort(0.1);
     let hull = proved("a box with a margin", &mesh, &options);
     assert_eq!(hull.report.stop, Outcome::Reached);
     let found = farthest_of(&hull.mesh, &mesh);
@@ -424,8 +430,7 @@ fn a_slack_beyond_a_margin_leaves_no_spikes() {
 #[test]
 fn a_slack_that_no_hull_can_keep_is_said_to_be_unmet() {
     let mesh = mesh_of(&turned(&cube(1)));
-    let hull =
-        proved("tiny slack", &mesh, &with!(options(0), goal: Goal::Slack(1e-12), effort: 0.0));
+    let hull = proved("tiny slack", &mesh, &Options::new(Goal::Slack(1e-12)).with_effort(0.0));
     assert_eq!(hull.report.stop, Outcome::TooLoose);
     assert!(hull.report.slack.upper > 1e-12);
 }
@@ -437,7 +442,7 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
             let mesh = mesh_of(&triangles);
             let time_limit = Some(Duration::from_micros(time));
             let options =
-                with!(options(0), goal: Goal::Slack(1e-3), time_limit: time_limit, effort: 0.0);
+                Options::new(Goal::Slack(1e-3)).with_time_limit(time_limit).with_effort(0.0);
             let hull = proved("late", &mesh, &options);
             let report = hull.report;
             let is_kept = farthest_of(&hull.mesh, &mesh) <= 1e-3;
@@ -445,6 +450,6 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
             assert!(time > 1 || report.stop == Outcome::OutOfTime, "{time} {report:?}");
         }
     }
-    let refused = wrap(&mesh_of(&cube(1)), &with!(options(0), goal: Goal::Slack(f64::NAN)), |_| {});
+    let refused = wrap(&mesh_of(&cube(1)), &Options::new(Goal::Slack(f64::NAN)), |_| {});
     assert!(matches!(refused.unwrap_err(), WrapError::SlackWithinMargin { .. }));
 }

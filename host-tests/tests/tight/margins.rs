@@ -1,7 +1,6 @@
 //! Tight hulls with a margin keep it: proved from the two surfaces alone, by exact distances that
 //! share no code with the builder's.
 
-use meshsweep_host_tests::with;
 use std::f64::consts::PI;
 
 use meshsweep::mesh::{Mesh, RawMesh, repair};
@@ -16,7 +15,7 @@ fn mesh_of((positions, triangles): &Triangles) -> Mesh {
 }
 
 fn options(faces: usize, margin: f64) -> Options {
-    with!(Options::default(), goal: Goal::Faces(faces), margin: margin, effort: 0.02)
+    Options::new(Goal::Faces(faces)).with_margin(margin).with_effort(0.02)
 }
 
 fn surface(m: &Mesh) -> Surface {
@@ -108,14 +107,14 @@ fn a_hull_with_a_margin_is_as_tight_as_one_of_what_is_within_it() {
     let steiner = [side.powi(3), 6.0 * side * side, 12.0 * side * PI / 2.0];
     for (part, most) in [(0.001, 1e-3), (0.1, 0.01), (1.0, 0.06)] {
         let margin = part * side;
-        let of = with!(options(100, margin), effort: 0.1);
+        let of = options(100, margin).with_effort(0.1);
         let volume = proved(&format!("cube by {part}"), &one, &of).report.volume;
         let void = volume / grown(steiner, margin) - 1.0;
         assert!((0.0..most).contains(&void), "{part}: {void}");
     }
     // Twice the radius, and the void of a ball of few faces.
     let ball = mesh_of(&icosphere(3));
-    let volume = proved("ball", &ball, &with!(options(80, 1.0), effort: 0.1)).report.volume;
+    let volume = proved("ball", &ball, &options(80, 1.0).with_effort(0.1)).report.volume;
     let void = volume / (4.0 / 3.0 * PI * 8.0) - 1.0;
     assert!((0.0..0.09).contains(&void), "{void}");
 }
@@ -123,7 +122,7 @@ fn a_hull_with_a_margin_is_as_tight_as_one_of_what_is_within_it() {
 #[test]
 fn a_slack_is_kept_with_a_margin() {
     let mesh = mesh_of(&cube(2));
-    let of = |goal| with!(options(0, 0.5), goal: goal, effort: 0.0);
+    let of = |goal| Options::new(goal).with_margin(0.5).with_effort(0.0);
     let hull = proved("slack", &mesh, &of(Goal::Slack(0.9)));
     assert!(
         hull.report.slack.upper <= 0.9 && hull.report.stop == Outcome::Reached,
@@ -142,7 +141,7 @@ fn margins_that_cannot_be_had_are_errors() {
     assert_eq!(error(&mesh, &options(100, 1e39)), WrapError::MarginTooLarge);
     let far = mesh_of(&scaled(&cube(1), 1e37));
     assert_eq!(error(&far, &options(100, 3.39e38)), WrapError::MarginTooLarge);
-    let slack = with!(options(100, 0.5), goal: Goal::Slack(0.5));
+    let slack = Options::new(Goal::Slack(0.5)).with_margin(0.5);
     assert!(matches!(error(&mesh, &slack), WrapError::SlackWithinMargin { .. }));
 }
 

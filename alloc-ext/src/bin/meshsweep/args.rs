@@ -72,8 +72,7 @@ pub enum Command {
     /// First hit, or all hits, of each query segment, as CSV
     #[command(
         after_help = explained::segment(),
-        mut_arg("queue", |queue| queue.help(explained::QUEUE)),
-        mut_arg("steps", |steps| steps.help(explained::STEPS))
+        mut_arg("queue", |queue| queue.help(explained::QUEUE))
     )]
     Segment(SegmentArgs),
     /// Whether two meshes meet, one of them moved, as CSV

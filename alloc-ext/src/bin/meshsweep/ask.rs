@@ -10,9 +10,9 @@ use crate::number::Short;
 use crate::output::Output;
 use crate::queries::Queries;
 use meshsweep::counted::Counted;
-use meshsweep_core::query::tree::{Neighbor, ScratchEntry};
-use meshsweep_core::query::{Budget, Ended, Work};
-use meshsweep_core::{Bvh, Model, QueryError, QueueEntry};
+use meshsweep_core::{
+    Budget, Ended, Interval, Neighbor, QueryError, ScratchEntry, Undecided, Verdict, Work,
+};
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 use tally::Tally;
@@ -20,10 +20,6 @@ use threads::Refused;
 
 /// Rows that a thread takes at once: enough to make the cost of taking them vanish.
 pub const AT_ONCE: usize = 512;
-
-/// Least number of queue entries unless `--queue` says otherwise: enough to search best first, and
-/// small beside a cache.
-const COMFORTABLE_QUEUE: usize = 4096;
 
 /// A question about rows of `N` numbers.
 pub trait Question<const N: usize>: Sync {
@@ -148,19 +144,23 @@ fn note(tally: &Tally, time: Duration, threads: usize, is_timed: bool, is_by_hul
 }
 
 impl SearchArgs {
-    pub fn budget(&self, relative: f32, absolute: f32) -> Budget {
-        Budget { relative, absolute, steps: self.steps.unwrap_or(u32::MAX) }
+    pub fn budget(&self) -> Budget {
+        Budget::EXACT.with_steps(self.steps.unwrap_or(u32::MAX))
     }
 
-    /// The stack to search a box tree with.
-    pub fn stack(&self, tree: &Bvh<'_>) -> Vec<ScratchEntry> {
-        vec![ScratchEntry::EMPTY; self.queue.unwrap_or(tree.header().stack_entries) as usize]
+    /// So many entries, unless `--queue` says otherwise.
+    pub fn scratch(&self, entries: usize) -> Vec<ScratchEntry> {
+        vec![ScratchEntry::EMPTY; self.queue.map_or(entries, |entries| entries as usize)]
     }
+}
 
-    /// The queue to search the cover tree with.
-    pub fn queue(&self, model: &Model<'_>) -> Vec<QueueEntry> {
-        let needed = model.capacities().queue.max(COMFORTABLE_QUEUE);
-        vec![QueueEntry::EMPTY; self.queue.map_or(needed, |entries| entries as usize)]
+/// How a search ended that gave a verdict.
+pub fn ended(verdict: Verdict) -> Ended {
+    match verdict {
+        Verdict::Yes | Verdict::No => Ended::Exact,
+        Verdict::Undecided(Undecided::Steps) => Ended::Steps,
+        Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
+        Verdict::Undecided(_) => Ended::Resolution,
     }
 }
 
@@ -195,7 +195,7 @@ pub fn write_end(out: &mut dyn Write, triangle: Option<u32>, work: Work) -> io::
 
 /// The last columns of a near triangle: interval, closest point, triangle, and the query's work.
 pub fn write_neighbor(out: &mut dyn Write, near: &Neighbor, work: Work) -> io::Result<()> {
-    let Neighbor { lower, upper, point: [x, y, z], triangle } = *near;
+    let (Interval { lower, upper }, [x, y, z]) = (near.distance(), near.point());
     write_numbers(out, &[lower, upper, x, y, z])?;
-    write_end(out, Some(triangle), work)
+    write_end(out, Some(near.triangle()), work)
 }

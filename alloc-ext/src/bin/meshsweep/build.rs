@@ -11,15 +11,16 @@ use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
 use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
+use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::counted::Counted;
 use meshsweep::emit::{self, Sections};
-use meshsweep::hull::{self, BuildError, BuildReport, Built};
+use meshsweep::hull::{self, BuildReport, Built};
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
 use meshsweep::tribox::{self, TriboxReport};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::VertexFormat;
+use meshsweep_core::Blob;
+use meshsweep_core::internal::format::layout::VertexFormat;
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -66,7 +67,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         .flatten(),
     );
     // A blob that does not open must not be written.
-    let model = Model::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
+    let blob = Blob::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
     let report = Report {
         args,
@@ -75,7 +76,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         tree_time: tree.as_ref().map(|(_, report)| report.time),
         tribox_time: triboxes.as_ref().map(|(_, report)| report.time),
         tight: tight.as_ref().map(|(_, reports)| reports.as_slice()),
-        model: &model,
+        blob: &blob,
     };
     Output::stdout().finish(|out| report.write(out))
 }
@@ -109,20 +110,19 @@ fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
 
 fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, TriboxReport), Failure> {
     tribox::store(loaded.input(), args.triboxes.unwrap_or(TRIBOXES))
-        .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })
+        .map_err(|error| Failure::Build { file: args.mesh.clone(), error })
 }
 
 fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullReport>), Failure> {
     let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
-    let options = ChainOptions {
-        faces: args.tight.iter().map(|&faces| faces as usize).collect(),
-        goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
-        margin: loaded.widened(args.margin),
-        effort: args.effort.unwrap_or(1.0),
-        vertex_bits: args.vertex_bits.format(),
-        closest: asked(HullServes::Closest),
-        segments: asked(HullServes::Segment),
-    };
+    let goal = args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack));
+    let faces: Vec<usize> = args.tight.iter().map(|&faces| faces as usize).collect();
+    let options = goal
+        .map_or_else(|| ChainOptions::of_faces(&faces), ChainOptions::of_goal)
+        .with_margin(loaded.widened(args.margin))
+        .with_effort(args.effort.unwrap_or(1.0))
+        .with_vertex_bits(args.vertex_bits.format())
+        .with_boxes(asked(HullServes::Closest), asked(HullServes::Segment));
     let mut bars = StageBars::default();
     let made = tight::chain(loaded.input(), &options, |stage| match stage {
         Stage::Wrapping { progress, .. } => bars.show(progress),
@@ -146,12 +146,12 @@ struct Report<'a> {
     tree_time: Option<Duration>,
     tribox_time: Option<Duration>,
     tight: Option<&'a [HullReport]>,
-    model: &'a Model<'a>,
+    blob: &'a Blob<'a>,
 }
 
 impl Report<'_> {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Report { args, loaded, hull, tree_time, tribox_time, tight, model } = self;
+        let Report { args, loaded, hull, tree_time, tribox_time, tight, blob } = self;
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
@@ -167,11 +167,11 @@ impl Report<'_> {
             if let Some(stuck) = report.stuck {
                 writeln!(out, "  {}", why_stuck(args.base.unwrap_or(FACES), &stuck))?;
             }
-            if let Some(note) = other_format(args.vertex_bits, model.header().vertex_format) {
+            if let Some(note) = other_format(args.vertex_bits, blob.header().vertex_format) {
                 writeln!(out, "  {note}")?;
             }
         }
-        describe::write_blob(out, model)?;
+        describe::write_blob(out, blob)?;
         if let Some(reports) = tight {
             write_left_out(out, args, reports)?;
             write_margin(out, args.margin, "mesh")?;

@@ -3,22 +3,22 @@
 use crate::args::CullArgs;
 use crate::blob_file;
 use crate::failure::Failure;
-use crate::need::Need;
 use crate::output::{Output, refuse_same_file};
 use crate::served;
 use meshsweep::counted::Counted;
-use meshsweep_core::query::tree::front_facing;
+use meshsweep_core::BuildFor;
 use std::io::Write;
 
 pub fn run(args: &CullArgs) -> Result<(), Failure> {
     let output = args.output.as_deref();
     refuse_same_file(output, &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
-    let model = blob_file::open(&args.blob, &bytes)?;
-    let tree = served::require_tree(&args.blob, &model, Need::Culling)?;
+    let blob = blob_file::open(&args.blob, &bytes)?;
+    let tree = served::require_tree(&args.blob, &blob, BuildFor::Cull)?;
     let output = Output::file_or_stdout(output)?;
-    let mut triangles = vec![0; tree.header().triangles as usize];
-    let found = front_facing(&tree, &args.sight(), &mut triangles)
+    let mut triangles = vec![0; tree.triangle_count() as usize];
+    let found = tree
+        .front_facing(args.eye(), &mut triangles)
         .map_err(|error| Failure::Search { file: args.blob.clone(), error })?;
     triangles.truncate(found.stored);
     triangles.sort_unstable();
@@ -31,7 +31,7 @@ pub fn run(args: &CullArgs) -> Result<(), Failure> {
         std::io::stderr(),
         "{} of {} certainly show their backs, {} of {} whole; the others are listed",
         found.culled,
-        Counted(tree.header().triangles, "triangle"),
+        Counted(tree.triangle_count(), "triangle"),
         found.culled_leaves,
         Counted(found.leaves, "leaf")
     );

@@ -6,10 +6,7 @@ use crate::signed::name;
 use crate::{blob_file, describe};
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::mesh;
-use meshsweep_core::query::tree::{
-    Facing, ScratchEntry, closest_point, first_hit, signed_distance,
-};
-use meshsweep_core::query::{Budget, Ended};
+use meshsweep_core::{Budget, Ended, Facing, Interval, ScratchEntry};
 use std::path::Path;
 
 /// A copy of `fixtures/bracket.stl`, because a package holds no file outside of its folder.
@@ -24,14 +21,15 @@ pub fn run() -> Result<(), Failure> {
     let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default());
     let bytes = tables.to_bytes();
     let tree = blob_file::open_tree(file, &bytes)?;
-    let entries = tree.header().stack_entries as usize;
-    let mut stack = vec![ScratchEntry::EMPTY; entries];
+    let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let place = |error| Failure::Query { place: Place::BuiltIn, error };
     let point = [10.0, 4.5, 7.0];
-    let closest = closest_point(&tree, point, &Budget::EXACT, &mut stack).map_err(place)?;
-    let side = signed_distance(&tree, point, &Budget::EXACT, &mut stack).map_err(place)?.side;
+    let closest = tree.closest_point(point, Budget::EXACT, &mut scratch).map_err(place)?;
+    let side = tree.signed_distance(point, Budget::EXACT, &mut scratch).map_err(place)?.side;
     let (from, to) = ([20.0, 10.0, 90.0], [20.0, 10.0, -90.0]);
-    let segment = first_hit(&tree, from, to, &Facing::Both, &mut stack).map_err(place)?;
+    let segment =
+        tree.first_hit(from, to, Facing::Both, Budget::EXACT, &mut scratch).map_err(place)?;
+    let Interval { lower, upper } = closest.distance;
     Output::stdout().finish(|out| {
         writeln!(
             out,
@@ -55,8 +53,8 @@ pub fn run() -> Result<(), Failure> {
             out,
             "Closest point to {point:?}, which is {}: distance {} to {}, at {:?}{}.",
             name(side),
-            closest.lower,
-            closest.upper,
+            lower,
+            upper,
             closest.point,
             in_triangle(closest.triangle)
         )?;
@@ -69,7 +67,7 @@ pub fn run() -> Result<(), Failure> {
                 hit.point,
                 in_triangle(hit.triangle)
             )?,
-            _ => writeln!(out, "From {from:?} to {to:?}: clear before t = {}.", segment.lower)?,
+            _ => writeln!(out, "From {from:?} to {to:?}: clear before t = {}.", segment.t.lower)?,
         }
         let program = program();
         writeln!(out, "Try:  {program} build part.stl -o part.msw")?;

@@ -1,14 +1,11 @@
 //! What can go wrong. Each variant is one line that names the file, the place and the remedy.
 
-use crate::need::Need;
 use crate::unmet::Unmet;
+use meshsweep::BuildError;
 use meshsweep::counted::Counted;
-use meshsweep::cut::CutError;
-use meshsweep::hull::BuildError;
 use meshsweep::mesh::MeshError;
 use meshsweep::tight::WrapError;
-use meshsweep_core::tribox::TriboxError;
-use meshsweep_core::{OpenError, QueryError};
+use meshsweep_core::{OpenError, QueryError, TriboxError};
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -36,7 +33,7 @@ pub enum Failure {
     NotSolid { file: PathBuf, error: Box<MeshError>, instead: Option<&'static str> },
     /// A mesh is wanted, and a blob is given.
     BlobForMesh { file: PathBuf },
-    /// The hull hierarchy cannot be built.
+    /// The blob cannot be built or cut.
     Build { file: PathBuf, error: BuildError },
     /// The tight hull cannot be made.
     Wrap { file: PathBuf, error: WrapError },
@@ -44,11 +41,15 @@ pub enum Failure {
     Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
-    /// The blob has no such level.
-    Cut { file: PathBuf, error: CutError },
     /// The blob was built without the part that the question needs. `other` names an engine that
     /// has it; `served` lists the questions that the blob serves.
-    NotServed { file: PathBuf, need: Need, other: Option<&'static str>, served: String },
+    NotServed {
+        file: PathBuf,
+        part: &'static str,
+        build_for: String,
+        other: Option<&'static str>,
+        served: String,
+    },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
     /// The mesh's coordinates are beyond the range of triboxes.
@@ -207,16 +208,14 @@ impl fmt::Display for Failure {
             Failure::Open { file, error } => {
                 write!(f, "{}: {error}; {}", file.display(), remedy(error))
             }
-            Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Tribox { file, error } => {
                 write!(f, "{}: {error}; choose a larger unit", file.display())
             }
-            Failure::NotServed { file, need, other, served } => {
-                let (part, option) = (need.part(), need.option());
+            Failure::NotServed { file, part, build_for, other, served } => {
                 write!(f, "{}: has no {part}, and serves {served}", file.display())?;
                 write!(
                     f,
-                    "; build one from the mesh: meshsweep build MESH -o BLOB --for {option}"
+                    "; build one from the mesh: meshsweep build MESH -o BLOB --for {build_for}"
                 )?;
                 other.map_or(Ok(()), |engine| write!(f, ", or use --engine {engine}"))
             }

@@ -7,13 +7,12 @@ mod sampler;
 use crate::args::FieldArgs;
 use crate::ask::threads;
 use crate::failure::Failure;
-use crate::need::Need;
 use crate::output::{Output, refuse_same_file};
 use crate::progress::Bar;
 use crate::{blob_file, describe, served};
 use lattice::Lattice;
 use meshsweep::counted::Counted;
-use meshsweep_core::query::QueryError;
+use meshsweep_core::{BuildFor, QueryError};
 use sampler::{NoSign, Sampler};
 use std::io::{self, Write};
 use std::path::Path;
@@ -36,12 +35,12 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
     };
     refuse_same_file(Some(&args.output), &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
-    let model = blob_file::open(&args.blob, &bytes)?;
-    let tree = served::require_tree(&args.blob, &model, Need::Distances)?;
-    if args.signed && !tree.header().is_closed() {
+    let blob = blob_file::open(&args.blob, &bytes)?;
+    let tree = served::require_tree(&args.blob, &blob, BuildFor::Closest)?;
+    if args.signed && !tree.is_closed() {
         return Err(Failure::NotClosed { file: args.blob.clone() });
     }
-    let bounds = describe::in_input_units(&model, &model.header().surface_box);
+    let bounds = describe::surface_box(&blob);
     let lattice = Lattice::around(bounds, args.size, args.margin)
         .ok_or_else(|| Failure::GridTooLarge { file: args.blob.clone() })?;
     let output = Output::file(&args.output)?;

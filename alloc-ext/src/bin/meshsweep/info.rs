@@ -7,15 +7,15 @@ use crate::{blob_file, describe};
 
 pub fn run(args: &InfoArgs) -> Result<(), Failure> {
     let bytes = blob_file::read(&args.blob)?;
-    let model = blob_file::open(&args.blob, &bytes)?;
+    let blob = blob_file::open(&args.blob, &bytes)?;
     Output::stdout().finish(|out| {
         if args.json {
-            serde_json::to_writer_pretty(&mut *out, &describe::as_json(&model))?;
+            serde_json::to_writer_pretty(&mut *out, &describe::as_json(&blob))?;
             writeln!(out)
         } else {
             writeln!(out, "{}", args.blob.display())?;
-            describe::write_header(out, &model)?;
-            describe::write_blob(out, &model)
+            describe::write_header(out, &blob)?;
+            describe::write_blob(out, &blob)
         }
     })
 }

@@ -6,7 +6,7 @@
 //! | `failure` | what can go wrong, each in one line, and the exit status |
 //! | `number` | numbers as text: short, and bounds stay bounds |
 //! | `mesh_file` | from a mesh file to a clean mesh, closed if a hull is wanted |
-//! | `blob_file`, `served`, `need` | opening a blob, and which questions it serves |
+//! | `blob_file`, `served` | opening a blob, and which questions it serves |
 //! | `queries` | points, segments and poses of arguments and files |
 //! | `ask` | one question about many queries, on several threads, answered as CSV |
 //! | `output` | files that are complete or not there, and pipes that close early |
@@ -34,7 +34,6 @@ mod hull_report;
 mod info;
 mod mesh_file;
 mod nearest;
-mod need;
 mod number;
 mod output;
 mod overlap;

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use meshsweep::mesh::{self, Input, Mesh, RawMesh, RepairReport};
 use meshsweep::surface::{VertexBits, snap};
-use meshsweep_core::blob::layout::MAGIC;
+use meshsweep_core::internal::format::layout::MAGIC;
 use std::io::Read;
 use std::path::Path;
 use std::time::{Duration, Instant};

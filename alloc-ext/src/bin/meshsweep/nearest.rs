@@ -3,21 +3,18 @@
 use crate::args::{NearestArgs, SearchArgs, files};
 use crate::ask::{self, Question, write_neighbor};
 use crate::failure::Failure;
-use crate::need::Need;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{Nearest, Neighbor, ScratchEntry, nearest};
-use meshsweep_core::query::{Ended, QueryError, Work};
+use meshsweep_core::{BuildFor, Bvh, Ended, KNearest, Neighbor, QueryError, ScratchEntry, Work};
 use std::io::{self, Write};
 
 pub fn run(args: &NearestArgs) -> Result<(), Failure> {
-    let blob = &args.input.blob;
-    refuse_same_file(args.search.output.as_deref(), &files(&[blob], &args.input.points))?;
-    let bytes = blob_file::read(blob)?;
-    let model = blob_file::open(blob, &bytes)?;
-    let tree = served::require_tree(blob, &model, Need::Distances)?;
+    let file = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
     let points = Queries::read(&args.input.points)?;
     let question = Ranking { tree, count: args.count, search: &args.search };
     ask::run(&question, points, &args.search)
@@ -30,7 +27,7 @@ struct Ranking<'a> {
 }
 
 impl Question<3> for Ranking<'_> {
-    type Answer = (Nearest, Vec<Neighbor>);
+    type Answer = (KNearest, Vec<Neighbor>);
     type Memory = (Vec<Neighbor>, Vec<ScratchEntry>);
 
     fn header(&self) -> &'static str {
@@ -39,16 +36,16 @@ impl Question<3> for Ranking<'_> {
 
     fn memory(&self) -> Self::Memory {
         // There are no more triangles than the mesh has.
-        let count = self.count.min(self.tree.header().triangles);
-        (vec![Neighbor::EMPTY; count as usize], self.search.stack(&self.tree))
+        let count = self.count.min(self.tree.triangle_count());
+        (vec![Neighbor::EMPTY; count as usize], self.search.scratch(self.tree.scratch_entries()))
     }
 
     fn ask(
         &self,
         point: [f32; 3],
-        (room, stack): &mut Self::Memory,
+        (room, scratch): &mut Self::Memory,
     ) -> Result<Self::Answer, QueryError> {
-        let found = nearest(&self.tree, point, &self.search.budget(0.0, 0.0), room, stack)?;
+        let found = self.tree.nearest(point, room, self.search.budget(), scratch)?;
         Ok((found, room.iter().take(found.stored).copied().collect()))
     }
 

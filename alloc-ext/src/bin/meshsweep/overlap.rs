@@ -3,17 +3,19 @@
 use crate::args::{Given, OverlapArgs, SearchArgs, files};
 use crate::ask::{self, Question, write_end};
 use crate::failure::Failure;
-use crate::need::Need;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{
-    Contact, Overlap, Overlaps, PairEntry, TrianglePair, all_overlaps, overlap,
+use meshsweep_core::{
+    BuildFor, Bvh, Ended, Overlap, Overlaps, Pose, QueryError, ScratchEntry, TrianglePair, Verdict,
+    Work,
 };
-use meshsweep_core::query::{Ended, QueryError, Work};
-use meshsweep_core::tribox::Pose;
 use std::io::{self, Write};
+
+// Words of the column `contact`.
+const APART: &str = "apart";
+const MEETS: &str = "meets";
+const OPEN: &str = "open";
 
 const HEADER: &str = "pose,contact,first,second,work";
 
@@ -25,10 +27,10 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
     let inputs = [files(&[first, second], pose), files(&[], matrix)].concat();
     refuse_same_file(search.output.as_deref(), &inputs)?;
     let (first_bytes, second_bytes) = (blob_file::read(first)?, blob_file::read(second)?);
-    let models = [blob_file::open(first, &first_bytes)?, blob_file::open(second, &second_bytes)?];
+    let blobs = [blob_file::open(first, &first_bytes)?, blob_file::open(second, &second_bytes)?];
     let trees = [
-        served::require_tree(first, &models[0], Need::Segments)?,
-        served::require_tree(second, &models[1], Need::Segments)?,
+        served::require_tree(first, &blobs[0], BuildFor::Segment)?,
+        served::require_tree(second, &blobs[1], BuildFor::Segment)?,
     ];
     if !matrix.is_empty() {
         return ask_poses(args, trees, Queries::read(matrix)?, of_matrix);
@@ -83,13 +85,8 @@ struct Pair<'a, const N: usize> {
 }
 
 impl<const N: usize> Pair<'_, N> {
-    fn stack(&self) -> Vec<PairEntry> {
-        let entries = self.search.queue.map_or(PairEntry::ENOUGH, |entries| entries as usize);
-        vec![PairEntry::EMPTY; entries]
-    }
-
-    fn steps(&self) -> u32 {
-        self.search.steps.unwrap_or(u32::MAX)
+    fn scratch(&self) -> Vec<ScratchEntry> {
+        self.search.scratch(Bvh::OVERLAP_ENTRIES)
     }
 }
 
@@ -98,23 +95,23 @@ struct Any<'a, const N: usize>(Pair<'a, N>);
 
 impl<const N: usize> Question<N> for Any<'_, N> {
     type Answer = Overlap;
-    type Memory = Vec<PairEntry>;
+    type Memory = Vec<ScratchEntry>;
 
     fn header(&self) -> &'static str {
         HEADER
     }
 
     fn memory(&self) -> Self::Memory {
-        self.0.stack()
+        self.0.scratch()
     }
 
-    fn ask(&self, row: [f32; N], stack: &mut Self::Memory) -> Result<Overlap, QueryError> {
-        let Pair { trees: [first, second], pose_of, .. } = &self.0;
-        overlap(first, second, &pose_of(row), self.0.steps(), stack)
+    fn ask(&self, row: [f32; N], scratch: &mut Self::Memory) -> Result<Overlap, QueryError> {
+        let Pair { trees: [first, second], pose_of, search } = &self.0;
+        first.overlap(second, pose_of(row), search.budget(), scratch)
     }
 
     fn outcome(found: &Overlap) -> (Ended, Work) {
-        (found.ended, found.work)
+        (ask::ended(found.verdict), found.work)
     }
 
     fn write(
@@ -124,7 +121,12 @@ impl<const N: usize> Question<N> for Any<'_, N> {
         _: &[f32; N],
         found: &Overlap,
     ) -> io::Result<()> {
-        write_row(out, query, found.contact, found.triangles, found.work)
+        let contact = match found.verdict {
+            Verdict::Yes => MEETS,
+            Verdict::No => APART,
+            Verdict::Undecided(_) => OPEN,
+        };
+        write_row(out, query, contact, found.triangles, found.work)
     }
 }
 
@@ -133,26 +135,26 @@ struct All<'a, const N: usize>(Pair<'a, N>);
 
 impl<const N: usize> Question<N> for All<'_, N> {
     type Answer = (Overlaps, Vec<TrianglePair>);
-    type Memory = (Vec<TrianglePair>, Vec<PairEntry>);
+    type Memory = (Vec<TrianglePair>, Vec<ScratchEntry>);
 
     fn header(&self) -> &'static str {
         HEADER
     }
 
     fn memory(&self) -> Self::Memory {
-        (vec![TrianglePair::EMPTY; PAIRS], self.0.stack())
+        (vec![TrianglePair::EMPTY; PAIRS], self.0.scratch())
     }
 
     fn ask(
         &self,
         row: [f32; N],
-        (room, stack): &mut Self::Memory,
+        (room, scratch): &mut Self::Memory,
     ) -> Result<Self::Answer, QueryError> {
-        let Pair { trees: [first, second], pose_of, .. } = &self.0;
+        let Pair { trees: [first, second], pose_of, search } = &self.0;
         ask::all(
             room,
             TrianglePair::EMPTY,
-            |room| all_overlaps(first, second, &pose_of(row), self.0.steps(), room, stack),
+            |room| first.overlaps(second, pose_of(row), room, search.budget(), scratch),
             |found| (found.stored, found.dropped),
         )
     }
@@ -170,15 +172,15 @@ impl<const N: usize> Question<N> for All<'_, N> {
         (found, pairs): &Self::Answer,
     ) -> io::Result<()> {
         for pair in pairs {
-            let contact = if pair.is_certain { Contact::Meets } else { Contact::Open };
+            let contact = if pair.is_certain { MEETS } else { OPEN };
             write_row(out, query, contact, Some(pair.triangles), found.work)?;
         }
         match found.ended {
-            Ended::Exact | Ended::Level if pairs.is_empty() => {
-                write_row(out, query, Contact::Apart, None, found.work)
+            Ended::Exact | Ended::Resolution if pairs.is_empty() => {
+                write_row(out, query, APART, None, found.work)
             }
-            Ended::Exact | Ended::Level => Ok(()),
-            _ => write_row(out, query, Contact::Open, None, found.work),
+            Ended::Exact | Ended::Resolution => Ok(()),
+            _ => write_row(out, query, OPEN, None, found.work),
         }
     }
 }
@@ -186,15 +188,10 @@ impl<const N: usize> Question<N> for All<'_, N> {
 fn write_row(
     out: &mut dyn Write,
     query: usize,
-    contact: Contact,
+    contact: &str,
     triangles: Option<[u32; 2]>,
     work: Work,
 ) -> io::Result<()> {
-    let contact = match contact {
-        Contact::Apart => "apart",
-        Contact::Meets => "meets",
-        Contact::Open => "open",
-    };
     let [first, second] = triangles.map_or([None; 2], |pair| pair.map(Some));
     write!(out, "{query},{contact},")?;
     first.map_or(Ok(()), |first| write!(out, "{first}"))?;

@@ -3,47 +3,39 @@
 //! `unknown` means of a first hit: the segment is proved clear before `t`, and no more is certain.
 //! Of all hits it means: the stored surface is hit there, and the mesh's may be.
 
-use crate::args::{Engine, SearchArgs, SegmentArgs, files};
+use crate::args::{self, SearchArgs, SegmentArgs, files};
 use crate::ask::{self, Question, write_end, write_numbers};
 use crate::failure::{Failure, Place};
-use crate::need::Need;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
+use crate::served::Engine;
 use crate::{blob_file, served};
-use meshsweep_core::num::{exp2, tolerance};
-use meshsweep_core::query::tree::{self, Facing, ScratchEntry};
-use meshsweep_core::query::{AllHits, Ended, Hit, SegmentHit, Work, all_hits, first_hit};
-use meshsweep_core::{Bvh, Model, QueryError, QueueEntry};
+use meshsweep_core::internal::num::{exp2, tolerance};
+use meshsweep_core::{
+    AllHits, BuildFor, Ended, Facing, FirstHit, Hit, QueryError, ScratchEntry, Work,
+};
 use std::io::{self, Write};
 
 /// Room for hits at first.
 const HITS: usize = 64;
 
 pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
-    let SegmentArgs { blob, search, .. } = args;
-    refuse_same_file(search.output.as_deref(), &files(&[blob], &args.segments))?;
-    let usage = |what: &str| Err(Failure::Usage { what: what.to_owned() });
-    let limits_tree =
-        || usage("--steps is for the cover tree; leave it out, or add --engine cover");
-    if args.engine == Some(Engine::Tree) && search.steps.is_some() {
-        return limits_tree();
+    let SegmentArgs { blob: file, search, .. } = args;
+    refuse_same_file(search.output.as_deref(), &files(&[file], &args.segments))?;
+    if args.engine == Some(args::Engine::Cover) && args.facing.is_some() {
+        let what = "--facing is for the box tree; leave it out, or use --engine tree".to_owned();
+        return Err(Failure::Usage { what });
     }
-    if args.engine == Some(Engine::Cover) && args.facing.is_some() {
-        return usage("--facing is for the box tree; leave it out, or use --engine tree");
-    }
-    let bytes = blob_file::read(blob)?;
-    let model = blob_file::open(blob, &bytes)?;
-    let tree_chosen = args.engine.map(|engine| engine == Engine::Tree);
-    let tree = served::choose(blob, &model, Need::Segments, tree_chosen)?;
-    if tree.is_some() && search.steps.is_some() {
-        return limits_tree();
-    }
-    if tree.is_none() && args.facing.is_some() {
-        // Only the box tree tells sides.
-        served::require_tree(blob, &model, Need::Segments)?;
-    }
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let engine = if args.facing.is_some() {
+        Engine::Tree(served::require_tree(file, &blob, BuildFor::Segment)?)
+    } else {
+        let tree_chosen = args.engine.map(|engine| engine == args::Engine::Tree);
+        served::choose(file, &blob, BuildFor::Segment, tree_chosen)?
+    };
     let segments = Queries::read(&args.segments)?;
-    let caster = Caster { model: &model, tree, facing: args.facing(), search };
+    let caster = Caster { engine, facing: args.facing(), search };
     if args.all {
         ask::run(&All(caster), segments, search)
     } else {
@@ -51,43 +43,31 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     }
 }
 
-/// What is asked, and what limits the search.
+/// What answers, and what limits the search.
 struct Caster<'a> {
-    model: &'a Model<'a>,
-    /// `None` for the cover tree.
-    tree: Option<Bvh<'a>>,
+    engine: Engine<'a>,
     facing: Facing,
     search: &'a SearchArgs,
 }
 
-struct Memory {
-    stack: Vec<ScratchEntry>,
-    queue: Vec<QueueEntry>,
-    hits: Vec<Hit>,
-}
-
 impl Caster<'_> {
-    fn memory(&self) -> Memory {
-        let hits = vec![Hit::EMPTY; HITS];
-        match &self.tree {
-            Some(tree) => Memory { stack: self.search.stack(tree), queue: Vec::new(), hits },
-            None => Memory { stack: Vec::new(), queue: self.search.queue(self.model), hits },
-        }
+    fn scratch(&self) -> Vec<ScratchEntry> {
+        self.search.scratch(self.engine.scratch_entries())
     }
 
     /// How far away the ends of segments may be, in the mesh's unit.
     fn limit(&self) -> String {
-        match &self.tree {
-            Some(tree) => {
+        match &self.engine {
+            Engine::Tree(tree) => {
                 let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
-                let farthest = f64::from(tolerance::TREE_FAR) * unit;
+                let farthest = f64::from(tolerance::BVH_FAR) * unit;
                 format!(
                     "the ways along x, y and z to the farthest corner of its box may add up to \
                      about {farthest:.1e}"
                 )
             }
-            None => {
-                let farthest = tolerance::FAR * self.model.scale();
+            Engine::Cover(hull) => {
+                let farthest = tolerance::HULL_FAR * hull.scale();
                 format!("a coordinate may be about {farthest:.1e} at most")
             }
         }
@@ -105,27 +85,26 @@ impl Caster<'_> {
 struct First<'a>(Caster<'a>);
 
 impl Question<6> for First<'_> {
-    type Answer = SegmentHit;
-    type Memory = Memory;
+    type Answer = FirstHit;
+    type Memory = Vec<ScratchEntry>;
 
     fn header(&self) -> &'static str {
         "hit,t,px,py,pz,triangle,work"
     }
 
-    fn memory(&self) -> Memory {
-        self.0.memory()
+    fn memory(&self) -> Self::Memory {
+        self.0.scratch()
     }
 
-    fn ask(&self, segment: [f32; 6], memory: &mut Memory) -> Result<SegmentHit, QueryError> {
-        let Caster { model, tree, facing, search } = &self.0;
-        let [a, b] = ends(segment);
-        match tree {
-            Some(tree) => tree::first_hit(tree, a, b, facing, &mut memory.stack),
-            None => first_hit(model, a, b, &search.budget(0.0, 0.0), &mut memory.queue),
+    fn ask(&self, segment: [f32; 6], scratch: &mut Self::Memory) -> Result<FirstHit, QueryError> {
+        let ([a, b], budget) = (ends(segment), self.0.search.budget());
+        match &self.0.engine {
+            Engine::Tree(tree) => tree.first_hit(a, b, self.0.facing, budget, scratch),
+            Engine::Cover(hull) => hull.first_hit(a, b, budget, scratch),
         }
     }
 
-    fn outcome(answer: &SegmentHit) -> (Ended, Work) {
+    fn outcome(answer: &FirstHit) -> (Ended, Work) {
         (answer.ended, answer.work)
     }
 
@@ -134,12 +113,12 @@ impl Question<6> for First<'_> {
         out: &mut dyn Write,
         _: usize,
         segment: &[f32; 6],
-        answer: &SegmentHit,
+        answer: &FirstHit,
     ) -> io::Result<()> {
         match answer.hit {
             _ if answer.is_clear() => write_clear(out, answer.work),
             Some(hit) if answer.ended == Ended::Exact => write_hit(out, "yes", hit, answer.work),
-            _ => write_unknown(out, segment, answer.lower, None, answer.work),
+            _ => write_unknown(out, segment, answer.t.lower, None, answer.work),
         }
     }
 
@@ -153,26 +132,28 @@ struct All<'a>(Caster<'a>);
 
 impl Question<6> for All<'_> {
     type Answer = (AllHits, Vec<Hit>);
-    type Memory = Memory;
+    type Memory = (Vec<Hit>, Vec<ScratchEntry>);
 
     fn header(&self) -> &'static str {
         "query,hit,t,px,py,pz,triangle,work"
     }
 
-    fn memory(&self) -> Memory {
-        self.0.memory()
+    fn memory(&self) -> Self::Memory {
+        (vec![Hit::EMPTY; HITS], self.0.scratch())
     }
 
-    fn ask(&self, segment: [f32; 6], memory: &mut Memory) -> Result<Self::Answer, QueryError> {
-        let Caster { model, tree, facing, .. } = &self.0;
-        let Memory { stack, queue, hits } = memory;
-        let [a, b] = ends(segment);
+    fn ask(
+        &self,
+        segment: [f32; 6],
+        (room, scratch): &mut Self::Memory,
+    ) -> Result<Self::Answer, QueryError> {
+        let ([a, b], budget) = (ends(segment), self.0.search.budget());
         ask::all(
-            hits,
+            room,
             Hit::EMPTY,
-            |hits| match tree {
-                Some(tree) => tree::all_hits(tree, a, b, facing, hits, stack),
-                None => all_hits(model, a, b, queue, hits),
+            |hits| match &self.0.engine {
+                Engine::Tree(tree) => tree.all_hits(a, b, self.0.facing, hits, budget, scratch),
+                Engine::Cover(hull) => hull.all_hits(a, b, hits, budget, scratch),
             },
             |found| (found.stored, found.dropped),
         )
@@ -192,7 +173,7 @@ impl Question<6> for All<'_> {
     ) -> io::Result<()> {
         for &hit in hits {
             write!(out, "{query},")?;
-            if found.ended == Ended::Level {
+            if found.ended == Ended::Resolution {
                 // The surface may be from here on: `t` was rounded to nearest.
                 let from = hit.t.next_down().max(0.0);
                 write_unknown(out, segment, from, hit.triangle, found.work)?;
@@ -200,18 +181,15 @@ impl Question<6> for All<'_> {
                 write_hit(out, "yes", hit, found.work)?;
             }
         }
-        match found.ended {
-            Ended::Exact if hits.is_empty() => {
-                write!(out, "{query},")?;
-                write_clear(out, found.work)
-            }
-            // Hits may be missing anywhere.
-            ended if ended == Ended::Capacity || hits.is_empty() => {
-                write!(out, "{query},")?;
-                write_unknown(out, segment, 0.0, None, found.work)
-            }
-            _ => Ok(()),
+        let may_miss = matches!(found.ended, Ended::Steps | Ended::Scratch);
+        if hits.is_empty() && found.ended == Ended::Exact {
+            write!(out, "{query},")?;
+            write_clear(out, found.work)?;
+        } else if hits.is_empty() || may_miss {
+            write!(out, "{query},")?;
+            write_unknown(out, segment, 0.0, None, found.work)?;
         }
+        Ok(())
     }
 
     fn refuse(&self, place: Place, error: QueryError) -> Failure {

@@ -3,30 +3,29 @@
 use crate::args::{SearchArgs, SignedArgs, files};
 use crate::ask::{self, Question, write_end, write_numbers};
 use crate::failure::Failure;
-use crate::need::Need;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{ScratchEntry, Side, SignedDistance, signed_distance};
-use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Work};
+use meshsweep_core::{
+    BuildFor, Bvh, Ended, Interval, QueryError, ScratchEntry, Side, SignedDistance, Undecided, Work,
+};
 use std::io::{self, Write};
 
 pub fn run(args: &SignedArgs) -> Result<(), Failure> {
-    let blob = &args.input.blob;
-    refuse_same_file(args.search.output.as_deref(), &files(&[blob], &args.input.points))?;
-    let bytes = blob_file::read(blob)?;
-    let model = blob_file::open(blob, &bytes)?;
-    let tree = served::require_tree(blob, &model, Need::Distances)?;
+    let file = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
     let points = Queries::read(&args.input.points)?;
     ask::run(&Signed { tree, search: &args.search }, points, &args.search)?;
-    if !tree.header().is_closed() {
+    if !tree.is_closed() {
         // A closed standard error does not withhold the answers.
         let _ = writeln!(
             io::stderr(),
             "{}: was built from a mesh that is not closed, so every side is undefined; distances \
              are not",
-            blob.display()
+            file.display()
         );
     }
     Ok(())
@@ -37,20 +36,19 @@ pub fn name(side: Side) -> &'static str {
     match side {
         Side::Outside => "outside",
         Side::Inside => "inside",
-        Side::Undefined => "undefined",
+        Side::Undecided(_) => "undefined",
     }
 }
 
-/// Why a side is undefined.
-pub fn reason(tree: &Bvh<'_>, answer: &SignedDistance) -> &'static str {
-    let ClosestPoint { lower, ended, .. } = answer.closest;
-    match (answer.side, ended) {
-        (Side::Outside | Side::Inside, _) => "",
-        _ if !tree.header().is_closed() => "open mesh",
-        (_, Ended::Steps) => "out of steps",
-        (_, Ended::Capacity) => "out of stack",
-        _ if lower <= 0.0 => "at the surface",
-        _ => "rounding",
+/// Why a side is undefined, in a word or two; nothing if it is not.
+pub fn reason(side: Side) -> &'static str {
+    match side {
+        Side::Outside | Side::Inside => "",
+        Side::Undecided(Undecided::OpenMesh) => "open mesh",
+        Side::Undecided(Undecided::Steps) => "out of steps",
+        Side::Undecided(Undecided::Scratch) => "out of stack",
+        Side::Undecided(Undecided::OnSurface) => "at the surface",
+        Side::Undecided(_) => "rounding",
     }
 }
 
@@ -68,11 +66,15 @@ impl Question<3> for Signed<'_> {
     }
 
     fn memory(&self) -> Self::Memory {
-        self.search.stack(&self.tree)
+        self.search.scratch(self.tree.scratch_entries())
     }
 
-    fn ask(&self, point: [f32; 3], stack: &mut Self::Memory) -> Result<SignedDistance, QueryError> {
-        signed_distance(&self.tree, point, &self.search.budget(0.0, 0.0), stack)
+    fn ask(
+        &self,
+        point: [f32; 3],
+        scratch: &mut Self::Memory,
+    ) -> Result<SignedDistance, QueryError> {
+        self.tree.signed_distance(point, self.search.budget(), scratch)
     }
 
     fn outcome(answer: &SignedDistance) -> (Ended, Work) {
@@ -86,11 +88,11 @@ impl Question<3> for Signed<'_> {
         point: &[f32; 3],
         answer: &SignedDistance,
     ) -> io::Result<()> {
-        let SignedDistance { lower, upper, side, closest } = answer;
+        let SignedDistance { distance: Interval { lower, upper }, side, closest } = *answer;
         let [px, py, pz] = closest.point;
         write_numbers(out, point)?;
-        write!(out, "{},{},", name(*side), reason(&self.tree, answer))?;
-        write_numbers(out, &[*lower, *upper, px, py, pz])?;
+        write!(out, "{},{},", name(side), reason(side))?;
+        write_numbers(out, &[lower, upper, px, py, pz])?;
         write_end(out, closest.triangle, closest.work)
     }
 }

@@ -3,29 +3,27 @@
 use crate::args::{SearchArgs, WithinArgs, files};
 use crate::ask::{self, Question, write_end, write_neighbor, write_numbers};
 use crate::failure::Failure;
-use crate::need::Need;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::query::tree::{
-    AllWithin, Neighbor, ScratchEntry, Verdict, Within, all_within, is_within,
+use meshsweep_core::{
+    AllWithin, BuildFor, Bvh, Ended, Neighbor, QueryError, ScratchEntry, TightHull, Verdict,
+    Within, Work,
 };
-use meshsweep_core::query::{Ended, QueryError, Work, tight};
-use meshsweep_core::{Bvh, TightHull};
 use std::io::{self, Write};
 
 /// Room for triangles at first.
 const TRIANGLES: usize = 64;
 
 pub fn run(args: &WithinArgs) -> Result<(), Failure> {
-    let blob = &args.input.blob;
-    refuse_same_file(args.search.output.as_deref(), &files(&[blob], &args.input.points))?;
-    let bytes = blob_file::read(blob)?;
-    let model = blob_file::open(blob, &bytes)?;
-    let hull = if args.all { None } else { served::tight_hull(blob, &model, args.tight)? };
+    let file = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let hull = if args.all { None } else { served::tight_hull(file, &blob, args.tight)? };
     let tree = match &hull {
-        Some(hull) => *hull.tree(),
-        None => served::require_tree(blob, &model, Need::Distances)?,
+        Some(hull) => *hull.bvh(),
+        None => served::require_tree(file, &blob, BuildFor::Closest)?,
     };
     let points = Queries::read(&args.input.points)?;
     let (search, distance) = (&args.search, args.distance);
@@ -54,19 +52,19 @@ impl Question<3> for Any<'_> {
     }
 
     fn memory(&self) -> Self::Memory {
-        self.search.stack(&self.tree)
+        self.search.scratch(self.tree.scratch_entries())
     }
 
-    fn ask(&self, point: [f32; 3], stack: &mut Self::Memory) -> Result<Within, QueryError> {
-        let budget = self.search.budget(0.0, 0.0);
+    fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<Within, QueryError> {
+        let (distance, budget) = (self.distance, self.search.budget());
         match &self.hull {
-            Some(hull) => tight::is_within(hull, point, self.distance, &budget, stack),
-            None => is_within(&self.tree, point, self.distance, &budget, stack),
+            Some(hull) => hull.within(point, distance, budget, scratch),
+            None => self.tree.within(point, distance, budget, scratch),
         }
     }
 
     fn outcome(answer: &Within) -> (Ended, Work) {
-        (answer.ended, answer.work)
+        (ask::ended(answer.verdict), answer.work)
     }
 
     fn is_by_hull(&self) -> bool {
@@ -80,14 +78,14 @@ impl Question<3> for Any<'_> {
         point: &[f32; 3],
         answer: &Within,
     ) -> io::Result<()> {
-        let (verdict, triangle) = match answer.verdict {
-            Verdict::Yes { triangle } => ("yes", triangle),
-            Verdict::No => ("no", None),
-            Verdict::Unknown => ("unknown", None),
+        let verdict = match answer.verdict {
+            Verdict::Yes => "yes",
+            Verdict::No => "no",
+            Verdict::Undecided(_) => "unknown",
         };
         write_numbers(out, point)?;
         write!(out, "{verdict},")?;
-        write_end(out, triangle, answer.work)
+        write_end(out, answer.triangle, answer.work)
     }
 }
 
@@ -107,19 +105,19 @@ impl Question<3> for All<'_> {
     }
 
     fn memory(&self) -> Self::Memory {
-        (vec![Neighbor::EMPTY; TRIANGLES], self.search.stack(&self.tree))
+        (vec![Neighbor::EMPTY; TRIANGLES], self.search.scratch(self.tree.scratch_entries()))
     }
 
     fn ask(
         &self,
         point: [f32; 3],
-        (room, stack): &mut Self::Memory,
+        (room, scratch): &mut Self::Memory,
     ) -> Result<Self::Answer, QueryError> {
-        let budget = self.search.budget(0.0, 0.0);
+        let budget = self.search.budget();
         ask::all(
             room,
             Neighbor::EMPTY,
-            |room| all_within(&self.tree, point, self.distance, &budget, room, stack),
+            |room| self.tree.all_within(point, self.distance, room, budget, scratch),
             |found| (found.stored, found.dropped),
         )
     }

@@ -3,6 +3,9 @@
 //! Half-edge `3t + k` runs from corner `k` of triangle `t` to the next corner; corner `3t + k` is
 //! the one that it starts from.
 
+use crate::surface::{EdgeTable, ends};
+use std::cmp::Ordering;
+
 /// No half-edge, no corner.
 pub(super) const NONE: u32 = u32::MAX;
 
@@ -18,51 +21,34 @@ impl<'a> Adjacency<'a> {
     /// pieces in which at most two triangles meet in an edge. An edge from a vertex to itself
     /// stays open, and no triangle is its own neighbour.
     ///
-    /// A counting sort over the lower vertex and a short sort for each vertex.
-    ///
     /// # Panics
     /// If a triangle names a vertex that is not below `vertex_count`, or if half-edges do not fit
     /// in 32 bits.
     pub(super) fn new(vertex_count: usize, triangles: &'a [[u32; 3]]) -> Self {
         assert!(triangles.len() < (u32::MAX / 3) as usize, "half-edges are numbered in 32 bits");
-        let half_edges = || {
-            triangles.iter().zip((0u32..).step_by(3)).flat_map(|(&[a, b, c], first)| {
-                [(a, b, first), (b, c, first + 1), (c, a, first + 2)]
-                    .into_iter()
-                    .filter(|edge| edge.0 != edge.1)
-            })
-        };
-        let mut starts = vec![0u32; vertex_count + 1];
-        for (from, to, _) in half_edges() {
-            starts[from.min(to) as usize + 1] += 1;
-        }
-        for v in 0..vertex_count {
-            starts[v + 1] += starts[v];
-        }
-        let mut next = starts.clone();
-        let mut uses = vec![(0u32, false, 0u32); starts[vertex_count] as usize];
-        for (from, to, half_edge) in half_edges() {
-            let slot = &mut next[from.min(to) as usize];
-            uses[*slot as usize] = (from.max(to), from > to, half_edge);
-            *slot += 1;
-        }
         let mut across = vec![NONE; 3 * triangles.len()];
-        let mut pair = |(_, _, g): (u32, bool, u32), (_, _, h): (u32, bool, u32)| {
+        let mut pair = |g: u32, h: u32| {
             if g / 3 != h / 3 {
                 across[g as usize] = h;
                 across[h as usize] = g;
             }
         };
-        for range in starts.windows(2) {
-            let at_vertex = &mut uses[range[0] as usize..range[1] as usize];
-            at_vertex.sort_unstable();
-            for edge in at_vertex.chunk_by(|a, b| a.0 == b.0) {
-                let (up, down) = edge.split_at(edge.partition_point(|half_edge| !half_edge.1));
-                let both = up.len().min(down.len());
-                up.iter().zip(down).for_each(|(&g, &h)| pair(g, h));
-                for rest in [&up[both..], &down[both..]] {
-                    rest.chunks_exact(2).for_each(|two| pair(two[0], two[1]));
+        let (mut up, mut down) = (Vec::new(), Vec::new());
+        for edge in EdgeTable::new(vertex_count, triangles).edges() {
+            up.clear();
+            down.clear();
+            for &(high, half_edge) in edge {
+                let [from, to] = ends(triangles, half_edge);
+                match from.cmp(&to) {
+                    Ordering::Less => up.push(half_edge),
+                    Ordering::Greater => down.push(half_edge),
+                    Ordering::Equal => debug_assert_eq!(from, high, "it stays open"),
                 }
+            }
+            let both = up.len().min(down.len());
+            up.iter().zip(&down).for_each(|(&g, &h)| pair(g, h));
+            for rest in [&up[both..], &down[both..]] {
+                rest.chunks_exact(2).for_each(|two| pair(two[0], two[1]));
             }
         }
         Self { triangles, across }

@@ -3,18 +3,18 @@
 use std::collections::BinaryHeap;
 
 use super::adjacency::{Adjacency, NONE, following, preceding};
-use super::{Fan, MAX_PATCH, Weights};
+use super::{Fan, MAX_LEAF_TRIANGLES, Weights};
 
-/// Splits a soup into fans of 1 to [`MAX_PATCH`] triangles, none of them reversed.
+/// Splits a soup into fans of 1 to [`MAX_LEAF_TRIANGLES`] triangles, none of them reversed.
 ///
 /// The paper's rule: the front starts at the open edges, or at triangle 0 of what is left if there
 /// is none; of the vertices about the front, the one with the largest `f(c) = α v + β r − γ t`
 /// becomes the next centre. One thing is added: of the runs of triangles about a centre only the
-/// longest are taken, in pieces of [`MAX_PATCH`] if they are longer; the rest stays for other
+/// longest are taken, in pieces of [`MAX_LEAF_TRIANGLES`] if they are longer; the rest stays for other
 /// centres, and this centre is a candidate again. Ties go to the vertex with the larger number.
 ///
 /// `O(n log n)`: the three counts are kept up to date as triangles go, and a centre's corners are
-/// walked at most [`MAX_PATCH`] times in a row.
+/// walked at most [`MAX_LEAF_TRIANGLES`] times in a row.
 ///
 /// # Panics
 /// If a triangle names a vertex that is not below `vertex_count`, or if there are 2³²/3 triangles
@@ -133,10 +133,10 @@ impl<'a> Front<'a> {
     }
 
     /// Takes the longest runs about `centre`, all those of one length, so that a vertex is visited
-    /// at most [`MAX_PATCH`] times between changes by others however many runs it has.
+    /// at most [`MAX_LEAF_TRIANGLES`] times between changes by others however many runs it has.
     fn take_fans(&mut self, centre: u32, fans: &mut Vec<Fan>) {
         let runs = self.runs(centre);
-        let longest = runs.iter().map(Vec::len).max().unwrap_or(0).min(MAX_PATCH);
+        let longest = runs.iter().map(Vec::len).max().unwrap_or(0).min(MAX_LEAF_TRIANGLES);
         for piece in
             runs.iter().filter(|run| run.len() >= longest).flat_map(|run| run.chunks_exact(longest))
         {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! triangles ─┬─ decompose ─ fans     the paper's greedy rule, one fan after the other
-//!            └─ pack ────── patches  the same rule for leaves of two fans, which is what the box tree stores
+//!            └─ pack ────── leaves  the same rule for leaves of two fans, which is what the box tree stores
 //! ```
 //!
 //! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
@@ -26,7 +26,7 @@ pub use report::FanReport;
 pub use validate::{FanFault, validate};
 
 /// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.
-pub const MAX_PATCH: usize = 8;
+pub const MAX_LEAF_TRIANGLES: usize = 8;
 
 /// Triangles about one vertex.
 ///
@@ -39,7 +39,7 @@ pub struct Fan {
     pub centre: u32,
     /// The vertices around it, in order.
     pub ring: Vec<u32>,
-    /// The triangles' numbers, in the ring's order: 1 to [`MAX_PATCH`].
+    /// The triangles' numbers, in the ring's order: 1 to [`MAX_LEAF_TRIANGLES`].
     pub triangles: Vec<u32>,
     /// True if the ring runs against the mesh's winding.
     pub reversed: bool,
@@ -47,7 +47,7 @@ pub struct Fan {
 
 /// What one leaf of the box tree holds: one fan, or two that share a vertex of their rings.
 ///
-/// At most [`MAX_PATCH`] triangles together. `first` is not reversed; `second` may be, and its ring
+/// At most [`MAX_LEAF_TRIANGLES`] triangles together. `first` is not reversed; `second` may be, and its ring
 /// starts with the last vertex of `first`'s, so that both rings are one path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FanLeaf {
@@ -68,7 +68,7 @@ impl FanLeaf {
         self.fans().flat_map(|fan| fan.triangles.iter().copied())
     }
 
-    /// How many triangles: 1 to [`MAX_PATCH`].
+    /// How many triangles: 1 to [`MAX_LEAF_TRIANGLES`].
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.fans().map(|fan| fan.triangles.len()).sum()

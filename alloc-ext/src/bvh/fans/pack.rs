@@ -1,4 +1,4 @@
-//! Greedy packing of a soup into patches.
+//! Greedy packing of a soup into leaves.
 
 use std::collections::VecDeque;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::adjacency::{Adjacency, NONE};
 use super::score::{contact, cut_off, spread};
 use super::window::{Run, Window};
-use super::{FanLeaf, MAX_PATCH};
+use super::{FanLeaf, MAX_LEAF_TRIANGLES};
 
 /// Candidates whose score is computed in full. All of them instead give no better result.
 const FINALISTS: usize = 16;
@@ -15,19 +15,19 @@ const FINALISTS: usize = 16;
 /// hundred at most).
 const SEEN: usize = 512;
 
-/// Packs a soup into patches, one for each leaf of the box tree.
+/// Packs a soup into leaves, one for each leaf of the box tree.
 ///
-/// The paper's idea, with the patch in place of the fan: the front starts at the open edges and
+/// The paper's idea, with the leaf in place of the fan: the front starts at the open edges and
 /// moves inwards, and what is most in danger of being left alone goes first. The next seed is the
 /// remaining triangle with the fewest remaining neighbours, and of those the one that has waited
-/// longest. In a window of 32 triangles about it, every patch that contains the seed and
+/// longest. In a window of 32 triangles about it, every leaf that contains the seed and
 /// cannot be extended is scored: by its size, the open edges it leaves, the triangles and parts it
-/// cuts off, and its box. The best becomes the next patch. Triangles that share no edge never meet
-/// in a patch.
+/// cuts off, and its box. The best becomes the next leaf. Triangles that share no edge never meet
+/// in a leaf.
 ///
-/// Time and memory are linear: a patch costs bounded work, whatever the valences, about 20 µs. The
-/// same input gives the same patches. `positions` decide among patches only: whatever they are,
-/// every triangle is in exactly one patch.
+/// Time and memory are linear: a leaf costs bounded work, whatever the valences, about 20 µs. The
+/// same input gives the same leaves. `positions` decide among leaves only: whatever they are,
+/// every triangle is in exactly one leaf.
 ///
 /// # Panics
 /// If a triangle names a vertex that has no position, or if there are 2³²/3 triangles or more.
@@ -45,18 +45,18 @@ pub fn pack(triangles: &[[u32; 3]], positions: &[DVec3]) -> Vec<FanLeaf> {
     for triangle in 0..triangles.len() as u32 {
         front.push(triangle, packing.degree(triangle));
     }
-    let mut patches = Vec::with_capacity(triangles.len() / MAX_PATCH);
+    let mut leaves = Vec::with_capacity(triangles.len() / MAX_LEAF_TRIANGLES);
     while let Some(seed) = front.pop(&packing) {
-        let patch = packing.take_best(seed);
-        for half_edge in patch.triangles().flat_map(|t| 3 * t..3 * t + 3) {
+        let leaf = packing.take_best(seed);
+        for half_edge in leaf.triangles().flat_map(|t| 3 * t..3 * t + 3) {
             let across = adjacency.across(half_edge);
             if across != NONE && !packing.taken[across as usize / 3] {
                 front.push(across / 3, packing.degree(across / 3));
             }
         }
-        patches.push(patch);
+        leaves.push(leaf);
     }
-    patches
+    leaves
 }
 
 /// Remaining triangles by their number of remaining neighbours, oldest first. An entry is stale if
@@ -81,7 +81,7 @@ impl Front {
     }
 }
 
-/// A patch that could be next; the flag tells whether its second fan is reversed.
+/// A leaf that could be next; the flag tells whether its second fan is reversed.
 #[derive(Clone, Copy)]
 struct Candidate {
     score: i32,
@@ -122,7 +122,7 @@ impl Candidates {
     /// The longest runs that can be joined to `run`, whose last corner is `end`.
     fn add_pairs(&mut self, window: &Window, run: Run, end: u8) {
         let mask = window.runs(run.corner, false)[run.len as usize];
-        let room = MAX_PATCH - run.len as usize;
+        let room = MAX_LEAF_TRIANGLES - run.len as usize;
         let longest = |corner: u8, behind: bool| {
             let masks = window.runs(corner, behind);
             // The masks grow with the length, so the search ends where the run does or where it
@@ -168,26 +168,28 @@ impl Packing<'_> {
         self.collect();
         let best = self.best();
         let fan = |run, reversed| self.window.fan(self.adjacency, run, reversed);
-        let patch = FanLeaf {
+        let leaf = FanLeaf {
             first: fan(best.first, false),
             second: best.second.map(|(run, reversed)| fan(run, reversed)),
         };
-        patch.triangles().for_each(|t| self.taken[t as usize] = true);
-        patch
+        leaf.triangles().for_each(|t| self.taken[t as usize] = true);
+        leaf
     }
 
-    /// All patches of the window that contain the seed, as far as they cannot be extended.
+    /// All leaves of the window that contain the seed, as far as they cannot be extended.
     fn collect(&mut self) {
         let Self { window, candidates, .. } = self;
         candidates.clear();
-        let mut runs =
-            arrayvec::ArrayVec::<(Run, u8), { 3 * MAX_PATCH * (MAX_PATCH + 1) / 2 }>::new();
+        let mut runs = arrayvec::ArrayVec::<
+            (Run, u8),
+            { 3 * MAX_LEAF_TRIANGLES * (MAX_LEAF_TRIANGLES + 1) / 2 },
+        >::new();
         for seed_corner in 0..3 {
             let mut start = seed_corner;
-            for before in 0..MAX_PATCH {
+            for before in 0..MAX_LEAF_TRIANGLES {
                 let masks = window.runs(start, false);
                 let mut end = start;
-                for len in (1..=MAX_PATCH).take_while(|&len| masks[len] != 0) {
+                for len in (1..=MAX_LEAF_TRIANGLES).take_while(|&len| masks[len] != 0) {
                     if len > 1 {
                         end = window.next(end).unwrap_or(end);
                     }

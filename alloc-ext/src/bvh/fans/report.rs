@@ -4,9 +4,9 @@ use std::fmt;
 
 use crate::counted::Counted;
 
-use super::{Fan, FanLeaf, MAX_PATCH};
+use super::{Fan, FanLeaf, MAX_LEAF_TRIANGLES};
 
-/// Counts of fans and patches. Displayed as a few lines of text.
+/// Counts of fans and leaves. Displayed as a few lines of text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FanReport {
     /// Triangles in all fans.
@@ -15,34 +15,34 @@ pub struct FanReport {
     pub fans: usize,
     /// Fans of a single triangle, which the paper calls degenerate.
     pub degenerate: usize,
-    /// Fans of 1, 2, … [`MAX_PATCH`] triangles.
-    pub fan_sizes: [usize; MAX_PATCH],
-    /// Patches.
-    pub patches: usize,
-    /// Patches of 1, 2, … [`MAX_PATCH`] triangles.
-    pub patch_sizes: [usize; MAX_PATCH],
-    /// Vertices that the patches store, each as often as it is stored.
+    /// Fans of 1, 2, … [`MAX_LEAF_TRIANGLES`] triangles.
+    pub fan_sizes: [usize; MAX_LEAF_TRIANGLES],
+    /// Leaves.
+    pub leaves: usize,
+    /// Leaves of 1, 2, … [`MAX_LEAF_TRIANGLES`] triangles.
+    pub leaf_sizes: [usize; MAX_LEAF_TRIANGLES],
+    /// Vertices that the leaves store, each as often as it is stored.
     pub stored_vertices: usize,
 }
 
 impl FanReport {
-    /// Counts `fans` and `patches`, which need not belong together: pass the fans of
-    /// [`decompose`](super::decompose()) to compare with the paper, or those of the patches (by
+    /// Counts `fans` and `leaves`, which need not belong together: pass the fans of
+    /// [`decompose`](super::decompose()) to compare with the paper, or those of the leaves (by
     /// [`FanLeaf::fans`]) to see what is stored. Linear.
     ///
     /// # Panics
-    /// If a fan or a patch has no triangle or more than [`MAX_PATCH`].
-    pub fn new<'a>(fans: impl IntoIterator<Item = &'a Fan>, patches: &[FanLeaf]) -> Self {
-        let mut report = Self { patches: patches.len(), ..Self::default() };
+    /// If a fan or a leaf has no triangle or more than [`MAX_LEAF_TRIANGLES`].
+    pub fn new<'a>(fans: impl IntoIterator<Item = &'a Fan>, leaves: &[FanLeaf]) -> Self {
+        let mut report = Self { leaves: leaves.len(), ..Self::default() };
         for fan in fans {
             report.fans += 1;
             report.triangles += fan.triangles.len();
             report.fan_sizes[fan.triangles.len() - 1] += 1;
         }
         report.degenerate = report.fan_sizes[0];
-        for patch in patches {
-            report.patch_sizes[patch.triangle_count() - 1] += 1;
-            report.stored_vertices += patch.vertex_count();
+        for leaf in leaves {
+            report.leaf_sizes[leaf.triangle_count() - 1] += 1;
+            report.stored_vertices += leaf.vertex_count();
         }
         report
     }
@@ -53,21 +53,21 @@ impl FanReport {
         mean(self.triangles, self.fans)
     }
 
-    /// Mean number of triangles in a patch; 0 if there is none.
+    /// Mean number of triangles in a leaf; 0 if there is none.
     #[must_use]
-    pub fn triangles_per_patch(&self) -> f64 {
-        mean(self.patched_triangles(), self.patches)
+    pub fn triangles_per_leaf(&self) -> f64 {
+        mean(self.leaf_triangles(), self.leaves)
     }
 
-    /// Mean number of stored vertices for a triangle of a patch; 0 if there is none. 10/8 is the
+    /// Mean number of stored vertices for a triangle of a leaf; 0 if there is none. 10/8 is the
     /// least possible.
     #[must_use]
     pub fn vertices_per_triangle(&self) -> f64 {
-        mean(self.stored_vertices, self.patched_triangles())
+        mean(self.stored_vertices, self.leaf_triangles())
     }
 
-    fn patched_triangles(&self) -> usize {
-        self.patch_sizes.iter().enumerate().map(|(i, count)| (i + 1) * count).sum()
+    fn leaf_triangles(&self) -> usize {
+        self.leaf_sizes.iter().enumerate().map(|(i, count)| (i + 1) * count).sum()
     }
 }
 
@@ -88,11 +88,11 @@ impl fmt::Display for FanReport {
         )?;
         write!(
             f,
-            "{}, {:.3} triangles a patch, {:.3} stored vertices a triangle; by size {:?}",
-            Counted(self.patches, "patch"),
-            self.triangles_per_patch(),
+            "{}, {:.3} triangles a leaf, {:.3} stored vertices a triangle; by size {:?}",
+            Counted(self.leaves, "leaf"),
+            self.triangles_per_leaf(),
             self.vertices_per_triangle(),
-            self.patch_sizes
+            self.leaf_sizes
         )
     }
 }

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use super::{Fan, FanFault, FanLeaf, FanReport, MAX_PATCH, Weights, decompose, pack, validate};
+use super::{
+    Fan, FanFault, FanLeaf, FanReport, MAX_LEAF_TRIANGLES, Weights, decompose, pack, validate,
+};
 
 struct Soup {
     triangles: Vec<[u32; 3]>,
@@ -64,10 +66,10 @@ impl Soup {
         assert_eq!(validate(&single, &self.triangles), Ok(()));
         assert_eq!(fans, decompose(&self.triangles, self.positions.len(), &Weights::default()));
 
-        let patches = pack(&self.triangles, &self.positions);
-        assert_eq!(validate(&patches, &self.triangles), Ok(()));
-        assert_eq!(patches, pack(&self.triangles, &self.positions));
-        FanReport::new(&fans, &patches)
+        let leaves = pack(&self.triangles, &self.positions);
+        assert_eq!(validate(&leaves, &self.triangles), Ok(()));
+        assert_eq!(leaves, pack(&self.triangles, &self.positions));
+        FanReport::new(&fans, &leaves)
     }
 
     fn half_areas<'a>(&self, parts: impl Iterator<Item = &'a [u32]>) -> f64 {
@@ -106,9 +108,9 @@ impl Random {
 #[test]
 fn nothing_makes_no_fans() {
     let report = Soup::new(vec![]).check();
-    assert_eq!((report.fans, report.patches), (0, 0));
+    assert_eq!((report.fans, report.leaves), (0, 0));
     assert_eq!(
-        report.triangles_per_fan() + report.triangles_per_patch() + report.vertices_per_triangle(),
+        report.triangles_per_fan() + report.triangles_per_leaf() + report.vertices_per_triangle(),
         0.0
     );
 }
@@ -117,7 +119,7 @@ fn nothing_makes_no_fans() {
 fn a_single_triangle_is_a_fan() {
     let report = Soup::new(vec![[0, 1, 2]]).check();
     assert_eq!(
-        (report.fans, report.degenerate, report.patches, report.stored_vertices),
+        (report.fans, report.degenerate, report.leaves, report.stored_vertices),
         (1, 1, 1, 3)
     );
 }
@@ -125,14 +127,14 @@ fn a_single_triangle_is_a_fan() {
 #[test]
 fn a_tetrahedron_is_one_patch() {
     let report = Soup::new(vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]).check();
-    assert_eq!((report.patches, report.patch_sizes[3]), (1, 1));
+    assert_eq!((report.leaves, report.leaf_sizes[3]), (1, 1));
 }
 
 #[test]
 fn two_fans_of_one_path_are_one_patch() {
     // A strip: no vertex has more than 3 triangles.
     let report = Soup::new(vec![[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]]).check();
-    assert_eq!((report.patches, report.stored_vertices), (1, 7));
+    assert_eq!((report.leaves, report.stored_vertices), (1, 7));
 }
 
 #[test]
@@ -140,10 +142,10 @@ fn a_second_fan_may_be_reversed() {
     // Four triangles about 0 and two about 4, or two about 0 and four about 4: both rings end at
     // the vertex they share.
     let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [4, 7, 6], [4, 6, 5]];
-    let patches = pack(&triangles, &Soup::new(triangles.clone()).positions);
-    assert_eq!(validate(&patches, &triangles), Ok(()));
-    assert_eq!(patches.len(), 1);
-    assert!(patches[0].second.as_ref().is_some_and(|second| second.reversed));
+    let leaves = pack(&triangles, &Soup::new(triangles.clone()).positions);
+    assert_eq!(validate(&leaves, &triangles), Ok(()));
+    assert_eq!(leaves.len(), 1);
+    assert!(leaves[0].second.as_ref().is_some_and(|second| second.reversed));
 }
 
 #[test]
@@ -167,7 +169,7 @@ fn triangles_with_a_repeated_corner_are_kept() {
 fn coinciding_positions_change_no_promise() {
     let mut soup = Soup::torus(12, 12);
     soup.positions.fill(DVec3::ONE);
-    assert!(soup.check().triangles_per_patch() > 7.0);
+    assert!(soup.check().triangles_per_leaf() > 7.0);
 }
 
 #[test]
@@ -182,7 +184,7 @@ fn a_bow_tie_vertex_makes_two_fans() {
     triangles
         .extend(Soup::cone(5).triangles.iter().map(|t| t.map(|v| if v == 0 { 0 } else { v + 10 })));
     let report = Soup::new(triangles).check();
-    assert_eq!((report.fans, report.patches), (2, 2));
+    assert_eq!((report.fans, report.leaves), (2, 2));
 }
 
 #[test]
@@ -194,7 +196,7 @@ fn a_moebius_strip_is_packed_across_its_seam() {
         [[a, b, c], [a, c, d]]
     });
     let report = Soup::new(triangles.collect()).check();
-    assert!(report.triangles_per_patch() >= 4.0, "{report}");
+    assert!(report.triangles_per_leaf() >= 4.0, "{report}");
 }
 
 #[test]
@@ -202,15 +204,22 @@ fn flipped_triangles_still_share_patches() {
     let mut random = Random(5);
     let mut soup = Soup::torus(20, 20);
     soup.triangles.iter_mut().filter(|_| random.below(10) == 0).for_each(|t| t.swap(1, 2));
-    assert!(soup.check().triangles_per_patch() > 6.0);
+    assert!(soup.check().triangles_per_leaf() > 6.0);
 }
 
 #[test]
 fn a_vertex_of_any_valence_is_split_into_full_fans() {
     for valence in 3..=40 {
         let report = Soup::cone(valence).check();
-        assert_eq!(report.patches, (valence as usize).div_ceil(MAX_PATCH), "valence {valence}");
-        assert!(report.fans <= (valence as usize).div_ceil(MAX_PATCH), "valence {valence}");
+        assert_eq!(
+            report.leaves,
+            (valence as usize).div_ceil(MAX_LEAF_TRIANGLES),
+            "valence {valence}"
+        );
+        assert!(
+            report.fans <= (valence as usize).div_ceil(MAX_LEAF_TRIANGLES),
+            "valence {valence}"
+        );
     }
 }
 
@@ -227,7 +236,7 @@ fn separate_parts_are_all_packed() {
     for part in 0..30 {
         triangles.extend(Soup::torus(3, 4).triangles.iter().map(|t| t.map(|v| v + 12 * part)));
     }
-    assert_eq!(Soup::new(triangles).check().patches, 90);
+    assert_eq!(Soup::new(triangles).check().leaves, 90);
 }
 
 #[test]
@@ -247,7 +256,7 @@ fn random_sheets_with_holes_fill_their_leaves() {
         soup.triangles.retain(|_| random.below(50) != 0);
         let report = soup.check();
         assert!(report.triangles_per_fan() > 4.2, "{report}");
-        assert!(report.triangles_per_patch() > 7.0, "{report}");
+        assert!(report.triangles_per_leaf() > 7.0, "{report}");
     }
 }
 
@@ -256,12 +265,12 @@ fn packing_fills_leaves_and_stays_compact() {
     let soup = Soup::torus(60, 40);
     let report = soup.check();
     assert!(report.triangles_per_fan() > 5.0, "{report}");
-    assert!(report.triangles_per_patch() > 7.3, "{report}");
+    assert!(report.triangles_per_leaf() > 7.3, "{report}");
     assert!(report.vertices_per_triangle() < 1.41, "{report}");
 
     let fans = decompose(&soup.triangles, soup.positions.len(), &Weights::default());
-    let patches = pack(&soup.triangles, &soup.positions);
-    let sets: Vec<Vec<u32>> = patches.iter().map(|patch| patch.triangles().collect()).collect();
+    let leaves = pack(&soup.triangles, &soup.positions);
+    let sets: Vec<Vec<u32>> = leaves.iter().map(|leaf| leaf.triangles().collect()).collect();
     let apart = soup.half_areas(fans.iter().map(|fan| &fan.triangles[..]));
     let packed = soup.half_areas(sets.iter().map(|set| &set[..]));
     assert!(packed < 1.1 * apart, "{packed} {apart}");
@@ -275,17 +284,17 @@ fn the_report_counts_what_it_is_given() {
         triangles,
         reversed: false,
     };
-    let patches = [
+    let leaves = [
         FanLeaf { first: fan(vec![0, 1, 2]), second: Some(fan(vec![3])) },
         FanLeaf { first: fan(vec![4]), second: None },
     ];
-    let report = FanReport::new(patches.iter().flat_map(FanLeaf::fans), &patches);
-    assert_eq!((report.triangles, report.fans, report.degenerate, report.patches), (5, 3, 2, 2));
-    assert_eq!((report.stored_vertices, report.fan_sizes[2], report.patch_sizes[3]), (7 + 3, 1, 1));
+    let report = FanReport::new(leaves.iter().flat_map(FanLeaf::fans), &leaves);
+    assert_eq!((report.triangles, report.fans, report.degenerate, report.leaves), (5, 3, 2, 2));
+    assert_eq!((report.stored_vertices, report.fan_sizes[2], report.leaf_sizes[3]), (7 + 3, 1, 1));
     assert!(
         report
             .to_string()
-            .contains("2 patches, 2.500 triangles a patch, 2.000 stored vertices a triangle")
+            .contains("2 leaves, 2.500 triangles a leaf, 2.000 stored vertices a triangle")
     );
 }
 
@@ -302,15 +311,15 @@ fn validate_names_each_fault() {
     assert_eq!(fault(|_, _| ()), Ok(()));
     assert_eq!(
         fault(|_, second| second.triangles.clear()),
-        Err(FanFault::Size { patch: 0, found: 2 })
+        Err(FanFault::Size { leaf: 0, found: 2 })
     );
     assert_eq!(
         fault(|_, second| second.triangles = vec![2; 7]),
-        Err(FanFault::Size { patch: 0, found: 9 })
+        Err(FanFault::Size { leaf: 0, found: 9 })
     );
-    assert_eq!(fault(|_, second| second.ring.push(0)), Err(FanFault::Ring { patch: 0 }));
-    assert_eq!(fault(|first, _| first.reversed = true), Err(FanFault::Reversed { patch: 0 }));
-    assert_eq!(fault(|_, second| second.ring[0] = 0), Err(FanFault::Apart { patch: 0 }));
+    assert_eq!(fault(|_, second| second.ring.push(0)), Err(FanFault::Ring { leaf: 0 }));
+    assert_eq!(fault(|first, _| first.reversed = true), Err(FanFault::Reversed { leaf: 0 }));
+    assert_eq!(fault(|_, second| second.ring[0] = 0), Err(FanFault::Apart { leaf: 0 }));
     assert_eq!(fault(|_, second| second.reversed = true), Err(FanFault::Corners { triangle: 2 }));
     assert_eq!(
         fault(|_, second| second.triangles = vec![9]),

@@ -2,32 +2,32 @@
 
 use std::fmt;
 
-use super::{Fan, FanLeaf, MAX_PATCH};
+use super::{Fan, FanLeaf, MAX_LEAF_TRIANGLES};
 
 /// The first broken promise that [`validate()`] found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FanFault {
-    /// A patch, or a fan of it, has no triangle or more than [`MAX_PATCH`].
+    /// A leaf, or a fan of it, has no triangle or more than [`MAX_LEAF_TRIANGLES`].
     Size {
-        /// The patch's index.
-        patch: usize,
+        /// The leaf's index.
+        leaf: usize,
         /// Its triangles.
         found: usize,
     },
     /// A fan's ring does not have one vertex more than the fan has triangles.
     Ring {
-        /// The patch's index.
-        patch: usize,
+        /// The leaf's index.
+        leaf: usize,
     },
     /// A first fan is reversed.
     Reversed {
-        /// The patch's index.
-        patch: usize,
+        /// The leaf's index.
+        leaf: usize,
     },
     /// A second fan's ring does not start where the first's ends.
     Apart {
-        /// The patch's index.
-        patch: usize,
+        /// The leaf's index.
+        leaf: usize,
     },
     /// A fan names other vertices than the mesh, or the same in the other winding, or a triangle
     /// that is not there.
@@ -47,15 +47,15 @@ pub enum FanFault {
 impl fmt::Display for FanFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Size { patch, found } => {
-                write!(f, "patch {patch} has {found} triangles, not 1 to {MAX_PATCH}")
+            Self::Size { leaf, found } => {
+                write!(f, "leaf {leaf} has {found} triangles, not 1 to {MAX_LEAF_TRIANGLES}")
             }
-            Self::Ring { patch } => {
-                write!(f, "patch {patch} has a ring that does not fit its triangles")
+            Self::Ring { leaf } => {
+                write!(f, "leaf {leaf} has a ring that does not fit its triangles")
             }
-            Self::Reversed { patch } => write!(f, "the first fan of patch {patch} is reversed"),
-            Self::Apart { patch } => {
-                write!(f, "the fans of patch {patch} share no vertex at their rings' ends")
+            Self::Reversed { leaf } => write!(f, "the first fan of leaf {leaf} is reversed"),
+            Self::Apart { leaf } => {
+                write!(f, "the fans of leaf {leaf} share no vertex at their rings' ends")
             }
             Self::Corners { triangle } => {
                 write!(f, "triangle {triangle} has other corners in its fan than in the mesh")
@@ -74,27 +74,24 @@ impl std::error::Error for FanFault {}
 ///
 /// # Errors
 /// The first promise that does not hold.
-pub fn validate(patches: &[FanLeaf], triangles: &[[u32; 3]]) -> Result<(), FanFault> {
+pub fn validate(leaves: &[FanLeaf], triangles: &[[u32; 3]]) -> Result<(), FanFault> {
     let mut found = vec![0u32; triangles.len()];
-    for (index, patch) in patches.iter().enumerate() {
-        let size = patch.triangle_count();
-        if size > MAX_PATCH || patch.fans().any(|fan| fan.triangles.is_empty()) {
-            return Err(FanFault::Size { patch: index, found: size });
+    for (index, leaf) in leaves.iter().enumerate() {
+        let size = leaf.triangle_count();
+        if size > MAX_LEAF_TRIANGLES || leaf.fans().any(|fan| fan.triangles.is_empty()) {
+            return Err(FanFault::Size { leaf: index, found: size });
         }
-        if patch.fans().any(|fan| fan.ring.len() != fan.triangles.len() + 1) {
-            return Err(FanFault::Ring { patch: index });
+        if leaf.fans().any(|fan| fan.ring.len() != fan.triangles.len() + 1) {
+            return Err(FanFault::Ring { leaf: index });
         }
-        if patch.first.reversed {
-            return Err(FanFault::Reversed { patch: index });
+        if leaf.first.reversed {
+            return Err(FanFault::Reversed { leaf: index });
         }
-        if patch
-            .second
-            .as_ref()
-            .is_some_and(|second| second.ring.first() != patch.first.ring.last())
+        if leaf.second.as_ref().is_some_and(|second| second.ring.first() != leaf.first.ring.last())
         {
-            return Err(FanFault::Apart { patch: index });
+            return Err(FanFault::Apart { leaf: index });
         }
-        for fan in patch.fans() {
+        for fan in leaf.fans() {
             for (i, &triangle) in fan.triangles.iter().enumerate() {
                 if !triangles
                     .get(triangle as usize)

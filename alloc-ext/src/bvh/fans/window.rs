@@ -4,9 +4,9 @@
 //! Corner `3i + k` is corner `k` of the window's triangle `i`.
 
 use super::adjacency::{Adjacency, NONE, following};
-use super::{Fan, MAX_PATCH};
+use super::{Fan, MAX_LEAF_TRIANGLES};
 
-/// Triangles in a window: as many as a mask has bits. 20 make half a percent more patches, 48 no
+/// Triangles in a window: as many as a mask has bits. 20 make half a percent more leaves, 48 no
 /// fewer.
 pub(super) const WINDOW: usize = 32;
 const CORNERS: usize = 3 * WINDOW;
@@ -43,8 +43,8 @@ pub(super) struct Window {
     other_at: [u8; CORNERS],
     /// `ahead[c][n]`: the `n` triangles about `c`'s vertex from `c` on, as a mask; 0 if there are
     /// fewer.
-    ahead: [[u32; MAX_PATCH + 1]; CORNERS],
-    behind: [[u32; MAX_PATCH + 1]; CORNERS],
+    ahead: [[u32; MAX_LEAF_TRIANGLES + 1]; CORNERS],
+    behind: [[u32; MAX_LEAF_TRIANGLES + 1]; CORNERS],
     /// Numbers within the window, for all triangles and vertices of the soup; [`NO`] between two
     /// calls.
     local_triangle: Vec<u8>,
@@ -63,8 +63,8 @@ impl Window {
             vertex: [0; CORNERS],
             first_at: [NO; CORNERS],
             other_at: [NO; CORNERS],
-            ahead: [[0; MAX_PATCH + 1]; CORNERS],
-            behind: [[0; MAX_PATCH + 1]; CORNERS],
+            ahead: [[0; MAX_LEAF_TRIANGLES + 1]; CORNERS],
+            behind: [[0; MAX_LEAF_TRIANGLES + 1]; CORNERS],
             local_triangle: vec![NO; triangle_count],
             local_vertex: vec![NO; vertex_count],
         }
@@ -167,7 +167,7 @@ impl Window {
 
     /// The runs that start at `corner`, or end there if `behind`, as masks by their length; 0 where
     /// there is none.
-    pub(super) fn runs(&self, corner: u8, behind: bool) -> &[u32; MAX_PATCH + 1] {
+    pub(super) fn runs(&self, corner: u8, behind: bool) -> &[u32; MAX_LEAF_TRIANGLES + 1] {
         if behind { &self.behind[corner as usize] } else { &self.ahead[corner as usize] }
     }
 
@@ -228,8 +228,8 @@ impl Window {
 }
 
 /// The runs from `corner` along `steps`, until a triangle comes back.
-fn runs(corner: u8, steps: &[u8; CORNERS]) -> [u32; MAX_PATCH + 1] {
-    let mut masks = [0; MAX_PATCH + 1];
+fn runs(corner: u8, steps: &[u8; CORNERS]) -> [u32; MAX_LEAF_TRIANGLES + 1] {
+    let mut masks = [0; MAX_LEAF_TRIANGLES + 1];
     let (mut mask, mut corner) = (0, corner);
     for slot in &mut masks[1..] {
         if corner == NO || mask & 1 << (corner / 3) != 0 {

@@ -6,7 +6,6 @@
 //! s))`. Source: Ylitie, Karras and Laine, "Efficient incoherent ray traversal on GPUs through
 //! compressed wide BVHs", 2017, section 3.1.
 
-use super::order::WideNode;
 use super::sah::BinaryNode;
 
 /// Children of a wide node at most.
@@ -14,6 +13,22 @@ const WIDTH: usize = 8;
 
 /// `cost[s]`: least weight with at most `s` slots; entry 0 is never read.
 type SlotCosts = [f32; WIDTH + 1];
+
+/// Children of a node: inner nodes first, then leaves; 1 to 8 together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct WideNode {
+    /// Node indices, consecutive in a finished [`Topology`](super::order::Topology).
+    pub inner: Vec<u32>,
+    /// Item numbers.
+    pub leaves: Vec<u32>,
+}
+
+impl WideNode {
+    /// Inner nodes and leaves together.
+    pub fn child_count(&self) -> usize {
+        self.inner.len() + self.leaves.len()
+    }
+}
 
 /// Wide nodes over a binary tree whose children come after their parents. Node 0 is the root,
 /// children come after their parent.

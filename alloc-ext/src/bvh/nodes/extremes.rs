@@ -12,7 +12,7 @@ const LEAST_ASPECT: f64 = 1e-3;
 /// directions and their opposites, each once.
 ///
 /// Directions are spread evenly over the sphere after the set has been scaled to equal variance
-/// along its principal axes, so that the thickness of a flat patch is sampled as well as its
+/// along its principal axes, so that the thickness of a flat leaf is sampled as well as its
 /// outline. Order and choice are deterministic. Cost: O(points · limit).
 pub(super) fn extreme_points(points: &[DVec3], limit: usize) -> Vec<DVec3> {
     if points.len() <= limit {

@@ -6,7 +6,7 @@ use super::frame::{FrameOptions, SEARCH_POINTS, best_quaternion};
 use super::order::Topology;
 use glam::DVec3;
 
-/// All patches' points, laid out so that every subtree is one contiguous run.
+/// All leaves' points, laid out so that every subtree is one contiguous run.
 struct SubtreePoints {
     points: Vec<DVec3>,
     /// Run of each node's subtree.
@@ -16,17 +16,17 @@ struct SubtreePoints {
 }
 
 impl SubtreePoints {
-    fn new(topology: &Topology, patches: &[&[DVec3]]) -> Self {
-        let mut points = Vec::with_capacity(patches.iter().map(|patch| patch.len()).sum());
+    fn new(topology: &Topology, leaves: &[&[DVec3]]) -> Self {
+        let mut points = Vec::with_capacity(leaves.iter().map(|leaf| leaf.len()).sum());
         let mut runs = vec![(0, 0); topology.nodes.len()];
-        let mut item_runs = vec![(0, 0); patches.len()];
+        let mut item_runs = vec![(0, 0); leaves.len()];
         let mut open: Vec<u32> = if topology.nodes.is_empty() { vec![] } else { vec![0] };
         while let Some(index) = open.pop() {
             let node = &topology.nodes[index as usize];
             runs[index as usize].0 = points.len();
             for &item in &node.leaves {
                 let start = points.len();
-                points.extend_from_slice(patches[item as usize]);
+                points.extend_from_slice(leaves[item as usize]);
                 item_runs[item as usize] = (start, points.len());
             }
             open.extend(node.inner.iter().rev());
@@ -52,16 +52,16 @@ impl SubtreePoints {
 }
 
 /// Boxes of every node, in the order of `topology.nodes`; lanes as in the node: inner children
-/// first, then leaves. `patches` are the items' points in grid units.
+/// first, then leaves. `leaves` are the items' points in grid units.
 ///
 /// The frame is searched on extreme points that are passed up the tree, the boxes cover every point
 /// of the subtree. Cost: O(points · depth) for the boxes, O(nodes) for the frames.
 pub fn shared_frames(
     topology: &Topology,
-    patches: &[&[DVec3]],
+    leaves: &[&[DVec3]],
     options: &FrameOptions,
 ) -> Vec<NodeBoxes> {
-    let subtrees = SubtreePoints::new(topology, patches);
+    let subtrees = SubtreePoints::new(topology, leaves);
     let mut extremes: Vec<Vec<DVec3>> = vec![Vec::new(); topology.nodes.len()];
     let mut boxes = Vec::with_capacity(topology.nodes.len());
     for (index, node) in topology.nodes.iter().enumerate().rev() {
@@ -80,8 +80,8 @@ pub fn shared_frames(
 }
 
 /// [`shared_frames`] without rotation: the nodes that segment questions use.
-pub fn axis_aligned_boxes(topology: &Topology, patches: &[&[DVec3]]) -> Vec<NodeBoxes> {
-    let subtrees = SubtreePoints::new(topology, patches);
+pub fn axis_aligned_boxes(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
+    let subtrees = SubtreePoints::new(topology, leaves);
     (0..topology.nodes.len())
         .map(|index| axis_aligned(&subtrees.children(topology, index)))
         .collect()
@@ -93,10 +93,10 @@ mod tests {
     use super::super::order::topology;
     use super::*;
 
-    /// Small patches on a sphere.
-    fn patches(count: usize, fractional: bool) -> Vec<Vec<DVec3>> {
+    /// Small leaves on a sphere.
+    fn leaves(count: usize, fractional: bool) -> Vec<Vec<DVec3>> {
         let mut noise = Noise(8);
-        let mut patch = || {
+        let mut leaf = || {
             let normal = noise.point(DVec3::ZERO, DVec3::ONE).normalize();
             let centre = DVec3::splat(32_000.0) + normal * 30_000.0;
             (0..8)
@@ -104,18 +104,18 @@ mod tests {
                 .map(|p| if fractional { p } else { p.round() })
                 .collect()
         };
-        (0..count).map(|_| patch()).collect()
+        (0..count).map(|_| leaf()).collect()
     }
 
-    fn bounds(patch: &[DVec3]) -> (DVec3, DVec3) {
+    fn bounds(leaf: &[DVec3]) -> (DVec3, DVec3) {
         (
-            patch.iter().copied().reduce(DVec3::min).unwrap(),
-            patch.iter().copied().reduce(DVec3::max).unwrap(),
+            leaf.iter().copied().reduce(DVec3::min).unwrap(),
+            leaf.iter().copied().reduce(DVec3::max).unwrap(),
         )
     }
 
     /// Checks every item against the boxes of all its ancestors.
-    fn assert_covers_subtrees(topology: &Topology, patches: &[&[DVec3]], boxes: &[NodeBoxes]) {
+    fn assert_covers_subtrees(topology: &Topology, leaves: &[&[DVec3]], boxes: &[NodeBoxes]) {
         assert_eq!(boxes.len(), topology.nodes.len());
         let mut items: Vec<Vec<u32>> = vec![Vec::new(); topology.nodes.len()];
         for (index, node) in topology.nodes.iter().enumerate().rev() {
@@ -126,9 +126,7 @@ mod tests {
             for (lane, below) in lanes.enumerate() {
                 for &item in &below {
                     assert!(
-                        patches[item as usize]
-                            .iter()
-                            .all(|&point| boxes[index].covers(lane, point))
+                        leaves[item as usize].iter().all(|&point| boxes[index].covers(lane, point))
                     );
                 }
                 all.extend(below);
@@ -139,16 +137,16 @@ mod tests {
             );
             items[index] = all;
         }
-        assert_eq!(items.first().map_or(0, Vec::len), patches.len());
+        assert_eq!(items.first().map_or(0, Vec::len), leaves.len());
     }
 
     #[test]
     fn all_points_of_all_subtrees_are_covered() {
         for count in [0, 1, 2, 9, 400] {
             for fractional in [false, true] {
-                let patches = patches(count, fractional);
-                let slices: Vec<&[DVec3]> = patches.iter().map(Vec::as_slice).collect();
-                let tree = topology(&slices.iter().map(|patch| bounds(patch)).collect::<Vec<_>>());
+                let leaves = leaves(count, fractional);
+                let slices: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
+                let tree = topology(&slices.iter().map(|leaf| bounds(leaf)).collect::<Vec<_>>());
                 assert_covers_subtrees(
                     &tree,
                     &slices,
@@ -161,9 +159,9 @@ mod tests {
 
     #[test]
     fn axis_aligned_boxes_have_the_identity() {
-        let patches = patches(50, false);
-        let slices: Vec<&[DVec3]> = patches.iter().map(Vec::as_slice).collect();
-        let tree = topology(&slices.iter().map(|patch| bounds(patch)).collect::<Vec<_>>());
+        let leaves = leaves(50, false);
+        let slices: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
+        let tree = topology(&slices.iter().map(|leaf| bounds(leaf)).collect::<Vec<_>>());
         assert!(
             axis_aligned_boxes(&tree, &slices)
                 .iter()

@@ -199,18 +199,18 @@ mod tests {
     use super::super::boxes::tests::{Noise, assert_covers_all};
     use super::*;
 
-    /// Four flat patches side by side in a plane that is slanted against all axes.
-    fn slanted_patches(fraction: f64) -> Vec<Vec<DVec3>> {
+    /// Four flat leaves side by side in a plane that is slanted against all axes.
+    fn slanted_leaves(fraction: f64) -> Vec<Vec<DVec3>> {
         let turn = DQuat::from_xyzw(0.31, -0.22, 0.17, 0.9).normalize();
         let mut noise = Noise(6);
-        let mut patch = |i: i32| {
+        let mut leaf = |i: i32| {
             let centre = DVec3::new(f64::from(i % 2) * 900.0, f64::from(i / 2) * 700.0, 0.0);
             (0..60)
                 .map(|_| turn * noise.point(centre, DVec3::new(800.0, 600.0, 8.0)) + 30_000.0)
                 .map(|p| if fraction == 0.0 { p.round() } else { p * fraction })
                 .collect()
         };
-        (0..4).map(&mut patch).collect()
+        (0..4).map(&mut leaf).collect()
     }
 
     /// Summed volume of the boxes, grid units.
@@ -226,9 +226,9 @@ mod tests {
     }
 
     #[test]
-    fn slanted_patches_get_thin_boxes() {
-        let patches = slanted_patches(0.0);
-        let children: Vec<&[DVec3]> = patches.iter().map(Vec::as_slice).collect();
+    fn slanted_leaves_get_thin_boxes() {
+        let leaves = slanted_leaves(0.0);
+        let children: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
         let boxes = shared_frame(&children);
         assert_covers_all(&boxes, &children);
         assert!(volume(&boxes, 4) < 4.0 * 800.0 * 600.0 * 24.0, "{}", volume(&boxes, 4));
@@ -237,8 +237,8 @@ mod tests {
 
     #[test]
     fn fractional_points_are_covered() {
-        let patches = slanted_patches(0.613);
-        let children: Vec<&[DVec3]> = patches.iter().map(Vec::as_slice).collect();
+        let leaves = slanted_leaves(0.613);
+        let children: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
         assert_covers_all(&shared_frame(&children), &children);
     }
 
@@ -246,10 +246,10 @@ mod tests {
     fn flat_and_collinear_children_are_covered() {
         let mut noise = Noise(7);
         for size in [DVec3::new(500.0, 300.0, 0.0), DVec3::new(0.0, 400.0, 0.0), DVec3::ZERO] {
-            let patches: Vec<Vec<DVec3>> = (0..8)
+            let leaves: Vec<Vec<DVec3>> = (0..8)
                 .map(|_| (0..6).map(|_| noise.point(DVec3::splat(9000.0), size).round()).collect())
                 .collect();
-            let children: Vec<&[DVec3]> = patches.iter().map(Vec::as_slice).collect();
+            let children: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
             assert_covers_all(&shared_frame(&children), &children);
         }
     }
@@ -263,9 +263,9 @@ mod tests {
 
     #[test]
     fn quaternions_use_the_whole_range() {
-        let patches = slanted_patches(0.0);
+        let leaves = slanted_leaves(0.0);
         for count in 1..=4 {
-            let children: Vec<&[DVec3]> = patches[..count].iter().map(Vec::as_slice).collect();
+            let children: Vec<&[DVec3]> = leaves[..count].iter().map(Vec::as_slice).collect();
             let boxes = shared_frame(&children);
             assert_eq!(boxes.quaternion.iter().map(|c| c.unsigned_abs()).max(), Some(127));
         }
@@ -273,8 +273,8 @@ mod tests {
 
     #[test]
     fn more_refinements_never_cost_more() {
-        let patches = slanted_patches(0.0);
-        let children: Vec<&[DVec3]> = patches.iter().map(Vec::as_slice).collect();
+        let leaves = slanted_leaves(0.0);
+        let children: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
         let cost = |refinements| {
             let options = FrameOptions { refinements, ..FrameOptions::default() };
             ChildPoints::new(&children, &options).cost(best_quaternion(&children, &options))

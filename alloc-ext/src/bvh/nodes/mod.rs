@@ -1,7 +1,7 @@
 //! Nodes of the box tree: which leaves they hold, and the boxes of their children.
 
 pub(super) mod boxes;
-mod collapse;
+pub(super) mod collapse;
 mod extremes;
 pub(super) mod fit;
 pub(super) mod frame;

@@ -1,6 +1,6 @@
 //! The wide tree's topology and the order in which its nodes and leaves are stored.
 
-use super::collapse::collapse;
+use super::collapse::{WideNode, collapse};
 use super::sah::binary_tree;
 use glam::DVec3;
 
@@ -20,22 +20,6 @@ pub struct TopologyOptions {
 impl Default for TopologyOptions {
     fn default() -> Self {
         Self { edge: 0.02, node_weight: 0.2 }
-    }
-}
-
-/// Children of a node: inner nodes first, then leaves; 1 to 8 together.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct WideNode {
-    /// Node indices, consecutive in a finished [`Topology`].
-    pub inner: Vec<u32>,
-    /// Item numbers.
-    pub leaves: Vec<u32>,
-}
-
-impl WideNode {
-    /// Inner nodes and leaves together.
-    pub fn child_count(&self) -> usize {
-        self.inner.len() + self.leaves.len()
     }
 }
 

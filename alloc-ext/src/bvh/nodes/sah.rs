@@ -18,7 +18,7 @@ const NO_CHILD: u32 = u32::MAX;
 /// By Steiner's formula the volume of a box that grows by `d` on all sides is `V + S d + π L d² +
 /// …` with the surface `S` and the summed extents `L`; points within `d` of a surface-like set of
 /// boxes are what closest-point searches open. The volume term is left out: axis-aligned volume
-/// says nothing of a slanted patch, whose node will get an oriented frame.
+/// says nothing of a slanted leaf, whose node will get an oriented frame.
 #[derive(Clone, Copy)]
 struct BoxMeasure {
     /// Weight of the summed extents, grid units.

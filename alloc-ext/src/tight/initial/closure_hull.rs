@@ -1,8 +1,8 @@
 //! An initial hull of any triangles, open, crossing or loose: a level of their voxel closure.
 
+use super::initial_hull::{InitialHull, InitialInput};
 use super::levels::{ClosedSurface, Faces, LEVELS};
 use super::voxel_closure::voxel_closure;
-use super::{InitialHull, InitialInput};
 use crate::collapse::Conditions;
 use crate::tight::moves::Shell;
 use crate::tight::report::{Progress, Start};

@@ -1,7 +1,7 @@
 //! The mesh's bounding box, larger by the margin and a few steps of the grid.
 
+use super::initial_hull::{InitialHull, InitialInput};
 use super::lifted::LIFTS;
-use super::{InitialHull, InitialInput};
 use crate::tight::moves::Shell;
 use crate::tight::report::Start;
 use glam::DVec3;

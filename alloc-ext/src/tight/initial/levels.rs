@@ -3,7 +3,7 @@
 //! A fine surface is thinned by rounds of collapses first, which takes a quarter of the time and
 //! may make the surface grow into itself where collapses in order do not.
 
-use super::InitialInput;
+use super::initial_hull::InitialInput;
 use crate::collapse::{Conditions, Engine, Priority, thin};
 use crate::surface::compact;
 use crate::tight::report::{Progress, Stage};

@@ -3,8 +3,8 @@
 //! A level of the progressive hull may touch the mesh, and itself. Its vertices are therefore
 //! lifted by a few steps of the grid. Where that does not prove a level, another may do.
 
+use super::initial_hull::{InitialHull, InitialInput};
 use super::levels::{ClosedSurface, LEVELS};
-use super::{InitialHull, InitialInput};
 use crate::collapse::{Conditions, MAX_STAR};
 use crate::lp::{HalfSpace, minimise_bounded};
 use crate::mesh::Mesh;

@@ -53,9 +53,9 @@ const GROWN: f64 = 1.0 + 1e-6;
 const MOST_HALVES: f64 = 16_777_216.0;
 
 /// The closure from a grid with at least `voxels` voxels, and fewer than twice as many, along the
-/// longest side of the mesh and its margin. Far from the origin there are fewer, as single precision
-/// has no coordinates for more. `None` if there is no room at all, or mesh and margin are one point,
-/// or the deadline passes.
+/// longest side of the mesh and its margin. Far from the origin there are fewer, as single
+/// precision has no coordinates for more. `None` if there is no room at all, or mesh and margin are
+/// one point, or the deadline passes.
 pub(super) fn voxel_closure(
     obstacle: &Obstacle,
     voxels: usize,
@@ -150,7 +150,8 @@ impl Grid {
         let mut met = vec![false; self.all().len()];
         for triangle in triangles {
             let bounds = Bounds::of(triangle);
-            // One voxel more on either side, as the quotient is rounded. The test that follows decides.
+            // One voxel more on either side, because the quotient is rounded. `visit_voxels`
+            // decides.
             let [low, high] = [(bounds.low, -1), (bounds.high, 1)]
                 .map(|(p, more)| ((p / self.edge).floor().as_i64vec3() + more).to_array());
             let at = |axis: usize, x: i64| (x - self.first[axis]).clamp(0, self.corners[axis] - 2);
@@ -222,10 +223,10 @@ impl Grid {
         DVec3::new(axis(0), axis(1), axis(2))
     }
 
-    /// Turns into inside what the border does not reach.
+    /// Makes all corners inside that the border does not reach.
     fn fill(&self, inside: &mut [bool]) {
         let mut outside = vec![false; inside.len()];
-        // The outermost layer is not met: all of it is connected.
+        // No triangle meets the outermost layer, so that all of it is connected.
         let mut open = vec![[0i64; 3]];
         outside[0] = true;
         while let Some(at) = open.pop() {
@@ -249,7 +250,8 @@ impl Grid {
         }
     }
 
-    /// Marching tetrahedra.
+    /// The surface between inside and outside, by marching tetrahedra. `cut` places the vertex on
+    /// an edge, given the inner and the outer end.
     fn surface(
         &self,
         inside: &[bool],
@@ -287,24 +289,24 @@ impl Grid {
     }
 }
 
-/// Numbered by their bits: x, y, z.
+/// Corners of a voxel. The bits of a corner's number are x, y, z.
 fn corners_of([i, j, k]: [i64; 3]) -> [[i64; 3]; 8] {
     [0, 1, 2, 3, 4, 5, 6, 7].map(|c| [i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)])
 }
 
-/// Kuhn's six tetrahedra of a cube, by corners whose bits are x, y, z: from 0 to 7 along one axis
-/// after the other. All are positively oriented.
+/// Kuhn's six tetrahedra of a cube, by corners whose bits are x, y, z. Each goes from corner 0 to
+/// corner 7 along one axis after the other. All are positively oriented.
 const TETRAHEDRA: [[usize; 4]; 6] =
     [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 
-/// The piece of the surface in one tetrahedron, counter-clockwise seen from outside.
+/// The triangles of the surface in one tetrahedron, counter-clockwise seen from outside.
 fn march(
     corners: [usize; 4],
     inside: &[bool],
     vertex: &mut impl FnMut(usize, usize) -> u32,
     triangles: &mut Vec<[u32; 3]>,
 ) {
-    // Even permutations, which bring the corner that is alone, or the two that are inside, to the
+    // Even permutations that bring the single corner, or the two corners that are inside, to the
     // front.
     const TO_FRONT: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
     const PAIR_TO_FRONT: [[usize; 4]; 6] =

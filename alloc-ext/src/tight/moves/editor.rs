@@ -10,8 +10,8 @@
 //! tested on the new faces. The third follows: a component that does not meet the new hull is
 //! inside or outside as a whole, so that one vertex of it, its witness, decides. The winding number
 //! around the witness changes only if the witness lies in one of the tetrahedra between the old
-//! faces and the new vertex, and it falls only in a tetrahedron that is cut off. Where it rises, the
-//! new hull encloses a component of itself. Such components are
+//! faces and the new vertex, and it falls only in a tetrahedron that is cut off. Where it rises,
+//! the new hull encloses a component of itself. Such components are
 //! [dropped](HullEditor::drop_enclosed) at the end of each stage.
 
 use super::memo::{GOLDEN, Key, Memo, Question};
@@ -200,8 +200,8 @@ impl<'a> HullEditor<'a> {
         self.is_shapely(star, x).then_some(x)
     }
 
-    /// The answer that a star got before, or the place that `place` gives it now and the volume that
-    /// this adds.
+    /// The answer that a star got before, or the place that `place` gives it now and the volume
+    /// that this adds.
     pub(super) fn remembered(
         &mut self,
         question: Question,

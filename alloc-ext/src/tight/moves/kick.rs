@@ -2,9 +2,9 @@
 
 use super::editor::HullEditor;
 use super::placement::PlacementObjective;
-use super::random::SplitMix;
 use super::star::radius;
 use super::tolerance::GAIN;
+use crate::tight::random::SplitMix;
 use glam::DVec3;
 
 impl HullEditor<'_> {

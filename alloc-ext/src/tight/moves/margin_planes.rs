@@ -99,7 +99,7 @@ impl<'a> Sweep<'a> {
         self.touching()
     }
 
-    /// Whether a point is nearest to the inside of the new face, and too near.
+    /// Whether the closest point of the new face is in its interior, and too near.
     fn is_under(&self, q: DVec3) -> bool {
         let [x, a, b] = self.face;
         let found = point_triangle(q, x, a, b);

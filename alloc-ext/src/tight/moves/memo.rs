@@ -18,17 +18,17 @@ pub(crate) enum Question {
     Flip = 4,
 }
 
-/// The hash of a star and a question. If two have the same hash an edit is passed over, or tried and
-/// refused.
+/// The hash of a star and a question. If two have the same hash an edit is passed over, or tried
+/// and refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Key(u64);
 
-/// Odd, and its bits without pattern (the golden ratio's).
+/// An odd number whose bits have no pattern (the golden ratio).
 pub(crate) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Key {
-    /// `salt` stands for everything else that the answer depends on. The order of the faces does not
-    /// count, nor which corner of a face is first.
+    /// `salt` stands for everything else that the answer depends on. The order of the faces does
+    /// not count, nor which corner of a face is first.
     pub fn new(question: Question, salt: u64, star: &[StarFace]) -> Self {
         let corner = |p: DVec3| {
             let mix = |h: u64, x: f64| (h.rotate_left(23) ^ x.to_bits()).wrapping_mul(GOLDEN);

@@ -12,7 +12,6 @@
 //! | `exchange.rs` | edge splits, and a split exchanged for a collapse |
 //! | `flip.rs` | edge flips |
 //! | `kick.rs` | random kicks of vertices |
-//! | `random.rs` | the same pseudo-random numbers in every run |
 //! | `tolerance.rs` | least gains and clearances of edits |
 //! | `within.rs` | edits that keep or bring the hull within a distance of the mesh |
 //! | `memo.rs` | answers about stars that were asked for before |
@@ -26,7 +25,6 @@ mod kick;
 mod margin_planes;
 mod memo;
 mod placement;
-mod random;
 mod rounding;
 mod shell;
 mod star;
@@ -35,7 +33,6 @@ mod vertex;
 mod within;
 
 pub(crate) use editor::{HullEditor, Shape};
-pub(crate) use random::SplitMix;
 pub(crate) use rounding::Rounding;
 pub(crate) use shell::Shell;
 pub(crate) use star::StarFace;

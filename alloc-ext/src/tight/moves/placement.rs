@@ -49,7 +49,8 @@ pub(crate) struct Placer {
     fixed: Vec<HalfSpace>,
     /// Per face of the star the plane about its ring edge.
     cuts: Vec<Option<HalfSpace>>,
-    /// Planes that push faces off the mesh beside them; see [`margin_planes`](super::margin_planes).
+    /// Planes that push faces off the mesh beside them; see
+    /// [`margin_planes`](super::margin_planes).
     pushes: Vec<HalfSpace>,
     /// All planes of a program.
     planes: Vec<HalfSpace>,
@@ -260,8 +261,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each plane must
-    /// be above the one before, so that points below it need not be visited.
+    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each plane
+    /// must be above the one before, so that points below it need not be visited.
     fn highest(
         &self,
         tetrahedron: &Tetrahedron,

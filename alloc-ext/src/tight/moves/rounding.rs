@@ -4,7 +4,7 @@ use crate::surface::Grid;
 use glam::DVec3;
 use meshsweep_core::internal::num::exp2;
 
-/// A grid of the local frame, or single precision, seen from the mesh's own frame.
+/// Rounding of points in the mesh's own frame to a grid of the local frame, or to single precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rounding {
     grid: Grid,

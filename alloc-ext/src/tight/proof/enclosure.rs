@@ -61,7 +61,7 @@ fn single(p: DVec3) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tight::moves::SplitMix;
+    use crate::tight::random::SplitMix;
 
     type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
 

@@ -1,23 +1,23 @@
-//! Why a mesh bounds no volume that the void of a hull could be measured against.
+//! Why a mesh bounds no volume, so that a hull of it has no void.
 
 use crate::counted::Counted;
 use crate::mesh::{EdgePlace, MeshError};
 use std::fmt;
 
-/// Why a mesh has no volume that the void of a hull can be measured against: the first of its
-/// defects in the order of [`require_closed_manifold`], with one place where it is.
+/// Why a mesh bounds no volume: its first defect in the order of
+/// [`require_closed_manifold`](crate::mesh::require_closed_manifold), with one place of the defect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVolume {
     /// Edges have one triangle only.
     Open {
-        /// How many.
+        /// Number of them.
         edges: usize,
         /// One of them.
         at: EdgePlace,
     },
-    /// Edges have more than two triangles, as where a wall divides the inside.
+    /// Edges have more than two triangles, for example where a wall divides the inside.
     NonManifold {
-        /// How many.
+        /// Number of them.
         edges: usize,
         /// Most triangles at an edge.
         most: usize,
@@ -26,50 +26,52 @@ pub enum NoVolume {
     },
     /// Several fans meet in a vertex; [`repair`](crate::mesh::repair) splits it.
     Pinched {
-        /// How many vertices.
+        /// Number of vertices.
         vertices: usize,
         /// One of them.
         at: [f32; 3],
     },
-    /// Parts have one side only, as a Klein bottle, which is closed, and a Möbius strip.
+    /// Components have one side only, as a Klein bottle, which is closed, and a Möbius strip.
     OneSided {
-        /// How many.
+        /// Number of them.
         parts: usize,
-        /// Where sides change.
+        /// An edge where the sides change.
         at: EdgePlace,
     },
     /// Neighbours are wound against each other; [`repair`](crate::mesh::repair) turns them.
     MixedWinding {
-        /// How many edges have such neighbours.
+        /// Number of edges with such neighbours.
         edges: usize,
         /// One of them.
         at: EdgePlace,
     },
-    /// Outermost parts face inwards; [`repair`](crate::mesh::repair) turns them.
+    /// Outermost components face inwards; [`repair`](crate::mesh::repair) turns them.
     InsideOut {
-        /// How many.
+        /// Number of them.
         parts: usize,
         /// A corner of one.
         at: [f32; 3],
     },
-    /// A closed part whose volume cannot be told from 0.
+    /// The volume of a closed component cannot be told from 0.
     Flat {
-        /// Its first triangle, as the input counts.
+        /// The component's first triangle, as the input counts.
         triangle: u32,
-        /// A corner of that.
+        /// A corner of the triangle.
         at: [f32; 3],
     },
-    /// Parts overlap or lie in each other as solid in solid, or one crosses itself: then a volume
-    /// counts what is there more than once.
+    /// Components overlap, or one lies in another as a solid in a solid, or one crosses itself. The
+    /// volume then counts places more than once.
     Overlapping,
-    /// Rounding may be all that there is: cavities leave next to nothing.
+    /// The volume may be rounding alone, because cavities leave next to none.
     Indistinct,
-    /// An array breaks what [`Mesh`] promises.
+    /// No triangle has an area.
+    NoArea,
+    /// The arrays break the contract of [`Mesh`](crate::mesh::Mesh).
     Invalid,
 }
 
 impl NoVolume {
-    /// What was found first.
+    /// The first defect.
     pub(super) fn of(error: &MeshError) -> Self {
         let named = match error {
             MeshError::Open { edge_count: edges, places, .. } => {
@@ -93,6 +95,7 @@ impl NoVolume {
             MeshError::ZeroVolume { triangle, at, .. } => {
                 Some(NoVolume::Flat { triangle: *triangle, at: *at })
             }
+            MeshError::NoArea { .. } => Some(NoVolume::NoArea),
             _ => None,
         };
         named.unwrap_or(NoVolume::Invalid)
@@ -110,6 +113,7 @@ impl fmt::Display for NoVolume {
                     Edge(at)
                 )
             }
+            NoVolume::NoArea => f.write_str("no triangle of the mesh has an area"),
             NoVolume::NonManifold { edges, most, at } => write!(
                 f,
                 "the mesh is not manifold: {} with up to {most} triangles, {}",
@@ -149,7 +153,8 @@ impl fmt::Display for NoVolume {
             NoVolume::Flat { triangle, at } => {
                 write!(
                     f,
-                    "a part of the mesh, that of triangle {triangle}, has a volume that cannot be told from 0, {}",
+                    "a part of the mesh, that of triangle {triangle}, has a volume that cannot be \
+                     told from 0, {}",
                     Point(at)
                 )
             }
@@ -162,7 +167,7 @@ impl fmt::Display for NoVolume {
     }
 }
 
-/// One of several edges, or the only one.
+/// The place of a defect at an edge.
 struct Edge(EdgePlace);
 
 impl fmt::Display for Edge {
@@ -172,7 +177,7 @@ impl fmt::Display for Edge {
     }
 }
 
-/// One of several places, or the only one.
+/// The place of a defect at a point.
 struct Point([f32; 3]);
 
 impl fmt::Display for Point {

@@ -158,7 +158,7 @@ pub(crate) fn in_sunken(base: &Triangle, apex: DVec3, p: DVec3) -> bool {
         return false;
     }
     let [a, b, c] = *base;
-    // Below the base, a face of the tetrahedron with the apex winds the other way round.
+    // Below the base, the tetrahedron's faces at the apex wind the other way round.
     [[a, b], [b, c], [c, a]].into_iter().all(|[u, v]| side(&[u, v, apex], p) >= 0.0)
 }
 

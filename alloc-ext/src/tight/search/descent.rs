@@ -1,6 +1,6 @@
 //! The way from an initial hull to fewer faces, in stages.
 
-use super::HullSearch;
+use super::hull_search::HullSearch;
 use super::polish::Polish;
 use crate::tight::initial::InitialHull;
 use crate::tight::moves::{HullEditor, Shape};

@@ -10,8 +10,8 @@
 //! With few faces a coarse closure may come to less volume, because it has fewer handles and narrow
 //! places.
 
-use super::HullSearch;
 use super::candidate::{CandidateHull, keep_better};
+use super::hull_search::HullSearch;
 use crate::collapse::Conditions;
 use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
 use crate::tight::moves::HullEditor;

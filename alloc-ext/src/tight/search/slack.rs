@@ -3,8 +3,8 @@
 //! Every edit keeps within the slack. So there is no number of faces to try: a hull comes down
 //! until no edge may collapse any more.
 
-use super::HullSearch;
 use super::candidate::{CandidateHull, keep_better};
+use super::hull_search::HullSearch;
 use super::void::{FINER, LEAST_SAVING, TOO_FEW};
 use crate::collapse::Conditions;
 use crate::tight::initial::{

@@ -3,10 +3,10 @@
 //! A hull comes down in stages as long as its void is not too large, then by halves of the
 //! difference.
 
-use super::HullSearch;
 use super::candidate::CandidateHull;
 use super::descent::STAGE;
 use super::faces::{FEW_FACES, Target};
+use super::hull_search::HullSearch;
 use crate::tight::moves::HullEditor;
 use crate::tight::options::WrapError;
 use crate::tight::proof::NoVolume;

@@ -151,8 +151,8 @@ pub struct HullReport {
     pub time: Duration,
 }
 
-/// Makes tight hulls of a mesh. A hull with as many faces as a finer hull is left out, and no report
-/// names its goal.
+/// Makes tight hulls of a mesh. A hull with as many faces as a finer hull is left out, and no
+/// report names its goal.
 ///
 /// The hulls enclose the vertices of `input.mesh`. The blob's answers hold for the input file: they
 /// include the distance that vertices were moved. Panics if the mesh or a hull has more than

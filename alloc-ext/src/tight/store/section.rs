@@ -16,7 +16,7 @@ use meshsweep_core::internal::tight::format::layout::{TIGHT_BYTES, TIGHT_HULL_BY
 use meshsweep_core::{Blob, TightHull, TightHulls};
 use std::collections::BTreeMap;
 
-/// A hull as the section holds it.
+/// A hull and its record as bytes of the section.
 pub(super) struct Stored {
     record: TightRecord,
     blob: Vec<u8>,
@@ -106,8 +106,8 @@ fn section(hulls: &[Stored]) -> Vec<u8> {
     out
 }
 
-/// The tight hulls of a blob that have at most `faces` faces, and the coarsest in any case; `None` if
-/// the blob has no tight hulls.
+/// The tight hulls of a blob that have at most `faces` faces, and the coarsest in any case; `None`
+/// if the blob has no tight hulls.
 #[must_use]
 pub fn cut(blob: &Blob<'_>, faces: u32) -> Option<Sections> {
     let hulls = blob.tight_hulls().ok()?;
@@ -138,7 +138,8 @@ fn stored(hulls: &TightHulls<'_>, index: u32) -> Option<Stored> {
 #[must_use]
 pub fn hull_mesh(hull: &TightHull<'_>) -> Mesh {
     let tree = hull.bvh();
-    // A power of two: exact. Zeros lose their sign, by which no two corners differ.
+    // The unit is a power of two, so that the product is exact. The sum removes the sign of zeros,
+    // by which no two corners differ.
     let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
     let in_input_units = |p: Vec3| p.to_array().map(|x| (f64::from(x) * unit) as f32 + 0.0);
     let mut faces: Vec<(u32, [[f32; 3]; 3])> = Vec::new();

@@ -6,7 +6,7 @@
 use super::follow::{Follow, Gap, Nearest};
 use super::front::{Child, Extent, Known, TraversalFront};
 use super::planes::Planes;
-use crate::bvh::closest_point::{Hint, closest_point, closest_point_from};
+use crate::bvh::closest_point::{Hint, closest_point_from};
 use crate::bvh::format::Bvh;
 use crate::bvh::point_query::PointQuery;
 use crate::num::sqrt_approx;
@@ -21,9 +21,9 @@ pub struct CoherentClosest {
     /// The answer of [`Bvh::closest_point`], with the same bits. `work` is that of this query.
     pub closest: ClosestPoint,
     /// While the query is no farther than this from where it is now, input units,
-    /// [`ClosestPoint::triangle`] remains the closest triangle of the input mesh. Rounded down. 0 if
-    /// that is not known: on edges and vertices, after a jump, and where it would be less than the
-    /// last step.
+    /// [`ClosestPoint::triangle`] remains the closest triangle of the input mesh. Rounded down. 0
+    /// if that is not known: on edges and vertices, after a jump, and where it would be less than
+    /// the last step.
     pub safe_radius: f32,
 }
 
@@ -32,8 +32,8 @@ pub struct CoherentClosest {
 /// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface,
 /// each with a lower bound of its distance. A bound less the path length since then stays a bound.
 /// So a query looks only at leaves that may have come near enough. `N` = 128 is enough for steps of
-/// a thousandth of the model. RAM: 8·`N` bytes and about 800, for 32 planes that part the query from
-/// the leaves around.
+/// a thousandth of the model. RAM: 8·`N` bytes and about 800, for 32 planes that part the query
+/// from the leaves around.
 ///
 /// Where steps are so long that nothing is won, it asks the plain query for a while.
 ///
@@ -69,12 +69,12 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
         self.memory = Memory::EMPTY;
     }
 
-    /// [`Bvh::closest_point`], with the same bits in `distance`, `point` and `triangle`, and the less
-    /// work the less the query moved.
+    /// [`Bvh::closest_point`], with the same bits in `distance`, `point` and `triangle`, and the
+    /// less work the less the query moved.
     ///
-    /// With a tolerance in `budget` it is that function. A step budget bounds the search on the front
-    /// and, where that was not enough, the plain query after it: at most twice as many nodes. The
-    /// answer then may be exact where the plain query's is not.
+    /// With a tolerance in `budget` it is that function. A step budget bounds the search on the
+    /// front and, where that was not enough, the plain query after it: at most twice as many nodes.
+    /// The answer then may be exact where the plain query's is not.
     ///
     /// Cost: within [`CoherentClosest::safe_radius`] of the last answer one triangle. For steps of
     /// 3e-4 of the model's diagonal one to three leaves and now and then a node. For jumps that of
@@ -249,7 +249,7 @@ impl Memory {
         let query = PointQuery::new(tree, point)?;
         let first = tree.frame(0).ok_or(QueryError::NO_DISTANCES)?;
         if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
-            let closest = closest_point(tree, point, budget, scratch)?;
+            let closest = plain(tree, point, &mut Hint::NONE.clone(), budget, scratch)?;
             return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
@@ -273,7 +273,7 @@ impl Memory {
             self.extent = Extent::EMPTY;
             (self.last.known, self.last.second) = (false, 0.0);
         }
-        let mut closest = closest_point_from(tree, point, &mut self.hint, budget, scratch)?;
+        let mut closest = plain(tree, point, &mut self.hint, budget, scratch)?;
         self.pace.plain_query(&closest.work);
         self.last.reach = query.units.inward(closest.distance.upper) + query.units.surface_error;
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
@@ -363,6 +363,18 @@ impl Memory {
         };
         Ok(CoherentClosest { closest, safe_radius: query.units.lower(safe_radius) })
     }
+}
+
+/// The plain query: one copy for both callers.
+#[inline(never)]
+fn plain(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    hint: &mut Hint,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<ClosestPoint, QueryError> {
+    closest_point_from(tree, point, hint, budget, scratch)
 }
 
 /// The triangle's number in the input file.

@@ -1,4 +1,4 @@
-//! Opening the box tree of a blob, and what is made sure of.
+//! Opening the box tree of a blob, and its check.
 
 use super::header::BvhHeader;
 use super::layout::{
@@ -32,9 +32,9 @@ struct Family {
 }
 
 impl<'a> Bvh<'a> {
-    /// Opens the box tree of a blob where it lies, and checks all of it: CRCs, every link, every
-    /// coordinate. Any bytes are safe to open. Other sections are not looked at, so that the
-    /// code that checks them is not linked.
+    /// Opens the box tree of a blob where it lies and checks all of it: CRCs, every link, every
+    /// coordinate. Any bytes are safe to open. It does not look at other sections, so that their
+    /// checks are not linked.
     ///
     /// Cost: linear in the tree, no allocation; once per start. Alignment of `bytes` does not
     /// matter.
@@ -195,8 +195,8 @@ impl<'a> Bvh<'a> {
     }
 
     /// Families of siblings stand in the order of a depth-first walk. So one walk proves that every
-    /// node but the root is the child of exactly one, which comes before it; and it counts what
-    /// a descent may leave on the stack.
+    /// node but the root is the child of exactly one node, which comes before it. It also counts
+    /// the entries that a descent may leave on the stack.
     fn check_families(&self) -> Result<(), OpenError> {
         let mut open = [Family { next: 0, end: 1, waiting: 0 }; MAX_TREE_DEPTH];
         let (mut depth, mut fresh, mut most) = (0usize, 1u32, 0u32);
@@ -227,14 +227,14 @@ impl<'a> Bvh<'a> {
         if fresh != self.header.nodes {
             return Err(OpenError::Counts { what: "a tree node without a parent" });
         }
-        // The descent stores all eight lanes and then keeps those that it wants.
+        // The descent stores all eight lanes, then keeps the wanted ones.
         if self.header.stack_entries < most + WIDTH as u32 {
             return Err(OpenError::Counts { what: "stack entries of the tree" });
         }
         Ok(())
     }
 
-    /// Numbers of every frame are finite and within what the rounding margins allow for.
+    /// The numbers of every frame are finite and within the limits of the rounding margins.
     fn check_boxes(&self) -> Result<(), OpenError> {
         let origin = |x: f32| x.abs() <= MAX_GRID;
         for (index, record) in (0u32..).zip(self.frames) {
@@ -247,7 +247,7 @@ impl<'a> Bvh<'a> {
                     _ => (0.0..=MAX_WEIGHT).contains(&x),
                 }
             });
-            // A step is worth no more than its length: squares of distances then stay in f32's
+            // A step counts for no more than its length. So squares of distances stay in f32's
             // range.
             let mut f = [0f32; 15];
             f.iter_mut()
@@ -291,8 +291,8 @@ impl<'a> Bvh<'a> {
             && (0..shape.triangles()).all(|i| {
                 let which = usize::from(i >= shape.turn());
                 let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
-                // Exact on the grid; with f32 vertices off by a few roundings, which the bounds
-                // that `star_radius` enters have room for.
+                // Exact on the grid. With f32 vertices it is off by a few roundings, for which the
+                // bounds with `star_radius` have room.
                 norm(leaf.spoke(i, which)) + norm(leaf.spoke(i + 1, which))
                     <= h.star_radius * (1.0 + 8.0 * U32)
             });

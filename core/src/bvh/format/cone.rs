@@ -7,11 +7,11 @@ use glam::Vec3;
 /// Steps of the stored sine.
 const STEPS: f32 = 254.0;
 
-/// Says that the normals do not fit any cone.
+/// Sine of no cone: the normals do not fit any.
 const UNKNOWN: u8 = u8::MAX;
 
 impl NormalCone {
-    /// Bytes that say nothing.
+    /// Bytes of no cone.
     pub const UNKNOWN: [u8; CONE_BYTES] = [0, 0, 0, UNKNOWN];
 
     /// The cone, if there is one.

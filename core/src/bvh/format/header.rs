@@ -4,7 +4,7 @@ use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, field};
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError};
 
-/// Everything that the tree's header says.
+/// The box tree's header.
 ///
 /// *Grid units* are units of the tree's grid: local frame divided by `2^grid_exponent`. A
 /// coordinate on the grid is a u16 plus `grid_origin`.
@@ -18,16 +18,16 @@ pub struct BvhHeader {
     pub grid_origin: [i32; 3],
     /// Nodes; node 0 is the root.
     pub nodes: u32,
-    /// Leaves: leaves of one or two fans.
+    /// Leaves, each of one or two fans.
     pub leaves: u32,
     /// Vertices that the leaves store.
     pub vertices: u32,
     /// Triangles.
     pub triangles: u32,
-    /// Stack entries with which no query can overflow.
+    /// Scratch entries with which no query can overflow.
     pub stack_entries: u32,
-    /// No point of the input surface is farther than this from the stored one, nor the other way;
-    /// local frame.
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round. Local frame.
     pub surface_error: f32,
     /// The largest sum of the 1-norms of the two spokes of a triangle, grid units, rounded up.
     pub star_radius: f32,
@@ -38,7 +38,7 @@ pub struct BvhHeader {
 }
 
 impl BvhHeader {
-    /// Before it is read.
+    /// The header before it is read.
     pub(crate) const EMPTY: BvhHeader = BvhHeader {
         flags: 0,
         grid_exponent: 0,

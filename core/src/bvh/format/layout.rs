@@ -1,4 +1,4 @@
-//! Where everything stands in the sections of the box tree.
+//! Sizes and offsets in the sections of the box tree.
 
 /// Bytes of the box tree's header.
 pub const BVH_BYTES: usize = 64;
@@ -8,8 +8,8 @@ pub const LINK_BYTES: usize = 20;
 pub const FRAME_BYTES: usize = 108;
 /// Bytes of a node's axis-aligned boxes.
 pub const BOXES_BYTES: usize = 72;
-/// Bytes of zeros after the last leaf, so that a leaf may be read at full width wherever it lies;
-/// for f32 vertices twice that.
+/// Bytes of zeros after the last leaf, so that every leaf can be read at full width. Twice as many
+/// for f32 vertices.
 pub const FAN_PADDING: usize = 48;
 /// Triangles of a block of source numbers.
 pub const SOURCE_BLOCK: usize = 64;

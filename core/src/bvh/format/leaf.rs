@@ -1,13 +1,12 @@
 //! Leaves of the box tree: one or two triangle fans, read where they lie.
 //!
-//! A leaf comes out of a tree that was opened, so its window of the fans' section is in range;
-//! still no read can panic.
+//! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
 
 use crate::geom::fan::{Edges8, LANES_BELOW, Ring8, WIDTH};
 use glam::Vec3;
 
-/// Shape of a leaf in one byte: vertices, where the second fan begins, whether its winding is
-/// opposite.
+/// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
+/// second fan's winding is opposite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LeafShape(pub u8);
 
@@ -51,7 +50,7 @@ impl LeafShape {
         self.0 & 0x80 != 0
     }
 
-    /// Whether a leaf can look like that.
+    /// Whether a leaf can have this shape.
     pub(crate) fn is_sound(self) -> bool {
         let triangles = self.vertices().checked_sub(1 + self.centres());
         let turns = self.turn() == WIDTH || triangles.is_some_and(|count| self.turn() < count);
@@ -70,12 +69,12 @@ pub struct FanLeaf<'a> {
     pub(crate) origin: [i32; 3],
 }
 
-/// What a leaf on the grid stores: integers without the grid's origin.
+/// Stored integers of a leaf on the grid, without the grid's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct GridRing<'a> {
-    /// What is to be added.
+    /// The grid's origin.
     pub origin: [i32; 3],
-    /// First and second centre; the second means nothing if there is one fan.
+    /// First and second centre. The second has no meaning if there is one fan.
     pub centres: [[i32; 3]; 2],
     /// First coordinates of the ring.
     pub x: &'a [[u8; 2]],
@@ -169,8 +168,8 @@ impl<'a> FanLeaf<'a> {
         self.shape
     }
 
-    /// Centre 0 or 1, grid units, exactly. What is asked beyond a leaf's centres, ring or
-    /// triangles, here and below, reads as some number.
+    /// Centre 0 or 1, grid units, exactly. Here and below, an index past the leaf's centres, ring
+    /// or triangles gives some number.
     #[inline(always)]
     pub fn centre(&self, which: usize) -> Vec3 {
         if self.is_f32 {
@@ -187,8 +186,8 @@ impl<'a> FanLeaf<'a> {
     }
 
     /// All vertices without the grid's origin, as stored, exactly: both centres, alike if there is
-    /// one fan, then nine of the ring, of which those beyond the triangles' mean nothing but
-    /// are finite. `[axis][vertex]`.
+    /// one fan, then nine of the ring. Vertices past the last triangle have no meaning but are
+    /// finite. `[axis][vertex]`.
     #[inline(always)]
     pub fn stored_vertices(&self) -> [[f32; CORNERS]; 3] {
         let mut out = [[0f32; CORNERS]; 3];
@@ -293,8 +292,8 @@ impl<'a> FanLeaf<'a> {
         centre + e * v + g * w
     }
 
-    /// Centre and both spokes of triangle `lane`. A call, for where triangles are few: reading them
-    /// is a lot of code.
+    /// Centre and both spokes of triangle `lane`. A call, for questions with few triangles: reading
+    /// them is much code.
     #[inline(never)]
     pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
         let which = usize::from(lane >= self.shape.turn());
@@ -309,7 +308,7 @@ impl<'a> FanLeaf<'a> {
         if second && self.shape.second_reversed() { [centre, b, a] } else { [centre, a, b] }
     }
 
-    /// Whether vertices are f32: then [`f32_edges8`](Self::f32_edges8) is to be asked.
+    /// Whether vertices are f32. Then use [`f32_edges8`](Self::f32_edges8).
     #[inline(always)]
     pub fn is_f32(&self) -> bool {
         self.is_f32

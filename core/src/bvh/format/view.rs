@@ -2,7 +2,7 @@
 //!
 //! If [`Bvh::open`] returned `Ok`, then every node below the root is a child of exactly one node
 //! with a lesser number, every leaf lies within the fans, and every coordinate is finite and within
-//! the tree's box. Accessors still return `Option`, and no path can panic.
+//! the tree's box. Accessors return `Option` all the same. No path can panic.
 
 use super::header::BvhHeader;
 use super::layout::{
@@ -28,7 +28,7 @@ pub struct Bvh<'a> {
     pub(crate) cones: &'a [[u8; CONE_BYTES]],
 }
 
-/// What every query needs of the header, worked out once.
+/// Numbers that every query needs of the header, computed once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GridScale {
     /// Grid units of an input unit: a power of two, in two factors within f32's range.
@@ -68,7 +68,7 @@ impl GridScale {
     }
 }
 
-/// Where the children of a node are: inner nodes first, then leaves.
+/// Links to the children of a node: inner nodes first, then leaves.
 #[derive(Clone, Copy, Debug)]
 pub struct Links {
     /// Number of the first inner child; the others follow it.
@@ -86,8 +86,8 @@ pub struct Links {
     shapes: [u32; 2],
 }
 
-/// A child of a node: another node, or a leaf. Plain numbers rather than an enum of views: the
-/// descent decides by the shape when it has to.
+/// A child of a node: another node, or a leaf. Plain numbers and no enum of views: the descent
+/// decides by the shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BvhChild {
     /// Number of the node, or first vertex of the leaf.
@@ -206,8 +206,8 @@ impl Bvh<'_> {
         self.header.triangles
     }
 
-    /// No point of the input surface is farther than this from the stored surface, nor the other way
-    /// round. Input units, rounded up.
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round. Input units, rounded up.
     pub fn surface_error(&self) -> f32 {
         let [first, second] = self.scale.outward;
         let error = self.scale.surface_error * first * second;

@@ -1,7 +1,7 @@
 //! Squared distances of a point from eight boxes.
 //!
-//! The wide form is loops over `[f32; 8]` without branches, the narrow one walks axis by axis and
-//! skips what is inside; both give the same bits.
+//! The wide form is loops over `[f32; 8]` without branches. The narrow form goes axis by axis and
+//! skips an axis on which the point is inside. Both give the same bits.
 
 use super::frame::NodeFrame;
 use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
@@ -10,8 +10,7 @@ use crate::geom::fan::WIDTH;
 
 /// Keys of a node's children: their squared distance from the point, grid units, not below
 /// `parent`'s, rounded down in the low three bits, which hold the lane. Lanes from `count` on are
-/// [`NO_CHILD`]. The distance is a lower bound up to the rounding that `core/docs/rounding.md` §8
-/// bounds.
+/// [`NO_CHILD`]. The distance is a lower bound up to the rounding of `core/docs/rounding.md` §8.
 #[inline(always)]
 pub fn box_distances(
     record: &[u8; FRAME_BYTES],
@@ -61,8 +60,8 @@ fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
     let beyond = q - f32::from(high);
     let far = if below > beyond { below } else { beyond };
     let far = if far > 0.0 { far } else { 0.0 };
-    // In this order no product leaves f32's range: a flat node's steps are tiny, and far away there
-    // are many.
+    // In this order no product leaves f32's range: a flat node's steps are tiny, and a far point is
+    // many steps away.
     far * (far * weight)
 }
 
@@ -83,7 +82,7 @@ pub(crate) fn narrow(
     along(lx, hx, qx, wx, count, &mut sum);
     along(ly, hy, qy, wy, count, &mut sum);
     along(lz, hz, qz, wz, count, &mut sum);
-    // No number here is negative, so bits compare as numbers do, and cheaper.
+    // No number here is negative. So bits compare as numbers do, and cost less.
     let parent = parent.to_bits();
     for (lane, (key, sum)) in (0u32..).zip(keys.iter_mut().zip(sum)).take(count) {
         let far = sum.to_bits().max(parent);
@@ -104,7 +103,7 @@ fn along(
 ) {
     let (low, high, sum) = (low.iter().take(count), high.iter().take(count), sum.iter_mut());
     if q <= 0.0 {
-        // Outside of all boxes on this axis: one side alone counts.
+        // Outside all boxes on this axis: one side counts.
         for (sum, &low) in sum.zip(low) {
             let out = f32::from(low) - q;
             *sum += out * (out * weight);

@@ -1,8 +1,8 @@
 //! A segment against eight axis-aligned boxes in 8 bits.
 //!
-//! A box plane of byte `v` lies at `origin + (v − 128)·step`, so the parameter at which the
-//! segment's line meets it is `v·m + c` with two numbers for each node and axis. Which row of bytes
-//! is the near one depends on the direction alone: it is chosen once for each segment.
+//! A box plane of byte `v` lies at `origin + (v − 128)·step`, so the segment's line meets it at the
+//! parameter `v·m + c` with two numbers for each node and axis. The near row of bytes depends on
+//! the direction. It is chosen once for each segment.
 
 use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
@@ -13,7 +13,7 @@ use crate::geom::fan::{LANES_BELOW, WIDTH};
 pub struct Slabs {
     origin: [f32; 3],
     inverse: [f32; 3],
-    /// By how much earlier and later than its plane a box begins and ends.
+    /// Parameter by which a box begins earlier and ends later than its planes.
     grow: [f32; 3],
     /// Row of the near planes, the far ones are the row's neighbour.
     near: [usize; 3],
@@ -21,8 +21,8 @@ pub struct Slabs {
 
 impl Slabs {
     /// The line through `origin` with `inverse`, by axis the reciprocals of its direction; boxes
-    /// count as larger by `margin` on each side. Any numbers will do as long as their products
-    /// with the model's size stay finite.
+    /// are enlarged by `margin` on each side. The products of all numbers with the model's size
+    /// must stay finite.
     #[inline(always)]
     pub fn new(origin: [f32; 3], inverse: [f32; 3], margin: [f32; 3]) -> Self {
         let [ix, iy, iz] = inverse;
@@ -46,8 +46,8 @@ impl Slabs {
 }
 
 /// Keys of a node's children: the parameter at which the segment enters their boxes, not below
-/// `from`, rounded down in the low three bits, which hold the lane. What it does not enter up to
-/// `limit`, and lanes from `count` on, is [`NO_CHILD`] or more.
+/// `from`, rounded down in the low three bits, which hold the lane. Boxes that it does not enter up
+/// to `limit`, and lanes from `count` on, have [`NO_CHILD`] or more.
 #[inline(always)]
 pub fn box_entries(
     record: &[u8; BOXES_BYTES],
@@ -107,22 +107,22 @@ pub(crate) fn wide(
         let enter = greater(greater(enter_x, enter_y), greater(enter_z, from));
         let leave = less(less(leave_x, leave_y), less(leave_z, limit));
         let key = if enter <= leave { enter } else { NO_CHILD };
-        // An absent lane may hold any box: nothing of its key may stay.
+        // An absent lane may hold any box: its key is overwritten.
         let bits = key.to_bits() & !LANE_MASK & present[i] | NO_CHILD.to_bits() & !present[i];
         keys[i] = f32::from_bits(bits | i as u32);
     }
     in_memory(keys)
 }
 
-/// What is entered only grows and what is left only falls: the first axis without an overlap
-/// decides, with the same keys.
+/// The entry only grows and the exit only falls. So the first axis without an overlap decides, with
+/// the same keys.
 #[inline(always)]
 pub(crate) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
     for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
         let (mut enter, mut leave) = (from, limit);
         let overlaps = axes.iter().all(|axis| {
-            // Lanes are below 8, but not all of LLVM's targets see it.
+            // Lanes are below 8, but LLVM does not see it on all targets.
             let (Some(&near), Some(&far)) = (axis.near.get(lane), axis.far.get(lane)) else {
                 return false;
             };

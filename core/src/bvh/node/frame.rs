@@ -1,14 +1,14 @@
 //! The frame that the boxes of a node share.
 //!
-//! Box coordinates of a point are `q = A·(p − origin) + 128`, axis by axis; a step of an axis is
-//! worth `√weight` grid units. The builder chooses `A` so that every entry is an f32 exactly and
-//! `√weight·A` is a rotation: no rounding but that of the sums here.
+//! Box coordinates of a point are `q = A·(p − origin) + 128`, axis by axis. A step of an axis is
+//! `√weight` grid units long. The builder chooses `A` so that every entry is exactly an f32 and
+//! `√weight·A` is a rotation. Only the sums here are rounded.
 
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::bvh::format::layout::boxes;
 use glam::Vec3;
 
-/// Box coordinates of a point, and what a step is worth.
+/// Box coordinates of a point, and the lengths of steps.
 #[derive(Clone, Copy, Debug)]
 pub struct NodeFrame {
     /// Box coordinates of the point.

@@ -8,7 +8,7 @@ pub const LANE_MASK: u32 = WIDTH as u32 - 1;
 /// Key of a lane without a child: above every bound.
 pub const NO_CHILD: f32 = f32::from_bits(0x7F00_0000);
 
-/// Whether the target has vector registers that are worth the lanes that nobody asked for.
+/// Whether the target has vector registers, so that unwanted lanes cost nothing.
 pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
 /// The least key: its lane is in its low bits.
@@ -23,8 +23,8 @@ pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
     less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
 }
 
-/// The same lanes, written to memory side by side. What is only ever used lane by lane the compiler
-/// would compute so, too.
+/// The same lanes, written to memory side by side. Else the compiler computes values lane by lane
+/// that are used lane by lane.
 #[inline(always)]
 pub fn in_memory<T>(lanes: T) -> T {
     core::hint::black_box(lanes)

@@ -2,8 +2,8 @@
 //! leaves.
 //!
 //! A pair of nodes is settled at once for all pairs of their children, as 64 bits. An entry of the
-//! stack is two scratch entries: the two nodes, and with each 32 of the bits. The bits are a byte for
-//! each child of the first node, a bit in it for each child of the second.
+//! stack is two scratch entries: the two nodes, and with each 32 of the bits. The bits are a byte
+//! for each child of the first node, a bit in it for each child of the second.
 
 use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;

@@ -12,10 +12,11 @@ pub struct Overlap {
     /// [`Resolution`](Undecided::Resolution): they come too near to each other for what is stored.
     pub verdict: Verdict,
     /// With `Yes` two triangles that meet, the first mesh's first. With an undecided
-    /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input files.
+    /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input
+    /// files.
     pub triangles: Option<[u32; 2]>,
-    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles as `triangles` (in f32)
-    /// and `exact` (in f64), pairs of nodes opened as `splits`.
+    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles as `triangles` (in
+    /// f32) and `exact` (in f64), pairs of nodes opened as `splits`.
     pub work: Work,
 }
 
@@ -57,16 +58,15 @@ impl Bvh<'_> {
     /// units), meets the surface of this tree.
     ///
     /// Both verdicts are proved, of the input meshes as they were after repair, whatever grids did
-    /// to vertices. The numbers of the pose are taken as they are, in real arithmetic. Surfaces that
-    /// touch without passing through each other are undecided, and so are surfaces within rounding
-    /// and the surface errors of it. Two triangles without area are
-    /// never proved to meet.
-    /// Surfaces alone count: of closed meshes one may lie inside the other, which
+    /// to vertices. The numbers of the pose are taken as they are, in real arithmetic. Surfaces
+    /// that touch without passing through each other are undecided, and so are surfaces within
+    /// rounding and the surface errors of it. Two triangles without area are never proved
+    /// to meet. Surfaces alone count: of closed meshes one may lie inside the other, which
     /// [`signed_distance`](Bvh::signed_distance) of a vertex decides.
     ///
     /// It ends at the first pair that is proved to meet. Which pair that is does not depend on the
-    /// target. `scratch`: [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter one
-    /// may leave the question undecided. Of the budget only `steps` matters: pairs of nodes.
+    /// target. `scratch`: [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter
+    /// one may leave the question undecided. Of the budget only `steps` matters: pairs of nodes.
     ///
     /// Cost: everything near the other surface. On scanned parts some dozens of pairs of nodes.
     ///
@@ -81,9 +81,9 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is beyond
-    /// 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30 grid
-    /// units; [`QueryError::NotServed`] unless both trees have boxes for segments;
+    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
+    /// beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30
+    /// grid units; [`QueryError::NotServed`] unless both trees have boxes for segments;
     /// [`QueryError::NoScratch`].
     pub fn overlap(
         &self,

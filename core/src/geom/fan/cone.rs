@@ -1,9 +1,9 @@
 //! The cone of a leaf's normals.
 //!
 //! After Galin & Akkouche 2005, section 6.4, and Shirman & Abi-Ezzi 1993. All triangles of a fan
-//! share its centre, so that the way from the centre to the eye says for each of them which side
-//! the eye is on: no bounding sphere is needed. A slip of the paper: a fan is back-facing if
-//! `n₀·d ≤ −sin α`, not `≤ sin α`.
+//! share its centre. So the way from the centre to the eye says for each of them on which side the
+//! eye is, and no bounding sphere is needed. A slip of the paper: a fan is back-facing if `n₀·d ≤
+//! −sin α`, not `≤ sin α`.
 
 use crate::num::tolerance::{CONE_SINE, LEAST_DENOMINATOR};
 use glam::Vec3;
@@ -19,8 +19,8 @@ pub struct NormalCone {
 
 impl NormalCone {
     /// Whether no triangle with its normal in the cone faces the eye, for certain. `way` leads from
-    /// a point that all of those triangles share to the eye, or, for an eye at infinity,
-    /// towards it; any length that f32 can square. If it is 0 nothing is certain.
+    /// a common point of all these triangles to the eye, or towards an eye at infinity. It may have
+    /// any length that f32 can square. With a length of 0 nothing is certain.
     #[inline]
     pub fn is_behind(&self, way: Vec3) -> bool {
         let dot = |a: Vec3, b: Vec3| a.x * b.x + a.y * b.y + a.z * b.z;

@@ -1,10 +1,10 @@
 //! Lanes of the wide kernels.
 
-/// Most triangles of a patch, and lanes of the wide kernels.
+/// Most triangles of a leaf, most children of a node, and lanes of the wide kernels.
 pub const WIDTH: usize = 8;
 
-/// For each count, all ones in the lanes below it. A table and bits, for a comparison of lanes
-/// would become branches.
+/// For each count, all ones in the lanes below it. A table of bits: the compiler would turn a
+/// comparison of lanes into branches.
 pub const LANES_BELOW: [[u32; WIDTH]; WIDTH + 1] = {
     let mut table = [[0; WIDTH]; WIDTH + 1];
     let mut count = 0;

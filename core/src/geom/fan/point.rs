@@ -1,4 +1,4 @@
-//! Point and fan, one triangle after the other: what firmware runs.
+//! Point and fan, one triangle after the other, for targets without vectors.
 //!
 //! The terms of a spoke serve the two triangles beside it (Galin & Akkouche 2005, 4.1). Two slips
 //! of the paper: in 4.3, where `s = p − p₀`, a triangle is skipped if both products are *negative*,
@@ -10,12 +10,12 @@ use crate::num::sqrt_approx;
 use crate::num::tolerance::LEAST_DENOMINATOR;
 use glam::Vec3;
 
-/// How near a point is to a triangle, as computed: see `core/docs/rounding.md` §8.
+/// The distance of a point and a triangle, as computed (`core/docs/rounding.md` §8).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearness {
     /// Squared length of the residual `s − v·e − w·g`.
     pub distance_sq: f32,
-    /// A supporting plane's bound: the squared distance is not below this, but for rounding.
+    /// Bound of a supporting plane: the squared distance is not below this, up to rounding.
     pub lower_bound_sq: f32,
     /// The closest point is `centre + v·e + w·g`.
     pub v: f32,
@@ -23,7 +23,7 @@ pub struct Nearness {
     pub w: f32,
 }
 
-/// What a spoke contributes to the triangles on both of its sides.
+/// Terms of a spoke for the triangles on both of its sides.
 #[derive(Clone, Copy, Debug)]
 pub struct SpokeTerms {
     /// From the centre to the ring vertex.
@@ -62,16 +62,15 @@ impl PointFan {
     }
 
     /// Whether the triangle between two spokes lies beyond a squared limit, by the supporting plane
-    /// across the way to its centre: a first look that takes three products. The limit has to
-    /// allow for rounding already.
+    /// across the way to its centre. Three products. The limit must allow for rounding already.
     #[inline(always)]
     pub fn is_beyond(&self, a: &SpokeTerms, b: &SpokeTerms, limit: f32) -> bool {
         let least = self.centre_sq - above(above(0.0, a.along), b.along);
         least > 0.0 && least * least > limit * self.centre_sq
     }
 
-    /// The triangle between two spokes. Degenerate triangles are defined: a point of what is left
-    /// of them is found, and the certified bound is lower where it may not be the closest.
+    /// The triangle between two spokes. On degenerate triangles it finds a point of the remaining
+    /// segment or point, and the lower bound is lower where that point may not be the closest.
     #[inline(always)]
     pub fn triangle(&self, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
         let s = self.s;
@@ -102,14 +101,14 @@ impl PointFan {
                 if va <= 0.0 && e >= 0.0 && g >= 0.0 {
                     (nv, nw, least) = (g, e, e + g);
                 } else {
-                    // Where rounding leaves one negative, it counts as 0: the point has to be one
-                    // of the triangle's.
+                    // A coordinate that rounding made negative counts as 0: the point must lie on
+                    // the triangle.
                     let (pa, pb, pc) = (above(0.0, va), above(0.0, vb), above(0.0, vc));
                     (nv, nw, least) = (pb, pc, pa + pb + pc);
                 }
             }
-            // A part of a triangle that is a point for all that f32 can tell: what is divided by it
-            // is smaller still.
+            // A part of a triangle that f32 cannot tell from a point. The dividend is smaller
+            // still.
             den = above(LEAST_DENOMINATOR, least);
         }
         let inverse = 1.0 / den;
@@ -123,17 +122,17 @@ impl PointFan {
     }
 }
 
-/// [`PointFan::triangle`] as a call: where triangles are few, the kernel's code is not worth
-/// another copy.
+/// [`PointFan::triangle`] as a call, for questions with few triangles: no second copy of the
+/// kernel.
 #[inline(never)]
 pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
     fan.triangle(a, b)
 }
 
-/// A sliver again, whose certificate falls far short of its distance: there the kernel's weights
-/// are differences of numbers that are nearly equal. The projection into the plane starts from the
-/// residual, so that its rounding is that of the way left; and the edges, each by itself, are
-/// always well-conditioned. The nearest of these points; `lower_bound_sq` stays.
+/// A sliver again, whose lower bound falls far short of its distance. There the kernel's weights
+/// are differences of nearly equal numbers. The projection into the plane starts from the residual,
+/// so that its rounding is the rounding of a short way. The edges, each by itself, are always
+/// well-conditioned. The result is the nearest of these points. `lower_bound_sq` stays.
 #[inline(never)]
 pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
     let mut best = *near;
@@ -176,13 +175,13 @@ fn cross(a: Vec3, b: Vec3) -> Vec3 {
     Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
-/// The greater of two; not `f32::max`, whose rules for NaN cost instructions.
+/// The greater of two numbers. The rules of `f32::max` for NaN cost instructions.
 #[inline(always)]
 fn above(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
-/// All triangles of a patch, in order. `s` gives the point less the first or the second centre,
+/// All triangles of a leaf, in order. `s` gives the point less the first or the second centre,
 /// `spoke(i)` ring vertex `i` less the centre of triangle `i` (or of the triangle before, for the
 /// last), `turn` is where the second fan begins (`count` or more: nowhere).
 #[inline(always)]
@@ -213,8 +212,7 @@ pub fn point_leaf(
 /// of its plane and of supporting planes along the residual and along the residual made orthogonal
 /// to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
 ///
-/// Holds up to the rounding that `FAN_DISTANCE` covers, whatever the triangle. Cost: five roots, so it
-/// is for the few triangles that need it.
+/// It holds for any triangle up to the rounding that `FAN_DISTANCE` covers. Cost: five roots.
 #[inline]
 pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let fan = PointFan::new(s);
@@ -227,14 +225,14 @@ pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     };
     let normal = cross(e, g);
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
-    // Along `s` too: what `is_beyond` leaves out has to be as far here.
+    // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
     let seen = [s, e, g];
     let best = above(0.0, above(supported(s, &seen), supported(r, &seen)));
     let best = above(best, above(supported(orthogonal(e), &seen), supported(orthogonal(g), &seen)));
     above(best, above(supported(orthogonal(g - e), &seen), supported(side, &seen)))
 }
 
-/// Distance of the supporting plane across `direction`; 0 if that is no direction.
+/// Distance of the supporting plane across `direction`; 0 if `direction` has no length.
 #[inline(never)]
 fn supported(direction: Vec3, &[s, e, g]: &[Vec3; 3]) -> f32 {
     let largest = above(above(direction.x.abs(), direction.y.abs()), direction.z.abs());

@@ -1,15 +1,15 @@
-//! Point and patch, eight triangles at once: loops over `[f32; 8]` that the compiler turns into
+//! Point and leaf, eight triangles at once: loops over `[f32; 8]` that the compiler turns into
 //! vector instructions.
 //!
 //! Every branch of the scalar kernel is taken and selected, in the order that gives the same
-//! result; products and sums are written in the same order, so the bits are the same (a test holds
-//! both to it).
+//! result. Products and sums are written in the same order. So the bits are the same, and a test
+//! checks it.
 
 use super::lanes::WIDTH;
 use crate::num::tolerance::LEAST_DENOMINATOR;
 
-/// Spokes of the triangles of a patch: `e` to ring vertex `i`, `g` to ring vertex `i + 1`, each
-/// from the triangle's own centre. `[axis][lane]`.
+/// Spokes of the triangles of a leaf: `e` to ring vertex `i`, `g` to ring vertex `i + 1`, each from
+/// the triangle's own centre. `[axis][lane]`.
 #[derive(Clone, Copy, Debug)]
 pub struct Edges8 {
     /// First spoke.
@@ -20,7 +20,7 @@ pub struct Edges8 {
     pub s: [[f32; WIDTH]; 3],
 }
 
-/// What [`Nearness`](super::Nearness) says of each lane.
+/// [`Nearness`](super::Nearness) of each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Nearness8 {
     /// Squared lengths of the residuals.
@@ -36,7 +36,7 @@ pub struct Nearness8 {
 /// Bits of 2^127.
 const UNUSED: u32 = 0x7F00_0000;
 
-/// All triangles of a patch; 2^127 in lanes that `used` leaves out, whatever they hold.
+/// All triangles of a leaf. Lanes that `used` leaves out give 2^127.
 #[inline(always)]
 pub fn point_leaf8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
     let mut distance_sq = [0f32; WIDTH];
@@ -106,7 +106,7 @@ pub fn point_leaf8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
         distance_sq[i] = f32::from_bits(r2.to_bits() & used[i] | unused);
         lower_bound_sq[i] = f32::from_bits(certified.to_bits() & used[i] | unused);
     }
-    // Written to memory side by side: what is only ever used lane by lane the compiler would
-    // compute so, too.
+    // Written to memory side by side. Else the compiler computes values lane by lane that are used
+    // lane by lane.
     core::hint::black_box(Nearness8 { distance_sq, lower_bound_sq, v: along_e, w: along_g })
 }

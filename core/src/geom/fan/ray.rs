@@ -1,16 +1,17 @@
-//! Segment and fan, one triangle after the other: what firmware runs, and what settles the
-//! triangles that either kernel flags.
+//! Segment and fan, one triangle after the other: the kernel for targets without vectors, and the
+//! decision about the triangles that either kernel flags.
 //!
 //! Watertight after Woop, Benthin & Wald (*Watertight Ray/Triangle Intersection*, 2013): the
 //! segment's line becomes the third axis by a shear, and a triangle is met if the origin lies in
 //! its shadow. The shadow of a vertex depends on the vertex and the segment only, and the cross
-//! product of two shadows has the right sign or is 0, whatever the rounding; so triangles of equal
+//! product of two shadows has the right sign or is 0 under any rounding. So triangles with common
 //! vertices leave no gap between them.
 //!
 //! The cross product of a spoke is the term `(s ∧ d)·eₖ` that Galin & Akkouche (2005, 3.1) share
 //! between the triangles beside it. Slips of the paper: `u` and `v` have the wrong sign in 3.1 (3.3
 //! has them right), `(c ∧ b)·a` there is `(b ∧ c)·a`, in 3.2 `n` is `(o − p₀) ∧ d`, and step 2 of
-//! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is settled//! here.
+//! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is decided
+//! here.
 //!
 //! What rounding and the surface error leave open: `core/docs/rounding.md` §9.
 
@@ -31,22 +32,22 @@ pub struct FanRay {
     shear: [f32; 2],
     /// Parameter of a unit along the dominant axis.
     inverse: f32,
-    /// What an edge function may be off by, in units of the edge's 1-norm.
+    /// Error of an edge function, in units of the edge's 1-norm.
     doubt: f32,
-    /// What the parameter of a vertex may be off by.
+    /// Error of the parameter of a vertex.
     slack: f32,
     /// Greatest parameter.
     end: f32,
 }
 
-/// Where a segment meets a triangle, as far as can be told.
+/// Where a segment meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// The parameter, if `stored`.
     pub t: f32,
-    /// If the input's triangle is met, then not before this.
+    /// The input's triangle is not met before this parameter.
     pub lower: f32,
-    /// Nor does it begin after this.
+    /// If the input's triangle is met, it is met not after this parameter.
     pub upper: f32,
     /// The stored triangle is met, as computed.
     pub stored: bool,
@@ -64,8 +65,7 @@ pub struct Shadow {
     t: f32,
 }
 
-/// An edge seen from the line: twice the signed area that it spans with it, and what that may be
-/// off by.
+/// An edge seen from the line: twice the signed area between them, and the error of this area.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     area: f32,
@@ -80,9 +80,8 @@ fn pick<T: Copy>(v: [T; 3], axis: usize) -> T {
 
 impl FanRay {
     /// The line through `origin` along `direction` with its reciprocals (components below [`STILL`]
-    /// replaced), for parameters from 0 to `end`. `surface` is how far the input's surface and
-    /// the line may be from where they are said to be, `size` the 1-norm of the way to the farthest
-    /// vertex.
+    /// replaced), for parameters from 0 to `end`. `surface`: how far the input's surface and the
+    /// line may be from the given ones. `size`: the 1-norm of the way to the farthest vertex.
     #[inline(always)]
     pub fn new(
         origin: [f32; 3],
@@ -103,7 +102,7 @@ impl FanRay {
             origin: [pick(origin, u), pick(origin, v), pick(origin, axis)],
             shear: [pick(direction, u) * along, pick(direction, v) * along],
             inverse: along,
-            // √3, rounded up: what the shear may stretch a length by.
+            // √3, rounded up: the most that the shear stretches a length.
             doubt: 1.7321 * surface + (FAN_SHEAR * U32 * size + LEAST_DENOMINATOR),
             slack: (surface + (4.0 * U32 * size + LEAST_DENOMINATOR)) * along.abs(),
             end,
@@ -152,7 +151,7 @@ impl FanRay {
         self.shadow_in_order(self.in_order(vertex.to_array()))
     }
 
-    /// The same of a vertex whose coordinates come in the order of [`axes`](Self::axes).
+    /// The shadow of a vertex whose coordinates come in the order of [`axes`](Self::axes).
     #[inline(always)]
     pub fn shadow_in_order(&self, [x, y, z]: [f32; 3]) -> Shadow {
         let [ox, oy, oz] = self.origin;
@@ -178,12 +177,12 @@ impl FanRay {
         if self.inverse < 0.0 { 1.0 } else { -1.0 }
     }
 
-    /// Settles one triangle. `wanted` is the sign of the areas that count, 0 for both. `None`:
+    /// Decides about one triangle. `wanted`: the sign of the areas that count, 0 for both. `None`:
     /// proved clear of it, or culled.
     ///
-    /// A segment in the triangle's plane and triangles without area are never certain; they are
-    /// met, as computed, where their shadow, a line, runs through the origin, unless a facing
-    /// is wanted, for they have none.
+    /// A segment in the triangle's plane is never certain, nor is a triangle without area. They are
+    /// met, as computed, where their shadow, a line, runs through the origin. With a wanted facing
+    /// they are not met, for they have none.
     #[inline(never)]
     pub fn crossing(&self, [a, b, c]: [Shadow; 3], wanted: f32) -> Option<Crossing> {
         let near = |p: f32, q: f32, r: f32| {
@@ -205,7 +204,7 @@ impl FanRay {
         let plain = total.abs() >= doubt + doubt;
         let (mut t, mut certain) = (first, false);
         if plain {
-            // Not so thin and not so steep that the plane says nothing of where the line meets it.
+            // Neither so thin nor so steep that the plane does not give the parameter.
             let share = 1.0 / total;
             let flat = (p.area * share) * a.t + (q.area * share) * b.t + (r.area * share) * c.t;
             let spread = 0.75 * ((last - first) * (doubt / (total.abs() - doubt))) + rounding;
@@ -241,7 +240,7 @@ impl FanRay {
             }
         } else if stored & !plain {
             let total = wa + wb + wc;
-            // A triangle so thin that its weights say nothing is met where it begins.
+            // A triangle so thin that its weights are only rounding is met where it begins.
             if total.abs() > STILL {
                 let share = 1.0 / total;
                 let inside = (wa * share) * a.t + (wb * share) * b.t + (wc * share) * c.t;
@@ -282,9 +281,9 @@ impl FanRay {
         )
     }
 
-    /// How often the shadow of some triangles of a fan covers the line, counted with their sign,
-    /// whatever rounding and surface error do to their vertices: spokes between two of them
-    /// cancel out, all other edges have to be clear of the line. `None` if one is not.
+    /// How often the shadow of some triangles of a fan covers the line, counted with sign, for all
+    /// vertices within rounding and surface error. Spokes between two of the triangles cancel out.
+    /// All other edges must be clear of the line; `None` if one is not.
     ///
     /// `lanes` has the bits of triangles `first..end` of the fan with this centre.
     pub fn cover(
@@ -313,8 +312,7 @@ impl FanRay {
     }
 }
 
-/// Where the origin lies in a shadow that is a line: the first and the last parameter of the
-/// triangle there.
+/// First and last parameter of a triangle at the origin, if its shadow is a line.
 #[cold]
 fn in_plane([a, b, c]: [Shadow; 3]) -> Option<(f32, f32)> {
     let mut range: Option<(f32, f32)> = None;
@@ -355,8 +353,8 @@ fn less(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// Triangles of a patch that the segment's line may meet: a bit for each, none of them missing. The
-/// others are proved clear of it.
+/// Triangles of a leaf that the segment's line may meet, a bit for each. The others are proved
+/// clear of the line.
 ///
 /// `centres` and `ring` are shadows of vertices, `turn` is where the second fan begins (at the
 /// ring's end or later: nowhere). A spoke serves the triangles on both sides, and the outer edge is

@@ -1,14 +1,14 @@
-//! Segment and patch, eight triangles at once: loops over `[f32; 8]` that the compiler turns into
+//! Segment and leaf, eight triangles at once: loops over `[f32; 8]` that the compiler turns into
 //! vector instructions.
 //!
-//! It only flags the triangles that the line may meet, with the scalar kernel's arithmetic and so
-//! its bits (a test holds both to it). Few are flagged, so what decides about them is scalar.
+//! It flags the triangles that the line may meet, with the arithmetic and the bits of the scalar
+//! kernel; a test checks it. Few are flagged, so the decision about them is scalar.
 
 use super::lanes::WIDTH;
 use super::ray::FanRay;
 use crate::num::tolerance::PRODUCT_UNDERFLOW;
 
-/// Ring vertices of the triangles of a patch, grid units, in the order of [`FanRay::axes`].
+/// Ring vertices of the triangles of a leaf, grid units, in the order of [`FanRay::axes`].
 /// `[axis][lane]`.
 #[derive(Clone, Copy, Debug)]
 pub struct Ring8 {
@@ -25,7 +25,7 @@ fn blend(mask: u32, first: f32, second: f32) -> f32 {
     f32::from_bits(first.to_bits() & mask | second.to_bits() & !mask)
 }
 
-/// Triangles of a patch that the segment's line may meet, as [`ray_leaf`](super::ray_leaf) says.
+/// Triangles of a leaf that the segment's line may meet, as [`ray_leaf`](super::ray_leaf) says.
 /// `first` has ones in the lanes of the first fan, `used` in those of triangles.
 #[inline(always)]
 pub fn ray_leaf8(ray: &FanRay, ring: &Ring8, first: &[u32; WIDTH], used: &[u32; WIDTH]) -> u32 {

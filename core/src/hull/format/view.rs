@@ -226,8 +226,8 @@ impl Hull<'_> {
         self.header.surface_triangles
     }
 
-    /// No point of the input surface is farther than this from the stored surface, nor the other way
-    /// round. Input units, rounded up.
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round. Input units, rounded up.
     pub fn surface_error(&self) -> f32 {
         up_to_f32(f64::from(self.header.surface_error) * self.scale())
     }

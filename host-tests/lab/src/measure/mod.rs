@@ -32,7 +32,7 @@ mod trade;
 mod tree;
 pub mod triboxes;
 
-use meshsweep_core::{Blob};
+use meshsweep_core::Blob;
 use std::path::Path;
 
 use meshsweep::collapse::Priority;

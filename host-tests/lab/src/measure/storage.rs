@@ -1,8 +1,8 @@
 //! What a blob takes and holds: sections, limits, levels, and the time of each stage that made it.
 
-use meshsweep_core::{Blob, ScratchEntry};
 use meshsweep::hull::Built;
 use meshsweep_core::Hull;
+use meshsweep_core::{Blob, ScratchEntry};
 use meshsweep_xtask::table::{Table, fixed, row};
 
 /// Stages of a whole build.

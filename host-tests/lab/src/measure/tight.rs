@@ -73,8 +73,7 @@ fn hulls(
     );
     for faces in FACES {
         let begun = Stopwatch::start();
-        let mut options = Options::default();
-        options.goal = Goal::Faces(faces);
+        let options = Options::new(Goal::Faces(faces));
         let Hull { mesh, report } =
             wrap(&subject.mesh, &options, |_| {}).map_err(|error| error.to_string())?;
         let seconds = begun.seconds();

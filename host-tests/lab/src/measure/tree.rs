@@ -91,7 +91,7 @@ fn shape(built: &Built) -> Table {
     let (report, header) = (&built.report, &built.report.header);
     table.push(row![
         report.triangles,
-        report.patches,
+        report.leaves,
         report.nodes,
         fixed(report.mean_children, 2),
         report.depth,
@@ -157,7 +157,7 @@ fn fans(subject: &Subject) -> Table {
     let papers = decompose(&mesh.triangles, mesh.positions.len(), &Weights::default());
     let patches = pack(&mesh.triangles, &positions);
     let mut push = |name: &str, report: FanReport| {
-        let stored = report.patches > 0;
+        let stored = report.leaves > 0;
         let of_patches = |cell: Cell| if stored { cell } else { Cell::Empty };
         table.push(row![
             name,
@@ -165,8 +165,8 @@ fn fans(subject: &Subject) -> Table {
             report.fans,
             fixed(report.triangles_per_fan(), 2),
             report.degenerate,
-            of_patches(report.patches.into()),
-            of_patches(fixed(report.triangles_per_patch(), 2)),
+            of_patches(report.leaves.into()),
+            of_patches(fixed(report.triangles_per_leaf(), 2)),
             of_patches(report.stored_vertices.into()),
             of_patches(fixed(report.vertices_per_triangle(), 3)),
         ]);

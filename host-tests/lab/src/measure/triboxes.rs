@@ -1,9 +1,9 @@
 //! Tribox hierarchies as stored: what they cost, and how often they prove a mesh apart from its
 //! moved copy.
 
-use meshsweep_core::{ScratchEntry};
 use meshsweep::tribox::store;
 use meshsweep_core::Pose as CorePose;
+use meshsweep_core::ScratchEntry;
 use meshsweep_core::{Budget, NodePair, Triboxes};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;

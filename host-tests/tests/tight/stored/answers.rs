@@ -12,7 +12,6 @@ use meshsweep_host_tests::generate::{
     two_parts,
 };
 use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
-use meshsweep_host_tests::with;
 use std::sync::LazyLock;
 
 /// Points everywhere: far, around, on the surface of mesh and hull, at corners of both, and within.
@@ -154,7 +153,7 @@ fn intervals_and_verdicts_hold_for_the_mesh_within() {
     // How vertices are stored has nothing to do with how a hull begins, which takes long where a
     // mesh is open.
     for (name, shape) in shapes().into_iter().filter(|(name, _)| !name.contains("open")) {
-        let options = with!(options(&[64]), vertex_bits: VertexBits::F32);
+        let options = options(&[64]).with_vertex_bits(VertexBits::F32);
         ask(name, &shape, &of(&mesh(&shape), 0.0, &options).0);
     }
     // The hulls do tell: of 28,800 verdicts two in six can be no, and three yes.
@@ -330,7 +329,7 @@ fn what_cannot_be_answered_is_refused() {
     }
     assert_eq!(hull.within([0.0; 3], -1.0, Budget::EXACT, stack), Err(QueryError::Tolerance));
     assert_eq!(hull.closest_point([0.0; 3], Budget::EXACT, &mut []), Err(QueryError::NoScratch));
-    let segments = with!(options(&[64]), closest: false);
+    let segments = options(&[64]).with_boxes(false, true);
     let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &segments);
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
     let refusal = Err(QueryError::NotServed { build_for: BuildFor::Closest });

@@ -10,7 +10,6 @@ use meshsweep::wrap::Goal;
 use meshsweep_core::{Blob, TightHulls};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::generate::{bracket, icosphere, rough_sphere, torus};
-use meshsweep_host_tests::with;
 
 fn encloses(outer: &Mesh, inner: &Mesh) {
     let surface = |mesh: &Mesh| Surface::new(&mesh.positions, &mesh.triangles);
@@ -30,7 +29,7 @@ fn every_stored_hull_encloses_the_mesh_by_the_checker() {
     for shape in [torus(2.0, 0.75, 16, 10), bracket(), rough_sphere(3, 0.3, 1)] {
         let mesh = mesh(&shape);
         for bits in [VertexBits::Auto, VertexBits::Grid24, VertexBits::F32] {
-            let options = with!(options(&[150, 70]), vertex_bits: bits);
+            let options = options(&[150, 70]).with_vertex_bits(bits);
             let (bytes, reports) = of(&mesh, 0.0, &options);
             let hulls = stored(&bytes);
             assert_eq!(hulls.len(), 2);

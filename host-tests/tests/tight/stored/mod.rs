@@ -8,7 +8,6 @@ mod chains;
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, HullReport, chain};
 use meshsweep_host_tests::generate::Triangles;
-use meshsweep_host_tests::with;
 
 fn mesh((positions, triangles): &Triangles) -> Mesh {
     Mesh::new(positions.clone(), triangles.clone())
@@ -16,7 +15,7 @@ fn mesh((positions, triangles): &Triangles) -> Mesh {
 
 /// Next to no polish: nothing here depends on how tight a hull is.
 fn options(faces: &[usize]) -> ChainOptions {
-    with!(ChainOptions::default(), faces: faces.to_vec(), effort: 0.01)
+    ChainOptions::of_faces(faces).with_effort(0.01)
 }
 
 /// A blob of tight hulls and nothing else, of a mesh of which every vertex was moved by `moved` at

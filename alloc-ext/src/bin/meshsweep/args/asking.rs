@@ -3,7 +3,7 @@
 use super::given::{self, Given};
 use super::values::{Margin, direction, margin, point, size, threads, tolerance, whole};
 use clap::{Args, ValueEnum};
-use meshsweep_core::query::tree::{Facing, Sight};
+use meshsweep_core::{Eye, Facing};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -143,7 +143,7 @@ pub struct SegmentArgs {
     #[arg(required = true, value_parser = given::queries::<6>())]
     pub segments: Vec<Given<6>>,
     /// All hits, one on a line, with the number of the query (from 0) in front
-    #[arg(long, conflicts_with = "steps")]
+    #[arg(long)]
     pub all: bool,
     /// Only hits of fronts or of backs, on the box tree; the front of a triangle is where its
     /// corners run counter-clockwise [default: both]
@@ -226,10 +226,10 @@ pub struct CullArgs {
 
 impl CullArgs {
     /// Where the eye is, or which way it looks.
-    pub fn sight(&self) -> Sight {
+    pub fn eye(&self) -> Eye {
         match (self.viewpoint, self.along) {
-            (Some(viewpoint), _) => Sight::From(viewpoint),
-            (None, along) => Sight::Along(along.unwrap_or_default()),
+            (Some(viewpoint), _) => Eye::At(viewpoint),
+            (None, along) => Eye::Along(along.unwrap_or_default()),
         }
     }
 }

@@ -7,12 +7,8 @@ pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is n
 pub const QUEUE: &str = "Stack or queue entries to search with [default: what the blob needs; on \
     the cover tree no less than 4096]";
 
-/// `--steps` of segments.
-pub const STEPS: &str =
-    "Stop a query after opening so many nodes, on the cover tree only (--engine cover)";
-
 /// `--queue` of pairs of nodes.
-pub const PAIRS: &str = "Stack entries to search with [default: 128, which always suffice]";
+pub const PAIRS: &str = "Stack entries to search with [default: 256, which always suffice]";
 
 const QUERIES: &str = "Queries are arguments, files, or both, in any number. They are answered in \
     the order given. A file holds one query on a line: decimal numbers with commas, semicolons or \

@@ -1,8 +1,8 @@
 //! How queries ended, and the work that they took.
 
-use meshsweep_core::query::{Ended, Work};
+use meshsweep_core::{Ended, Work};
 
-/// Words for queries that ended with `Ended::Level`: more work does not help them.
+/// Words for queries that ended with `Ended::Resolution`: more work does not help them.
 const RESOLUTION: &str =
     "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching";
 
@@ -16,8 +16,8 @@ pub struct Tally {
     exact: usize,
     tolerance: usize,
     steps: usize,
-    capacity: usize,
-    level: usize,
+    scratch: usize,
+    resolution: usize,
     pub work: u64,
 }
 
@@ -28,8 +28,8 @@ impl Tally {
             Ended::Exact => &mut self.exact,
             Ended::Tolerance => &mut self.tolerance,
             Ended::Steps => &mut self.steps,
-            Ended::Capacity => &mut self.capacity,
-            Ended::Level => &mut self.level,
+            Ended::Scratch => &mut self.scratch,
+            _ => &mut self.resolution,
         } += 1;
     }
 
@@ -37,13 +37,13 @@ impl Tally {
         self.exact += other.exact;
         self.tolerance += other.tolerance;
         self.steps += other.steps;
-        self.capacity += other.capacity;
-        self.level += other.level;
+        self.scratch += other.scratch;
+        self.resolution += other.resolution;
         self.work += other.work;
     }
 
     pub fn queries(&self) -> usize {
-        self.exact + self.tolerance + self.steps + self.capacity + self.level
+        self.exact + self.tolerance + self.steps + self.scratch + self.resolution
     }
 
     pub fn ended_early(&self) -> bool {
@@ -56,8 +56,8 @@ impl Tally {
             (self.exact, "exact"),
             (self.tolerance, "within tolerance"),
             (self.steps, "out of steps"),
-            (self.capacity, "out of stack or queue"),
-            (self.level, if is_by_hull { BY_HULL } else { RESOLUTION }),
+            (self.scratch, "out of stack or queue"),
+            (self.resolution, if is_by_hull { BY_HULL } else { RESOLUTION }),
         ];
         let counted = counts.into_iter().filter(|(count, _)| *count > 0);
         let said: Vec<String> = counted.map(|(count, why)| format!("{count} {why}")).collect();

@@ -2,10 +2,10 @@
 
 use crate::number::{AtMost, Percent};
 use meshsweep::counted::Counted;
-use meshsweep_core::blob::layout::VertexFormat;
-use meshsweep_core::blob::{Header, Level};
-use meshsweep_core::num::{exp2, up_to_f32};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::internal::format::Header;
+use meshsweep_core::internal::format::layout::VertexFormat;
+use meshsweep_core::internal::num::{exp2, up_to_f32};
+use meshsweep_core::{Hull, Level, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -39,13 +39,13 @@ fn distances(header: &Header, level: &Level) -> LevelDistances {
 }
 
 /// Bytes of a queue with which no query overflows.
-fn queue_bytes(model: &Model<'_>) -> usize {
-    model.capacities().queue * size_of::<QueueEntry>()
+fn queue_bytes(hull: &Hull<'_>) -> usize {
+    hull.scratch_entries() * size_of::<ScratchEntry>()
 }
 
 /// Bytes of both bit sets of a refined hull that can perform every split.
-fn front_bytes(model: &Model<'_>) -> usize {
-    2 * model.capacities().front_words * WORD
+fn front_bytes(hull: &Hull<'_>) -> usize {
+    2 * hull.refined_words() * WORD
 }
 
 /// How coordinates are stored.
@@ -57,8 +57,8 @@ fn format_name(format: VertexFormat) -> &'static str {
     }
 }
 
-pub(super) fn write(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    let h = model.header();
+pub(super) fn write(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
+    let h = hull.header();
     writeln!(out, "hull hierarchy")?;
     writeln!(
         out,
@@ -66,41 +66,40 @@ pub(super) fn write(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
         AtMost(surface_error(h)),
         format_name(h.vertex_format)
     )?;
-    write_memory(out, model)?;
-    write_levels(out, model)
+    write_memory(out, hull)?;
+    write_levels(out, hull)
 }
 
 /// Working memory that makes overflow impossible.
-fn write_memory(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    let capacities = model.capacities();
+fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     writeln!(
         out,
         "  queue: {}, {} bytes of RAM: no query on the cover tree can overflow it",
-        Counted(capacities.queue, "entry"),
-        queue_bytes(model)
+        Counted(hull.scratch_entries(), "entry"),
+        queue_bytes(hull)
     )?;
     writeln!(
         out,
         "  front: {} in each of 2 bit sets, {} bytes of RAM: every split can be performed",
-        Counted(capacities.front_words, "word"),
-        front_bytes(model)
+        Counted(hull.refined_words(), "word"),
+        front_bytes(hull)
     )?;
     writeln!(
         out,
         "  dependency depth: {} in the longest chain",
-        Counted(capacities.dependency_depth, "split")
+        Counted(hull.header().dependency_depth, "split")
     )
 }
 
 /// The level table.
-fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
+fn write_levels(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     writeln!(out, "  levels, with certified distances of their covering triangles")?;
     writeln!(
         out,
         "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover"
     )?;
-    for (index, level) in model.levels().enumerate() {
-        let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(model.header(), &level);
+    for (index, level) in hull.levels().enumerate() {
+        let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(hull.header(), &level);
         writeln!(
             out,
             "  {index:>5} {:>10} {:>10} {:>10} {:>10} {:>15} {:>15}",
@@ -115,10 +114,9 @@ fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
     Ok(())
 }
 
-pub(super) fn as_json(model: &Model<'_>, hull_box: [[f64; 3]; 2]) -> Value {
-    let h = model.header();
-    let capacities = model.capacities();
-    let levels: Vec<Value> = model
+pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
+    let h = hull.header();
+    let levels: Vec<Value> = hull
         .levels()
         .map(|level| {
             let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(h, &level);
@@ -133,7 +131,7 @@ pub(super) fn as_json(model: &Model<'_>, hull_box: [[f64; 3]; 2]) -> Value {
         })
         .collect();
     json!({
-        "is_cut": model.is_cut(),
+        "is_cut": hull.is_cut(),
         "vertex_format": format_name(h.vertex_format),
         "surface_error": surface_error(h),
         "vertices": h.vertices,
@@ -145,11 +143,11 @@ pub(super) fn as_json(model: &Model<'_>, hull_box: [[f64; 3]; 2]) -> Value {
         "surface_triangles": h.surface_triangles,
         "hull_box": hull_box,
         "capacities": {
-            "queue": capacities.queue,
-            "queue_bytes": queue_bytes(model),
-            "front_words": capacities.front_words,
-            "front_bytes": front_bytes(model),
-            "dependency_depth": capacities.dependency_depth,
+            "queue": hull.scratch_entries(),
+            "queue_bytes": queue_bytes(hull),
+            "front_words": hull.refined_words(),
+            "front_bytes": front_bytes(hull),
+            "dependency_depth": hull.header().dependency_depth,
         },
         "levels": levels,
     })

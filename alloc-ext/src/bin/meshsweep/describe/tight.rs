@@ -3,8 +3,7 @@
 use super::tree::{format_name, stack_bytes};
 use crate::number::{AtMost, Percent};
 use meshsweep::counted::Counted;
-use meshsweep_core::blob::TightRecord;
-use meshsweep_core::{TightHull, TightHulls};
+use meshsweep_core::{TightHull, TightHulls, TightRecord};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -44,8 +43,8 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
             "  {:>8} {void:>9} {:>9} {:>12}  {:<11}  {:>21}  {:>21}",
             record.faces,
             bytes(&hull),
-            stack_bytes(hull.tree()),
-            format_name(hull.tree()),
+            stack_bytes(hull.bvh()),
+            format_name(hull.bvh()),
             AtMost(record.slack),
             AtMost(record.depth)
         )?;
@@ -62,11 +61,11 @@ pub(super) fn as_json(hulls: &TightHulls<'_>) -> Value {
             "slack": record.slack,
             "depth": record.depth,
             "bytes": bytes(&hull),
-            "vertex_format": format_name(hull.tree()),
-            "serves_distances": hull.tree().serves_distances(),
-            "serves_segments": hull.tree().serves_segments(),
-            "stack_entries": hull.tree().header().stack_entries,
-            "stack_bytes": stack_bytes(hull.tree()),
+            "vertex_format": format_name(hull.bvh()),
+            "serves_distances": hull.bvh().serves_distances(),
+            "serves_segments": hull.bvh().serves_segments(),
+            "stack_entries": hull.bvh().header().stack_entries,
+            "stack_bytes": stack_bytes(hull.bvh()),
         })
     };
     json!({ "hulls": all(hulls).map(hull).collect::<Vec<_>>() })

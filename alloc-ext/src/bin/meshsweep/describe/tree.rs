@@ -3,21 +3,15 @@
 use super::shape::Shape;
 use crate::number::AtMost;
 use meshsweep::counted::Counted;
-use meshsweep_core::Bvh;
-use meshsweep_core::num::tolerance::{TREE_FAN, TREE_RELATIVE, TREE_WEAK, U32};
-use meshsweep_core::num::{exp2, up_to_f32};
-use meshsweep_core::query::tree::ScratchEntry;
+use meshsweep_core::internal::num::exp2;
+use meshsweep_core::internal::num::tolerance::{CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, U32};
+use meshsweep_core::{Bvh, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// Bytes of a stack with which no query overflows.
 pub fn stack_bytes(tree: &Bvh<'_>) -> usize {
-    tree.header().stack_entries as usize * size_of::<ScratchEntry>()
-}
-
-/// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
-fn surface_error(tree: &Bvh<'_>) -> f32 {
-    up_to_f32(f64::from(tree.header().surface_error) * exp2(tree.scale_exponent()))
+    tree.scratch_entries() * size_of::<ScratchEntry>()
 }
 
 /// About what an exact answer's half-width is, in the mesh's unit: next to the surface, and one
@@ -26,10 +20,11 @@ fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
     let h = tree.header();
     let unit = exp2(h.grid_exponent + tree.scale_exponent());
     let u = f64::from(U32);
-    let near = f64::from(surface_error(tree)) + f64::from(TREE_FAN) * u * f64::from(h.reach) * unit;
+    let near = f64::from(tree.surface_error())
+        + f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius) * unit;
     // Other triangles than slivers are certified to that part of the squared distance: half of it
     // for the distance, a quarter at either end.
-    let relative = f64::from(TREE_RELATIVE) * u + (1.0 - f64::from(TREE_WEAK)) / 4.0;
+    let relative = f64::from(FAN_RELATIVE) * u + (1.0 - f64::from(CERTIFIED_PART)) / 4.0;
     [near, near + relative * diagonal]
 }
 
@@ -57,7 +52,7 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
     writeln!(
         out,
         "  surface error {} (coordinates: {})",
-        AtMost(surface_error(tree)),
+        AtMost(tree.surface_error()),
         format_name(tree)
     )?;
     if tree.serves_distances() {
@@ -68,7 +63,7 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
              diagonal of the mesh away"
         )?;
     }
-    let closed = if h.is_closed() {
+    let closed = if tree.is_closed() {
         "closed: signed distance is defined"
     } else {
         "open: signed distance is undefined"
@@ -112,9 +107,9 @@ pub(super) fn as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
     let shape = Shape::of(tree);
     let [near, far] = half_widths(tree, diagonal);
     json!({
-        "is_closed": h.is_closed(),
+        "is_closed": tree.is_closed(),
         "vertex_format": format_name(tree),
-        "surface_error": surface_error(tree),
+        "surface_error": tree.surface_error(),
         "half_width_near": near,
         "half_width_one_diagonal_away": far,
         "triangles": h.triangles,

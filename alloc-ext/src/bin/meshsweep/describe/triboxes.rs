@@ -2,8 +2,7 @@
 
 use crate::number::{AtMost, Percent};
 use meshsweep::counted::Counted;
-use meshsweep_core::Triboxes;
-use meshsweep_core::blob::TriboxLevel;
+use meshsweep_core::{TriboxLevel, Triboxes};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 

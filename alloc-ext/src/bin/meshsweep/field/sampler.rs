@@ -4,9 +4,7 @@ use super::lattice::Lattice;
 use crate::ask::threads;
 use crate::progress::Bar;
 use crate::signed;
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{Hint, ScratchEntry, Side, closest_point_from, signed_distance};
-use meshsweep_core::query::{Budget, QueryError};
+use meshsweep_core::{Budget, Bvh, Hint, Interval, QueryError, ScratchEntry, Side};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
@@ -87,14 +85,14 @@ impl Sampler<'_> {
         let row_values = self.lattice.size[0] * self.values();
         let rows = Mutex::new(values.chunks_mut(row_values).enumerate());
         let work = || -> Result<NoSign, QueryError> {
-            let mut stack = vec![ScratchEntry::EMPTY; self.tree.header().stack_entries as usize];
+            let mut scratch = vec![ScratchEntry::EMPTY; self.tree.scratch_entries()];
             let mut no_sign = NoSign::default();
             loop {
                 // No thread can panic while it holds the lock.
                 let Some((row, values)) = rows.lock().ok().and_then(|mut rows| rows.next()) else {
                     return Ok(no_sign);
                 };
-                self.row(first + row, values, &mut stack, &mut no_sign)?;
+                self.row(first + row, values, &mut scratch, &mut no_sign)?;
                 bar.advance(1);
             }
         };
@@ -108,14 +106,14 @@ impl Sampler<'_> {
         &self,
         row: usize,
         values: &mut [f32],
-        stack: &mut [ScratchEntry],
+        scratch: &mut [ScratchEntry],
         no_sign: &mut NoSign,
     ) -> Result<(), QueryError> {
         let ny = self.lattice.size[1];
         let mut hint = Hint::NONE;
         for (i, slot) in values.chunks_mut(self.values()).enumerate() {
             let point = self.lattice.point([i, row % ny, row / ny]);
-            let ([lower, upper], reason) = self.interval(point, stack, &mut hint)?;
+            let (Interval { lower, upper }, reason) = self.interval(point, scratch, &mut hint)?;
             match slot {
                 [low, high] => (*low, *high) = (lower, upper),
                 [middle] if reason.is_some() => *middle = QUIET_NAN,
@@ -133,16 +131,15 @@ impl Sampler<'_> {
     fn interval(
         &self,
         point: [f32; 3],
-        stack: &mut [ScratchEntry],
+        scratch: &mut [ScratchEntry],
         hint: &mut Hint,
-    ) -> Result<([f32; 2], Option<&'static str>), QueryError> {
+    ) -> Result<(Interval, Option<&'static str>), QueryError> {
         if self.signed {
-            let answer = signed_distance(self.tree, point, &Budget::EXACT, stack)?;
-            let reason =
-                (answer.side == Side::Undefined).then(|| signed::reason(self.tree, &answer));
-            return Ok(([answer.lower, answer.upper], reason));
+            let answer = self.tree.signed_distance(point, Budget::EXACT, scratch)?;
+            let is_undecided = matches!(answer.side, Side::Undecided(_));
+            return Ok((answer.distance, is_undecided.then(|| signed::reason(answer.side))));
         }
-        let answer = closest_point_from(self.tree, point, &Budget::EXACT, stack, hint)?;
-        Ok(([answer.lower, answer.upper], None))
+        let answer = self.tree.closest_point_from(point, hint, Budget::EXACT, scratch)?;
+        Ok((answer.distance, None))
     }
 }

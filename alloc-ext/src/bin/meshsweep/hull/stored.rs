@@ -5,19 +5,17 @@ use crate::failure::Failure;
 use crate::number::{AtMost, Percent};
 use crate::output::Output;
 use crate::{blob_file, describe, served};
+use meshsweep::BuildError;
 use meshsweep::counted::Counted;
-use meshsweep::cut::CutError;
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::tight::hull_mesh;
-use meshsweep_core::Model;
-use meshsweep_core::blob::{Level, VertIdx};
-use meshsweep_core::refine::hull_faces;
+use meshsweep_core::{Hull, Level, VertIdx};
 
 /// Writes the finest tight hull of at most so many faces.
 pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
     let bytes = blob_file::read(&args.input)?;
-    let model = blob_file::open(&args.input, &bytes)?;
-    let hull = served::require_tight(&args.input, &model, faces)?;
+    let blob = blob_file::open(&args.input, &bytes)?;
+    let hull = served::require_tight(&args.input, &blob, faces)?;
     Output::file(&args.output)?.finish(|out| write_ply(&hull_mesh(&hull), out))?;
     Output::stdout().finish(|out| {
         let record = hull.record();
@@ -32,15 +30,15 @@ pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
 /// Writes level `index` of the hull hierarchy.
 pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
     let bytes = blob_file::read(&args.input)?;
-    let model = blob_file::open(&args.input, &bytes)?;
-    served::require_hull(&args.input, &model)?;
-    let levels = model.header().levels;
-    let no_level = || Failure::Cut {
+    let blob = blob_file::open(&args.input, &bytes)?;
+    let hierarchy = served::require_hull(&args.input, &blob)?;
+    let levels = hierarchy.header().levels;
+    let no_level = || Failure::Build {
         file: args.input.clone(),
-        error: CutError::NoLevel { wanted: index, levels },
+        error: BuildError::NoLevel { wanted: index, levels },
     };
-    let level = model.level(index).ok_or_else(no_level)?;
-    let hull = level_mesh(&model, &level);
+    let level = hierarchy.level(index).ok_or_else(no_level)?;
+    let hull = level_mesh(&hierarchy, &level);
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
     Output::stdout().finish(|out| {
         writeln!(
@@ -55,16 +53,15 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
 }
 
 /// The hull of a level in the mesh's unit. The scale is a power of two, so its vertices are exactly
-/// those stored.
-fn level_mesh(model: &Model<'_>, level: &Level) -> Mesh {
-    let mut number = vec![None; model.header().vertices as usize];
+/// the stored ones.
+fn level_mesh(hull: &Hull<'_>, level: &Level) -> Mesh {
+    let mut number = vec![None; hull.header().vertices as usize];
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
-    for face in hull_faces(model, level) {
+    for face in hull.faces(level) {
         triangles.push(face.corners.map(|vertex: VertIdx| {
             *number[vertex.usize()].get_or_insert_with(|| {
-                let local = model.position(vertex).unwrap_or_default().as_dvec3();
-                positions.push((local * model.scale()).as_vec3().to_array());
+                positions.push(hull.vertex(vertex).unwrap_or_default());
                 positions.len() as u32 - 1
             })
         }));

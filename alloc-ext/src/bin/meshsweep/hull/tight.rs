@@ -10,7 +10,7 @@ use crate::progress::StageBars;
 use crate::unmet::Tightness;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::tight::{Goal, Hull, Options, Outcome, Report, parts, wrap};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Report, split_components, wrap};
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -21,16 +21,15 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         (_, Some(slack)) => Goal::Slack(slack),
         _ => Goal::Faces(args.faces.unwrap_or(FACES) as usize),
     };
-    let mut options = Options {
-        goal,
-        margin: 0.0,
-        effort: args.effort.unwrap_or(1.0),
-        time_limit: args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX)),
-        vertex_bits: args.vertex_bits.format(),
-    };
-    let loaded = load_snapped(&args.input, options.vertex_bits)?;
-    options.margin = loaded.widened(args.margin);
-    let meshes = if args.parts { parts(&loaded.mesh) } else { vec![loaded.mesh.clone()] };
+    let limit = args.seconds.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
+    let loaded = load_snapped(&args.input, args.vertex_bits.format())?;
+    let options = Options::new(goal)
+        .with_margin(loaded.widened(args.margin))
+        .with_effort(args.effort.unwrap_or(1.0))
+        .with_time_limit(limit)
+        .with_vertex_bits(args.vertex_bits.format());
+    let meshes =
+        if args.parts { split_components(&loaded.mesh) } else { vec![loaded.mesh.clone()] };
     let mut hulls = Vec::new();
     for mesh in &meshes {
         let mut bars = StageBars::default();

@@ -21,7 +21,7 @@ impl SplitMix {
     }
 
     /// Each coordinate uniform in [−1, 1).
-    pub(super) fn direction(&mut self) -> DVec3 {
+    pub fn direction(&mut self) -> DVec3 {
         DVec3::new(self.roll(), self.roll(), self.roll()) * 2.0 - 1.0
     }
 }
