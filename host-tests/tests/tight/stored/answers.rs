@@ -12,7 +12,6 @@ use meshsweep_host_tests::generate::{
     two_parts,
 };
 use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
-use meshsweep_host_tests::with;
 use std::sync::LazyLock;
 
 /// Points everywhere: far, around, on the surface of mesh and hull, at corners of both, and within.

@@ -10,7 +10,6 @@ use meshsweep::wrap::Goal;
 use meshsweep_core::{Blob, TightHulls};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::generate::{bracket, icosphere, rough_sphere, torus};
-use meshsweep_host_tests::with;
 
 fn encloses(outer: &Mesh, inner: &Mesh) {
     let surface = |mesh: &Mesh| Surface::new(&mesh.positions, &mesh.triangles);
