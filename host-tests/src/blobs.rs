@@ -9,7 +9,7 @@ use meshsweep::cut::cut;
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
-use meshsweep_core::Model;
+use meshsweep_core::Hull;
 use meshsweep_suite::ask::{Refused, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
@@ -90,7 +90,7 @@ impl Blob {
             Self::Grid24 => small(VertexBits::Grid24),
             Self::Cut => {
                 let bytes = small(VertexBits::Auto)?;
-                let model = Model::open(&bytes).map_err(|error| error.to_string())?;
+                let model = Hull::open(&bytes).map_err(|error| error.to_string())?;
                 Ok(cut(&model, 1).map_err(|error| error.to_string())?.to_bytes())
             }
             Self::TorusTree => Ok(box_tree(small_torus(), &default)),
@@ -174,7 +174,7 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
         ran = run::<tight::Hulls<'_>>(blob, plan, &mut tight::Scratch::new(), &mut lines);
     }
     if ran == Err(Refused::NO_SECTION) {
-        ran = run::<Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut lines);
+        ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut lines);
     }
     ran.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
     Ok(lines.0 + "done\n")
@@ -193,9 +193,10 @@ impl Recorder for Lines {
 #[cfg(test)]
 mod tests {
     use super::Blob;
-    use meshsweep_core::blob::layout::VertexFormat;
-    use meshsweep_core::{Bvh, Model, Triboxes};
+    use meshsweep_core::internal::format::layout::VertexFormat;
+    use meshsweep_core::{Bvh, Hull, Triboxes};
     use meshsweep_suite::Subject;
+    use meshsweep_suite::ask::hull;
     use meshsweep_suite::ask::tight::Hulls;
 
     const HULLS: [Blob; 5] = [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut];
@@ -205,7 +206,8 @@ mod tests {
     fn every_blob_opens_and_the_suite_has_memory_for_it() {
         for blob in HULLS {
             let bytes = blob.bytes().expect("a blob");
-            assert!(Model::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
+            let opened = hull::Model::open(&bytes).expect("opens");
+            assert!(opened.memory_suffices(), "{blob:?}");
         }
         for blob in TREES {
             let bytes = blob.bytes().expect("a blob");
@@ -220,7 +222,7 @@ mod tests {
     #[test]
     fn blobs_differ_in_format_and_in_what_they_hold() {
         let header =
-            |blob: Blob| *Model::open(&blob.bytes().expect("a blob")).expect("opens").header();
+            |blob: Blob| *Hull::open(&blob.bytes().expect("a blob")).expect("opens").header();
         assert_eq!(header(Blob::Torus).vertex_format, VertexFormat::F32);
         assert_eq!(header(Blob::Grid16).vertex_format, VertexFormat::Grid16);
         assert_eq!(header(Blob::Grid24).vertex_format, VertexFormat::Grid24);

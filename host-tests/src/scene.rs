@@ -3,7 +3,7 @@
 use meshsweep::bvh::{TreeOptions, build as build_tree};
 use meshsweep::hull::{BuildOptions, build as build_hull};
 use meshsweep::mesh::{Mesh, RawMesh, repair, require_closed_manifold};
-use meshsweep_core::{Bvh, Model};
+use meshsweep_core::{Bvh, Hull};
 
 use crate::generate::corpus::add;
 use crate::generate::{Rng, Triangles};
@@ -81,8 +81,8 @@ impl Scene {
     /// # Panics
     /// The scene has none.
     #[must_use]
-    pub fn model(&self) -> Model<'_> {
-        Model::open(&self.bytes).expect("opens")
+    pub fn model(&self) -> Hull<'_> {
+        Hull::open(&self.bytes).expect("opens")
     }
 
     /// The box tree.
@@ -217,4 +217,14 @@ fn tree_blob(
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.to_vec(), triangles.to_vec());
     build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options).0.to_bytes()
+}
+
+/// A value with some fields set: option structs of the library cannot be written as literals here.
+#[macro_export]
+macro_rules! with {
+    ($base:expr, $($field:ident: $value:expr),+ $(,)?) => {{
+        let mut all = $base;
+        $(all.$field = $value;)+
+        all
+    }};
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use meshsweep_core::{Bvh, Model, TightHulls, Triboxes};
+use meshsweep_core::{Bvh, Hull, TightHulls, Triboxes};
 use meshsweep_host_tests::golden::{
     bracket_hulls, bracket_model, groove_tree, hull_answers, tight_answers, torus_triboxes,
     tree_answers, tribox_answers,
@@ -81,7 +81,7 @@ fn committed_blob_is_what_the_builder_makes() {
 #[test]
 fn committed_blob_opens_with_every_triangle() {
     let committed = read("bracket.msw");
-    let model = Model::open(&committed).expect("opens");
+    let model = Hull::open(&committed).expect("opens");
     assert_eq!(model.header().surface_triangles, 1948);
     assert_eq!(model.header().surface_error, 0.0);
 }

@@ -9,9 +9,7 @@ use std::path::Path;
 
 use divan::Bencher;
 use meshsweep::collapse::Priority;
-use meshsweep_core::query::{Budget, Hit, Search, closest_point, first_hit, outer_hits};
-use meshsweep_core::refine::{Face, RefinedHull};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::{Budget, Face, Hit, Hull, RefinedHull, ScratchEntry, Search};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points, segments};
 use meshsweep_lab::measure::rival::Rival;
@@ -35,13 +33,13 @@ fn blob(subject: &Subject) -> Vec<u8> {
 fn closest(bencher: Bencher<'_, '_>, file: &str, kind: Points) {
     let subject = subject(file);
     let bytes = blob(&subject);
-    let model = Model::open(&bytes).expect("opens");
-    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+    let model = Hull::open(&bytes).expect("opens");
+    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
     let asked = points(&subject, kind, QUERIES);
     let mut next = asked.iter().cycle();
     bencher.bench_local(|| {
         let point = next.next().copied().unwrap_or_default();
-        closest_point(&model, black_box(point), &Budget::EXACT, &mut queue)
+        model.closest_point(black_box(point), Budget::EXACT, &mut queue)
     });
 }
 
@@ -77,13 +75,13 @@ fn closest_near_parry3d(bencher: Bencher<'_, '_>, file: &str) {
 fn segment_first_hit(bencher: Bencher<'_, '_>, file: &str) {
     let subject = subject(file);
     let bytes = blob(&subject);
-    let model = Model::open(&bytes).expect("opens");
-    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+    let model = Hull::open(&bytes).expect("opens");
+    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
     let asked = segments(&subject, QUERIES);
     let mut next = asked.iter().cycle();
     bencher.bench_local(|| {
         let [a, b] = black_box(next.next().copied().unwrap_or_default());
-        first_hit(&model, a, b, &Budget::EXACT, &mut queue)
+        model.first_hit(a, b, Budget::EXACT, &mut queue)
     });
 }
 
@@ -91,8 +89,8 @@ fn segment_first_hit(bencher: Bencher<'_, '_>, file: &str) {
 fn segment_outer_hits(bencher: Bencher<'_, '_>, file: &str) {
     let subject = subject(file);
     let bytes = blob(&subject);
-    let model = Model::open(&bytes).expect("opens");
-    let words = model.capacities().front_words;
+    let model = Hull::open(&bytes).expect("opens");
+    let words = model.refined_words();
     let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
     let mut candidates = vec![Face::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 16];
@@ -101,7 +99,7 @@ fn segment_outer_hits(bencher: Bencher<'_, '_>, file: &str) {
     let mut next = asked.iter().cycle();
     bencher.bench_local(|| {
         let [a, b] = black_box(next.next().copied().unwrap_or_default());
-        outer_hits(&model, a, b, Search::First, &mut front, &mut hits)
+        model.outer_hits(a, b, Search::First, &mut front, &mut hits, Budget::EXACT)
     });
 }
 

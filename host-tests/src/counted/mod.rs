@@ -6,9 +6,7 @@ mod triboxes;
 use std::hint::black_box;
 use std::path::Path;
 
-use meshsweep_core::query::{Budget, Hit, Search, closest_point, first_hit, outer_hits};
-use meshsweep_core::refine::{Face, RefinedHull};
-use meshsweep_core::{Model, QueryError, QueueEntry};
+use meshsweep_core::{Budget, Face, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
 
 use crate::workload::{Points, Subject, points, segments};
 
@@ -38,13 +36,12 @@ fn hull(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
     let subject = Subject::load(&fixtures.join("bracket.stl"))?;
     let blob = std::fs::read(fixtures.join("bracket.msw"))
         .map_err(|error| format!("fixtures/bracket.msw: {error}"))?;
-    let model = Model::open(&blob).map_err(|error| error.to_string())?;
-    let capacities = model.capacities();
-    let mut queue = vec![QueueEntry::EMPTY; capacities.queue];
+    let model = Hull::open(&blob).map_err(|error| error.to_string())?;
+    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
     let failed = |error: QueryError| error.to_string();
     if let Some(kind) = Points::ALL.into_iter().find(|kind| kind.name() == question) {
         for point in points(&subject, kind, PLACED).into_iter().take(queries) {
-            black_box(closest_point(&model, point, &Budget::EXACT, &mut queue).map_err(failed)?);
+            black_box(model.closest_point(point, Budget::EXACT, &mut queue).map_err(failed)?);
         }
         return Ok(());
     }
@@ -55,15 +52,19 @@ fn hull(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
         _ => return Err(format!("no question `{question}`")),
     };
     let (mut performed, mut swept) =
-        (vec![0; capacities.front_words], vec![0; capacities.front_words]);
+        (vec![0; model.refined_words()], vec![0; model.refined_words()]);
     let mut candidates = vec![Face::EMPTY; 64];
     let mut hits = [Hit::EMPTY; 16];
     let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     for [a, b] in segments(&subject, PLACED).into_iter().take(queries) {
         if let Some(search) = search {
-            black_box(outer_hits(&model, a, b, search, &mut front, &mut hits).map_err(failed)?);
+            black_box(
+                model
+                    .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
+                    .map_err(failed)?,
+            );
         } else {
-            black_box(first_hit(&model, a, b, &Budget::EXACT, &mut queue).map_err(failed)?);
+            black_box(model.first_hit(a, b, Budget::EXACT, &mut queue).map_err(failed)?);
         }
     }
     Ok(())

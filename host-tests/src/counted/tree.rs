@@ -4,12 +4,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use meshsweep::bvh::{TreeOptions, build};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{
-    Facing, PairEntry, ScratchEntry, closest_point, first_hit, is_within, overlap,
-};
-use meshsweep_core::query::{Budget, Work};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::{Budget, Bvh, Facing, Pose, ScratchEntry, Work};
 
 use super::PLACED;
 use crate::workload::pose::{poses, sphere};
@@ -39,10 +34,12 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(Work, f64
         sum.triangles += work.triangles;
     };
     if kind == "overlap" {
-        let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+        let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
         let all: Vec<Pose> = poses(&sphere(&subject), PLACED).map(|(_, core)| core).collect();
         for pose in all.iter().take(queries) {
-            add(black_box(overlap(&tree, &tree, pose, u32::MAX, &mut stack)).map_err(failed)?.work);
+            add(black_box(tree.overlap(&tree, *pose, Budget::EXACT, &mut stack))
+                .map_err(failed)?
+                .work);
         }
         return Ok((sum, triangles));
     }
@@ -50,7 +47,7 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(Work, f64
     if let Some(kind) = Points::ALL.into_iter().find(|points| points.name() == kind) {
         let mut stack = vec![ScratchEntry::EMPTY; entries];
         for point in points(&subject, kind, PLACED).into_iter().take(queries) {
-            add(black_box(closest_point(&tree, point, &Budget::EXACT, &mut stack))
+            add(black_box(tree.closest_point(point, Budget::EXACT, &mut stack))
                 .map_err(failed)?
                 .work);
         }
@@ -58,18 +55,20 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(Work, f64
         let mut stack = vec![ScratchEntry::EMPTY; entries];
         let mut asked = Vec::new();
         for point in points(&subject, Points::Far, PLACED) {
-            let near = closest_point(&tree, point, &Budget::EXACT, &mut stack).map_err(failed)?;
-            asked.push((point, 0.9 * near.lower));
+            let near = tree.closest_point(point, Budget::EXACT, &mut stack).map_err(failed)?;
+            asked.push((point, 0.9 * near.distance.lower));
         }
         for (point, distance) in asked.into_iter().take(queries) {
-            add(black_box(is_within(&tree, point, distance, &Budget::EXACT, &mut stack))
+            add(black_box(tree.within(point, distance, Budget::EXACT, &mut stack))
                 .map_err(failed)?
                 .work);
         }
     } else {
         let mut stack = vec![ScratchEntry::EMPTY; entries];
         for [a, b] in segments(&subject, PLACED).into_iter().take(queries) {
-            add(black_box(first_hit(&tree, a, b, &Facing::Both, &mut stack)).map_err(failed)?.work);
+            add(black_box(tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut stack))
+                .map_err(failed)?
+                .work);
         }
     }
     Ok((sum, triangles))

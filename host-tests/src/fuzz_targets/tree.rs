@@ -7,10 +7,7 @@ use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit;
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::CoherentQuery;
-use meshsweep_core::tribox::Pose;
-use meshsweep_core::{Bvh, Model};
+use meshsweep_core::{Blob, Budget, Bvh, CoherentQuery, Pose};
 use std::sync::OnceLock;
 
 /// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
@@ -59,8 +56,8 @@ pub fn tree_open(data: &[u8]) {
     if let Ok(tree) = &tree {
         look(tree);
     }
-    // The same bytes as a model: all of them are checked, the tree's among them.
-    if Model::open(&blob).is_ok() {
+    // A blob that opens as a whole has a tree that opens.
+    if Blob::open(&blob).is_ok() {
         assert!(tree.is_ok(), "{tree:?}");
     }
 }
@@ -76,11 +73,11 @@ fn look(tree: &Bvh<'_>) {
             let child = tree.child(node, lane).expect("a child");
             if child.is_leaf() {
                 let patch = tree.leaf(node, lane).expect("a leaf");
-                for triangle in 0..child.tag.triangles() {
+                for triangle in 0..child.shape.triangles() {
                     assert!(patch.corners(triangle).iter().all(|corner| corner.is_finite()));
                 }
                 assert_eq!(links.triangle(lane), triangles);
-                triangles += child.tag.triangles() as u32;
+                triangles += child.shape.triangles() as u32;
                 leaves += 1;
             } else {
                 assert!(child.at > node && child.at < header.nodes);
@@ -93,7 +90,7 @@ fn look(tree: &Bvh<'_>) {
 }
 
 fn stop(input: &mut Input<'_>) -> Budget {
-    Budget { relative: input.float(), absolute: input.float(), steps: input.u32() }
+    Budget::EXACT.with_relative(input.float()).with_absolute(input.float()).with_steps(input.u32())
 }
 
 /// Every question about points on an edited blob, one by one and all at once.

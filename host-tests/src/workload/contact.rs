@@ -1,7 +1,7 @@
 //! Whether a mesh meets its moved copy, decided by exact predicates: the truth of overlap tests.
 
 use glam::DVec3;
-use meshsweep_core::tribox::Pose as CorePose;
+use meshsweep_core::Pose as CorePose;
 
 use crate::oracle::meets;
 use crate::oracle::moved::{self, Place};

@@ -1,8 +1,7 @@
 //! Poses of a moved copy of a mesh.
 
 use glam::{DMat3, DQuat, DVec3};
-use meshsweep_core::Triboxes;
-use meshsweep_core::tribox::{Pose as CorePose, Tribox};
+use meshsweep_core::{Pose as CorePose, Tribox, Triboxes};
 
 use crate::generate::Rng;
 

@@ -2,9 +2,7 @@
 
 use meshsweep::bvh::{self, TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{BatchError, Hint, ScratchEntry, closest_point, closest_points};
-use meshsweep_core::query::{Budget, ClosestPoint, QueryError};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
 use std::num::NonZeroUsize;
 
@@ -18,9 +16,13 @@ fn random(count: usize, size: f32) -> Vec<[f32; 3]> {
     (0..count).map(|_| rng.point_in([-size; 3], [size; 3])).collect()
 }
 
-fn bits(answer: &ClosestPoint) -> ([u32; 5], Option<u32>, meshsweep_core::query::Ended) {
+fn bits(answer: &ClosestPoint) -> ([u32; 5], Option<u32>, meshsweep_core::Ended) {
     let [x, y, z] = answer.point.map(f32::to_bits);
-    ([answer.lower.to_bits(), answer.upper.to_bits(), x, y, z], answer.triangle, answer.ended)
+    (
+        [answer.distance.lower.to_bits(), answer.distance.upper.to_bits(), x, y, z],
+        answer.triangle,
+        answer.ended,
+    )
 }
 
 fn one_at_a_time(
@@ -29,7 +31,7 @@ fn one_at_a_time(
     stop: &Budget,
     stack: &mut [ScratchEntry],
 ) -> Vec<ClosestPoint> {
-    points.iter().map(|&p| closest_point(tree, p, stop, stack).unwrap()).collect()
+    points.iter().map(|&p| tree.closest_point(p, *stop, stack).unwrap()).collect()
 }
 
 #[test]
@@ -44,11 +46,7 @@ fn a_batch_has_the_bits_of_its_queries_whatever_its_order() {
         // Equal ones, one far away, one at the end of f32.
         points.extend([[0.25 * size; 3]; 20]);
         points.extend([[1.0e7 * size, 0.0, 0.0], [f32::MAX, f32::MIN, 0.0]]);
-        for stop in [
-            Budget::EXACT,
-            Budget { relative: 0.1, ..Budget::EXACT },
-            Budget { steps: 3, ..Budget::EXACT },
-        ] {
+        for stop in [Budget::EXACT, Budget::EXACT.with_relative(0.1), Budget::EXACT.with_steps(3)] {
             for entries in [needed, 4] {
                 let mut stack = vec![ScratchEntry::EMPTY; entries];
                 let wanted = one_at_a_time(&tree, &points, &stop, &mut stack);
@@ -56,16 +54,8 @@ fn a_batch_has_the_bits_of_its_queries_whatever_its_order() {
                     let mut answers = vec![wanted[0]; points.len()];
                     let mut order = vec![u64::MAX; room];
                     let mut hint = Hint::NONE;
-                    closest_points(
-                        &tree,
-                        &points,
-                        &mut answers,
-                        &stop,
-                        &mut stack,
-                        &mut order,
-                        &mut hint,
-                    )
-                    .unwrap();
+                    tree.closest_points(&points, &mut hint, &mut answers, stop, &mut stack)
+                        .unwrap();
                     for (answer, wanted) in answers.iter().zip(&wanted) {
                         assert_eq!(
                             bits(answer),
@@ -120,32 +110,25 @@ fn errors_are_typed_and_name_the_query() {
     let untouched = one_at_a_time(&tree, &points[..1], &Budget::EXACT, &mut stack)[0];
     let ask = |points: &[[f32; 3]], answers: usize, stop: &Budget, stack: &mut [ScratchEntry]| {
         let mut answers = vec![untouched; answers];
-        let result = closest_points(
-            &tree,
-            points,
-            &mut answers,
-            stop,
-            stack,
-            &mut [0; 40],
-            &mut Hint::NONE.clone(),
-        );
+        let result =
+            tree.closest_points(points, &mut Hint::NONE.clone(), &mut answers, *stop, stack);
         assert!(result.is_ok() || answers.iter().all(|a| *a == untouched));
         result
     };
     assert_eq!(
         ask(&points, 49, &Budget::EXACT, &mut stack),
-        Err(BatchError::Length { points: 50, answers: 49 })
+        Err(QueryError::AnswerCount { points: 50, answers: 49 })
     );
     assert_eq!(ask(&[], 0, &Budget::EXACT, &mut stack), Ok(()));
-    let at = |index, error| Err(BatchError::Query { index, error });
-    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut []), at(0, QueryError::NoQueue));
-    let wrong = Budget { absolute: f32::NAN, ..Budget::EXACT };
-    assert_eq!(ask(&points, 50, &wrong, &mut stack), at(0, QueryError::Tolerance));
+    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut []), Err(QueryError::NoScratch));
+    let wrong = Budget::EXACT.with_absolute(f32::NAN);
+    assert_eq!(ask(&points, 50, &wrong, &mut stack), Err(QueryError::Tolerance));
     (points[31][1], points[44][0]) = (f32::INFINITY, f32::NAN);
-    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut stack), at(31, QueryError::NotFinite));
+    let first = QueryError::PointNotFinite { index: 31 };
+    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut stack), Err(first));
     for threads in [1, 2, 3, 50] {
         let threads = NonZeroUsize::new(threads).unwrap();
         let refused = bvh::closest_points(&tree, &points, &Budget::EXACT, threads);
-        assert_eq!(refused.map(|a| a.len()), at(31, QueryError::NotFinite).map(|()| 0));
+        assert_eq!(refused.map(|a| a.len()), Err(first));
     }
 }

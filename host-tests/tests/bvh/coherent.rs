@@ -3,9 +3,9 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{CoherentClosest, CoherentQuery, ScratchEntry, closest_point};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError};
+use meshsweep_core::{
+    Budget, Bvh, ClosestPoint, CoherentClosest, CoherentQuery, Ended, QueryError, ScratchEntry,
+};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, joined, needle_comb, rough_sphere, scaled, torus,
     transformed,
@@ -111,8 +111,8 @@ fn journey(mesh: &Triangles, count: usize, seed: u64) -> Vec<[f32; 3]> {
 
 fn bits(answer: &ClosestPoint) -> (u32, u32, [u32; 3], Option<u32>, Ended) {
     (
-        answer.lower.to_bits(),
-        answer.upper.to_bits(),
+        answer.distance.lower.to_bits(),
+        answer.distance.upper.to_bits(),
         answer.point.map(f32::to_bits),
         answer.triangle,
         answer.ended,
@@ -129,8 +129,8 @@ fn same_bits<'t, const N: usize>(
     points
         .iter()
         .map(|&p| {
-            let plain = closest_point(tree, p, &Budget::EXACT, &mut stack).unwrap();
-            let followed = session.closest_point(tree, p, &Budget::EXACT, &mut stack).unwrap();
+            let plain = tree.closest_point(p, Budget::EXACT, &mut stack).unwrap();
+            let followed = session.closest_point(tree, p, Budget::EXACT, &mut stack).unwrap();
             assert_eq!(
                 bits(&followed.closest),
                 bits(&plain),
@@ -194,7 +194,7 @@ fn a_walk_around_is_followed_with_little_work() {
     let mut stack = stack(&tree);
     let plain: u32 = points
         .iter()
-        .map(|&p| closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap().work.splits)
+        .map(|&p| tree.closest_point(p, Budget::EXACT, &mut stack).unwrap().work.splits)
         .sum();
     assert!(opened < plain / 10, "{opened} nodes against {plain}");
 }
@@ -210,8 +210,8 @@ fn jumps_cost_hardly_more_than_plain_queries() {
     let (mut with, mut without) = (0, 0);
     for p in points {
         let cost = |answer: &ClosestPoint| answer.work.splits + answer.work.triangles / 3;
-        with += cost(&session.closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap().closest);
-        without += cost(&closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap());
+        with += cost(&session.closest_point(&tree, p, Budget::EXACT, &mut stack).unwrap().closest);
+        without += cost(&tree.closest_point(p, Budget::EXACT, &mut stack).unwrap());
     }
     assert!(with < without + without / 10, "{with} against {without}");
 }
@@ -240,7 +240,7 @@ fn a_very_long_path_stays_cheap_and_has_the_same_bits() {
     for i in 0..400_000u32 {
         let t = f64::from(i) * 1.0e-3;
         let p = [1.3 * t.cos(), 1.3 * t.sin(), 0.4 * (0.1 * t).sin()].map(|x| x as f32);
-        let followed = session.closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap();
+        let followed = session.closest_point(&tree, p, Budget::EXACT, &mut stack).unwrap();
         let tested = followed.closest.work.triangles;
         match i {
             0..50_000 => early += tested,
@@ -248,7 +248,7 @@ fn a_very_long_path_stays_cheap_and_has_the_same_bits() {
             _ => {}
         }
         if i % 97 == 0 {
-            let plain = closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap();
+            let plain = tree.closest_point(p, Budget::EXACT, &mut stack).unwrap();
             assert_eq!(bits(&followed.closest), bits(&plain), "{p:?}");
         }
     }
@@ -264,19 +264,21 @@ fn tolerances_and_budgets_are_kept() {
     let mut session = CoherentQuery::<128>::new();
     let mut rng = Rng::new(2);
     for p in walk(&mesh, 1.0e-4, 200, &mut rng).into_iter().chain(jumps(&mesh, 200, &mut rng)) {
-        for stop in
-            [Budget { relative: 0.1, ..Budget::EXACT }, Budget { absolute: 0.05, ..Budget::EXACT }]
-        {
-            let followed = session.closest_point(&tree, p, &stop, &mut stack).unwrap();
-            let plain = closest_point(&tree, p, &stop, &mut stack).unwrap();
+        for stop in [Budget::EXACT.with_relative(0.1), Budget::EXACT.with_absolute(0.05)] {
+            let followed = session.closest_point(&tree, p, stop, &mut stack).unwrap();
+            let plain = tree.closest_point(p, stop, &mut stack).unwrap();
             assert_eq!(bits(&followed.closest), bits(&plain));
         }
-        let exact = closest_point(&tree, p, &Budget::EXACT, &mut stack).unwrap();
+        let exact = tree.closest_point(p, Budget::EXACT, &mut stack).unwrap();
         for steps in [0, 1, 2, 5] {
-            let stop = Budget { steps, ..Budget::EXACT };
-            let closest = session.closest_point(&tree, p, &stop, &mut stack).unwrap().closest;
+            let stop = Budget::EXACT.with_steps(steps);
+            let closest = session.closest_point(&tree, p, stop, &mut stack).unwrap().closest;
             assert!(closest.work.splits <= 2 * steps, "{closest:?}");
-            assert!(closest.lower <= exact.upper && closest.upper >= exact.lower, "{closest:?}");
+            assert!(
+                closest.distance.lower <= exact.distance.upper
+                    && closest.distance.upper >= exact.distance.lower,
+                "{closest:?}"
+            );
             if closest.ended == Ended::Exact {
                 assert_eq!(bits(&closest), bits(&exact));
             }
@@ -292,14 +294,14 @@ fn what_is_refused_leaves_the_session_as_it_was() {
     let mut stack = stack(&tree);
     let mut session = CoherentQuery::<32>::new();
     for p in walk(&mesh, 1.0e-4, 100, &mut Rng::new(2)) {
-        let nan = session.closest_point(&tree, [f32::NAN, 0.0, 0.0], &Budget::EXACT, &mut stack);
+        let nan = session.closest_point(&tree, [f32::NAN, 0.0, 0.0], Budget::EXACT, &mut stack);
         assert_eq!(nan, Err(QueryError::NotFinite));
         assert_eq!(
-            session.closest_point(&tree, p, &Budget::EXACT, &mut []),
-            Err(QueryError::NoQueue)
+            session.closest_point(&tree, p, Budget::EXACT, &mut []),
+            Err(QueryError::NoScratch)
         );
-        let wrong = Budget { relative: -1.0, ..Budget::EXACT };
-        assert_eq!(session.closest_point(&tree, p, &wrong, &mut stack), Err(QueryError::Tolerance));
+        let wrong = Budget::EXACT.with_relative(-1.0);
+        assert_eq!(session.closest_point(&tree, p, wrong, &mut stack), Err(QueryError::Tolerance));
         same_bits("after errors", &mut session, &tree, &[p]);
     }
 }

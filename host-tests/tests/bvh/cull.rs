@@ -3,9 +3,7 @@
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::Bvh;
-use meshsweep_core::query::QueryError;
-use meshsweep_core::query::tree::{FrontFacing, Sight, front_facing};
+use meshsweep_core::{BuildFor, Bvh, Eye, FrontFacing, QueryError};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, inverted, joined, needle_comb, rough_sphere, scaled,
     torus, transformed,
@@ -29,7 +27,7 @@ fn stored(tree: &Bvh<'_>) -> Vec<(u32, [[f64; 3]; 3])> {
         let links = tree.links(node).unwrap();
         for lane in links.inner..links.count {
             let patch = tree.leaf(node, lane).unwrap();
-            for place in 0..patch.tag().triangles() {
+            for place in 0..patch.shape().triangles() {
                 let number = tree.source(links.triangle(lane) + place as u32).unwrap();
                 let corners =
                     patch.corners(place).map(|c| c.to_array().map(|x| f64::from(x) * unit));
@@ -50,11 +48,12 @@ fn cross([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 3] {
 
 /// Whether a triangle may face the eye: the triple product in f64, positive by more than it can be
 /// off.
-fn faces([a, b, c]: [[f64; 3]; 3], sight: &Sight) -> bool {
+fn faces([a, b, c]: [[f64; 3]; 3], sight: &Eye) -> bool {
     let (e, g) = (minus(b, a), minus(c, a));
     let way = match sight {
-        Sight::From(eye) => minus(eye.map(f64::from), a),
-        Sight::Along(along) => along.map(|x| -f64::from(x)),
+        Eye::At(eye) => minus(eye.map(f64::from), a),
+        Eye::Along(along) => along.map(|x| -f64::from(x)),
+        other => panic!("{other:?}"),
     };
     let n = cross(e, g);
     let size = |v: [f64; 3]| v.iter().map(|x| x.abs()).sum::<f64>();
@@ -90,28 +89,27 @@ fn meshes() -> Vec<(&'static str, Triangles)> {
 }
 
 /// Eyes all around, near, far, at vertices and in the planes of triangles; and directions.
-fn sights(mesh: &Triangles, rng: &mut Rng) -> Vec<Sight> {
+fn sights(mesh: &Triangles, rng: &mut Rng) -> Vec<Eye> {
     let size = mesh.0.iter().flatten().fold(0.0, |most: f32, x| most.max(x.abs()));
     let mut sights = Vec::new();
     for _ in 0..30 {
         let way = rng.direction();
         for far in [0.3, 1.0, 3.0, 1.0e3, 1.0e12] {
-            sights.push(Sight::From(way.map(|x| x * far * size)));
+            sights.push(Eye::At(way.map(|x| x * far * size)));
         }
-        sights.push(Sight::Along(way));
-        sights.push(Sight::Along(way.map(|x| x * 1.0e25)));
+        sights.push(Eye::Along(way));
+        sights.push(Eye::Along(way.map(|x| x * 1.0e25)));
         let [a, b, c] = mesh.1[rng.below(mesh.1.len())].map(|v| mesh.0[v as usize]);
-        sights.push(Sight::From(a));
+        sights.push(Eye::At(a));
         let (v, w) = (rng.range(-3.0, 3.0), rng.range(-3.0, 3.0));
-        sights.push(Sight::From(core::array::from_fn(|k| {
-            a[k] + v * (b[k] - a[k]) + w * (c[k] - a[k])
-        })));
+        sights
+            .push(Eye::At(core::array::from_fn(|k| a[k] + v * (b[k] - a[k]) + w * (c[k] - a[k]))));
     }
     for axis in 0..3 {
         for sign in [-1.0, 1.0] {
             let mut way = [0.0; 3];
             way[axis] = sign;
-            sights.extend([Sight::Along(way), Sight::From(way.map(|x| x * 5.0 * size))]);
+            sights.extend([Eye::Along(way), Eye::At(way.map(|x| x * 5.0 * size))]);
         }
     }
     sights
@@ -126,7 +124,7 @@ fn no_triangle_that_faces_the_eye_is_culled() {
             let triangles = stored(&tree);
             let mut out = vec![0; triangles.len()];
             for sight in sights(&mesh, &mut Rng::new(11)) {
-                let found = front_facing(&tree, &sight, &mut out).unwrap();
+                let found = tree.front_facing(sight, &mut out).unwrap();
                 let kept = &out[..found.stored];
                 assert_eq!(
                     (found.dropped, found.stored + found.culled as usize),
@@ -151,8 +149,8 @@ fn most_of_a_smooth_back_is_culled() {
     let bytes = blob(&mesh, &culling(false));
     let tree = Bvh::open(&bytes).unwrap();
     let mut out = vec![0; mesh.1.len()];
-    for sight in [Sight::From([0.0, 0.3, 50.0]), Sight::Along([0.5, -0.2, 1.0])] {
-        let found = front_facing(&tree, &sight, &mut out).unwrap();
+    for sight in [Eye::At([0.0, 0.3, 50.0]), Eye::Along([0.5, -0.2, 1.0])] {
+        let found = tree.front_facing(sight, &mut out).unwrap();
         let backs = stored(&tree).iter().filter(|(_, corners)| !faces(*corners, &sight)).count();
         assert!(f64::from(found.culled) > 0.8 * backs as f64, "{found:?} of {backs}");
     }
@@ -164,7 +162,7 @@ fn a_flat_face_is_culled_exactly() {
     let bytes = blob(&mesh, &culling(false));
     let tree = Bvh::open(&bytes).unwrap();
     let found =
-        front_facing(&tree, &Sight::Along([0.2, 0.3, -1.0]), &mut vec![0; mesh.1.len()]).unwrap();
+        tree.front_facing(Eye::Along([0.2, 0.3, -1.0]), &mut vec![0; mesh.1.len()]).unwrap();
     // Leaves over an edge see both faces.
     assert!(
         found.culled as usize > mesh.1.len() / 3 && found.culled as usize <= mesh.1.len() / 2,
@@ -177,12 +175,12 @@ fn what_does_not_fit_is_counted() {
     let mesh = torus(2.0, 0.75, 40, 24);
     let bytes = blob(&mesh, &culling(false));
     let tree = Bvh::open(&bytes).unwrap();
-    let sight = Sight::From([5.0, 4.0, 3.0]);
+    let sight = Eye::At([5.0, 4.0, 3.0]);
     let mut all = vec![0; mesh.1.len()];
-    let whole = front_facing(&tree, &sight, &mut all).unwrap();
+    let whole = tree.front_facing(sight, &mut all).unwrap();
     for room in [0, 1, 17, whole.stored] {
         let mut some = vec![u32::MAX; room];
-        let found = front_facing(&tree, &sight, &mut some).unwrap();
+        let found = tree.front_facing(sight, &mut some).unwrap();
         assert_eq!(some, all[..room]);
         let dropped = (whole.stored - room) as u32;
         assert_eq!(found, FrontFacing { stored: room, dropped, ..whole });
@@ -194,16 +192,14 @@ fn refusals_are_typed_and_a_direction_of_no_length_leaves_nothing_out() {
     let mesh = torus(2.0, 0.75, 12, 8);
     let plain = blob(&mesh, &TreeOptions::default());
     let with = blob(&mesh, &culling(false));
-    let eye = Sight::From([5.0, 4.0, 3.0]);
-    assert_eq!(
-        front_facing(&Bvh::open(&plain).unwrap(), &eye, &mut []),
-        Err(QueryError::NotServed)
-    );
+    let eye = Eye::At([5.0, 4.0, 3.0]);
+    let refusal = Bvh::open(&plain).unwrap().front_facing(eye, &mut []).unwrap_err();
+    assert_eq!(refusal, QueryError::NotServed { build_for: BuildFor::Cull });
     let tree = Bvh::open(&with).unwrap();
-    for nan in [Sight::From([f32::NAN, 0.0, 0.0]), Sight::Along([0.0, f32::INFINITY, 0.0])] {
-        assert_eq!(front_facing(&tree, &nan, &mut []), Err(QueryError::NotFinite));
+    for nan in [Eye::At([f32::NAN, 0.0, 0.0]), Eye::Along([0.0, f32::INFINITY, 0.0])] {
+        assert_eq!(tree.front_facing(nan, &mut []), Err(QueryError::NotFinite));
     }
-    assert_eq!(front_facing(&tree, &Sight::Along([0.0; 3]), &mut []).unwrap().culled, 0);
+    assert_eq!(tree.front_facing(Eye::Along([0.0; 3]), &mut []).unwrap().culled, 0);
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! The wide kernels of triangle fans give the bits of the scalar ones.
 
 use glam::Vec3;
-use meshsweep_core::fan::{
-    Edges8, FanRay, LANES_BELOW, Nearness, Ring8, STILL, WIDTH, point_patch, point_patch8,
-    ray_patch, ray_patch8,
+use meshsweep_core::internal::geom::fan::{
+    Edges8, FanRay, LANES_BELOW, Nearness, Ring8, WIDTH, point_leaf, point_leaf8, ray_leaf,
+    ray_leaf8,
 };
+use meshsweep_core::internal::num::tolerance::STILL;
 use meshsweep_host_tests::generate::Rng;
 
 /// What a leaf holds: triangle `i` is `(centre, ring[i], ring[i + 1])`, its centre the second from
@@ -96,7 +97,7 @@ fn points_get_the_same_bits_from_eight_lanes() {
             let s = patch.centres.map(|centre| p - centre);
             let spoke = |i: usize, which: usize| patch.ring[i] - patch.centres[which];
             let mut scalar: Vec<Nearness> = Vec::new();
-            point_patch(patch.count(), patch.turn, s, spoke, |lane, near| {
+            point_leaf(patch.count(), patch.turn, s, spoke, |lane, near| {
                 assert_eq!(lane, scalar.len());
                 scalar.push(near);
             });
@@ -114,7 +115,7 @@ fn points_get_the_same_bits_from_eight_lanes() {
                     rows.iter_mut().zip(side).for_each(|(row, x)| row[lane] = x);
                 }
             }
-            let wide = point_patch8(&edges, &LANES_BELOW[patch.count()]);
+            let wide = point_leaf8(&edges, &LANES_BELOW[patch.count()]);
             for (lane, near) in scalar.iter().enumerate() {
                 let bits = |x: [f32; 4]| x.map(f32::to_bits);
                 assert_eq!(
@@ -168,12 +169,8 @@ fn segments_get_the_same_triangles_from_eight_lanes() {
             let surface = [0.0, 0.87, 1e-4][rng.below(3)];
             let ray = ray(from, target, surface, &vertices);
             let shadows = patch.ring.iter().map(|&vertex| ray.shadow(vertex));
-            let lanes = ray_patch(
-                &ray,
-                patch.turn,
-                patch.centres.map(|centre| ray.shadow(centre)),
-                shadows,
-            );
+            let lanes =
+                ray_leaf(&ray, patch.turn, patch.centres.map(|centre| ray.shadow(centre)), shadows);
             let mut ring = Ring8 {
                 here: [[f32::NAN; WIDTH]; 3],
                 next: [[f32::NAN; WIDTH]; 3],
@@ -189,7 +186,7 @@ fn segments_get_the_same_triangles_from_eight_lanes() {
                 }
             }
             let wide =
-                ray_patch8(&ray, &ring, &LANES_BELOW[patch.turn], &LANES_BELOW[patch.count()]);
+                ray_leaf8(&ray, &ring, &LANES_BELOW[patch.turn], &LANES_BELOW[patch.count()]);
             assert_eq!(lanes, wide, "{from:?} {target:?}: {:?} {:?}", patch.centres, patch.ring);
             // What is settled as met was flagged.
             for lane in 0..patch.count() {

@@ -2,10 +2,7 @@
 
 use super::scenes::options;
 use meshsweep::cut::cut;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::query::{Budget, Ended, Hit, all_hits, closest_point, first_hit};
-use meshsweep_core::refine::hull_faces;
-use meshsweep_core::{Model, OpenError, QueueEntry};
+use meshsweep_core::{Blob, Budget, Ended, Hit, Hull, OpenError, ScratchEntry, SectionKind};
 use meshsweep_host_tests::corrupt::{entries, entry, put_u32, seal, swap_entries, word};
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere};
 use meshsweep_host_tests::oracle::{contacts, distance_to_mesh};
@@ -25,28 +22,32 @@ fn edited(edit: impl FnOnce(&mut Vec<u8>)) -> Result<(), OpenError> {
     let mut bytes = small();
     edit(&mut bytes);
     seal(&mut bytes);
-    Model::open(&bytes).map(|_| ())
+    Hull::open(&bytes).map(|_| ())
 }
 
 /// Asks an opened model everything; all of it ends, within work that its tables bound.
-fn ask_everything(model: &Model<'_>) {
+fn ask_everything(model: &Hull<'_>) {
     let h = model.header();
     let most = 4 * (h.nodes + h.surface_triangles) + 64;
-    let mut queue = [QueueEntry::EMPTY; 24];
+    let mut queue = [ScratchEntry::EMPTY; 24];
     let mut hits = [Hit::EMPTY; 4];
     for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0]] {
         let answer =
-            closest_point(model, p, &Budget::EXACT, &mut queue).expect("an opened model answers");
-        assert!(answer.lower <= answer.upper && answer.work.total() <= most, "{answer:?}");
+            model.closest_point(p, Budget::EXACT, &mut queue).expect("an opened model answers");
+        assert!(
+            answer.distance.lower <= answer.distance.upper && answer.work.total() <= most,
+            "{answer:?}"
+        );
     }
     let (a, b) = ([-3.0, 0.1, 0.2], [3.0, 0.15, 0.1]);
-    if let Ok(first) = first_hit(model, a, b, &Budget::EXACT, &mut queue) {
-        assert!(first.lower <= first.upper && first.work.total() <= most, "{first:?}");
-        let all = all_hits(model, a, b, &mut queue, &mut hits).expect("in the domain");
+    if let Ok(first) = model.first_hit(a, b, Budget::EXACT, &mut queue) {
+        assert!(first.t.lower <= first.t.upper && first.work.total() <= most, "{first:?}");
+        let all =
+            model.all_hits(a, b, &mut hits, Budget::EXACT, &mut queue).expect("in the domain");
         assert!(all.work.total() <= most, "{all:?}");
     }
     for level in model.levels() {
-        assert!(hull_faces(model, &level).all(|f| model.positions(f.corners).is_some()));
+        assert!(model.faces(&level).all(|f| model.positions(f.corners).is_some()));
     }
 }
 
@@ -54,7 +55,7 @@ fn ask_everything(model: &Model<'_>) {
 fn open_rejects_truncation_at_every_length() {
     let bytes = small();
     for length in 0..bytes.len() {
-        let error = Model::open(&bytes[..length]).expect_err("cut short");
+        let error = Hull::open(&bytes[..length]).expect_err("cut short");
         assert!(
             matches!(error, OpenError::Truncated { found, .. } if found as usize == length),
             "{length}: {error:?}"
@@ -67,10 +68,10 @@ fn open_rejects_every_flipped_bit() {
     let mut bytes = cube_blob();
     for bit in 0..8 * bytes.len() {
         bytes[bit / 8] ^= 1 << (bit % 8);
-        assert!(Model::open(&bytes).is_err(), "bit {bit}");
+        assert!(Hull::open(&bytes).is_err(), "bit {bit}");
         bytes[bit / 8] ^= 1 << (bit % 8);
     }
-    assert!(Model::open(&bytes).is_ok());
+    assert!(Hull::open(&bytes).is_ok());
 }
 
 #[test]
@@ -81,7 +82,7 @@ fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
             let mut flipped = bytes.clone();
             flipped[bit / 8] ^= 1 << (bit % 8);
             seal(&mut flipped);
-            match Model::open(&flipped) {
+            match Hull::open(&flipped) {
                 Ok(model) => {
                     opened += 1;
                     ask_everything(&model);
@@ -116,7 +117,7 @@ fn trailing_bytes_are_named() {
     let expected = bytes.len() as u32;
     bytes.push(0);
     let error = OpenError::TrailingBytes { expected, found: expected + 1 };
-    assert_eq!(Model::open(&bytes).map(|_| ()), Err(error));
+    assert_eq!(Hull::open(&bytes).map(|_| ()), Err(error));
 }
 
 #[test]
@@ -144,17 +145,17 @@ fn reserved_bytes_must_be_zero() {
 #[test]
 fn damaged_checksums_are_named_by_section() {
     let bytes = small();
-    for section in Model::open(&bytes).expect("opens").sections() {
+    for section in Blob::open(&bytes).expect("opens").sections() {
         let mut damaged = bytes.clone();
         damaged[section.offset as usize] ^= 1;
         assert_eq!(
-            Model::open(&damaged).map(|_| ()),
+            Hull::open(&damaged).map(|_| ()),
             Err(OpenError::Crc { section: Some(section.kind) })
         );
     }
     let mut damaged = bytes.clone();
     damaged[84] ^= 1;
-    assert_eq!(Model::open(&damaged).map(|_| ()), Err(OpenError::Crc { section: None }));
+    assert_eq!(Hull::open(&damaged).map(|_| ()), Err(OpenError::Crc { section: None }));
 }
 
 #[test]
@@ -202,7 +203,7 @@ fn contradictory_and_huge_counts_are_refused() {
             }
             put_u32(&mut bytes, at, value);
             seal(&mut bytes);
-            assert!(Model::open(&bytes).is_err(), "{value:#x} at {at}");
+            assert!(Hull::open(&bytes).is_err(), "{value:#x} at {at}");
         }
     }
     assert!(matches!(
@@ -254,14 +255,14 @@ fn a_vertex_outside_the_box_or_not_a_number_is_named() {
         put_u32(&mut bytes, e.offset as usize + 4, x.to_bits());
         seal(&mut bytes);
         let error = OpenError::Record { section: SectionKind::Vertices, index: 0 };
-        assert_eq!(Model::open(&bytes).map(|_| ()), Err(error));
+        assert_eq!(Hull::open(&bytes).map(|_| ()), Err(error));
     }
 }
 
 #[test]
 fn a_cycle_in_the_cover_tree_is_refused() {
     let bytes = small();
-    let h = *Model::open(&bytes).expect("opens").header();
+    let h = *Hull::open(&bytes).expect("opens").header();
     let (node_bytes, child_at) = (h.node_bytes(), 3 * h.vertex_index_bytes() + 2);
     let mut refused = 0;
     for node in 0..h.nodes as usize {
@@ -274,7 +275,7 @@ fn a_cycle_in_the_cover_tree_is_refused() {
             }
             looped[at] = first;
             seal(&mut looped);
-            assert!(Model::open(&looped).is_err(), "node {node} with first child {first}");
+            assert!(Hull::open(&looped).is_err(), "node {node} with first child {first}");
             refused += 1;
         }
     }
@@ -284,7 +285,7 @@ fn a_cycle_in_the_cover_tree_is_refused() {
 #[test]
 fn a_ring_that_needs_a_later_split_is_refused() {
     let bytes = small();
-    let h = *Model::open(&bytes).expect("opens").header();
+    let h = *Hull::open(&bytes).expect("opens").header();
     assert!(h.vertex_index_bytes() == 1 && h.splits > 2);
     let at = entry(&bytes, SectionKind::Rings as u32).offset as usize;
     // A vertex that the first split itself makes, and one of the last split.
@@ -293,7 +294,7 @@ fn a_ring_that_needs_a_later_split_is_refused() {
         looped[at] = vertex as u8;
         seal(&mut looped);
         let error = OpenError::Record { section: SectionKind::Rings, index: 0 };
-        assert_eq!(Model::open(&looped).map(|_| ()), Err(error));
+        assert_eq!(Hull::open(&looped).map(|_| ()), Err(error));
     }
 }
 
@@ -322,32 +323,31 @@ fn a_blob_cut_at_any_level_opens_and_still_contains_the_truth() {
     let whole = scene.model();
     for level in 0..whole.header().levels {
         let bytes = cut(&whole, level).expect("the level exists").to_bytes();
-        let model = Model::open(&bytes).unwrap_or_else(|e| panic!("level {level}: {e}"));
+        let model = Hull::open(&bytes).unwrap_or_else(|e| panic!("level {level}: {e}"));
         let finest = whole.header().levels == level + 1;
-        let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+        let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
         let mut rng = Rng::new(41);
         for p in scene.points(120, &mut rng) {
-            let answer = closest_point(&model, p, &Budget::EXACT, &mut queue).expect("finite");
+            let answer = model.closest_point(p, Budget::EXACT, &mut queue).expect("finite");
             let truth = distance_to_mesh(p, &scene.positions, &scene.triangles);
-            let holds =
-                f64::from(answer.lower) <= truth.upper && truth.lower <= f64::from(answer.upper);
+            let holds = f64::from(answer.distance.lower) <= truth.upper
+                && truth.lower <= f64::from(answer.distance.upper);
             assert!(holds, "level {level}: {p:?}: {answer:?} {truth:?}");
             assert_eq!((answer.triangle.is_some(), answer.ended == Ended::Exact), (finest, finest));
         }
         for _ in 0..120 {
             let (a, b) = (scene.around(2.0, &mut rng), scene.around(2.0, &mut rng));
-            let answer =
-                first_hit(&model, a, b, &Budget::EXACT, &mut queue).expect("in the domain");
+            let answer = model.first_hit(a, b, Budget::EXACT, &mut queue).expect("in the domain");
             if let Some(first) = contacts(a, b, &scene.positions, &scene.triangles).first() {
                 assert!(
-                    f64::from(answer.lower) <= first.t_upper,
+                    f64::from(answer.t.lower) <= first.t_upper,
                     "level {level}: {a:?} {b:?}: {answer:?}"
                 );
             }
         }
         let last = model.levels().last().expect("it has levels");
         let mut edges = HashSet::new();
-        for face in hull_faces(&model, &last) {
+        for face in model.faces(&last) {
             let [a, b, c] = face.corners;
             edges.extend([(a, b), (b, c), (c, a)]);
         }

@@ -6,7 +6,7 @@ use meshsweep::collapse::Priority;
 use meshsweep::cut::cut;
 use meshsweep::hull::BuildOptions;
 use meshsweep::surface::VertexBits;
-use meshsweep_core::Model;
+use meshsweep_core::Hull;
 use meshsweep_host_tests::check::{Blob, check_blob, side};
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, swap_entries, word};
 use meshsweep_host_tests::generate::{
@@ -258,7 +258,7 @@ fn same_mesh_and_options_give_the_same_bytes() {
 #[test]
 fn levels_rise_in_faces_and_fall_in_void() {
     for scene in all() {
-        let model = Model::open(&scene.bytes).expect("opens");
+        let model = Hull::open(&scene.bytes).expect("opens");
         let levels: Vec<_> = model.levels().collect();
         assert!(
             levels.is_sorted_by(|x, y| x.faces < y.faces && x.nodes <= y.nodes),

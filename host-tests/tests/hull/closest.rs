@@ -2,8 +2,7 @@
 //! the question matters.
 
 use super::scenes::{all, options};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError, closest_point};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::{Budget, ClosestPoint, Ended, Hull, QueryError, ScratchEntry};
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere, scaled, torus};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_mesh, distance_to_triangle};
 use meshsweep_host_tests::scene::Scene;
@@ -11,8 +10,8 @@ use proptest::prelude::*;
 
 const POINTS: usize = 160;
 
-fn ask(model: &Model<'_>, p: [f32; 3], stop: &Budget, queue: usize) -> ClosestPoint {
-    closest_point(model, p, stop, &mut vec![QueueEntry::EMPTY; queue]).expect("a finite question")
+fn ask(model: &Hull<'_>, p: [f32; 3], stop: &Budget, queue: usize) -> ClosestPoint {
+    model.closest_point(p, *stop, &mut vec![ScratchEntry::EMPTY; queue]).expect("a finite question")
 }
 
 fn truth(scene: &Scene, p: [f32; 3]) -> Bounded {
@@ -20,12 +19,13 @@ fn truth(scene: &Scene, p: [f32; 3]) -> Bounded {
 }
 
 fn contains(scene: &Scene, p: [f32; 3], answer: &ClosestPoint, truth: Bounded) {
-    let holds = f64::from(answer.lower) <= truth.upper && truth.lower <= f64::from(answer.upper);
+    let holds = f64::from(answer.distance.lower) <= truth.upper
+        && truth.lower <= f64::from(answer.distance.upper);
     assert!(holds, "{}: {p:?}: {answer:?} does not contain {truth:?}", scene.name);
 }
 
 /// Error bound of the stored surface, input units.
-fn surface_error(model: &Model<'_>) -> f64 {
+fn surface_error(model: &Hull<'_>) -> f64 {
     f64::from(model.header().surface_error) * model.scale()
 }
 
@@ -53,7 +53,8 @@ fn exact_interval_is_a_few_ulps_wide() {
         let mut rng = Rng::new(12);
         for p in scene.points(POINTS, &mut rng) {
             let answer = ask(&model, p, &Budget::EXACT, 4096);
-            let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+            let (lower, upper) =
+                (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
             let lengths = scene.reach() + p.iter().fold(0f64, |m, x| m.max(f64::from(x.abs())));
             // On a needle the supporting plane loses its aspect ratio in accuracy.
             let needle = if scene.name == "needle comb" { 65_536.0 } else { 64.0 };
@@ -84,7 +85,7 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
             assert!(off <= rounding + stored, "{}: {p:?}: {answer:?} is {off:e} off", scene.name);
             let reached = gap(p, answer.point);
             assert!(
-                reached <= f64::from(answer.upper) + rounding,
+                reached <= f64::from(answer.distance.upper) + rounding,
                 "{}: {p:?}: {answer:?}",
                 scene.name
             );
@@ -112,7 +113,7 @@ fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
     for scene in &scenes {
         let model = scene.model();
         let order: Vec<u32> = (0..model.header().surface_triangles)
-            .filter_map(|t| model.source(meshsweep_core::blob::TriIdx(t)))
+            .filter_map(|t| model.source(meshsweep_core::internal::hull::format::TriIdx(t)))
             .collect();
         for p in [
             [0.0; 3],
@@ -124,7 +125,7 @@ fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
             [-1.0; 3],
         ] {
             let nearest = truth(scene, p);
-            let capacity = model.capacities().queue;
+            let capacity = model.scratch_entries();
             let answers = [capacity, capacity + 1, 64, 10_000]
                 .map(|n| ask(&model, p, &Budget::EXACT, n.max(capacity)));
             for answer in &answers {
@@ -135,8 +136,8 @@ fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
                     "{p:?}: {answers:?}"
                 );
                 assert_eq!(
-                    (answer.lower, answer.upper),
-                    (answers[0].lower, answers[0].upper),
+                    (answer.distance.lower, answer.distance.upper),
+                    (answers[0].distance.lower, answers[0].distance.upper),
                     "{p:?}"
                 );
             }
@@ -157,7 +158,7 @@ fn equidistant_triangles_go_to_the_least_whatever_the_queue() {
 fn queue_of_the_named_capacity_never_overflows_and_any_longer_one_answers_alike() {
     for scene in all() {
         let model = scene.model();
-        let capacity = model.capacities().queue;
+        let capacity = model.scratch_entries();
         let mut rng = Rng::new(14);
         for p in scene.points(POINTS / 2, &mut rng) {
             let nearest = truth(&scene, p);
@@ -166,7 +167,8 @@ fn queue_of_the_named_capacity_never_overflows_and_any_longer_one_answers_alike(
             for answer in answers {
                 contains(&scene, p, &answer, nearest);
                 assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
-                let same = |a: &ClosestPoint| (a.triangle, a.point, a.lower, a.upper);
+                let same =
+                    |a: &ClosestPoint| (a.triangle, a.point, a.distance.lower, a.distance.upper);
                 assert_eq!(same(&answer), same(&answers[0]), "{}: {p:?}", scene.name);
             }
         }
@@ -184,8 +186,8 @@ fn short_queue_still_contains_the_truth() {
             for length in [1, 2, 3, 8] {
                 let answer = ask(&model, p, &Budget::EXACT, length);
                 contains(&scene, p, &answer, nearest);
-                assert!(matches!(answer.ended, Ended::Exact | Ended::Capacity), "{answer:?}");
-                overflowed += u32::from(answer.ended == Ended::Capacity);
+                assert!(matches!(answer.ended, Ended::Exact | Ended::Scratch), "{answer:?}");
+                overflowed += u32::from(answer.ended == Ended::Scratch);
             }
         }
     }
@@ -202,15 +204,16 @@ fn early_stop_still_contains_the_truth() {
             let nearest = truth(&scene, p);
             for steps in [0, 1, 2, 5, 20, 100] {
                 for length in [1, 4096] {
-                    let answer = ask(&model, p, &Budget { steps, ..Budget::EXACT }, length);
+                    let answer = ask(&model, p, &Budget::EXACT.with_steps(steps), length);
                     contains(&scene, p, &answer, nearest);
                     assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {
-                let answer = ask(&model, p, &Budget { relative, ..Budget::EXACT }, 4096);
+                let answer = ask(&model, p, &Budget::EXACT.with_relative(relative), 4096);
                 contains(&scene, p, &answer, nearest);
-                let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+                let (lower, upper) =
+                    (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {
                     assert!(
                         upper <= lower * (1.0 + f64::from(relative)) * (1.0 + 1e-6),
@@ -220,9 +223,10 @@ fn early_stop_still_contains_the_truth() {
                 }
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
-                let answer = ask(&model, p, &Budget { absolute, ..Budget::EXACT }, 4096);
+                let answer = ask(&model, p, &Budget::EXACT.with_absolute(absolute), 4096);
                 contains(&scene, p, &answer, nearest);
-                let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+                let (lower, upper) =
+                    (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {
                     assert!(
                         upper - lower <= f64::from(absolute) + 2e-7 * upper,
@@ -249,7 +253,7 @@ fn a_point_far_away_gets_an_interval_that_holds() {
         while size * factor < 3e38 && factor < 1e31 {
             for _ in 0..4 {
                 let p = rng.direction().map(|x| (f64::from(x) * size * factor) as f32);
-                for stop in [Budget::EXACT, Budget { steps: 0, ..Budget::EXACT }] {
+                for stop in [Budget::EXACT, Budget::EXACT.with_steps(0)] {
                     let answer = ask(&model, p, &stop, 256);
                     contains(&scene, p, &answer, truth(&scene, p));
                 }
@@ -273,8 +277,8 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
             let one = ask(&model, p, &Budget::EXACT, 256);
             let other = ask(&scaled_model, p.map(|x| x * factor), &Budget::EXACT, 256);
             assert_eq!(
-                (one.lower * factor, one.upper * factor),
-                (other.lower, other.upper),
+                (one.distance.lower * factor, one.distance.upper * factor),
+                (other.distance.lower, other.distance.upper),
                 "2^{exponent} {p:?}"
             );
             assert_eq!(one.point.map(|x| x * factor), other.point, "2^{exponent} {p:?}");
@@ -290,28 +294,23 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
 fn nan_infinity_and_bad_tolerances_are_typed_errors() {
     let scene = Scene::hull("cube", cube(2), &options(12));
     let model = scene.model();
-    let mut queue = [QueueEntry::EMPTY; 64];
+    let mut queue = [ScratchEntry::EMPTY; 64];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for k in 0..3 {
             let mut p = [0.0; 3];
             p[k] = bad;
             assert_eq!(
-                closest_point(&model, p, &Budget::EXACT, &mut queue),
+                model.closest_point(p, Budget::EXACT, &mut queue),
                 Err(QueryError::NotFinite)
             );
         }
-        for stop in
-            [Budget { relative: bad, ..Budget::EXACT }, Budget { absolute: bad, ..Budget::EXACT }]
-        {
-            assert_eq!(
-                closest_point(&model, [0.0; 3], &stop, &mut queue),
-                Err(QueryError::Tolerance)
-            );
+        for stop in [Budget::EXACT.with_relative(bad), Budget::EXACT.with_absolute(bad)] {
+            assert_eq!(model.closest_point([0.0; 3], stop, &mut queue), Err(QueryError::Tolerance));
         }
     }
-    let negative = Budget { relative: -0.1, ..Budget::EXACT };
-    assert_eq!(closest_point(&model, [0.0; 3], &negative, &mut queue), Err(QueryError::Tolerance));
-    assert_eq!(closest_point(&model, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
+    let negative = Budget::EXACT.with_relative(-0.1);
+    assert_eq!(model.closest_point([0.0; 3], negative, &mut queue), Err(QueryError::Tolerance));
+    assert_eq!(model.closest_point([0.0; 3], Budget::EXACT, &mut []), Err(QueryError::NoScratch));
 }
 
 #[test]
@@ -319,7 +318,7 @@ fn a_point_on_the_surface_has_lower_zero() {
     let scene = Scene::hull("cube", cube(4), &options(12));
     let model = scene.model();
     for p in [[1.0, 0.3, -0.7], [1.0, 1.0, 1.0], [0.5, -1.0, 0.5], [-1.0, 0.0, 1.0]] {
-        assert_eq!(ask(&model, p, &Budget::EXACT, 64).lower, 0.0, "{p:?}");
+        assert_eq!(ask(&model, p, &Budget::EXACT, 64).distance.lower, 0.0, "{p:?}");
     }
 }
 
@@ -328,9 +327,9 @@ fn what_the_queue_held_before_does_not_matter() {
     let scene = Scene::hull("torus", torus(2.0, 0.75, 24, 12), &options(40));
     let model = scene.model();
     let mut rng = Rng::new(19);
-    let mut used = vec![QueueEntry::EMPTY; 300];
+    let mut used = vec![ScratchEntry::EMPTY; 300];
     for p in scene.points(200, &mut rng) {
-        let again = closest_point(&model, p, &Budget::EXACT, &mut used).expect("finite");
+        let again = model.closest_point(p, Budget::EXACT, &mut used).expect("finite");
         assert_eq!(again, ask(&model, p, &Budget::EXACT, 300));
     }
 }
@@ -346,8 +345,8 @@ proptest! {
         queue in 1usize..80,
     ) {
         let scene = Scene::hull("rough sphere", rough_sphere(1, 0.5, seed), &options(16));
-        let answer = ask(&scene.model(), p, &Budget { steps, ..Budget::EXACT }, queue);
+        let answer = ask(&scene.model(), p, &Budget::EXACT.with_steps(steps), queue);
         let nearest = truth(&scene, p);
-        prop_assert!(f64::from(answer.lower) <= nearest.upper && nearest.lower <= f64::from(answer.upper));
+        prop_assert!(f64::from(answer.distance.lower) <= nearest.upper && nearest.lower <= f64::from(answer.distance.upper));
     }
 }

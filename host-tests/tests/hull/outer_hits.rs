@@ -2,11 +2,9 @@
 //! and no answer is a wrong "clear".
 
 use super::scenes::{exact, options};
-use meshsweep_core::query::{
-    Budget, Ended, Hit, OuterHits, QueryError, Search, first_hit, outer_hits,
+use meshsweep_core::{
+    Budget, Ended, Face, Hit, Hull, OuterHits, QueryError, RefinedHull, ScratchEntry, Search,
 };
-use meshsweep_core::refine::{Face, RefinedHull};
-use meshsweep_core::{Model, QueueEntry};
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, torus};
 use meshsweep_host_tests::oracle::contacts;
 use meshsweep_host_tests::scene::Scene;
@@ -19,7 +17,7 @@ type Segment = ([f32; 3], [f32; 3]);
 type Memory = (usize, usize);
 
 fn ask(
-    model: &Model<'_>,
+    model: &Hull<'_>,
     (a, b): Segment,
     search: Search,
     (words, faces): Memory,
@@ -29,8 +27,9 @@ fn ask(
     let mut candidates = vec![Face::EMPTY; faces];
     let mut hits = vec![Hit::EMPTY; 256];
     let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
-    let answer =
-        outer_hits(model, a, b, search, &mut front, &mut hits).expect("a segment in the domain");
+    let answer = model
+        .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
+        .expect("a segment in the domain");
     hits.truncate(answer.stored);
     (answer, hits)
 }
@@ -59,8 +58,8 @@ fn from_outside(scene: &Scene, rng: &mut Rng) -> Segment {
 fn first_outer_hit_is_the_first_hit() {
     for scene in exact() {
         let model = scene.model();
-        let words = model.capacities().front_words;
-        let mut queue = vec![QueueEntry::EMPTY; 1024];
+        let words = model.refined_words();
+        let mut queue = vec![ScratchEntry::EMPTY; 1024];
         let mut rng = Rng::new(31);
         let mut asked = 0;
         for _ in 0..200 {
@@ -70,7 +69,8 @@ fn first_outer_hit_is_the_first_hit() {
                 continue;
             }
             asked += 1;
-            let first = first_hit(&model, segment.0, segment.1, &Budget::EXACT, &mut queue)
+            let first = model
+                .first_hit(segment.0, segment.1, Budget::EXACT, &mut queue)
                 .expect("in the domain");
             assert_eq!(outer.ended, Ended::Exact, "{}: {segment:?}", scene.name);
             // Of several triangles that share a point either may be named first.
@@ -81,7 +81,7 @@ fn first_outer_hit_is_the_first_hit() {
                 || (named.is_none() && hits.is_empty());
             assert!(agree, "{}: {segment:?}: {outer:?} {hits:?} {first:?}", scene.name);
             assert_eq!(
-                outer.lower == f32::INFINITY,
+                outer.t.lower == f32::INFINITY,
                 first.is_clear(),
                 "{}: {segment:?}",
                 scene.name
@@ -95,7 +95,7 @@ fn first_outer_hit_is_the_first_hit() {
 fn outer_search_names_only_true_hits_and_the_first_of_all() {
     for scene in exact() {
         let model = scene.model();
-        let words = model.capacities().front_words;
+        let words = model.refined_words();
         let mut rng = Rng::new(32);
         for _ in 0..100 {
             let segment = from_outside(&scene, &mut rng);
@@ -107,7 +107,7 @@ fn outer_search_names_only_true_hits_and_the_first_of_all() {
             assert!(hits.is_sorted_by(|x, y| x.t <= y.t));
             if let Some(first) = truth.first() {
                 assert!(
-                    f64::from(outer.lower) <= first.t_upper,
+                    f64::from(outer.t.lower) <= first.t_upper,
                     "{}: {segment:?}: {outer:?} {first:?}",
                     scene.name
                 );
@@ -163,7 +163,7 @@ fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Se
             for _ in 0..60 {
                 let segment = from_outside(&scene, &mut rng);
                 let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
-                let words = model.capacities().front_words;
+                let words = model.refined_words();
                 let (whole, _) = ask(&model, segment, Search::First, (words, 1024));
                 for memory in memories(words) {
                     for search in [Search::First, Search::Outer] {
@@ -173,7 +173,7 @@ fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Se
                         };
                         if let Some(first) = truth.first() {
                             assert!(
-                                f64::from(outer.lower) <= first.t_upper,
+                                f64::from(outer.t.lower) <= first.t_upper,
                                 "a wrong clear: {}",
                                 say()
                             );
@@ -182,7 +182,7 @@ fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Se
                             && search == Search::First
                             && !outer.starts_inside
                         {
-                            assert_eq!(outer.lower, whole.lower, "{}", say());
+                            assert_eq!(outer.t.lower, whole.t.lower, "{}", say());
                             assert_eq!(hits.is_empty(), truth.is_empty(), "{}", say());
                         }
                     }
@@ -219,7 +219,7 @@ fn a_start_inside_the_hulls_box_is_said_and_nothing_is_promised() {
     let scene = Scene::hull("groove block", groove_block(), &options(12));
     let (outer, hits) =
         ask(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), Search::First, (16, 64));
-    assert!(outer.starts_inside && outer.lower == 0.0 && hits.is_empty());
+    assert!(outer.starts_inside && outer.t.lower == 0.0 && hits.is_empty());
 }
 
 #[test]
@@ -235,7 +235,7 @@ fn a_moved_surface_gets_no_wrong_clear() {
         let (outer, _) = ask(&model, segment, Search::First, (64, 64));
         let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
         if let Some(first) = truth.first() {
-            assert!(f64::from(outer.lower) <= first.t_upper, "{segment:?}: {outer:?} {first:?}");
+            assert!(f64::from(outer.t.lower) <= first.t_upper, "{segment:?}: {outer:?} {first:?}");
         }
     }
 }
@@ -252,7 +252,10 @@ fn nan_infinity_and_far_ends_are_typed_errors() {
         for (a, b) in [(p, [9.0; 3]), ([9.0; 3], p)] {
             let mut candidates = [Face::EMPTY; 4];
             let mut front = RefinedHull::new(&mut [], &mut [], &mut candidates);
-            assert_eq!(outer_hits(&model, a, b, Search::First, &mut front, &mut []), Err(error));
+            assert_eq!(
+                model.outer_hits(a, b, Search::First, &mut front, &mut [], Budget::EXACT),
+                Err(error)
+            );
         }
     }
 }

@@ -2,8 +2,9 @@
 //! degenerate case is defined.
 
 use super::scenes::{all, exact, options};
-use meshsweep_core::query::{Budget, Ended, Hit, QueryError, SegmentHit, all_hits, first_hit};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::{
+    Budget, Ended, Face, FirstHit, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
+};
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, scaled, torus};
 use meshsweep_host_tests::oracle::{Contact, contacts, gap_to_triangle};
 use meshsweep_host_tests::scene::Scene;
@@ -11,8 +12,9 @@ use proptest::prelude::*;
 
 type Segment = ([f32; 3], [f32; 3]);
 
-fn ask(model: &Model<'_>, (a, b): Segment, stop: &Budget, queue: usize) -> SegmentHit {
-    first_hit(model, a, b, stop, &mut vec![QueueEntry::EMPTY; queue])
+fn ask(model: &Hull<'_>, (a, b): Segment, stop: &Budget, queue: usize) -> FirstHit {
+    model
+        .first_hit(a, b, *stop, &mut vec![ScratchEntry::EMPTY; queue])
         .expect("a segment in the domain")
 }
 
@@ -28,7 +30,7 @@ fn touch(scene: &Scene, (a, b): Segment) -> f64 {
     1e-12 * aspect * lengths + surface_error(&scene.model()) * (1.0 + 1e-6)
 }
 
-fn surface_error(model: &Model<'_>) -> f64 {
+fn surface_error(model: &Hull<'_>) -> f64 {
     f64::from(model.header().surface_error) * model.scale()
 }
 
@@ -66,11 +68,11 @@ fn segments(scene: &Scene, count: usize, rng: &mut Rng) -> Vec<Segment> {
     all
 }
 
-fn check_first(scene: &Scene, segment: Segment, answer: &SegmentHit, contacts: &[Contact]) {
+fn check_first(scene: &Scene, segment: Segment, answer: &FirstHit, contacts: &[Contact]) {
     let say = || format!("{}: {segment:?}: {answer:?}, {contacts:?}", scene.name);
     let first = contacts.iter().map(|c| c.t_upper).fold(f64::INFINITY, f64::min);
     let first_lower = contacts.first().map_or(f64::INFINITY, |c| c.t_lower);
-    assert!(f64::from(answer.lower) <= first, "clear where it is not: {}", say());
+    assert!(f64::from(answer.t.lower) <= first, "clear where it is not: {}", say());
     if surface_error(&scene.model()) > 0.0 {
         return;
     }
@@ -88,9 +90,9 @@ fn check_first(scene: &Scene, segment: Segment, answer: &SegmentHit, contacts: &
             scene.corners(hit.triangle.expect("a whole blob")),
         );
         assert!(gap <= touch(scene, segment), "names a triangle that is {gap:e} away: {}", say());
-        assert!(answer.lower <= hit.t && hit.t <= answer.upper, "{}", say());
+        assert!(answer.t.lower <= hit.t && hit.t <= answer.t.upper, "{}", say());
         // A touch before the first true contact may bound `upper` from below its parameter.
-        assert!(first_lower <= f64::from(answer.upper) || gap > 0.0, "{}", say());
+        assert!(first_lower <= f64::from(answer.t.upper) || gap > 0.0, "{}", say());
     }
 }
 
@@ -138,12 +140,12 @@ fn on_a_moved_surface_a_hit_is_within_its_error() {
 fn stopping_early_or_short_memory_never_says_clear() {
     for scene in all() {
         let model = scene.model();
-        let capacity = model.capacities().queue;
+        let capacity = model.scratch_entries();
         let mut rng = Rng::new(22);
         for segment in segments(&scene, 60, &mut rng) {
             let contacts = truth(&scene, segment);
             for steps in [0, 1, 5, 30] {
-                let answer = ask(&model, segment, &Budget { steps, ..Budget::EXACT }, 64);
+                let answer = ask(&model, segment, &Budget::EXACT.with_steps(steps), 64);
                 check_first(&scene, segment, &answer, &contacts);
             }
             let exact = ask(&model, segment, &Budget::EXACT, 10_000);
@@ -152,10 +154,10 @@ fn stopping_early_or_short_memory_never_says_clear() {
                 check_first(&scene, segment, &answer, &contacts);
                 if length >= capacity {
                     assert_eq!(answer.ended, exact.ended);
-                    assert_ne!(answer.ended, Ended::Capacity);
+                    assert_ne!(answer.ended, Ended::Scratch);
                     assert_eq!(
-                        (answer.hit, answer.lower),
-                        (exact.hit, exact.lower),
+                        (answer.hit, answer.t.lower),
+                        (exact.hit, exact.t.lower),
                         "{}: {segment:?}",
                         scene.name
                     );
@@ -173,8 +175,9 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
         for segment in segments(&scene, 200, &mut rng) {
             let contacts = truth(&scene, segment);
             let mut hits = vec![Hit::EMPTY; scene.triangles.len()];
-            let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
-            let found = all_hits(&model, segment.0, segment.1, &mut queue, &mut hits)
+            let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
+            let found = model
+                .all_hits(segment.0, segment.1, &mut hits, Budget::EXACT, &mut queue)
                 .expect("in the domain");
             let hits = &hits[..found.stored];
             assert_eq!((found.ended, found.dropped), (Ended::Exact, 0));
@@ -236,14 +239,16 @@ fn hits_that_do_not_fit_are_counted_and_the_first_are_kept() {
     let scene = Scene::hull("torus", torus(2.0, 0.75, 24, 12), &options(40));
     let model = scene.model();
     let mut rng = Rng::new(24);
-    let mut queue = vec![QueueEntry::EMPTY; 512];
+    let mut queue = vec![ScratchEntry::EMPTY; 512];
     for segment in segments(&scene, 300, &mut rng) {
         let mut whole = [Hit::EMPTY; 600];
-        let all =
-            all_hits(&model, segment.0, segment.1, &mut queue, &mut whole).expect("in the domain");
+        let all = model
+            .all_hits(segment.0, segment.1, &mut whole, Budget::EXACT, &mut queue)
+            .expect("in the domain");
         for room in 0..4 {
             let mut few = [Hit::EMPTY; 4];
-            let found = all_hits(&model, segment.0, segment.1, &mut queue, &mut few[..room])
+            let found = model
+                .all_hits(segment.0, segment.1, &mut few[..room], Budget::EXACT, &mut queue)
                 .expect("in the domain");
             assert_eq!(found.stored, room.min(all.stored));
             assert_eq!(found.stored + found.dropped as usize, all.stored);
@@ -265,21 +270,21 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
     let hit = first.hit.expect("the overhang");
     assert!((hit.point[2] - 12.0).abs() < 1e-5 && !first.is_clear(), "{first:?}");
     let mut hits = [Hit::EMPTY; 16];
-    let mut queue = [QueueEntry::EMPTY; 512];
-    let found =
-        all_hits(&model, segment.0, segment.1, &mut queue, &mut hits).expect("in the domain");
+    let mut queue = [ScratchEntry::EMPTY; 512];
+    let found = model
+        .all_hits(segment.0, segment.1, &mut hits, Budget::EXACT, &mut queue)
+        .expect("in the domain");
     assert_eq!(found.stored, truth.len());
-    let mut words = vec![0u32; 2 * model.capacities().front_words];
-    let (performed, swept) = words.split_at_mut(model.capacities().front_words);
-    let mut candidates = [meshsweep_core::refine::Face::EMPTY; 256];
-    let mut front = meshsweep_core::refine::RefinedHull::new(performed, swept, &mut candidates);
-    let search = meshsweep_core::query::Search::First;
-    let outer = meshsweep_core::query::outer_hits(
-        &model, segment.0, segment.1, search, &mut front, &mut hits,
-    )
-    .expect("in the domain");
+    let mut words = vec![0u32; 2 * model.refined_words()];
+    let (performed, swept) = words.split_at_mut(model.refined_words());
+    let mut candidates = [Face::EMPTY; 256];
+    let mut front = RefinedHull::new(performed, swept, &mut candidates);
+    let search = Search::First;
+    let outer = model
+        .outer_hits(segment.0, segment.1, search, &mut front, &mut hits, Budget::EXACT)
+        .expect("in the domain");
     assert!(
-        outer.starts_inside && outer.lower == 0.0,
+        outer.starts_inside && outer.t.lower == 0.0,
         "the hull cannot promise anything: {outer:?}"
     );
 }
@@ -289,7 +294,7 @@ fn a_start_on_the_surface_hits_at_zero_and_a_start_inside_hits_the_way_out() {
     let scene = Scene::hull("cube", cube(4), &options(12));
     let model = scene.model();
     let on = ask(&model, ([1.0, 0.3, 0.2], [3.0, 0.3, 0.2]), &Budget::EXACT, 64);
-    assert_eq!((on.lower, on.hit.map(|h| h.t)), (0.0, Some(0.0)));
+    assert_eq!((on.t.lower, on.hit.map(|h| h.t)), (0.0, Some(0.0)));
     let out = ask(&model, ([0.0, 0.3, 0.2], [4.0, 0.3, 0.2]), &Budget::EXACT, 64);
     assert_eq!(out.hit.map(|h| h.t), Some(0.25));
     let inside = ask(&model, ([0.0, 0.3, 0.2], [0.5, 0.3, 0.2]), &Budget::EXACT, 64);
@@ -326,15 +331,18 @@ fn ends_up_to_2_to_the_40_sizes_away_are_answered_and_farther_ones_refused() {
         let past = ([-x, 0.75 * x, 0.0], [x, 0.75 * x, 0.0]);
         assert!(ask(&model, past, &Budget::EXACT, 64).is_clear());
     }
-    let mut queue = [QueueEntry::EMPTY; 64];
+    let mut queue = [ScratchEntry::EMPTY; 64];
     let mut hits = [Hit::EMPTY; 4];
     for p in [[far(42), 0.0, 0.0], [0.0, -far(43), 0.0], [0.0, 0.0, f32::MAX]] {
         for (a, b) in [(p, [0.0; 3]), ([0.0; 3], p)] {
             assert_eq!(
-                first_hit(&model, a, b, &Budget::EXACT, &mut queue),
+                model.first_hit(a, b, Budget::EXACT, &mut queue),
                 Err(QueryError::OutOfDomain)
             );
-            assert_eq!(all_hits(&model, a, b, &mut queue, &mut hits), Err(QueryError::OutOfDomain));
+            assert_eq!(
+                model.all_hits(a, b, &mut hits, Budget::EXACT, &mut queue),
+                Err(QueryError::OutOfDomain)
+            );
         }
     }
 }
@@ -343,21 +351,27 @@ fn ends_up_to_2_to_the_40_sizes_away_are_answered_and_farther_ones_refused() {
 fn nan_infinity_no_queue_and_bad_tolerances_are_typed_errors() {
     let scene = Scene::hull("cube", cube(2), &options(12));
     let model = scene.model();
-    let mut queue = [QueueEntry::EMPTY; 64];
+    let mut queue = [ScratchEntry::EMPTY; 64];
     let good = [0.0; 3];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for (a, b) in [([bad, 0.0, 0.0], good), (good, [0.0, bad, 0.0])] {
             assert_eq!(
-                first_hit(&model, a, b, &Budget::EXACT, &mut queue),
+                model.first_hit(a, b, Budget::EXACT, &mut queue),
                 Err(QueryError::NotFinite)
             );
-            assert_eq!(all_hits(&model, a, b, &mut queue, &mut []), Err(QueryError::NotFinite));
+            assert_eq!(
+                model.all_hits(a, b, &mut [], Budget::EXACT, &mut queue),
+                Err(QueryError::NotFinite)
+            );
         }
     }
-    assert_eq!(first_hit(&model, good, good, &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
-    assert_eq!(all_hits(&model, good, good, &mut [], &mut []), Err(QueryError::NoQueue));
-    let stop = Budget { absolute: f32::NAN, ..Budget::EXACT };
-    assert_eq!(first_hit(&model, good, good, &stop, &mut queue), Err(QueryError::Tolerance));
+    assert_eq!(model.first_hit(good, good, Budget::EXACT, &mut []), Err(QueryError::NoScratch));
+    assert_eq!(
+        model.all_hits(good, good, &mut [], Budget::EXACT, &mut []),
+        Err(QueryError::NoScratch)
+    );
+    let stop = Budget::EXACT.with_absolute(f32::NAN);
+    assert_eq!(model.first_hit(good, good, stop, &mut queue), Err(QueryError::Tolerance));
 }
 
 #[test]
@@ -372,7 +386,10 @@ fn scaling_mesh_and_segment_by_a_power_of_two_changes_no_parameter() {
             let one = ask(&plain.model(), (a, b), &Budget::EXACT, 256);
             let [c, d] = [a, b].map(|p| p.map(|x| x * factor));
             let other = ask(&scene.model(), (c, d), &Budget::EXACT, 256);
-            assert_eq!((one.lower, one.upper, one.work), (other.lower, other.upper, other.work));
+            assert_eq!(
+                (one.t.lower, one.t.upper, one.work),
+                (other.t.lower, other.t.upper, other.work)
+            );
             assert_eq!(one.hit.map(|h| (h.t, h.triangle)), other.hit.map(|h| (h.t, h.triangle)));
         }
     }

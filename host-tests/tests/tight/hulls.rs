@@ -1,6 +1,7 @@
 //! Tight hulls enclose what they were made of: proved from the two surfaces alone, by a checker
 //! that shares no code with the builder.
 
+use meshsweep_host_tests::with;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;

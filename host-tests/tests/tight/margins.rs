@@ -1,6 +1,7 @@
 //! Tight hulls with a margin keep it: proved from the two surfaces alone, by exact distances that
 //! share no code with the builder's.
 
+use meshsweep_host_tests::with;
 use std::f64::consts::PI;
 
 use meshsweep::mesh::{Mesh, RawMesh, repair};

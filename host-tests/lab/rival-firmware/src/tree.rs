@@ -1,9 +1,7 @@
 //! The box tree as a program would use it: the blob read where it lies, stacks that the caller
 //! owns.
 
-use meshsweep_core::query::tree::{CoherentQuery, Facing, ScratchEntry, closest_point, first_hit};
-use meshsweep_core::query::{Budget, ClosestPoint, SegmentHit};
-use meshsweep_core::{Bvh, OpenError};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Facing, FirstHit, OpenError, ScratchEntry};
 
 /// Entries of the stack: what trees of so many triangles ask for, and some more.
 const STACK: usize = 64;
@@ -41,7 +39,7 @@ impl BoxTree {
     #[allow(dead_code, reason = "each image asks its own questions")]
     #[inline(never)]
     pub fn closest(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
-        closest_point(&self.tree, point, &Budget::EXACT, &mut self.stack).ok()
+        self.tree.closest_point(point, Budget::EXACT, &mut self.stack).ok()
     }
 
     /// Closest point of the surface to a point near the one before.
@@ -59,7 +57,7 @@ impl BoxTree {
     /// First hit of a segment.
     #[allow(dead_code, reason = "each image asks its own questions")]
     #[inline(never)]
-    pub fn first_hit(&mut self, a: [f32; 3], b: [f32; 3]) -> Option<SegmentHit> {
-        first_hit(&self.tree, a, b, &Facing::Both, &mut self.stack).ok()
+    pub fn first_hit(&mut self, a: [f32; 3], b: [f32; 3]) -> Option<FirstHit> {
+        self.tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut self.stack).ok()
     }
 }

@@ -1,7 +1,6 @@
 //! Closest points: cost, the same by parry3d, and agreement with f64 brute force.
 
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work, closest_point};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::{Budget, ClosestPoint, Ended, Hull, ScratchEntry, Work};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points};
 use meshsweep_xtask::table::{Table, fixed, row, scientific};
@@ -26,17 +25,17 @@ pub struct Answers {
 impl Answers {
     /// Asks all points.
     pub fn of(
-        model: &Model<'_>,
+        model: &Hull<'_>,
         points: &[[f32; 3]],
         stop: &Budget,
         queue: usize,
     ) -> Result<Self, String> {
-        let mut queue = vec![QueueEntry::EMPTY; queue];
+        let mut queue = vec![ScratchEntry::EMPTY; queue];
         let mut answers = Vec::with_capacity(points.len());
         let begun = Stopwatch::start();
         for &point in points {
             answers.push(
-                closest_point(model, point, stop, &mut queue).map_err(|error| error.to_string())?,
+                model.closest_point(point, *stop, &mut queue).map_err(|error| error.to_string())?,
             );
         }
         let nanoseconds = begun.nanoseconds_each(points.len());
@@ -55,7 +54,7 @@ impl Answers {
 }
 
 /// Cost by workload and queue, and agreement.
-pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String> {
+pub fn tables(subject: &Subject, model: &Hull<'_>) -> Result<[Table; 2], String> {
     let columns = [
         "points",
         "queue",
@@ -83,7 +82,7 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
         };
         let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
         let mut last = None;
-        for queue in [model.capacities().queue, LONG_QUEUE] {
+        for queue in [model.scratch_entries(), LONG_QUEUE] {
             let run = fastest(
                 || Answers::of(model, &asked, &Budget::EXACT, queue),
                 |run| run.nanoseconds,
@@ -124,8 +123,8 @@ pub fn tables(subject: &Subject, model: &Model<'_>) -> Result<[Table; 2], String
 
 /// Width of an interval relative to its upper end.
 pub fn width(answer: &ClosestPoint) -> f64 {
-    if answer.upper > 0.0 {
-        f64::from(answer.upper - answer.lower) / f64::from(answer.upper)
+    if answer.distance.upper > 0.0 {
+        f64::from(answer.distance.upper - answer.distance.lower) / f64::from(answer.distance.upper)
     } else {
         0.0
     }
@@ -134,7 +133,8 @@ pub fn width(answer: &ClosestPoint) -> f64 {
 /// Whether a distance that f64 rounding may have moved lies in the interval.
 fn contains(answer: &ClosestPoint, truth: f64) -> bool {
     let slack = 1.0e-13 * (truth + answer.point.iter().map(|x| f64::from(x.abs())).sum::<f64>());
-    f64::from(answer.lower) <= truth + slack && truth <= f64::from(answer.upper) + slack
+    f64::from(answer.distance.lower) <= truth + slack
+        && truth <= f64::from(answer.distance.upper) + slack
 }
 
 fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {

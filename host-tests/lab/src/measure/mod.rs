@@ -32,10 +32,11 @@ mod trade;
 mod tree;
 pub mod triboxes;
 
+use meshsweep_core::Blob;
 use std::path::Path;
 
 use meshsweep::collapse::Priority;
-use meshsweep_core::Model;
+use meshsweep_core::Hull;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Table, fixed, row};
 
@@ -114,7 +115,11 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     let model = open(&built.bytes)?;
     let mut tables =
         vec![subject_table(&subject), hulls::table(&subject), storage::build_times(&built)];
-    tables.extend([storage::sections(&model), storage::limits(&model), storage::levels(&model)]);
+    tables.extend([
+        storage::sections(&Blob::open(&built.bytes).map_err(|error| error.to_string())?),
+        storage::limits(&model),
+        storage::levels(&model),
+    ]);
     tables.push(segments::work(&subject)?);
     tables.push(segments::engines(&subject, &model)?);
     tables.extend(closest::tables(&subject, &model)?);
@@ -138,6 +143,6 @@ fn subject_table(subject: &Subject) -> Table {
 }
 
 /// Opens a blob that was built.
-fn open(bytes: &[u8]) -> Result<Model<'_>, String> {
-    Model::open(bytes).map_err(|error| error.to_string())
+fn open(bytes: &[u8]) -> Result<Hull<'_>, String> {
+    Hull::open(bytes).map_err(|error| error.to_string())
 }

@@ -2,10 +2,7 @@
 //! parry3d's.
 
 use meshsweep::bvh::{TreeOptions, build};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::Work;
-use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry, TrianglePair, Verdict, Work};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
 use meshsweep_host_tests::workload::pose::{FARTHEST, Pose as Motion, poses, sphere};
@@ -77,9 +74,9 @@ struct Verdicts {
 }
 
 fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
-    let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+    let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     let ask = |case: &Case| {
-        overlap(tree, tree, &case.pose, u32::MAX, &mut stack).map_err(|error| error.to_string())
+        tree.overlap(tree, case.pose, Budget::EXACT, &mut stack).map_err(|error| error.to_string())
     };
     let Run { answers, nanoseconds } = fastest_run(cases, ask)?;
     let mut verdicts = Verdicts {
@@ -90,9 +87,9 @@ fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
         time: nanoseconds,
     };
     for (case, answer) in cases.iter().zip(&answers) {
-        match answer.contact {
-            Contact::Open => verdicts.open += 1,
-            contact => verdicts.wrong += usize::from((contact == Contact::Meets) != case.meets),
+        match answer.verdict {
+            Verdict::Undecided(_) => verdicts.open += 1,
+            verdict => verdicts.wrong += usize::from((verdict == Verdict::Yes) != case.meets),
         }
         let sum = &mut verdicts.work[usize::from(case.meets)];
         sum.nodes += answer.work.nodes;
@@ -102,7 +99,7 @@ fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
     }
     let mut pairs = vec![TrianglePair::EMPTY; 1 << 20];
     let every = |case: &Case| {
-        let found = all_overlaps(tree, tree, &case.pose, u32::MAX, &mut pairs, &mut stack);
+        let found = tree.overlaps(tree, case.pose, &mut pairs, Budget::EXACT, &mut stack);
         found.map(|found| found.stored).map_err(|error| error.to_string())
     };
     verdicts.all_pairs = run(cases, every)?.nanoseconds;
@@ -172,7 +169,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
             [("apart", MOTIONS - meeting, verdicts.work[0]), ("meeting", meeting, verdicts.work[1])]
         {
             let each = |sum: u32| fixed(f64::from(sum) / count.max(1) as f64, 2);
-            let Work { nodes, triangles, exact, splits } = work_of;
+            let Work { nodes, triangles, exact, splits, .. } = work_of;
             work.push(row![
                 format!("{name}, {which}"),
                 count,

@@ -1,8 +1,6 @@
 //! Segments: the paper's counts (Table 3), and the engines against each other.
 
-use meshsweep_core::query::{Budget, Ended, Hit, Search, Work, first_hit, outer_hits};
-use meshsweep_core::refine::{Face, RefinedHull};
-use meshsweep_core::{Model, QueueEntry};
+use meshsweep_core::{Budget, Ended, Face, Hit, Hull, RefinedHull, ScratchEntry, Search, Work};
 use meshsweep_host_tests::workload::segments;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
@@ -44,7 +42,7 @@ impl Run {
             let (hit, work, settled) = ask(segment)?;
             run.hits.push(hit);
             run.unsettled += usize::from(!settled);
-            let Work { nodes, triangles, exact, splits } = work;
+            let Work { nodes, triangles, exact, splits, .. } = work;
             for (sum, one) in run.work.iter_mut().zip([nodes, triangles, exact, splits]) {
                 *sum += u64::from(one);
             }
@@ -73,23 +71,24 @@ impl Run {
 
 type Asked = Result<(Option<Hit>, Work, bool), String>;
 
-fn cover(model: &Model<'_>, segments: &[[[f32; 3]; 2]], queue: usize) -> Result<Run, String> {
-    let mut queue = vec![QueueEntry::EMPTY; queue];
+fn cover(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], queue: usize) -> Result<Run, String> {
+    let mut queue = vec![ScratchEntry::EMPTY; queue];
     Run::of(segments, |[a, b]| {
-        let answer = first_hit(model, a, b, &Budget::EXACT, &mut queue)
-            .map_err(|error| error.to_string())?;
+        let answer =
+            model.first_hit(a, b, Budget::EXACT, &mut queue).map_err(|error| error.to_string())?;
         Ok((answer.hit, answer.work, answer.ended == Ended::Exact))
     })
 }
 
-fn hull(model: &Model<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result<Run, String> {
-    let words = model.capacities().front_words;
+fn hull(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result<Run, String> {
+    let words = model.refined_words();
     let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
     let mut candidates = vec![Face::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 64];
     let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     Run::of(segments, |[a, b]| {
-        let answer = outer_hits(model, a, b, search, &mut front, &mut hits)
+        let answer = model
+            .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
             .map_err(|error| error.to_string())?;
         let settled = answer.ended == Ended::Exact && !answer.starts_inside;
         Ok((hits.get(..answer.stored).and_then(<[Hit]>::first).copied(), answer.work, settled))
@@ -126,7 +125,7 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
             }
             let built = subject.build(base_faces, priority)?;
             let model = open(&built.bytes)?;
-            let reference = cover(&model, &segments, model.capacities().queue)?;
+            let reference = cover(&model, &segments, model.scratch_entries())?;
             let [outer, first] =
                 [Search::Outer, Search::First].map(|search| hull(&model, &segments, search));
             let (outer, first) = (outer?, first?);
@@ -167,7 +166,7 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
 }
 
 /// First hits by each engine and by parry3d: time, work and agreement.
-pub fn engines(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
+pub fn engines(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
     let columns =
         ["engine", "ns", "of parry3d", "hits", "nodes", "triangles", "exact", "splits", "disagree"];
     let mut table = Table::new("first_hit", "First hit of the same segments", &columns);
@@ -180,7 +179,7 @@ pub fn engines(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
         Ok((hits, begun.nanoseconds_each(segments.len())))
     };
     let (theirs, their_ns) = fastest(by_rival, |run| run.1)?;
-    let capacity = model.capacities().queue;
+    let capacity = model.scratch_entries();
     let reference = cover(model, &segments, capacity)?;
     let runs = [
         (
@@ -235,19 +234,21 @@ pub fn engines(subject: &Subject, model: &Model<'_>) -> Result<Table, String> {
 
 fn against_brute(
     subject: &Subject,
-    model: &Model<'_>,
+    model: &Hull<'_>,
     segments: &[[[f32; 3]; 2]],
 ) -> Result<String, String> {
     let brute = Brute::new(subject);
-    let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
     let (mut outside, mut grazing) = (0, 0);
     for &[a, b] in segments {
-        let ours = first_hit(model, a, b, &Budget::EXACT, &mut queue)
-            .map_err(|error| error.to_string())?;
+        let ours =
+            model.first_hit(a, b, Budget::EXACT, &mut queue).map_err(|error| error.to_string())?;
         let (theirs, clear) = brute.first_hit([a, b]);
         let inside = match theirs {
             None => ours.is_clear(),
-            Some(t) => f64::from(ours.lower) <= t + 1.0e-12 && t <= f64::from(ours.upper) + 1.0e-12,
+            Some(t) => {
+                f64::from(ours.t.lower) <= t + 1.0e-12 && t <= f64::from(ours.t.upper) + 1.0e-12
+            }
         };
         // Where a hit or miss is within rounding of an edge, either answer is right.
         grazing += usize::from(!clear);

@@ -6,10 +6,7 @@ mod trade;
 use meshsweep::bvh::fans::{Fan, FanLeaf, FanReport, Weights, decompose, pack};
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
 use meshsweep::emit::Sections;
-use meshsweep_core::Bvh;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::query::tree::{ScratchEntry, closest_point};
-use meshsweep_core::query::{Budget, ClosestPoint};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, ScratchEntry, SectionKind};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
@@ -67,7 +64,7 @@ impl Answers {
         let begun = Stopwatch::start();
         for &point in points {
             answers.push(
-                closest_point(tree, point, stop, &mut stack).map_err(|error| error.to_string())?,
+                tree.closest_point(point, *stop, &mut stack).map_err(|error| error.to_string())?,
             );
         }
         Ok(Self { answers, nanoseconds: begun.nanoseconds_each(points.len()) })
@@ -122,7 +119,7 @@ fn sections(subject: &Subject) -> Table {
     ];
     let built = kinds.map(|options| Built::new(subject, &options));
     let triangles = subject.mesh.triangles.len() as f64;
-    for kind in SectionKind::ALL.into_iter().filter(|kind| kind.is_tree()) {
+    for kind in SectionKind::ALL.into_iter().filter(|kind| kind.is_bvh()) {
         let bytes = |built: &Built| {
             let section = built.tables.bodies.iter().find(|(found, _)| *found == kind);
             section.map_or(Cell::Empty, |(_, body)| fixed(body.len() as f64 / triangles, 2))
@@ -169,7 +166,7 @@ fn fans(subject: &Subject) -> Table {
             fixed(report.triangles_per_fan(), 2),
             report.degenerate,
             of_patches(report.leaves.into()),
-            of_patches(fixed(report.triangles_per_patch(), 2)),
+            of_patches(fixed(report.triangles_per_leaf(), 2)),
             of_patches(report.stored_vertices.into()),
             of_patches(fixed(report.vertices_per_triangle(), 3)),
         ]);

@@ -2,9 +2,9 @@
 //! moved copy.
 
 use meshsweep::tribox::store;
-use meshsweep_core::Triboxes;
-use meshsweep_core::query::tribox::{NodePair, apart, candidates, stack_entries};
-use meshsweep_core::tribox::Pose as CorePose;
+use meshsweep_core::Pose as CorePose;
+use meshsweep_core::ScratchEntry;
+use meshsweep_core::{Budget, NodePair, Triboxes};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
 use meshsweep_host_tests::workload::pose::{by_vertices, poses, sphere};
@@ -58,13 +58,14 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     );
     for level in all.levels() {
         let triboxes = all.coarser(level.triboxes);
-        let mut stack = vec![NodePair::EMPTY; stack_entries(&triboxes, &triboxes)];
+        let mut stack = vec![ScratchEntry::EMPTY; triboxes.separation_entries(&triboxes)];
         let mut pairs = vec![NodePair::EMPTY; 1 << 16];
         let (mut settled, mut tested, mut most, mut tested_apart) = (0usize, 0u64, 0, 0u64);
         let (mut by_vertices_settled, mut by_vertices_tested, mut found) = (0usize, 0u64, 0usize);
         for (pose, meet) in &cases {
-            let answer =
-                apart(&triboxes, &triboxes, pose, &mut stack).map_err(|error| error.to_string())?;
+            let answer = triboxes
+                .separation(&triboxes, *pose, Budget::EXACT, &mut stack)
+                .map_err(|error| error.to_string())?;
             let (other, other_tested) = by_vertices(&triboxes, &triboxes, pose);
             if *meet && (answer.is_apart() || other) {
                 return Err(format!(
@@ -78,7 +79,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
             tested_apart += if answer.is_apart() { u64::from(answer.work.nodes) } else { 0 };
             by_vertices_tested += u64::from(other_tested);
             most = most.max(answer.work.nodes);
-            let all = candidates(&triboxes, &triboxes, pose, &mut pairs, &mut stack);
+            let all = triboxes.candidates(&triboxes, *pose, &mut pairs, Budget::EXACT, &mut stack);
             found += all.map_err(|error| error.to_string())?.stored;
         }
         let mean = |sum: u64, of: usize| fixed(sum as f64 / of.max(1) as f64, 1);

@@ -6,11 +6,7 @@
 use std::hint::black_box;
 
 use meshsweep::bvh::{TreeOptions, build as build_tree};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{
-    CoherentQuery, Facing, Hint, ScratchEntry, closest_point, closest_points, first_hit,
-};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, ScratchEntry};
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, try_each};
@@ -89,8 +85,7 @@ impl Engine for Alone<'_> {
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         try_each(points, answers, |point| {
-            let found =
-                black_box(closest_point(&self.tree, point, &Budget::EXACT, &mut self.stack));
+            let found = black_box(self.tree.closest_point(point, Budget::EXACT, &mut self.stack));
             found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
         })
     }
@@ -101,7 +96,8 @@ impl Engine for Alone<'_> {
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
-            let found = black_box(first_hit(&self.tree, a, b, &Facing::Both, &mut self.stack));
+            let found =
+                black_box(self.tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut self.stack));
             let found = found.map_err(|error| error.to_string())?;
             Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
         })
@@ -140,12 +136,8 @@ impl Engine for Following<'_> {
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         let mut session = CoherentQuery::<128>::new();
         try_each(points, answers, |point| {
-            let found = black_box(session.closest_point(
-                &self.tree,
-                point,
-                &Budget::EXACT,
-                &mut self.stack,
-            ));
+            let found =
+                black_box(session.closest_point(&self.tree, point, Budget::EXACT, &mut self.stack));
             found.map(|found| Answer::Point(found.closest.point)).map_err(|error| error.to_string())
         })
     }
@@ -167,14 +159,13 @@ pub fn build_batch<'a>(
 ) -> Result<Option<Box<dyn Engine + 'a>>, String> {
     let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
     let stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    Ok(Some(Box::new(Batched { bytes, tree, stack, order: Vec::new(), found: Vec::new() })))
+    Ok(Some(Box::new(Batched { bytes, tree, stack, found: Vec::new() })))
 }
 
 struct Batched<'a> {
     bytes: usize,
     tree: Bvh<'a>,
     stack: Vec<ScratchEntry>,
-    order: Vec<u64>,
     found: Vec<ClosestPoint>,
 }
 
@@ -192,18 +183,12 @@ impl Engine for Batched<'_> {
     }
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        const NONE: ClosestPoint = ClosestPoint {
-            lower: 0.0,
-            upper: f32::INFINITY,
-            point: [0.0; 3],
-            triangle: None,
-            work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
-            ended: Ended::Steps,
-        };
-        self.found.resize(points.len(), NONE);
-        self.order.resize(2 * points.len(), 0);
-        let Self { tree, stack, order, found, .. } = self;
-        closest_points(tree, points, found, &Budget::EXACT, stack, order, &mut Hint::NONE.clone())
+        self.found.resize(points.len(), ClosestPoint::EMPTY);
+        // The entries behind the descent's own put the points in order.
+        let entries = self.tree.scratch_entries() + 2 * points.len();
+        self.stack.resize(entries, ScratchEntry::EMPTY);
+        let Self { tree, stack, found, .. } = self;
+        tree.closest_points(points, &mut Hint::NONE.clone(), found, Budget::EXACT, stack)
             .map_err(|error| error.to_string())?;
         answers.clear();
         answers.extend(self.found.iter().map(|found| Answer::Point(found.point)));

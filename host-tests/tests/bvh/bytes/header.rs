@@ -2,8 +2,7 @@
 
 use super::{blob_of, edited, open, record, sphere};
 use meshsweep::bvh::TreeOptions;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{Bvh, OpenError};
+use meshsweep_core::{Bvh, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{entries, entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::icosphere;
 

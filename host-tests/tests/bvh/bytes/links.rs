@@ -3,9 +3,8 @@
 use super::{ask_everything, edited, open, record, sphere};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::blob::BvhHeader;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{Bvh, OpenError};
+use meshsweep_core::internal::bvh::format::BvhHeader;
+use meshsweep_core::{Bvh, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{put_u32, word};
 
 /// Bytes of a record.

@@ -8,11 +8,7 @@ mod whole;
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::CoherentQuery;
-use meshsweep_core::tribox::Pose;
-use meshsweep_core::{Bvh, OpenError};
+use meshsweep_core::{Budget, Bvh, CoherentQuery, OpenError, Pose, SectionKind};
 use meshsweep_host_tests::corrupt::{Asker, entry, seal};
 use meshsweep_host_tests::generate::{Triangles, icosphere};
 
@@ -68,7 +64,12 @@ fn ask_everything(tree: &Bvh<'_>, some: bool) {
     ];
     let mut asker = Asker::new(tree.header().stack_entries.min(4096) as usize, 8);
     for point in POINTS.into_iter().take(if some { 2 } else { 5 }) {
-        asker.point(tree, point, 0.75, &Budget { steps: 3, relative: 0.1, absolute: 0.0 });
+        asker.point(
+            tree,
+            point,
+            0.75,
+            &Budget::EXACT.with_steps(3).with_relative(0.1).with_absolute(0.0),
+        );
     }
     for [a, b] in ENDS.into_iter().take(if some { 2 } else { 4 }) {
         asker.segment(tree, a, b);

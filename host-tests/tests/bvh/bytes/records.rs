@@ -1,8 +1,7 @@
 //! Boxes, vertices and source numbers.
 
 use super::{edited, record, single, sphere};
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{Bvh, OpenError};
+use meshsweep_core::{Bvh, OpenError, SectionKind};
 use meshsweep_host_tests::corrupt::{entry, put_u32, word};
 
 // Bytes of records.

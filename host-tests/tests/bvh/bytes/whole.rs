@@ -2,8 +2,7 @@
 
 use super::{ask_everything, blob_of, open, single, sphere};
 use meshsweep::bvh::TreeOptions;
-use meshsweep_core::Bvh;
-use meshsweep_core::blob::layout::SectionKind;
+use meshsweep_core::{Bvh, SectionKind};
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entries, entry, flip_bits, put_u32, replace_bytes, seal,
 };

@@ -1,8 +1,7 @@
 //! All triangles within a distance.
 
 use super::scenes::{STACK, all, stack};
-use meshsweep_core::query::tree::{AllWithin, Neighbor, all_within};
-use meshsweep_core::query::{Budget, Ended, QueryError};
+use meshsweep_core::{AllWithin, Budget, Ended, Neighbor, QueryError};
 use meshsweep_host_tests::generate::{Rng, cube, scaled, torus};
 use meshsweep_host_tests::scene::Scene;
 
@@ -15,7 +14,9 @@ fn ask(
     entries: usize,
 ) -> (AllWithin, Vec<Neighbor>) {
     let mut out = vec![Neighbor::EMPTY; n];
-    let answer = all_within(&scene.bvh(), p, d, stop, &mut out, &mut stack(entries))
+    let answer = scene
+        .bvh()
+        .all_within(p, d, &mut out, *stop, &mut stack(entries))
         .expect("a finite question");
     assert!(answer.certain <= answer.stored && answer.stored <= n);
     out.truncate(answer.stored);
@@ -46,18 +47,18 @@ fn certain_ones_are_within_and_none_that_is_within_is_missing() {
                 );
                 let mut listed = vec![false; truths.len()];
                 for (i, near) in out.iter().enumerate() {
-                    let truth = truths[near.triangle as usize];
-                    let holds = f64::from(near.lower) <= truth.upper
-                        && truth.lower <= f64::from(near.upper);
+                    let truth = truths[near.triangle() as usize];
+                    let holds = f64::from(near.distance().lower) <= truth.upper
+                        && truth.lower <= f64::from(near.distance().upper);
                     assert!(holds, "{name}: {p:?}: {near:?} does not contain {truth:?}");
-                    assert!(near.lower <= d, "{name}: {p:?}: {near:?} is beyond {d:e}");
+                    assert!(near.distance().lower <= d, "{name}: {p:?}: {near:?} is beyond {d:e}");
                     assert_eq!(
-                        near.upper <= d,
+                        near.distance().upper <= d,
                         i < answer.certain,
                         "{name}: {p:?}: {near:?} {d:e}"
                     );
                     assert!(
-                        !std::mem::replace(&mut listed[near.triangle as usize], true),
+                        !std::mem::replace(&mut listed[near.triangle() as usize], true),
                         "{name}: twice"
                     );
                 }
@@ -67,7 +68,10 @@ fn certain_ones_are_within_and_none_that_is_within_is_missing() {
                         "{name}: {p:?}: {t} at {truth:?} misses from {d:e}"
                     );
                 }
-                assert!(out.is_sorted_by(|a, b| a.upper <= b.upper), "{name}: {p:?}");
+                assert!(
+                    out.is_sorted_by(|a, b| a.distance().upper <= b.distance().upper),
+                    "{name}: {p:?}"
+                );
             }
         }
     }
@@ -103,10 +107,10 @@ fn short_stacks_and_few_steps_store_only_what_is_within() {
             for d in distances(&scene, p) {
                 for (steps, entries) in [(u32::MAX, 1), (u32::MAX, 9), (0, 9), (2, STACK)] {
                     let (answer, out) =
-                        ask(&scene, p, d, 16, &Budget { steps, ..Budget::EXACT }, entries);
+                        ask(&scene, p, d, 16, &Budget::EXACT.with_steps(steps), entries);
                     for near in out.iter().take(answer.certain) {
                         assert!(
-                            scene.truth_of(p, near.triangle).lower <= f64::from(d),
+                            scene.truth_of(p, near.triangle()).lower <= f64::from(d),
                             "{}: {p:?}",
                             scene.name
                         );
@@ -136,16 +140,16 @@ fn bad_questions_are_typed_errors() {
     let scene = Scene::tree("cube", cube(1), false);
     let (tree, mut out) = (scene.bvh(), [Neighbor::EMPTY; 2]);
     for bad in [f32::NAN, f32::INFINITY, -1.0] {
-        let answer = all_within(&tree, [0.0; 3], bad, &Budget::EXACT, &mut out, &mut stack(64));
+        let answer = tree.all_within([0.0; 3], bad, &mut out, Budget::EXACT, &mut stack(64));
         assert_eq!(answer, Err(QueryError::Tolerance));
     }
     let nan = [0.0, 0.0, f32::NAN];
     assert_eq!(
-        all_within(&tree, nan, 1.0, &Budget::EXACT, &mut out, &mut stack(64)),
+        tree.all_within(nan, 1.0, &mut out, Budget::EXACT, &mut stack(64)),
         Err(QueryError::NotFinite)
     );
     assert_eq!(
-        all_within(&tree, [0.0; 3], 1.0, &Budget::EXACT, &mut out, &mut []),
-        Err(QueryError::NoQueue)
+        tree.all_within([0.0; 3], 1.0, &mut out, Budget::EXACT, &mut []),
+        Err(QueryError::NoScratch)
     );
 }

@@ -1,9 +1,7 @@
 //! The closest point.
 
 use super::scenes::{STACK, all, allowed_width, order, stack, surface_error};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{Hint, Verdict, closest_point, closest_point_from, is_within};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, Ended, Hint, QueryError, Verdict};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, rough_sphere, scaled, torus,
 };
@@ -14,11 +12,12 @@ use proptest::prelude::*;
 const POINTS: usize = 120;
 
 fn ask(tree: &Bvh<'_>, p: [f32; 3], stop: &Budget, entries: usize) -> ClosestPoint {
-    closest_point(tree, p, stop, &mut stack(entries)).expect("a finite question")
+    tree.closest_point(p, *stop, &mut stack(entries)).expect("a finite question")
 }
 
 fn contains(scene: &Scene, p: [f32; 3], answer: &ClosestPoint, truth: Bounded) {
-    let holds = f64::from(answer.lower) <= truth.upper && truth.lower <= f64::from(answer.upper);
+    let holds = f64::from(answer.distance.lower) <= truth.upper
+        && truth.lower <= f64::from(answer.distance.upper);
     assert!(holds, "{}: {p:?}: {answer:?} does not contain {truth:?}", scene.name);
 }
 
@@ -40,8 +39,8 @@ fn exact_interval_is_as_wide_as_the_stored_surface_and_rounding() {
         let tree = scene.bvh();
         for p in scene.points(POINTS, &mut Rng::new(12)) {
             let answer = ask(&tree, p, &Budget::EXACT, STACK);
-            let width = f64::from(answer.upper) - f64::from(answer.lower);
-            let allowed = allowed_width(&scene, f64::from(answer.upper));
+            let width = f64::from(answer.distance.upper) - f64::from(answer.distance.lower);
+            let allowed = allowed_width(&scene, f64::from(answer.distance.upper));
             assert!(
                 width <= allowed,
                 "{}: {p:?}: {answer:?} is {width:e} wide, {allowed:e} allowed",
@@ -68,12 +67,12 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
             let gap: f64 =
                 (0..3).map(|k| (f64::from(p[k]) - f64::from(answer.point[k])).powi(2)).sum();
             assert!(
-                gap.sqrt() <= f64::from(answer.upper) + rounding,
+                gap.sqrt() <= f64::from(answer.distance.upper) + rounding,
                 "{}: {p:?}: {answer:?}",
                 scene.name
             );
             assert!(
-                distance_to_triangle(p, named).lower <= f64::from(answer.upper),
+                distance_to_triangle(p, named).lower <= f64::from(answer.distance.upper),
                 "{}: {p:?}",
                 scene.name
             );
@@ -85,16 +84,17 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
 fn answer_has_the_same_bits_whatever_the_hint_and_what_the_stack_held() {
     for scene in all() {
         let tree = scene.bvh();
-        let same = |a: &ClosestPoint| (a.triangle, a.point, a.lower, a.upper, a.ended);
+        let same =
+            |a: &ClosestPoint| (a.triangle, a.point, a.distance.lower, a.distance.upper, a.ended);
         let mut used = stack(STACK);
         let mut hint = Hint::NONE;
         for p in scene.points(POINTS, &mut Rng::new(14)) {
             let plain = ask(&tree, p, &Budget::EXACT, STACK);
             let hinted =
-                closest_point_from(&tree, p, &Budget::EXACT, &mut used, &mut hint).expect("finite");
+                tree.closest_point_from(p, &mut hint, Budget::EXACT, &mut used).expect("finite");
             assert_eq!(same(&plain), same(&hinted), "{}: {p:?}", scene.name);
             let again =
-                closest_point_from(&tree, p, &Budget::EXACT, &mut used, &mut hint).expect("finite");
+                tree.closest_point_from(p, &mut hint, Budget::EXACT, &mut used).expect("finite");
             assert_eq!(same(&plain), same(&again), "{}: {p:?}", scene.name);
         }
     }
@@ -152,41 +152,43 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
         let size = scene.size();
         // What is pruned at a tolerance is pruned by its box, whose rounding counts in model sizes.
         let boxes = |answer: &ClosestPoint| {
-            64.0 * f64::from(f32::EPSILON) * (f64::from(answer.upper) + 3.0 * f64::from(size))
+            64.0 * f64::from(f32::EPSILON)
+                * (f64::from(answer.distance.upper) + 3.0 * f64::from(size))
         };
         for p in scene.points(POINTS / 3, &mut Rng::new(16)) {
             let truth = scene.truth(p);
             for entries in [1, 2, 3, 8, 16, STACK] {
                 let answer = ask(&tree, p, &Budget::EXACT, entries);
                 contains(&scene, p, &answer, truth);
-                overflowed += u32::from(answer.ended == Ended::Capacity);
+                overflowed += u32::from(answer.ended == Ended::Scratch);
                 for steps in [0, 1, 2, 5, 20] {
-                    let answer = ask(&tree, p, &Budget { steps, ..Budget::EXACT }, entries);
+                    let answer = ask(&tree, p, &Budget::EXACT.with_steps(steps), entries);
                     contains(&scene, p, &answer, truth);
                     assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {
-                let answer = ask(&tree, p, &Budget { relative, ..Budget::EXACT }, STACK);
+                let answer = ask(&tree, p, &Budget::EXACT.with_relative(relative), STACK);
                 contains(&scene, p, &answer, truth);
                 let boxes = boxes(&answer);
-                let allowed = f64::from(answer.lower) * f64::from(relative)
-                    + (allowed_width(&scene, f64::from(answer.upper)) + boxes)
+                let allowed = f64::from(answer.distance.lower) * f64::from(relative)
+                    + (allowed_width(&scene, f64::from(answer.distance.upper)) + boxes)
                         * (1.0 + f64::from(relative));
                 assert!(
-                    f64::from(answer.upper) - f64::from(answer.lower) <= allowed * 1.001,
+                    f64::from(answer.distance.upper) - f64::from(answer.distance.lower)
+                        <= allowed * 1.001,
                     "{}: {p:?} {relative}: {answer:?}",
                     scene.name
                 );
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
-                let answer = ask(&tree, p, &Budget { absolute, ..Budget::EXACT }, STACK);
+                let answer = ask(&tree, p, &Budget::EXACT.with_absolute(absolute), STACK);
                 contains(&scene, p, &answer, truth);
                 let allowed = f64::from(absolute)
-                    + allowed_width(&scene, f64::from(answer.upper))
+                    + allowed_width(&scene, f64::from(answer.distance.upper))
                     + boxes(&answer);
                 assert!(
-                    f64::from(answer.upper) - f64::from(answer.lower) <= allowed,
+                    f64::from(answer.distance.upper) - f64::from(answer.distance.lower) <= allowed,
                     "{}: {p:?} {absolute:e}: {answer:?}",
                     scene.name
                 );
@@ -208,7 +210,7 @@ fn a_point_far_away_gets_an_interval_that_holds() {
             while size * far < 3e38 {
                 for _ in 0..4 {
                     let p = rng.direction().map(|x| (f64::from(x) * size * far) as f32);
-                    for stop in [Budget::EXACT, Budget { steps: 0, ..Budget::EXACT }] {
+                    for stop in [Budget::EXACT, Budget::EXACT.with_steps(0)] {
                         contains(&scene, p, &ask(&tree, p, &stop, STACK), scene.truth(p));
                     }
                 }
@@ -239,8 +241,8 @@ fn scaling_mesh_and_query_by_a_power_of_two_scales_every_bit() {
                 let one = ask(&plain.bvh(), p, &Budget::EXACT, STACK);
                 let other = ask(&scene.bvh(), p.map(|x| x * factor), &Budget::EXACT, STACK);
                 assert_eq!(
-                    (one.lower * factor, one.upper * factor),
-                    (other.lower, other.upper),
+                    (one.distance.lower * factor, one.distance.upper * factor),
+                    (other.distance.lower, other.distance.upper),
                     "{p:?}"
                 );
                 assert_eq!(one.point.map(|x| x * factor), other.point, "2^{exponent} {p:?}");
@@ -262,20 +264,18 @@ fn nan_infinity_bad_tolerances_and_no_stack_are_typed_errors() {
             let mut p = [0.0; 3];
             p[k] = bad;
             assert_eq!(
-                closest_point(&tree, p, &Budget::EXACT, &mut stack(64)),
+                tree.closest_point(p, Budget::EXACT, &mut stack(64)),
                 Err(QueryError::NotFinite)
             );
         }
-        for stop in
-            [Budget { relative: bad, ..Budget::EXACT }, Budget { absolute: bad, ..Budget::EXACT }]
-        {
+        for stop in [Budget::EXACT.with_relative(bad), Budget::EXACT.with_absolute(bad)] {
             assert_eq!(
-                closest_point(&tree, [0.0; 3], &stop, &mut stack(64)),
+                tree.closest_point([0.0; 3], stop, &mut stack(64)),
                 Err(QueryError::Tolerance)
             );
         }
     }
-    assert_eq!(closest_point(&tree, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(tree.closest_point([0.0; 3], Budget::EXACT, &mut []), Err(QueryError::NoScratch));
 }
 
 proptest! {
@@ -291,7 +291,7 @@ proptest! {
         entries in 1usize..40,
     ) {
         let scene = super::scenes::random(kind, seed, single);
-        let answer = ask(&scene.bvh(), p, &Budget { steps, ..Budget::EXACT }, entries);
+        let answer = ask(&scene.bvh(), p, &Budget::EXACT.with_steps(steps), entries);
         contains(&scene, p, &answer, scene.truth(p));
         let on = scene.points(12, &mut Rng::new(seed));
         for p in on {
@@ -317,17 +317,17 @@ fn flat_parts_are_right_from_any_distance() {
                     let answer = ask(&tree, p, &Budget::EXACT, STACK);
                     contains(&scene, p, &answer, truth);
                     let twice = (2.0 * truth.upper) as f32;
-                    let within = is_within(&tree, p, twice, &Budget::EXACT, &mut stack(STACK))
-                        .expect("finite")
-                        .verdict;
+                    let within =
+                        tree.within(p, twice, Budget::EXACT, &mut stack(STACK)).expect("finite");
+                    let named = within.triangle.is_some();
                     assert!(
-                        matches!(within, Verdict::Yes { triangle: Some(_) }),
+                        within.verdict == Verdict::Yes && named,
                         "{}: {p:?}: {within:?}",
                         scene.name
                     );
                     let half = (0.5 * truth.lower) as f32;
-                    let within = is_within(&tree, p, half, &Budget::EXACT, &mut stack(STACK))
-                        .expect("finite");
+                    let within =
+                        tree.within(p, half, Budget::EXACT, &mut stack(STACK)).expect("finite");
                     assert_eq!(within.verdict, Verdict::No, "{}: {p:?}", scene.name);
                 }
             }

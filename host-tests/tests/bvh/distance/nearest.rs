@@ -1,8 +1,7 @@
 //! The n closest triangles.
 
 use super::scenes::{STACK, all, allowed_width, order, stack, surface_error};
-use meshsweep_core::query::tree::{Nearest, Neighbor, closest_point, nearest};
-use meshsweep_core::query::{Budget, Ended, QueryError};
+use meshsweep_core::{Budget, Ended, KNearest, Neighbor, QueryError};
 use meshsweep_host_tests::generate::{Rng, cube, scaled, torus};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_triangle};
 use meshsweep_host_tests::scene::Scene;
@@ -13,10 +12,10 @@ fn ask(
     n: usize,
     stop: &Budget,
     entries: usize,
-) -> (Nearest, Vec<Neighbor>) {
+) -> (KNearest, Vec<Neighbor>) {
     let mut out = vec![Neighbor::EMPTY; n];
     let answer =
-        nearest(&scene.bvh(), p, stop, &mut out, &mut stack(entries)).expect("a finite question");
+        scene.bvh().nearest(p, &mut out, *stop, &mut stack(entries)).expect("a finite question");
     assert!(answer.stored <= n);
     out.truncate(answer.stored);
     (answer, out)
@@ -27,14 +26,15 @@ fn truths(scene: &Scene, p: [f32; 3]) -> Vec<Bounded> {
 }
 
 /// Every interval holds, nothing is named twice, what is not stored is beyond `rest_lower`.
-fn check(scene: &Scene, p: [f32; 3], truths: &[Bounded], answer: &Nearest, out: &[Neighbor]) {
+fn check(scene: &Scene, p: [f32; 3], truths: &[Bounded], answer: &KNearest, out: &[Neighbor]) {
     let mut named = vec![false; truths.len()];
     for near in out {
-        let truth = truths[near.triangle as usize];
-        let holds = f64::from(near.lower) <= truth.upper && truth.lower <= f64::from(near.upper);
+        let truth = truths[near.triangle() as usize];
+        let holds = f64::from(near.distance().lower) <= truth.upper
+            && truth.lower <= f64::from(near.distance().upper);
         assert!(holds, "{}: {p:?}: {near:?} does not contain {truth:?}", scene.name);
         assert!(
-            !std::mem::replace(&mut named[near.triangle as usize], true),
+            !std::mem::replace(&mut named[near.triangle() as usize], true),
             "{}: {p:?}: twice",
             scene.name
         );
@@ -55,7 +55,11 @@ fn intervals_hold_and_the_rest_is_farther() {
                 check(&scene, p, &truths, &answer, &out);
                 assert_eq!(answer.ended, Ended::Exact);
                 assert_eq!(out.len(), n.min(truths.len()), "{}: {p:?}", scene.name);
-                assert!(out.is_sorted_by(|a, b| a.upper <= b.upper), "{}: {p:?}", scene.name);
+                assert!(
+                    out.is_sorted_by(|a, b| a.distance().upper <= b.distance().upper),
+                    "{}: {p:?}",
+                    scene.name
+                );
                 if n > truths.len() {
                     assert_eq!(answer.rest_lower, f32::INFINITY);
                 }
@@ -63,16 +67,16 @@ fn intervals_hold_and_the_rest_is_farther() {
                 sorted.sort_by(f64::total_cmp);
                 for (near, truth) in out.iter().zip(sorted) {
                     assert!(
-                        truth <= f64::from(near.upper),
+                        truth <= f64::from(near.distance().upper),
                         "{}: {p:?}: {near:?} {truth:?}",
                         scene.name
                     );
                 }
                 // As close as the last one stored, but for what f32 and the grid cannot tell.
                 if let (Some(last), true) = (out.last(), n < truths.len()) {
-                    let slack = allowed_width(&scene, f64::from(last.upper));
+                    let slack = allowed_width(&scene, f64::from(last.distance().upper));
                     assert!(
-                        f64::from(answer.rest_lower) >= f64::from(last.upper) - slack,
+                        f64::from(answer.rest_lower) >= f64::from(last.distance().upper) - slack,
                         "{}: {p:?}: {answer:?} {last:?}",
                         scene.name
                     );
@@ -87,11 +91,11 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
     for scene in all() {
         for p in scene.points(48, &mut Rng::new(42)) {
             let closest =
-                closest_point(&scene.bvh(), p, &Budget::EXACT, &mut stack(STACK)).expect("finite");
+                scene.bvh().closest_point(p, Budget::EXACT, &mut stack(STACK)).expect("finite");
             let (_, most) = ask(&scene, p, 20, &Budget::EXACT, STACK);
             assert_eq!(
-                (Some(most[0].triangle), most[0].upper),
-                (closest.triangle, closest.upper),
+                (Some(most[0].triangle()), most[0].distance().upper),
+                (closest.triangle, closest.distance.upper),
                 "{}: {p:?}",
                 scene.name
             );
@@ -112,7 +116,7 @@ fn witnesses_lie_on_their_triangles() {
     for scene in all() {
         for p in scene.points(24, &mut Rng::new(43)) {
             for near in ask(&scene, p, 12, &Budget::EXACT, STACK).1 {
-                let off = distance_to_triangle(near.point, scene.corners(near.triangle)).lower;
+                let off = distance_to_triangle(near.point(), scene.corners(near.triangle())).lower;
                 let allowed = surface_error(&scene) + 8.0 * f64::from(f32::EPSILON) * scene.reach();
                 assert!(off <= allowed, "{}: {p:?}: {near:?} is {off:e} off", scene.name);
             }
@@ -126,10 +130,12 @@ fn equidistant_triangles_come_by_their_number_in_the_blob() {
         let scene = Scene::tree("cube", cube(2), single);
         let order = order(&scene);
         let place =
-            |near: &Neighbor| order.iter().position(|&t| t == near.triangle).expect("named");
+            |near: &Neighbor| order.iter().position(|&t| t == near.triangle()).expect("named");
         for p in [[0.0; 3], [0.0, 0.0, 2.0], [3.0; 3], [0.5, 0.5, 0.0], [-1.0; 3]] {
             let (_, out) = ask(&scene, p, 60, &Budget::EXACT, STACK);
-            for pair in out.windows(2).filter(|pair| pair[0].upper == pair[1].upper) {
+            for pair in
+                out.windows(2).filter(|pair| pair[0].distance().upper == pair[1].distance().upper)
+            {
                 assert!(place(&pair[0]) < place(&pair[1]), "{p:?}: {pair:?}");
             }
         }
@@ -147,7 +153,7 @@ fn short_stacks_and_few_steps_leave_true_bounds() {
                     [(u32::MAX, 1), (u32::MAX, 2), (u32::MAX, 9), (0, 9), (1, STACK), (4, STACK)]
                 {
                     let (answer, out) =
-                        ask(&scene, p, n, &Budget { steps, ..Budget::EXACT }, entries);
+                        ask(&scene, p, n, &Budget::EXACT.with_steps(steps), entries);
                     check(&scene, p, &truths, &answer, &out);
                     cut += u32::from(answer.ended != Ended::Exact);
                 }
@@ -180,16 +186,13 @@ fn bad_questions_are_typed_errors() {
     let (tree, mut out) = (scene.bvh(), [Neighbor::EMPTY; 2]);
     let nan = [0.0, f32::NAN, 0.0];
     assert_eq!(
-        nearest(&tree, nan, &Budget::EXACT, &mut out, &mut stack(64)),
+        tree.nearest(nan, &mut out, Budget::EXACT, &mut stack(64)),
         Err(QueryError::NotFinite)
     );
     assert_eq!(
-        nearest(&tree, [0.0; 3], &Budget::EXACT, &mut out, &mut []),
-        Err(QueryError::NoQueue)
+        tree.nearest([0.0; 3], &mut out, Budget::EXACT, &mut []),
+        Err(QueryError::NoScratch)
     );
-    let bad = Budget { relative: -1.0, ..Budget::EXACT };
-    assert_eq!(
-        nearest(&tree, [0.0; 3], &bad, &mut out, &mut stack(64)),
-        Err(QueryError::Tolerance)
-    );
+    let bad = Budget::EXACT.with_relative(-1.0);
+    assert_eq!(tree.nearest([0.0; 3], &mut out, bad, &mut stack(64)), Err(QueryError::Tolerance));
 }

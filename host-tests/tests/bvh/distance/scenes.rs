@@ -1,6 +1,6 @@
 //! Meshes with box trees for distances, and how exact their answers have to be.
 
-use meshsweep_core::query::tree::ScratchEntry;
+use meshsweep_core::ScratchEntry;
 use meshsweep_host_tests::generate::Triangles;
 use meshsweep_host_tests::generate::corpus::{mixed, slivers, solids, soups};
 use meshsweep_host_tests::scene::Scene;
@@ -59,7 +59,7 @@ pub fn surface_error(scene: &Scene) -> f64 {
 pub fn allowed_width(scene: &Scene, distance: f64) -> f64 {
     let tree = scene.bvh();
     let unit = 2f64.powi(tree.scale_exponent() + tree.header().grid_exponent);
-    let roundings = 64.0 * distance + 96.0 * f64::from(tree.header().reach) * unit;
+    let roundings = 64.0 * distance + 96.0 * f64::from(tree.header().star_radius) * unit;
     // On the grid a certified square may fall short by one square unit before it is looked at
     // again.
     let rounding = roundings * f64::from(f32::EPSILON);

@@ -2,8 +2,7 @@
 
 use super::scenes::{STACK, allowed_width, closed, stack};
 use super::winding::winding_number;
-use meshsweep_core::query::tree::{Side, SignedDistance, closest_point, signed_distance};
-use meshsweep_core::query::{Budget, Ended, QueryError};
+use meshsweep_core::{Budget, Ended, QueryError, Side, SignedDistance, Undecided};
 use meshsweep_host_tests::generate::corpus::{IDENTITY, soups};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, inverted, joined, rough_sphere, scaled, torus, transformed,
@@ -12,7 +11,7 @@ use meshsweep_host_tests::scene::Scene;
 use proptest::prelude::*;
 
 fn ask(scene: &Scene, p: [f32; 3], stop: &Budget, entries: usize) -> SignedDistance {
-    signed_distance(&scene.bvh(), p, stop, &mut stack(entries)).expect("a finite question")
+    scene.bvh().signed_distance(p, *stop, &mut stack(entries)).expect("a finite question")
 }
 
 fn number(scene: &Scene, p: [f32; 3]) -> Option<i32> {
@@ -24,9 +23,15 @@ fn number(scene: &Scene, p: [f32; 3]) -> Option<i32> {
 fn check(scene: &Scene, p: [f32; 3], inside: i32, answer: &SignedDistance) -> bool {
     let (name, truth) = (&scene.name, scene.truth(p));
     let signed = match (answer.side, number(scene, p)) {
-        (Side::Undefined, _) => {
-            assert_eq!((answer.lower, answer.upper), (-answer.closest.upper, answer.closest.upper));
-            assert!(truth.lower <= f64::from(answer.upper), "{name}: {p:?}: {answer:?} {truth:?}");
+        (Side::Undecided(_), _) => {
+            assert_eq!(
+                (answer.distance.lower, answer.distance.upper),
+                (-answer.closest.distance.upper, answer.closest.distance.upper)
+            );
+            assert!(
+                truth.lower <= f64::from(answer.distance.upper),
+                "{name}: {p:?}: {answer:?} {truth:?}"
+            );
             return false;
         }
         (side, Some(number)) => {
@@ -44,7 +49,8 @@ fn check(scene: &Scene, p: [f32; 3], inside: i32, answer: &SignedDistance) -> bo
         (Side::Inside, None) => (-truth.upper, -truth.lower),
         (Side::Outside, None) => (truth.lower, truth.upper),
     };
-    let holds = f64::from(answer.lower) <= signed.1 && signed.0 <= f64::from(answer.upper);
+    let holds = f64::from(answer.distance.lower) <= signed.1
+        && signed.0 <= f64::from(answer.distance.upper);
     assert!(holds, "{name}: {p:?}: {answer:?} does not contain {signed:?}");
     true
 }
@@ -61,7 +67,7 @@ fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
             if truth.lower > allowed_width(&scene, truth.upper) {
                 clear += 1;
                 undefined += u32::from(!defined);
-                let ended = if defined { Ended::Exact } else { Ended::Level };
+                let ended = if defined { Ended::Exact } else { Ended::Resolution };
                 assert_eq!(answer.closest.ended, ended, "{}: {p:?}", scene.name);
             }
         }
@@ -193,11 +199,11 @@ fn overlapping_parts_that_are_equally_near_are_not_guessed() {
         let (wall, end) = (big.truth(p), beam.truth(p));
         let answer = ask(&both, p, &Budget::EXACT, STACK);
         match answer.side {
-            Side::Undefined => open += 1,
+            Side::Undecided(_) => open += 1,
             Side::Inside => assert!(wall.lower <= end.upper, "{p:?} {answer:?} {wall:?} {end:?}"),
             Side::Outside => assert!(end.lower <= wall.upper, "{p:?} {answer:?} {wall:?} {end:?}"),
         }
-        if answer.side != Side::Undefined {
+        if !matches!(answer.side, Side::Undecided(_)) {
             sides[usize::from(answer.side == Side::Inside)] += 1;
         }
     }
@@ -235,7 +241,7 @@ fn open_meshes_and_soups_have_no_side() {
             let answer = ask(&scene, p, &Budget::EXACT, STACK);
             assert_eq!(
                 (answer.side, answer.closest.ended),
-                (Side::Undefined, Ended::Exact),
+                (Side::Undecided(Undecided::OpenMesh), Ended::Exact),
                 "{name}: {p:?}"
             );
             check(&scene, p, 1, &answer);
@@ -265,18 +271,18 @@ fn distance_is_the_closest_points() {
         for p in scene.points(60, &mut Rng::new(68)) {
             let (signed, closest) = (
                 ask(&scene, p, &Budget::EXACT, STACK).closest,
-                closest_point(&tree, p, &Budget::EXACT, &mut stack(STACK)).expect("finite"),
+                tree.closest_point(p, Budget::EXACT, &mut stack(STACK)).expect("finite"),
             );
             assert_eq!(
-                (signed.upper, signed.triangle, signed.point),
-                (closest.upper, closest.triangle, closest.point),
+                (signed.distance.upper, signed.triangle, signed.point),
+                (closest.distance.upper, closest.triangle, closest.point),
                 "{}: {p:?}",
                 scene.name
             );
-            let off = (f64::from(signed.lower) - f64::from(closest.lower)).abs();
+            let off = (f64::from(signed.distance.lower) - f64::from(closest.distance.lower)).abs();
             // The plain query lets its certificates fall short by 2^-19 of the distance.
             assert!(
-                off <= 2e-6 * f64::from(signed.upper) + allowed_width(&scene, 0.0),
+                off <= 2e-6 * f64::from(signed.distance.upper) + allowed_width(&scene, 0.0),
                 "{}: {p:?}",
                 scene.name
             );
@@ -292,7 +298,7 @@ fn short_stacks_and_few_steps_leave_the_side_open_or_right() {
             for (steps, entries) in
                 [(u32::MAX, 1), (u32::MAX, 4), (u32::MAX, 12), (0, 9), (3, STACK), (8, STACK)]
             {
-                let answer = ask(&scene, p, &Budget { steps, ..Budget::EXACT }, entries);
+                let answer = ask(&scene, p, &Budget::EXACT.with_steps(steps), entries);
                 undefined += u32::from(!check(&scene, p, 1, &answer));
                 assert!(answer.closest.work.splits <= steps);
             }
@@ -325,12 +331,12 @@ fn bad_questions_are_typed_errors() {
     let tree = scene.bvh();
     let nan = [f32::NAN, 0.0, 0.0];
     assert_eq!(
-        signed_distance(&tree, nan, &Budget::EXACT, &mut stack(64)),
+        tree.signed_distance(nan, Budget::EXACT, &mut stack(64)),
         Err(QueryError::NotFinite)
     );
-    assert_eq!(signed_distance(&tree, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
-    let bad = Budget { absolute: f32::NAN, ..Budget::EXACT };
-    assert_eq!(signed_distance(&tree, [0.0; 3], &bad, &mut stack(64)), Err(QueryError::Tolerance));
+    assert_eq!(tree.signed_distance([0.0; 3], Budget::EXACT, &mut []), Err(QueryError::NoScratch));
+    let bad = Budget::EXACT.with_absolute(f32::NAN);
+    assert_eq!(tree.signed_distance([0.0; 3], bad, &mut stack(64)), Err(QueryError::Tolerance));
 }
 
 proptest! {

@@ -1,23 +1,22 @@
 //! Is the mesh within a distance?
 
 use super::scenes::{STACK, all, allowed_width, stack};
-use meshsweep_core::query::tree::{Verdict, Within, is_within};
-use meshsweep_core::query::{Budget, Ended, QueryError};
+use meshsweep_core::{Budget, QueryError, Undecided, Verdict, Within};
 use meshsweep_host_tests::generate::{Rng, cube, scaled, torus};
 use meshsweep_host_tests::oracle::Bounded;
 use meshsweep_host_tests::scene::Scene;
 use proptest::prelude::*;
 
 fn ask(scene: &Scene, p: [f32; 3], d: f32, stop: &Budget, entries: usize) -> Within {
-    is_within(&scene.bvh(), p, d, stop, &mut stack(entries)).expect("a finite question")
+    scene.bvh().within(p, d, *stop, &mut stack(entries)).expect("a finite question")
 }
 
 /// Never a wrong answer; whether there was one.
 fn check(scene: &Scene, p: [f32; 3], d: f32, truth: Bounded, answer: Within) -> bool {
     let name = &scene.name;
     match answer.verdict {
-        Verdict::Yes { triangle } => {
-            let triangle = triangle.expect("a tree knows its triangles");
+        Verdict::Yes => {
+            let triangle = answer.triangle.expect("a tree knows its triangles");
             assert!(
                 truth.lower <= f64::from(d),
                 "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}"
@@ -34,10 +33,10 @@ fn check(scene: &Scene, p: [f32; 3], d: f32, truth: Bounded, answer: Within) -> 
                 "{name}: {p:?}: within {d:e}? {answer:?}, {truth:?}"
             )
         }
-        Verdict::Unknown => assert_ne!(answer.ended, Ended::Exact),
+        Verdict::Undecided(_) => assert!(answer.triangle.is_none(), "{name}: {answer:?}"),
     }
     assert_eq!(answer.is_clear(), answer.verdict == Verdict::No);
-    answer.verdict != Verdict::Unknown
+    !matches!(answer.verdict, Verdict::Undecided(_))
 }
 
 #[test]
@@ -56,7 +55,7 @@ fn verdict_is_true_and_unknown_only_next_to_the_distance() {
                         "{}: {p:?}: unknown at {d:e}, {off:e} off {truth:?}",
                         scene.name
                     );
-                    assert_eq!(answer.ended, Ended::Level);
+                    assert_eq!(answer.verdict, Verdict::Undecided(Undecided::Resolution));
                 }
             }
         }
@@ -74,7 +73,7 @@ fn a_short_stack_or_few_steps_never_make_a_wrong_verdict() {
                 for (steps, entries) in
                     [(u32::MAX, 1), (u32::MAX, 3), (0, STACK), (1, STACK), (3, 8)]
                 {
-                    let answer = ask(&scene, p, d, &Budget { steps, ..Budget::EXACT }, entries);
+                    let answer = ask(&scene, p, d, &Budget::EXACT.with_steps(steps), entries);
                     unknown += u32::from(!check(&scene, p, d, truth, answer));
                     assert!(answer.work.splits <= steps);
                 }
@@ -124,17 +123,17 @@ fn bad_distances_and_points_are_typed_errors() {
     let tree = scene.bvh();
     for bad in [f32::NAN, f32::INFINITY, -1.0, -f32::MIN_POSITIVE] {
         assert_eq!(
-            is_within(&tree, [0.0; 3], bad, &Budget::EXACT, &mut stack(64)),
+            tree.within([0.0; 3], bad, Budget::EXACT, &mut stack(64)),
             Err(QueryError::Tolerance)
         );
     }
     for bad in [f32::NAN, f32::INFINITY] {
         assert_eq!(
-            is_within(&tree, [0.0, bad, 0.0], 1.0, &Budget::EXACT, &mut stack(64)),
+            tree.within([0.0, bad, 0.0], 1.0, Budget::EXACT, &mut stack(64)),
             Err(QueryError::NotFinite)
         );
     }
-    assert_eq!(is_within(&tree, [0.0; 3], 1.0, &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(tree.within([0.0; 3], 1.0, Budget::EXACT, &mut []), Err(QueryError::NoScratch));
 }
 
 proptest! {

@@ -20,7 +20,7 @@ fn scaling_both_meshes_and_the_motion_by_a_power_of_two_changes_no_answer() {
             (Scene::both("", scaled(&a, scale)), Scene::both("", scaled(&b, scale)));
         for pose in &poses {
             let translation = pose.translation.map(|x| x * scale);
-            let moved = meshsweep_core::tribox::Pose { translation, ..*pose };
+            let moved = meshsweep_core::Pose { translation, ..*pose };
             for (plain, scaled) in first.trees().iter().zip(large.trees()) {
                 for (with, and) in second.trees().iter().zip(other.trees()) {
                     let answer = super::motions::ask(plain, with, pose);
@@ -93,10 +93,8 @@ fn matrices_with_next_to_nothing_in_a_column_part_nothing_that_meets() {
         while column < 1e-2 {
             for by in [1.500_591f32, 1.4991, 1.502] {
                 let matrix = [[column, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-                let pose = meshsweep_core::tribox::Pose {
-                    rotation: matrix,
-                    translation: [by * factor, 0.0, 0.0],
-                };
+                let pose =
+                    meshsweep_core::Pose { rotation: matrix, translation: [by * factor, 0.0, 0.0] };
                 holds("column", &a, &b, &pose, &mut tallies);
             }
             column *= 7.0;

@@ -3,10 +3,9 @@
 use super::motions::{ask, ask_all, motions, truth};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::{Input, Mesh};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{Contact, PairEntry, TrianglePair, all_overlaps, overlap};
-use meshsweep_core::query::{Ended, QueryError};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::{
+    Budget, BuildFor, Bvh, Ended, Pose, QueryError, ScratchEntry, TrianglePair, Undecided, Verdict,
+};
 use meshsweep_host_tests::generate::{cube, rough_sphere, scaled, torus};
 use meshsweep_host_tests::scene::Scene;
 
@@ -19,24 +18,24 @@ fn short_stacks_and_few_steps_leave_answers_open_and_never_wrong() {
     for pose in motions(&a, &b, 40, 6) {
         let full = ask(&first, &second, &pose);
         for entries in 1..8 {
-            let mut stack = vec![PairEntry::EMPTY; entries];
-            let short = overlap(&first, &second, &pose, u32::MAX, &mut stack).expect("answers");
-            if short.contact == Contact::Open {
-                assert_eq!(short.ended, Ended::Capacity);
+            let mut stack = vec![ScratchEntry::EMPTY; entries];
+            let short = first.overlap(&second, pose, Budget::EXACT, &mut stack).expect("answers");
+            if short.verdict == Verdict::Undecided(Undecided::Scratch) {
                 cut[0] += 1;
             } else {
-                assert_eq!((short.contact, short.ended), (full.contact, full.ended));
+                assert_eq!(short.verdict, full.verdict);
             }
         }
-        let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+        let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
         for steps in [0, 1, 2, 5, 10, 20] {
-            let short = overlap(&first, &second, &pose, steps, &mut stack).expect("answers");
+            let short = first
+                .overlap(&second, pose, Budget::EXACT.with_steps(steps), &mut stack)
+                .expect("answers");
             assert!(short.work.splits <= steps);
-            if short.contact == Contact::Open {
-                assert_eq!(short.ended, Ended::Steps);
+            if short.verdict == Verdict::Undecided(Undecided::Steps) {
                 cut[1] += 1;
             } else {
-                assert_eq!((short.contact, short.triangles), (full.contact, full.triangles));
+                assert_eq!((short.verdict, short.triangles), (full.verdict, full.triangles));
             }
         }
     }
@@ -53,13 +52,13 @@ fn pairs_that_do_not_fit_are_counted() {
         .find(|pose| truth(&a, &b, pose).len() > 20)
         .expect("one");
     let (all, _) = ask_all(&first, &second, &pose);
-    let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+    let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     for room in [0, 1, 7] {
         let mut pairs = vec![TrianglePair::EMPTY; room];
-        let found = all_overlaps(&first, &second, &pose, u32::MAX, &mut pairs, &mut stack)
-            .expect("answers");
+        let found =
+            first.overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack).expect("answers");
         assert_eq!((found.stored, found.dropped as usize), (room, all.len() - room));
-        assert_eq!(found.ended, Ended::Capacity);
+        assert_eq!(found.ended, Ended::Scratch);
         assert_eq!(pairs, all[..room]);
     }
 }
@@ -68,10 +67,10 @@ fn pairs_that_do_not_fit_are_counted() {
 fn what_cannot_be_answered_is_refused() {
     let scene = Scene::both("", cube(2));
     let [tree, _] = scene.trees();
-    let mut stack = [PairEntry::EMPTY; 8];
-    let refused = |a: &Bvh<'_>, b: &Bvh<'_>, pose: Pose, stack: Option<&mut [PairEntry]>| {
-        let mut own = [PairEntry::EMPTY; 8];
-        overlap(a, b, &pose, u32::MAX, stack.unwrap_or(&mut own)).expect_err("refused")
+    let mut stack = [ScratchEntry::EMPTY; 8];
+    let refused = |a: &Bvh<'_>, b: &Bvh<'_>, pose: Pose, stack: Option<&mut [ScratchEntry]>| {
+        let mut own = [ScratchEntry::EMPTY; 8];
+        a.overlap(b, pose, Budget::EXACT, stack.unwrap_or(&mut own)).expect_err("refused")
     };
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut pose = Pose::IDENTITY;
@@ -84,7 +83,7 @@ fn what_cannot_be_answered_is_refused() {
     let mut stretched = Pose::IDENTITY;
     stretched.rotation[0][0] = 2.5;
     assert_eq!(refused(&tree, &tree, stretched, None), QueryError::PoseOutOfDomain);
-    assert_eq!(refused(&tree, &tree, Pose::IDENTITY, Some(&mut stack[..0])), QueryError::NoQueue);
+    assert_eq!(refused(&tree, &tree, Pose::IDENTITY, Some(&mut stack[..0])), QueryError::NoScratch);
     let tiny = Scene::both("", scaled(&cube(2), 1e-20));
     assert_eq!(refused(&tree, &tiny.trees()[0], Pose::IDENTITY, None), QueryError::PoseOutOfDomain);
     assert_eq!(refused(&tiny.trees()[0], &tree, Pose::IDENTITY, None), QueryError::PoseOutOfDomain);
@@ -100,7 +99,8 @@ fn what_cannot_be_answered_is_refused() {
     for pose in [Pose::IDENTITY, flat] {
         assert_eq!(refused(&vague, &vague, pose, None), QueryError::PoseOutOfDomain);
     }
-    assert_eq!(refused(&tree, &closest_only, Pose::IDENTITY, None), QueryError::NotServed);
+    let refusal = refused(&tree, &closest_only, Pose::IDENTITY, None);
+    assert_eq!(refusal, QueryError::NotServed { build_for: BuildFor::Segment });
 }
 
 #[test]
@@ -111,11 +111,7 @@ fn far_translations_are_apart_at_once() {
             [[f32::MAX, 0.0, 0.0], [0.0, -1e30, 1e30], [0.0, 0.0, 2.01], [3e38, 3e38, 3e38]]
         {
             let answer = ask(&tree, &tree, &Pose { translation, ..Pose::IDENTITY });
-            assert_eq!(
-                (answer.contact, answer.ended),
-                (Contact::Apart, Ended::Exact),
-                "{translation:?}"
-            );
+            assert_eq!(answer.verdict, Verdict::No, "{translation:?}");
         }
     }
 }

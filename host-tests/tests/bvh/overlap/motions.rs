@@ -1,11 +1,8 @@
 //! Motions, and the exact answers about them.
 
-use meshsweep_core::Bvh;
-use meshsweep_core::query::Ended;
-use meshsweep_core::query::tree::{
-    Contact, Overlap, PairEntry, TrianglePair, all_overlaps, overlap,
+use meshsweep_core::{
+    Budget, Bvh, Ended, Overlap, Pose, ScratchEntry, TrianglePair, Undecided, Verdict,
 };
-use meshsweep_core::tribox::Pose;
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::oracle::moved::{Place, meeting_pairs};
 use meshsweep_host_tests::scene::Scene;
@@ -64,16 +61,20 @@ pub fn motions(a: &Scene, b: &Scene, count: usize, seed: u64) -> Vec<Pose> {
         .collect()
 }
 
+pub fn is_open(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Undecided(_))
+}
+
 pub fn ask(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> Overlap {
-    let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
-    overlap(a, b, pose, u32::MAX, &mut stack).expect("answers")
+    let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
+    a.overlap(b, *pose, Budget::EXACT, &mut stack).expect("answers")
 }
 
 /// All pairs and how the search ended; nothing may be dropped.
 pub fn ask_all(a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose) -> (Vec<TrianglePair>, Ended) {
-    let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+    let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     let mut pairs = vec![TrianglePair::EMPTY; 200_000];
-    let all = all_overlaps(a, b, pose, u32::MAX, &mut pairs, &mut stack).expect("answers");
+    let all = a.overlaps(b, *pose, &mut pairs, Budget::EXACT, &mut stack).expect("answers");
     assert_eq!(all.dropped, 0);
     pairs.truncate(all.stored);
     (pairs, all.ended)
@@ -95,25 +96,22 @@ pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tallies: &mut [Tally
         let (first, second) = (a.trees()[number & 1], b.trees()[number >> 1]);
         let name = format!("{name}, trees {number}, {pose:?}");
         let answer = ask(&first, &second, pose);
-        let ended = match answer.contact {
-            Contact::Apart => {
+        match answer.verdict {
+            Verdict::No => {
                 tally.apart += 1;
                 assert!(truth.is_empty(), "{name}: wrongly apart: {} pairs meet", truth.len());
-                Ended::Exact
             }
-            Contact::Meets => {
+            Verdict::Yes => {
                 tally.meets += 1;
                 let pair = answer.triangles.expect("a pair");
                 assert!(truth.contains(&pair), "{name}: {pair:?} do not meet");
-                Ended::Exact
             }
-            Contact::Open => {
+            Verdict::Undecided(why) => {
+                assert_eq!(why, Undecided::Resolution, "{name}");
                 tally.open += 1;
                 assert!(answer.triangles.is_some(), "{name}: which pair is open");
-                Ended::Level
             }
-        };
-        assert_eq!(answer.ended, ended, "{name}");
+        }
         let (pairs, ended) = ask_all(&first, &second, pose);
         let mut listed: Vec<[u32; 2]> = pairs.iter().map(|pair| pair.triangles).collect();
         listed.sort_unstable();
@@ -127,10 +125,10 @@ pub fn holds(name: &str, a: &Scene, b: &Scene, pose: &Pose, tallies: &mut [Tally
             assert!(truth.contains(&pair.triangles), "{name}: {pair:?} do not meet");
         }
         let all_certain = pairs.iter().all(|pair| pair.is_certain);
-        assert_eq!(ended, if all_certain { Ended::Exact } else { Ended::Level }, "{name}");
-        assert_eq!(answer.contact == Contact::Apart, pairs.is_empty(), "{name}");
+        assert_eq!(ended, if all_certain { Ended::Exact } else { Ended::Resolution }, "{name}");
+        assert_eq!(answer.verdict == Verdict::No, pairs.is_empty(), "{name}");
         assert_eq!(
-            answer.contact == Contact::Meets,
+            answer.verdict == Verdict::Yes,
             pairs.iter().any(|pair| pair.is_certain),
             "{name}"
         );

@@ -1,6 +1,6 @@
 //! Single pairs of triangles: what is certain stays so wherever the vertices are.
 
-use meshsweep_core::geom::{Contact, triangles_meet};
+use meshsweep_core::internal::geom::{Contact, triangles_meet};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::oracle::moved::{Place, triangles_meet as truth};
 

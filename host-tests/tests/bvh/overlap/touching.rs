@@ -1,8 +1,7 @@
 //! Surfaces that touch, coincide, or miss each other by next to nothing.
 
-use super::motions::{Tally, ask, holds};
-use meshsweep_core::query::tree::Contact;
-use meshsweep_core::tribox::Pose;
+use super::motions::{Tally, ask, holds, is_open};
+use meshsweep_core::{Pose, Verdict};
 use meshsweep_host_tests::generate::corpus::IDENTITY;
 use meshsweep_host_tests::generate::{cube, icosphere, joined, needle_comb, torus};
 use meshsweep_host_tests::scene::Scene;
@@ -28,7 +27,7 @@ fn surfaces_that_touch_are_open_and_never_apart() {
     for by in [[2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [2.0, -2.0, 2.0], [0.5, 2.0, 0.25]] {
         for tree in scene.trees() {
             let answer = ask(&tree, &tree, &shifted(by));
-            assert_eq!(answer.contact, Contact::Open, "{by:?}");
+            assert!(is_open(answer.verdict), "{by:?}");
         }
     }
 }
@@ -41,10 +40,10 @@ fn a_gap_or_an_overlap_of_little_more_than_rounding_is_seen() {
         for axis in 0..3 {
             let mut by = [0.125f32, -0.25, 0.0625];
             by[axis] = 2.0 + gap;
-            assert_eq!(ask(&single, &single, &shifted(by)).contact, Contact::Apart, "{by:?}");
+            assert_eq!(ask(&single, &single, &shifted(by)).verdict, Verdict::No, "{by:?}");
             by[axis] = 2.0 - gap;
             let answer = ask(&single, &single, &shifted(by));
-            assert_eq!(answer.contact, Contact::Meets, "{by:?}");
+            assert_eq!(answer.verdict, Verdict::Yes, "{by:?}");
         }
     }
 }
@@ -59,9 +58,9 @@ fn coplanar_triangles_beside_each_other_are_apart() {
     let scene = Scene::both("", square);
     for tree in scene.trees() {
         for by in [[1.001, 0.0, 0.0], [0.3, 1.001, 0.0], [-1.1, -1.1, 0.0]] {
-            assert_eq!(ask(&tree, &tree, &shifted(by)).contact, Contact::Apart, "{by:?}");
+            assert_eq!(ask(&tree, &tree, &shifted(by)).verdict, Verdict::No, "{by:?}");
         }
-        assert_eq!(ask(&tree, &tree, &shifted([0.5, 0.5, 0.0])).contact, Contact::Open);
+        assert!(is_open(ask(&tree, &tree, &shifted([0.5, 0.5, 0.0])).verdict));
     }
     // Turned by 45 degrees beside a corner: boxes meet, triangles do not.
     let turned = [[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
@@ -94,14 +93,14 @@ fn triangles_without_area_are_never_proved_to_meet_and_never_lost() {
     );
     for (a, b) in square.trees().iter().zip(needle.trees()) {
         assert_eq!(
-            ask(a, &b, &Pose::IDENTITY).contact,
-            Contact::Meets,
+            ask(a, &b, &Pose::IDENTITY).verdict,
+            Verdict::Yes,
             "its edge passes through the square"
         );
-        assert_eq!(ask(a, &b, &shifted([2.0, 0.0, 0.0])).contact, Contact::Apart);
+        assert_eq!(ask(a, &b, &shifted([2.0, 0.0, 0.0])).verdict, Verdict::No);
     }
     for (a, b) in square.trees().iter().zip(dot.trees()) {
-        assert_eq!(ask(a, &b, &Pose::IDENTITY).contact, Contact::Open, "it touches");
-        assert_eq!(ask(a, &b, &shifted([0.0, 0.0, 0.01])).contact, Contact::Apart);
+        assert!(is_open(ask(a, &b, &Pose::IDENTITY).verdict), "it touches");
+        assert_eq!(ask(a, &b, &shifted([0.0, 0.0, 0.01])).verdict, Verdict::No);
     }
 }

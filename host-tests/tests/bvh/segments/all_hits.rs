@@ -1,8 +1,7 @@
 //! All hits where they are many.
 
 use super::truth::{Asker, truth};
-use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{Facing, ScratchEntry, all_hits};
+use meshsweep_core::{Budget, Facing, Hit, ScratchEntry};
 use meshsweep_host_tests::generate::{Triangles, icosphere, joined, scaled};
 use meshsweep_host_tests::scene::Scene;
 
@@ -18,17 +17,24 @@ fn every_shell_is_met_twice_and_truncation_says_how_many_are_left() {
     let mut stack = vec![ScratchEntry::EMPTY; 4096];
     let mut hits = vec![Hit { t: 0.0, point: [0.0; 3], triangle: None }; 100];
     for tree in scene.trees() {
-        let all = all_hits(&tree, a, b, &Facing::Both, &mut hits, &mut stack).expect("answers");
+        let all = tree
+            .all_hits(a, b, Facing::Both, &mut hits, Budget::EXACT, &mut stack)
+            .expect("answers");
         assert_eq!((all.stored, all.dropped), (met.len(), 0));
         for (hit, met) in hits.iter().zip(&met) {
             assert_eq!(hit.triangle, Some(met.triangle));
             assert!((f64::from(hit.t) - met.t_lower).abs() < 1e-5, "{hit:?} {met:?}");
         }
-        let few =
-            all_hits(&tree, a, b, &Facing::Both, &mut hits[..7], &mut stack).expect("answers");
+        let few = tree
+            .all_hits(a, b, Facing::Both, &mut hits[..7], Budget::EXACT, &mut stack)
+            .expect("answers");
         assert_eq!((few.stored, few.dropped as usize), (7, met.len() - 7));
-        let fronts = all_hits(&tree, a, b, &Facing::Front, &mut hits, &mut stack).expect("answers");
-        let backs = all_hits(&tree, a, b, &Facing::Back, &mut hits, &mut stack).expect("answers");
+        let fronts = tree
+            .all_hits(a, b, Facing::Front, &mut hits, Budget::EXACT, &mut stack)
+            .expect("answers");
+        let backs = tree
+            .all_hits(a, b, Facing::Back, &mut hits, Budget::EXACT, &mut stack)
+            .expect("answers");
         assert_eq!((fronts.stored, backs.stored), (met.len() / 2, met.len() / 2));
     }
     Asker::new().prove(&scene, a, b);

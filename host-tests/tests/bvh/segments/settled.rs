@@ -2,8 +2,7 @@
 
 use super::scenes::closed;
 use super::truth::{FACINGS, of_facing, truth};
-use meshsweep_core::query::Ended;
-use meshsweep_core::query::tree::{Facing, ScratchEntry, first_hit};
+use meshsweep_core::{Budget, Ended, Facing, ScratchEntry};
 use meshsweep_host_tests::generate::corpus::add;
 use meshsweep_host_tests::generate::{Rng, icosphere};
 use meshsweep_host_tests::scene::Scene;
@@ -24,7 +23,7 @@ fn with_exact_vertices_hits_are_those_of_brute_force() {
             for facing in FACINGS {
                 let mut wanted = of_facing(&met, facing);
                 wanted.sort_by(|x, y| x.t_lower.total_cmp(&y.t_lower));
-                let hit = first_hit(&tree, a, b, &facing, &mut stack).expect("answers");
+                let hit = tree.first_hit(a, b, facing, Budget::EXACT, &mut stack).expect("answers");
                 asked += 1;
                 if hit.ended != Ended::Exact {
                     open += 1;
@@ -36,7 +35,7 @@ fn with_exact_vertices_hits_are_those_of_brute_force() {
                     continue;
                 };
                 let found = hit.hit.unwrap_or_else(|| panic!("{}", at()));
-                let slack = f64::from(hit.upper - hit.lower);
+                let slack = f64::from(hit.t.upper - hit.t.lower);
                 let near = wanted.iter().filter(|met| met.t_lower <= first.t_upper + slack);
                 assert!(
                     near.into_iter().any(|met| Some(met.triangle) == found.triangle),
@@ -63,9 +62,10 @@ fn proved_intervals_are_narrow() {
         let mut widths = Vec::new();
         for _ in 0..2000 {
             let (a, b) = (add([0.0; 3], rng.direction(), 2.0), add([0.0; 3], rng.direction(), 0.3));
-            let hit = first_hit(&tree, a, b, &Facing::Front, &mut stack).expect("answers");
+            let hit =
+                tree.first_hit(a, b, Facing::Front, Budget::EXACT, &mut stack).expect("answers");
             if hit.ended == Ended::Exact && !hit.is_clear() {
-                widths.push(hit.upper - hit.lower);
+                widths.push(hit.t.upper - hit.t.lower);
             }
         }
         widths.sort_by(f32::total_cmp);

@@ -1,8 +1,6 @@
 //! What is so, by exact predicates, and what the tree says of it.
 
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{AnyHit, Facing, ScratchEntry, all_hits, any_hit, first_hit};
-use meshsweep_core::query::{Ended, Hit, SegmentHit};
+use meshsweep_core::{Budget, Bvh, Ended, Facing, FirstHit, Hit, ScratchEntry, Undecided, Verdict};
 use meshsweep_host_tests::oracle::contacts;
 use meshsweep_host_tests::scene::Scene;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -93,6 +91,7 @@ pub fn of_facing(truth: &[Met], facing: Facing) -> Vec<Met> {
         Facing::Both => true,
         Facing::Front => met.front == Some(true),
         Facing::Back => met.front == Some(false),
+        other => panic!("{other:?}"),
     };
     truth.iter().filter(wanted).copied().collect()
 }
@@ -148,35 +147,38 @@ impl Asker {
         facing: Facing,
         wanted: &[Met],
         at: &dyn Fn() -> String,
-    ) -> SegmentHit {
-        let hit = first_hit(tree, a, b, &facing, &mut self.stack).expect("answers");
+    ) -> FirstHit {
+        let hit = tree.first_hit(a, b, facing, Budget::EXACT, &mut self.stack).expect("answers");
         check_first(&hit, wanted, at);
-        assert_ne!(hit.ended, Ended::Capacity, "{}", at());
-        let any = any_hit(tree, a, b, &facing, &mut self.stack).expect("answers");
+        assert_ne!(hit.ended, Ended::Scratch, "{}", at());
+        let any = tree.any_hit(a, b, facing, Budget::EXACT, &mut self.stack).expect("answers");
         let same = match (hit.is_clear(), hit.ended) {
-            (true, _) => AnyHit::Clear,
-            (_, Ended::Exact) => AnyHit::Hit,
-            _ => AnyHit::Unknown,
+            (true, _) => Verdict::No,
+            (_, Ended::Exact) => Verdict::Yes,
+            _ => Verdict::Undecided(Undecided::Resolution),
         };
-        assert_eq!(any, same, "{}: {hit:?}", at());
+        assert_eq!(any.verdict, same, "{}: {hit:?}", at());
         for entries in [1, 2, 5, 9] {
-            let short =
-                first_hit(tree, a, b, &facing, &mut self.stack[..entries]).expect("answers");
+            let short = tree
+                .first_hit(a, b, facing, Budget::EXACT, &mut self.stack[..entries])
+                .expect("answers");
             check_first(&short, wanted, at);
-            if short.ended != Ended::Capacity {
-                let same = (short.lower, short.upper, short.hit, short.ended);
+            if short.ended != Ended::Scratch {
+                let same = (short.t.lower, short.t.upper, short.hit, short.ended);
                 assert_eq!(
                     same,
-                    (hit.lower, hit.upper, hit.hit, hit.ended),
+                    (hit.t.lower, hit.t.upper, hit.hit, hit.ended),
                     "{entries} entries, {}",
                     at()
                 );
             }
-            let any = any_hit(tree, a, b, &facing, &mut self.stack[..entries]).expect("answers");
-            let right = match any {
-                AnyHit::Hit => !wanted.is_empty(),
-                AnyHit::Clear => wanted.is_empty(),
-                AnyHit::Unknown => true,
+            let any = tree
+                .any_hit(a, b, facing, Budget::EXACT, &mut self.stack[..entries])
+                .expect("answers");
+            let right = match any.verdict {
+                Verdict::Yes => !wanted.is_empty(),
+                Verdict::No => wanted.is_empty(),
+                Verdict::Undecided(_) => true,
             };
             assert!(right, "{entries} entries, {any:?}, {}", at());
         }
@@ -191,7 +193,9 @@ impl Asker {
         wanted: &[Met],
         at: &dyn Fn() -> String,
     ) {
-        let all = all_hits(tree, a, b, &facing, &mut self.hits, &mut self.stack).expect("answers");
+        let all = tree
+            .all_hits(a, b, facing, &mut self.hits, Budget::EXACT, &mut self.stack)
+            .expect("answers");
         assert_eq!(all.dropped, 0, "{}", at());
         let hits = &self.hits[..all.stored];
         assert!(hits.is_sorted_by_key(|hit| (hit.t, hit.triangle)), "{}: {hits:?}", at());
@@ -204,15 +208,17 @@ impl Asker {
             assert_eq!(found, expected, "{}", at());
         }
         for room in 0..=3 {
-            let few = all_hits(tree, a, b, &facing, &mut self.few[..room], &mut self.stack)
+            let few = tree
+                .all_hits(a, b, facing, &mut self.few[..room], Budget::EXACT, &mut self.stack)
                 .expect("answers");
             assert_eq!(few.stored + few.dropped as usize, all.stored, "{}", at());
             assert_eq!(few.stored, room.min(all.stored), "{}", at());
             assert_eq!(self.few[..few.stored], hits[..few.stored], "{}", at());
             assert_eq!(few.ended, all.ended, "{}", at());
         }
-        let short =
-            all_hits(tree, a, b, &facing, &mut self.hits, &mut self.stack[..1]).expect("answers");
+        let short = tree
+            .all_hits(a, b, facing, &mut self.hits, Budget::EXACT, &mut self.stack[..1])
+            .expect("answers");
         if short.ended == Ended::Exact {
             assert_eq!(all.ended, Ended::Exact, "{}", at());
             assert_eq!(short.stored, all.stored, "{}", at());
@@ -221,14 +227,14 @@ impl Asker {
 }
 
 /// Everything that an answer claims, whatever the stack.
-fn check_first(hit: &SegmentHit, wanted: &[Met], at: &dyn Fn() -> String) {
+fn check_first(hit: &FirstHit, wanted: &[Met], at: &dyn Fn() -> String) {
     let least = |f: fn(&Met) -> f64| wanted.iter().map(f).fold(f64::INFINITY, f64::min);
     let (low, high) = (least(|met| met.t_lower), least(|met| met.t_upper));
-    assert!(f64::from(hit.lower) <= high, "met earlier, {}: {hit:?}", at());
-    assert!(hit.lower <= hit.upper, "{}: {hit:?}", at());
+    assert!(f64::from(hit.t.lower) <= high, "met earlier, {}: {hit:?}", at());
+    assert!(hit.t.lower <= hit.t.upper, "{}: {hit:?}", at());
     if hit.ended == Ended::Exact && !hit.is_clear() {
         assert!(!wanted.is_empty(), "no hit, {}: {hit:?}", at());
-        assert!(f64::from(hit.upper) >= low, "met later, {}: {hit:?}", at());
+        assert!(f64::from(hit.t.upper) >= low, "met later, {}: {hit:?}", at());
         assert!(hit.hit.is_some(), "{}: {hit:?}", at());
     }
 }

@@ -1,7 +1,6 @@
 //! A segment out of a solid leaves it: through a face, an edge or a vertex.
 
-use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{Facing, ScratchEntry, all_hits, first_hit};
+use meshsweep_core::{Budget, Facing, Hit, ScratchEntry};
 use meshsweep_host_tests::generate::corpus::add;
 use meshsweep_host_tests::generate::{Rng, cube, icosphere, rough_sphere, scaled, uv_sphere};
 use meshsweep_host_tests::scene::Scene;
@@ -45,14 +44,18 @@ fn no_segment_out_of_a_solid_slips_through() {
                 let out = std::array::from_fn(|k| inside[k] + 3.0 * (target[k] - inside[k]));
                 let name = || format!("{} {target:?} from {inside:?}", scene.name);
                 for (a, b) in [(inside, out), (out, inside)] {
-                    let hit = first_hit(&tree, a, b, &Facing::Both, &mut stack).expect("answers");
+                    let hit = tree
+                        .first_hit(a, b, Facing::Both, Budget::EXACT, &mut stack)
+                        .expect("answers");
                     assert!(hit.hit.is_some() && !hit.is_clear(), "{}: {hit:?}", name());
-                    let all = all_hits(&tree, a, b, &Facing::Both, &mut hits, &mut stack)
+                    let all = tree
+                        .all_hits(a, b, Facing::Both, &mut hits, Budget::EXACT, &mut stack)
                         .expect("answers");
                     assert!(all.stored > 0, "{}: {all:?}", name());
                     // A solid is left through a back and entered through a front.
                     let facing = if a == inside { Facing::Back } else { Facing::Front };
-                    let hit = first_hit(&tree, a, b, &facing, &mut stack).expect("answers");
+                    let hit =
+                        tree.first_hit(a, b, facing, Budget::EXACT, &mut stack).expect("answers");
                     assert!(hit.hit.is_some(), "{facing:?} {}: {hit:?}", name());
                 }
             }

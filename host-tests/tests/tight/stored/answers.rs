@@ -4,16 +4,15 @@ use super::{mesh, of, options};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep::tight::{HullReport, hull_mesh};
-use meshsweep_core::blob::TightHull;
-use meshsweep_core::query::tight::{closest_point, is_within};
-use meshsweep_core::query::tree::{ScratchEntry, Verdict};
-use meshsweep_core::query::{Budget, Ended, QueryError, tree};
-use meshsweep_core::{Model, TightHulls};
+use meshsweep_core::{
+    Blob, Budget, BuildFor, Ended, QueryError, ScratchEntry, TightHull, TightHulls, Verdict,
+};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, groove_block, icosphere, rough_sphere, scaled, torus, transformed,
     two_parts,
 };
 use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
+use meshsweep_host_tests::with;
 use std::sync::LazyLock;
 
 /// Points everywhere: far, around, on the surface of mesh and hull, at corners of both, and within.
@@ -61,16 +60,16 @@ fn check(
     points: &[[f32; 3]],
     moved: f64,
 ) -> [usize; 2] {
-    let mut stack = vec![ScratchEntry::EMPTY; hull.tree().header().stack_entries as usize];
+    let mut stack = vec![ScratchEntry::EMPTY; hull.bvh().header().stack_entries as usize];
     let (mut clear, mut near) = (0, 0);
     for &p in points {
         let real = distance_to_mesh(p, &truth.0, &truth.1);
         let answer =
-            closest_point(hull, p, &Budget::EXACT, &mut stack).expect("asked of an opened hull");
-        let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+            hull.closest_point(p, Budget::EXACT, &mut stack).expect("asked of an opened hull");
+        let (lower, upper) = (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
         assert!(lower <= real.upper && upper >= real.lower, "{name}: {p:?}: {answer:?}, {real:?}");
         assert!(
-            lower >= 0.0 && answer.triangle.is_none() && answer.ended == Ended::Level,
+            lower >= 0.0 && answer.triangle.is_none() && answer.ended == Ended::Resolution,
             "{name}: {answer:?}"
         );
         // Not an interval that says nothing: no wider than hull and mesh are apart.
@@ -84,21 +83,19 @@ fn check(
         );
         for distance in [0.0, 0.5 * real.lower, real.lower, real.upper, 2.0 * real.upper, upper] {
             let distance = distance as f32;
-            let within =
-                is_within(hull, p, distance, &Budget::EXACT, &mut stack).expect("a distance");
+            let within = hull.within(p, distance, Budget::EXACT, &mut stack).expect("a distance");
             match within.verdict {
-                Verdict::Yes { triangle: None } => {
+                Verdict::Yes => {
                     assert!(f64::from(distance) >= real.lower, "{name}: {p:?} {distance}")
                 }
                 Verdict::No => {
                     assert!(f64::from(distance) < real.upper, "{name}: {p:?} {distance}")
                 }
-                Verdict::Yes { triangle: Some(_) } => panic!("{name}: a hull knows no triangles"),
-                Verdict::Unknown => {}
+                Verdict::Undecided(_) => {}
             }
             clear += usize::from(within.is_clear());
-            near += usize::from(matches!(within.verdict, Verdict::Yes { .. }));
-            assert_eq!(within.ended == Ended::Exact, within.verdict != Verdict::Unknown);
+            near += usize::from(within.verdict == Verdict::Yes);
+            assert!(within.triangle.is_none(), "{name}: a hull knows no triangles");
         }
     }
     [clear, near]
@@ -250,7 +247,7 @@ fn within_the_part_the_answer_is_never_that_it_is_clear() {
     let rng = &mut Rng::new(21);
     for index in 0..hulls.count() {
         let hull = hulls.get(index).expect("a hull");
-        let mut stack = vec![ScratchEntry::EMPTY; hull.tree().header().stack_entries as usize];
+        let mut stack = vec![ScratchEntry::EMPTY; hull.bvh().header().stack_entries as usize];
         let mut asked = 0;
         while asked < 500 {
             let [x, y, z] = rng.point_in([-3.0; 3], [3.0; 3]);
@@ -260,7 +257,8 @@ fn within_the_part_the_answer_is_never_that_it_is_clear() {
             }
             asked += 1;
             for distance in [0.0, 1e-3, 0.1, 10.0] {
-                let answer = is_within(&hull, [x, y, z], distance, &Budget::EXACT, &mut stack)
+                let answer = hull
+                    .within([x, y, z], distance, Budget::EXACT, &mut stack)
                     .expect("a distance");
                 assert!(!answer.is_clear(), "{x} {y} {z}: {distance}");
             }
@@ -278,17 +276,18 @@ fn short_searches_say_so_and_their_intervals_hold() {
     let mut ended = [0; 2];
     for p in points {
         let real = distance_to_mesh(p, &shape.0, &shape.1);
-        for (stop, entries) in [(Budget { steps: 1, ..Budget::EXACT }, 64), (Budget::EXACT, 2)] {
+        for (stop, entries) in [(Budget::EXACT.with_steps(1), 64), (Budget::EXACT, 2)] {
             let mut stack = vec![ScratchEntry::EMPTY; entries];
-            let answer = closest_point(&hull, p, &stop, &mut stack).expect("asked");
+            let answer = hull.closest_point(p, stop, &mut stack).expect("asked");
             assert!(
-                f64::from(answer.lower) <= real.upper && f64::from(answer.upper) >= real.lower,
+                f64::from(answer.distance.lower) <= real.upper
+                    && f64::from(answer.distance.upper) >= real.lower,
                 "{p:?}"
             );
             ended[0] += usize::from(answer.ended == Ended::Steps);
-            ended[1] += usize::from(answer.ended == Ended::Capacity);
+            ended[1] += usize::from(answer.ended == Ended::Scratch);
             let distance = (real.upper * 0.9) as f32;
-            let within = is_within(&hull, p, distance, &stop, &mut stack).expect("asked");
+            let within = hull.within(p, distance, stop, &mut stack).expect("asked");
             assert!(!matches!(within.verdict, Verdict::Yes { .. }), "{p:?}");
         }
     }
@@ -303,15 +302,12 @@ fn a_tolerance_is_met_or_the_level_is_said_to_decide() {
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
     let mut stack = vec![ScratchEntry::EMPTY; 64];
     let mut ask =
-        |p: [f32; 3], stop: Budget| closest_point(&hull, p, &stop, &mut stack).expect("asked");
-    let far = ask([50.0, 3.0, 1.0], Budget { relative: 0.1, ..Budget::EXACT });
-    assert!(far.ended == Ended::Tolerance && far.upper <= 1.1 * far.lower);
-    let near = ask([1.3, 0.1, 0.1], Budget { absolute: 1e-6, ..Budget::EXACT });
-    assert!(near.ended == Ended::Level && near.upper - near.lower > 1e-6);
-    assert_eq!(
-        ask([1.3, 0.1, 0.1], Budget { absolute: 1.0, ..Budget::EXACT }).ended,
-        Ended::Tolerance
-    );
+        |p: [f32; 3], stop: Budget| hull.closest_point(p, stop, &mut stack).expect("asked");
+    let far = ask([50.0, 3.0, 1.0], Budget::EXACT.with_relative(0.1));
+    assert!(far.ended == Ended::Tolerance && far.distance.upper <= 1.1 * far.distance.lower);
+    let near = ask([1.3, 0.1, 0.1], Budget::EXACT.with_absolute(1e-6));
+    assert!(near.ended == Ended::Resolution && near.distance.upper - near.distance.lower > 1e-6);
+    assert_eq!(ask([1.3, 0.1, 0.1], Budget::EXACT.with_absolute(1.0)).ended, Ended::Tolerance);
 }
 
 #[test]
@@ -321,45 +317,41 @@ fn what_cannot_be_answered_is_refused() {
     let stack = &mut [ScratchEntry::EMPTY; 64];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         assert_eq!(
-            closest_point(&hull, [0.0, bad, 0.0], &Budget::EXACT, stack),
+            hull.closest_point([0.0, bad, 0.0], Budget::EXACT, stack),
             Err(QueryError::NotFinite)
         );
         assert_eq!(
-            is_within(&hull, [bad, 0.0, 0.0], 1.0, &Budget::EXACT, stack),
+            hull.within([bad, 0.0, 0.0], 1.0, Budget::EXACT, stack),
             Err(QueryError::NotFinite)
         );
-        assert_eq!(
-            is_within(&hull, [0.0; 3], bad, &Budget::EXACT, stack),
-            Err(QueryError::Tolerance)
-        );
-        let stop = Budget { absolute: bad, ..Budget::EXACT };
-        assert_eq!(closest_point(&hull, [0.0; 3], &stop, stack), Err(QueryError::Tolerance));
+        assert_eq!(hull.within([0.0; 3], bad, Budget::EXACT, stack), Err(QueryError::Tolerance));
+        let stop = Budget::EXACT.with_absolute(bad);
+        assert_eq!(hull.closest_point([0.0; 3], stop, stack), Err(QueryError::Tolerance));
     }
-    assert_eq!(is_within(&hull, [0.0; 3], -1.0, &Budget::EXACT, stack), Err(QueryError::Tolerance));
-    assert_eq!(closest_point(&hull, [0.0; 3], &Budget::EXACT, &mut []), Err(QueryError::NoQueue));
+    assert_eq!(hull.within([0.0; 3], -1.0, Budget::EXACT, stack), Err(QueryError::Tolerance));
+    assert_eq!(hull.closest_point([0.0; 3], Budget::EXACT, &mut []), Err(QueryError::NoScratch));
     let segments = options(&[64]).with_boxes(false, true);
     let (bytes, _) = of(&mesh(&icosphere(1)), 0.0, &segments);
     let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
-    assert_eq!(closest_point(&hull, [0.0; 3], &Budget::EXACT, stack), Err(QueryError::NotServed));
-    assert_eq!(is_within(&hull, [0.0; 3], 1.0, &Budget::EXACT, stack), Err(QueryError::NotServed));
+    let refusal = Err(QueryError::NotServed { build_for: BuildFor::Closest });
+    assert_eq!(hull.closest_point([0.0; 3], Budget::EXACT, stack), refusal);
+    let refusal = Err(QueryError::NotServed { build_for: BuildFor::Closest });
+    assert_eq!(hull.within([0.0; 3], 1.0, Budget::EXACT, stack), refusal);
 }
 
 #[test]
 fn a_hull_answers_as_a_blob_of_its_own() {
     let (bytes, _) = of(&mesh(&torus(2.0, 0.75, 16, 10)), 0.0, &options(&[64, 90]));
-    let model = Model::open(&bytes).expect("opens");
-    let hulls = model.tight_hulls().expect("there");
+    let blob = Blob::open(&bytes).expect("opens");
+    let hulls = blob.tight_hulls().expect("there");
     let stack = &mut [ScratchEntry::EMPTY; 64];
     for index in 0..hulls.count() {
         let hull = hulls.get(index).expect("a hull");
-        let alone = Model::open(hull.bytes()).expect("a blob");
-        let by_itself = alone.tree().expect("a box tree");
+        let alone = Blob::open(hull.bytes()).expect("a blob");
+        let by_itself = alone.bvh().expect("a box tree");
         for p in [[0.1, 0.2, 0.3], [3.0, 1.0, -2.0], [0.0; 3]] {
-            let ours = tree::closest_point(hull.tree(), p, &Budget::EXACT, stack).expect("asked");
-            assert_eq!(
-                ours,
-                tree::closest_point(&by_itself, p, &Budget::EXACT, stack).expect("asked")
-            );
+            let ours = hull.bvh().closest_point(p, Budget::EXACT, stack).expect("asked");
+            assert_eq!(ours, by_itself.closest_point(p, Budget::EXACT, stack).expect("asked"));
         }
     }
     assert!(hulls.get(hulls.count()).is_none());

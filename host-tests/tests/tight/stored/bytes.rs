@@ -4,8 +4,7 @@ use super::{mesh, of, options};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
 use meshsweep::tight::chain;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{Bvh, Model, OpenError, TightHulls};
+use meshsweep_core::{Blob, Bvh, OpenError, SectionKind, TightHulls};
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
 };
@@ -36,7 +35,7 @@ fn edited(edit: impl FnOnce(&mut [u8])) -> Result<(), OpenError> {
     edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
     seal(&mut bytes);
     let result = open(&bytes);
-    assert_eq!(Model::open(&bytes).map(|_| ()), result, "a model is as strict");
+    assert_eq!(Blob::open(&bytes).map(|_| ()), result, "the whole blob is as strict");
     result
 }
 
@@ -130,23 +129,23 @@ fn hulls_stand_beside_any_other_part_and_older_readers_pass_them_over() {
     let (tight, _) = chain(mesh.as_input(), &options(&[64]), |_| {}).expect("room");
     let (tree, _) = build(mesh.as_input(), &TreeOptions::default());
     let both = assemble([&tight, &tree]);
-    let model = Model::open(&both).expect("opens");
-    assert!(model.tree().is_some() && model.tight_hulls().is_some() && !model.has_hull());
+    let blob = Blob::open(&both).expect("opens");
+    assert!(blob.bvh().is_ok() && blob.tight_hulls().is_ok() && blob.hull().is_err());
     assert!(Bvh::open(&both).is_ok());
     let alone = tree.to_bytes();
     let missing = OpenError::MissingSection { section: SectionKind::TightHulls };
     assert_eq!(open(&alone), Err(missing));
-    assert!(Model::open(&alone).expect("opens").tight_hulls().is_none());
+    assert!(Blob::open(&alone).expect("opens").tight_hulls().is_err());
     // A section that a tree's reader does not look at may hold anything; a kind that nobody knows
     // is passed over.
     let mut damaged = both.clone();
     let at = entry(&damaged, SectionKind::TightHulls as u32);
     damaged[at.offset as usize + 50] ^= 1;
-    assert!(Bvh::open(&damaged).is_ok() && Model::open(&damaged).is_err());
+    assert!(Bvh::open(&damaged).is_ok() && Blob::open(&damaged).is_err());
     let mut unknown = both.clone();
     put_u32(&mut unknown, at.at, 31);
     seal(&mut unknown);
-    assert!(Model::open(&unknown).expect("opens").tight_hulls().is_none());
+    assert!(Blob::open(&unknown).expect("opens").tight_hulls().is_err());
 }
 
 #[test]

@@ -7,9 +7,10 @@ use meshsweep::surface::VertexBits;
 use meshsweep::tight::{cut, hull_mesh};
 use meshsweep::tribox::volume;
 use meshsweep::wrap::Goal;
-use meshsweep_core::{Model, TightHulls};
+use meshsweep_core::{Blob, TightHulls};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::generate::{bracket, icosphere, rough_sphere, torus};
+use meshsweep_host_tests::with;
 
 fn encloses(outer: &Mesh, inner: &Mesh) {
     let surface = |mesh: &Mesh| Surface::new(&mesh.positions, &mesh.triangles);
@@ -70,29 +71,29 @@ fn the_same_mesh_makes_the_same_bytes_and_doubles_are_left_out() {
 fn a_cut_keeps_the_coarse_hulls_as_they_are() {
     let mesh = mesh(&torus(2.0, 0.75, 16, 10));
     let (bytes, _) = of(&mesh, 0.0, &options(&[64, 80, 120]));
-    let model = Model::open(&bytes).expect("opens");
-    let all: Vec<_> = model.tight_hulls().expect("there").records().collect();
+    let blob = Blob::open(&bytes).expect("opens");
+    let all: Vec<_> = blob.tight_hulls().expect("there").records().collect();
     for (kept, record) in (1..).zip(&all) {
-        let tables = cut(&model, record.faces).expect("hulls");
+        let tables = cut(&blob, record.faces).expect("hulls");
         let cut = tables.to_bytes();
         let left = TightHulls::open(&cut).expect("opens");
         assert!(left.records().eq(all[..kept].iter().copied()));
         for index in 0..left.count() {
             let (hull, whole) = (
                 left.get(index).expect("a hull"),
-                model.tight_hulls().and_then(|all| all.get(index)),
+                blob.tight_hulls().ok().and_then(|all| all.get(index)),
             );
             let whole = whole.expect("a hull");
             assert!(hull.bytes() == whole.bytes());
             assert!((0..record.faces).all(|face| hull.slack(face) == whole.slack(face)));
         }
         assert_eq!(
-            Model::open(&cut).expect("opens").header().surface_box,
-            model.header().surface_box
+            Blob::open(&cut).expect("opens").header().surface_box,
+            blob.header().surface_box
         );
     }
     // All of it, and no less than the coarsest.
-    assert!(cut_blob(&model, &Keep::default()).expect("a blob") == bytes);
-    let least = cut_blob(&model, &Keep { tight: Some(4), ..Keep::default() }).expect("a blob");
+    assert!(cut_blob(&blob, &Keep::default()).expect("a blob") == bytes);
+    let least = cut_blob(&blob, &Keep { tight: Some(4), ..Keep::default() }).expect("a blob");
     assert_eq!(TightHulls::open(&least).expect("opens").count(), 1);
 }

@@ -3,7 +3,8 @@
 use super::along;
 use super::counted::{COUNTS, Counted};
 use super::points::points;
-use meshsweep_core::tribox::{Boundary, DIRECTIONS, FACES, SLABS, Tribox, VERTICES, boundary};
+use meshsweep_core::internal::tribox::{DIRECTIONS, FACES, SLABS, VERTICES, boundary};
+use meshsweep_core::{Boundary, Tribox};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::oracle::polytope::{Dimension, HalfSpace, Polytope};
 use std::cell::Cell;

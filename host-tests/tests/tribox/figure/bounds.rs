@@ -3,7 +3,8 @@
 use super::along;
 use super::counted::Counted;
 use super::points::points;
-use meshsweep_core::tribox::{FACES, SLABS, Tribox, boundary};
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::{FACES, SLABS, boundary};
 use meshsweep_host_tests::generate::Rng;
 
 #[test]

@@ -1,6 +1,6 @@
 //! A number that counts what is done with it.
 
-use meshsweep_core::tribox::Scalar;
+use meshsweep_core::internal::tribox::Scalar;
 use std::cell::Cell;
 use std::cmp::Ordering;
 use std::ops::{Add, Neg, Sub};

@@ -1,7 +1,8 @@
 //! Distances, segments, motions.
 
 use super::points::points;
-use meshsweep_core::tribox::{DIRECTIONS, Pose, SLABS, Tribox};
+use meshsweep_core::internal::tribox::{DIRECTIONS, SLABS};
+use meshsweep_core::{Pose, Tribox};
 use meshsweep_host_tests::generate::Rng;
 
 #[test]

@@ -7,7 +7,7 @@ mod counted;
 mod measures;
 mod points;
 
-use meshsweep_core::tribox::DIRECTIONS;
+use meshsweep_core::internal::tribox::DIRECTIONS;
 
 fn along(slab: usize, [x, y, z]: [f32; 3]) -> f32 {
     let [a, b, c] = DIRECTIONS[slab].map(f32::from);

@@ -2,10 +2,7 @@
 
 use super::{blob, mesh, of};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::Triboxes;
-use meshsweep_core::query::tribox::{NodePair, apart, candidates, stack_entries};
-use meshsweep_core::query::{Ended, QueryError};
-use meshsweep_core::tribox::{Pose, Tribox};
+use meshsweep_core::{Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Tribox, Triboxes};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, rough_sphere, scaled, torus,
 };
@@ -77,9 +74,13 @@ fn leaves_that_are_left_out_have_no_common_point() {
             let far = if run % 3 == 0 { 0.7 } else { 1.5 };
             let shift = [(); 3].map(|()| (rng.range(-far, far) * size / unit).round() * unit);
             let pose = Pose { rotation: matrix, translation: shift };
-            let (mut pairs, mut stack) =
-                (vec![NodePair::EMPTY; 64], vec![NodePair::EMPTY; stack_entries(&all, &all)]);
-            let answer = candidates(&all, &all, &pose, &mut pairs, &mut stack).expect("answered");
+            let (mut pairs, mut stack) = (
+                vec![NodePair::EMPTY; 64],
+                vec![ScratchEntry::EMPTY; all.separation_entries(&all)],
+            );
+            let answer = all
+                .candidates(&all, pose, &mut pairs, Budget::EXACT, &mut stack)
+                .expect("answered");
             assert_eq!((answer.dropped, answer.ended), (0, Ended::Exact));
             let found: HashSet<(u16, u16)> =
                 pairs[..answer.stored].iter().map(|pair| (pair.a, pair.b)).collect();
@@ -120,11 +121,11 @@ fn surfaces_that_touch_are_never_apart() {
         let bytes = blob(&subject.mesh, 16);
         let all = Triboxes::open(&bytes).expect("opens");
         let surface = Surface::new(&subject);
-        let mut stack = vec![NodePair::EMPTY; stack_entries(&all, &all)];
+        let mut stack = vec![ScratchEntry::EMPTY; all.separation_entries(&all)];
         let (mut proved, mut touching) = (0, 0);
         for (pose, core) in poses(&sphere(&subject), 60) {
             let meet = surface.meets_moved(&pose);
-            let answer = apart(&all, &all, &core, &mut stack).expect("answered");
+            let answer = all.separation(&all, core, Budget::EXACT, &mut stack).expect("answered");
             assert!(!(meet && answer.is_apart()), "{core:?}");
             proved += usize::from(answer.is_apart());
             if meet {
@@ -153,7 +154,8 @@ fn surfaces_that_touch_are_never_apart() {
                     clear = middle
                 }
             }
-            let answer = apart(&all, &all, &at(near), &mut stack).expect("answered");
+            let answer =
+                all.separation(&all, at(near), Budget::EXACT, &mut stack).expect("answered");
             assert!(!answer.is_apart(), "{:?}", at(near));
             touching += 1;
         }
@@ -171,13 +173,16 @@ fn answers_do_not_depend_on_the_scale() {
         let factor = 2f32.powi(exponent);
         let other = of(&scaled(&triangles, factor), 16);
         let scaled = Triboxes::open(&other).expect("opens");
-        let (mut pairs, mut stack) = ([NodePair::EMPTY; 256], [NodePair::EMPTY; 64]);
+        let (mut pairs, mut stack) = ([NodePair::EMPTY; 256], [ScratchEntry::EMPTY; 64]);
         let (mut others, mut apart_count) = ([NodePair::EMPTY; 256], 0);
         for (_, pose) in poses(&sphere(&subject), 100) {
             let moved = Pose { translation: pose.translation.map(|x| x * factor), ..pose };
-            let here = candidates(&plain, &plain, &pose, &mut pairs, &mut stack).expect("answered");
-            let there =
-                candidates(&scaled, &scaled, &moved, &mut others, &mut stack).expect("answered");
+            let here = plain
+                .candidates(&plain, pose, &mut pairs, Budget::EXACT, &mut stack)
+                .expect("answered");
+            let there = scaled
+                .candidates(&scaled, moved, &mut others, Budget::EXACT, &mut stack)
+                .expect("answered");
             assert_eq!((here, pairs), (there, others), "{exponent}");
             apart_count += usize::from(here.is_apart());
         }
@@ -190,14 +195,15 @@ fn two_models_of_different_size_are_looked_at_where_they_are() {
     let (large, small) = (of(&torus(2.0, 0.75, 24, 12), 64), of(&scaled(&cube(1), 0.25), 4));
     let (large, small) =
         (Triboxes::open(&large).expect("opens"), Triboxes::open(&small).expect("opens"));
-    let mut stack = vec![NodePair::EMPTY; stack_entries(&large, &small)];
+    let mut stack = vec![ScratchEntry::EMPTY; large.separation_entries(&small)];
     let hole = Pose { translation: [-0.125, -0.125, -0.125], ..Pose::IDENTITY };
-    let answer = apart(&large, &small, &hole, &mut stack).expect("answered");
+    let answer = large.separation(&small, hole, Budget::EXACT, &mut stack).expect("answered");
     assert!(answer.is_apart(), "in the hole of the torus: {answer:?}");
-    let answer = apart(&large.coarser(1), &small, &hole, &mut stack).expect("answered");
+    let answer =
+        large.coarser(1).separation(&small, hole, Budget::EXACT, &mut stack).expect("answered");
     assert!(!answer.is_apart(), "one tribox has no hole");
     let inside = Pose { translation: [1.9, -0.125, -0.125], ..Pose::IDENTITY };
-    let answer = apart(&large, &small, &inside, &mut stack).expect("answered");
+    let answer = large.separation(&small, inside, Budget::EXACT, &mut stack).expect("answered");
     assert!(!answer.is_apart(), "inside of the solid");
 }
 
@@ -206,10 +212,11 @@ fn more_is_told_apart_than_by_moved_vertices() {
     let subject = subject(&bracket());
     let bytes = blob(&subject.mesh, 32);
     let all = Triboxes::open(&bytes).expect("opens");
-    let mut stack = vec![NodePair::EMPTY; stack_entries(&all, &all)];
+    let mut stack = vec![ScratchEntry::EMPTY; all.separation_entries(&all)];
     let (mut ours, mut theirs, mut less) = (0, 0, 0);
     for (_, pose) in poses(&sphere(&subject), 300) {
-        let here = apart(&all, &all, &pose, &mut stack).expect("answered").is_apart();
+        let here =
+            all.separation(&all, pose, Budget::EXACT, &mut stack).expect("answered").is_apart();
         let there = by_vertices(&all, &all, &pose).0;
         (ours, theirs) = (ours + usize::from(here), theirs + usize::from(there));
         less += usize::from(there && !here);
@@ -222,24 +229,28 @@ fn short_memory_is_said_and_proves_no_less() {
     let subject = subject(&torus(2.0, 0.75, 16, 8));
     let bytes = blob(&subject.mesh, 32);
     let all = Triboxes::open(&bytes).expect("opens");
-    let mut stack = vec![NodePair::EMPTY; stack_entries(&all, &all)];
+    let mut stack = vec![ScratchEntry::EMPTY; all.separation_entries(&all)];
     let (mut short, mut full) = (0, 0);
     for (_, pose) in poses(&sphere(&subject), 60) {
-        let whole = candidates(&all, &all, &pose, &mut [NodePair::EMPTY; 1024], &mut stack)
+        let whole = all
+            .candidates(&all, pose, &mut [NodePair::EMPTY; 1024], Budget::EXACT, &mut stack)
             .expect("answered");
         assert_eq!((whole.ended, whole.dropped), (Ended::Exact, 0));
-        let few =
-            candidates(&all, &all, &pose, &mut [NodePair::EMPTY; 3], &mut stack).expect("answered");
+        let few = all
+            .candidates(&all, pose, &mut [NodePair::EMPTY; 3], Budget::EXACT, &mut stack)
+            .expect("answered");
         assert_eq!(few.stored + few.dropped as usize, whole.stored);
         assert_eq!(few.work, whole.work);
         for entries in 1..6 {
             let mut pairs = [NodePair::EMPTY; 1024];
-            let answer =
-                candidates(&all, &all, &pose, &mut pairs, &mut stack[..entries]).expect("answered");
+            let answer = all
+                .candidates(&all, pose, &mut pairs, Budget::EXACT, &mut stack[..entries])
+                .expect("answered");
             assert!(whole.is_apart() || !answer.is_apart(), "less memory cannot prove more");
-            let one = apart(&all, &all, &pose, &mut stack[..entries]).expect("answered");
+            let one =
+                all.separation(&all, pose, Budget::EXACT, &mut stack[..entries]).expect("answered");
             assert_eq!(one.is_apart(), answer.is_apart());
-            short += usize::from(answer.ended == Ended::Capacity);
+            short += usize::from(answer.ended == Ended::Scratch);
             full += usize::from(answer.ended == Ended::Exact);
         }
     }
@@ -250,25 +261,28 @@ fn short_memory_is_said_and_proves_no_less() {
 fn poses_that_are_none_are_refused() {
     let bytes = of(&cube(1), 4);
     let all = Triboxes::open(&bytes).expect("opens");
-    let stack = &mut [NodePair::EMPTY; 16];
+    let stack = &mut [ScratchEntry::EMPTY; 16];
     for (x, error) in [
         (f32::NAN, QueryError::NotFinite),
         (f32::NEG_INFINITY, QueryError::NotFinite),
         (2e36, QueryError::PoseOutOfDomain),
     ] {
         let shifted = Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
-        assert_eq!(apart(&all, &all, &shifted, stack).unwrap_err(), error);
+        assert_eq!(all.separation(&all, shifted, Budget::EXACT, stack).unwrap_err(), error);
         let turned =
             Pose { rotation: [[1.0, 0.0, 0.0], [0.0, x, 0.0], [0.0; 3]], ..Pose::IDENTITY };
-        assert_eq!(apart(&all, &all, &turned, stack).unwrap_err(), error);
+        assert_eq!(all.separation(&all, turned, Budget::EXACT, stack).unwrap_err(), error);
     }
-    assert_eq!(apart(&all, &all, &Pose::IDENTITY, &mut []).unwrap_err(), QueryError::NoQueue);
+    assert_eq!(
+        all.separation(&all, Pose::IDENTITY, Budget::EXACT, &mut []).unwrap_err(),
+        QueryError::NoScratch
+    );
     // As far as there are numbers, and of no volume at all.
     let far = Pose { translation: [1e36, -1e36, 1e36], ..Pose::IDENTITY };
-    assert!(apart(&all, &all, &far, stack).expect("answered").is_apart());
+    assert!(all.separation(&all, far, Budget::EXACT, stack).expect("answered").is_apart());
     let flat = Pose { rotation: [[0.0; 3]; 3], translation: [0.5; 3] };
     assert!(
-        !apart(&all, &all, &flat, stack).expect("answered").is_apart(),
+        !all.separation(&all, flat, Budget::EXACT, stack).expect("answered").is_apart(),
         "a point inside of the cube"
     );
 }

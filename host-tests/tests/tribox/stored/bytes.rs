@@ -5,8 +5,7 @@ use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::tribox::{cut, store};
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::{Bvh, Model, OpenError, Triboxes};
+use meshsweep_core::{Blob, Bvh, OpenError, SectionKind, Triboxes};
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
 };
@@ -36,7 +35,7 @@ fn edited(edit: impl FnOnce(&mut [u8])) -> Result<(), OpenError> {
     edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
     seal(&mut bytes);
     let result = open(&bytes);
-    assert_eq!(Model::open(&bytes).map(|_| ()), result, "a model is as strict");
+    assert_eq!(Blob::open(&bytes).map(|_| ()), result, "the whole blob is as strict");
     result
 }
 
@@ -197,9 +196,9 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
                 .into_iter()
                 .flatten(),
         );
-        let model = Model::open(&bytes).expect("opens");
+        let blob = Blob::open(&bytes).expect("opens");
         assert_eq!(
-            (model.has_hull(), model.tree().is_some(), model.triboxes().is_some()),
+            (blob.hull().is_ok(), blob.bvh().is_ok(), blob.triboxes().is_ok()),
             (has(0), has(1), has(2))
         );
         assert_eq!(Bvh::open(&bytes).is_ok(), has(1));
@@ -211,29 +210,29 @@ fn blobs_hold_triboxes_beside_anything_or_alone() {
             let mut older = bytes.clone();
             older[10] = 1;
             seal(&mut older);
-            assert!(Model::open(&older).is_ok());
+            assert!(Blob::open(&older).is_ok());
         }
     }
-    assert!(Model::open(&assemble([])).is_err());
+    assert!(Blob::open(&assemble([])).is_err());
     // A section that a tree's reader does not look at may hold anything.
     let mut bytes = assemble([&tree, &triboxes]);
     let at = entry(&bytes, SectionKind::Triboxes as u32).offset as usize;
     bytes[at + 50] ^= 1;
-    assert!(Bvh::open(&bytes).is_ok() && Model::open(&bytes).is_err());
+    assert!(Bvh::open(&bytes).is_ok() && Blob::open(&bytes).is_err());
 }
 
 #[test]
 fn every_cut_is_the_blob_that_the_prefix_of_splits_makes() {
     let bytes = of(&icosphere(2), 24);
-    let model = Model::open(&bytes).expect("opens");
-    let all = model.triboxes().expect("there");
+    let blob = Blob::open(&bytes).expect("opens");
+    let all = blob.triboxes().expect("there");
     for level in all.levels() {
-        let tables = cut(&model, level.triboxes).expect("a level");
+        let tables = cut(&blob, level.triboxes).expect("a level");
         let bytes = tables.to_bytes();
-        let cut_model = Model::open(&bytes).expect("opens");
-        let left = cut_model.triboxes().expect("there");
+        let cut_blob = Blob::open(&bytes).expect("opens");
+        let left = cut_blob.triboxes().expect("there");
         assert_eq!(left.leaf_count(), level.triboxes);
-        assert_eq!(cut_model.header().surface_box, model.header().surface_box);
+        assert_eq!(cut_blob.header().surface_box, blob.header().surface_box);
         let coarser = all.coarser(level.triboxes);
         assert_eq!(left.leaves().collect::<Vec<_>>(), coarser.leaves().collect::<Vec<_>>());
         for node in 0..left.node_count() {
@@ -251,11 +250,11 @@ fn every_cut_is_the_blob_that_the_prefix_of_splits_makes() {
     }
     // Between two levels, the coarser; below all, the first; without a limit, what it was.
     let leaves = |count: u32| {
-        word(&cut(&model, count).expect("there").bodies[0].1, 20).expect("nodes") / 2 + 1
+        word(&cut(&blob, count).expect("there").bodies[0].1, 20).expect("nodes") / 2 + 1
     };
     assert_eq!([leaves(0), leaves(1), leaves(7), leaves(u32::MAX)], [1, 1, 4, 24]);
     assert_eq!(
-        meshsweep::cut::cut_blob(&model, &meshsweep::cut::Keep::default()).expect("a blob"),
+        meshsweep::cut::cut_blob(&blob, &meshsweep::cut::Keep::default()).expect("a blob"),
         bytes
     );
 }

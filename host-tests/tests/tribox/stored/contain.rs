@@ -3,7 +3,7 @@
 use super::{blob, mesh};
 use meshsweep::mesh::Mesh;
 use meshsweep::tribox::store;
-use meshsweep_core::{Model, Triboxes};
+use meshsweep_core::{Blob, Triboxes};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, joined, rough_sphere, scaled, torus, transformed,
 };
@@ -150,10 +150,12 @@ fn triboxes_hold_the_input_that_may_be_off() {
         let (tables, _) =
             store(meshsweep::mesh::Input { moved, ..mesh.as_input() }, 16).expect("in the domain");
         let bytes = tables.to_bytes();
-        let model = Model::open(&bytes).expect("opens");
+        let blob = Blob::open(&bytes).expect("opens");
         let by = rounding + moved;
-        assert!(f64::from(model.header().surface_error) * model.scale() >= by);
-        let triboxes = model.triboxes().expect("there");
+        assert!(
+            f64::from(blob.header().surface_error) * 2f64.powi(blob.header().scale_exponent) >= by
+        );
+        let triboxes = blob.triboxes().expect("there");
         let mut rng = Rng::new(4);
         for level in triboxes.levels() {
             let leaves = leaves(triboxes.coarser(level.triboxes));

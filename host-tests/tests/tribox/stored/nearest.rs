@@ -1,9 +1,7 @@
 //! Bounds of distances and of segments are below the truth, and are those of the nearest leaf.
 
 use super::{blob, mesh};
-use meshsweep_core::Triboxes;
-use meshsweep_core::query::tribox::{BoundEntry, clip, distance};
-use meshsweep_core::query::{Ended, QueryError};
+use meshsweep_core::{Budget, Ended, QueryError, ScratchEntry, Triboxes};
 use meshsweep_host_tests::generate::{Rng, bracket, groove_block, scaled, torus};
 use meshsweep_host_tests::oracle::{distance_to_mesh, meets};
 
@@ -29,8 +27,8 @@ fn distances_are_those_of_the_nearest_leaf_and_below_the_mesh_s() {
                 [2.0 * x - xx, 2.0 * y - yy, 2.0 * z - zz],
                 [2.0 * xx - x, 2.0 * yy - y, 2.0 * zz - z],
             );
-            let mut stack = vec![BoundEntry::EMPTY; all.depth() as usize + 2];
-            let answer = distance(&triboxes, p, &mut stack).expect("answered");
+            let mut stack = vec![ScratchEntry::EMPTY; all.depth() as usize + 2];
+            let answer = triboxes.distance(p, Budget::EXACT, &mut stack).expect("answered");
             let brute = triboxes
                 .leaves()
                 .map(|(_, tribox)| tribox.distance(p))
@@ -44,10 +42,10 @@ fn distances_are_those_of_the_nearest_leaf_and_below_the_mesh_s() {
             assert!(f64::from(answer.lower) <= truth.upper, "{answer:?} {truth:?}");
             assert_eq!(answer.ended, Ended::Exact);
             few += usize::from(answer.work.nodes < triboxes.node_count());
-            let short = distance(&triboxes, p, &mut stack[..1]).expect("answered");
+            let short = triboxes.distance(p, Budget::EXACT, &mut stack[..1]).expect("answered");
             assert!(
                 short.lower <= answer.lower
-                    && (short.ended == Ended::Capacity || triboxes.leaf_count() == 1)
+                    && (short.ended == Ended::Scratch || triboxes.leaf_count() == 1)
             );
         }
         assert!(few > 100, "{few}: nothing was spared");
@@ -64,11 +62,11 @@ fn segments_are_clear_of_the_mesh_before_the_bound() {
         let root = triboxes.node(0).expect("a root");
         let low = [0, 1, 2].map(|k| root.low[k] - 0.2 * (root.high[k] - root.low[k]));
         let high = [0, 1, 2].map(|k| root.high[k] + 0.2 * (root.high[k] - root.low[k]));
-        let mut stack = vec![BoundEntry::EMPTY; triboxes.depth() as usize + 2];
+        let mut stack = vec![ScratchEntry::EMPTY; triboxes.depth() as usize + 2];
         let (mut clear, mut hit) = (0, 0);
         for _ in 0..400 {
             let [a, b] = [(); 2].map(|()| rng.point_in(low, high));
-            let answer = clip(&triboxes, a, b, &mut stack).expect("answered");
+            let answer = triboxes.clip(a, b, Budget::EXACT, &mut stack).expect("answered");
             let inside = triboxes.leaves().filter_map(|(_, tribox)| tribox.clip(a, b));
             let brute = inside.map(|(enter, _)| enter).fold(f32::INFINITY, f32::min);
             assert!(
@@ -95,7 +93,7 @@ fn segments_are_clear_of_the_mesh_before_the_bound() {
 fn what_is_no_point_is_refused() {
     let bytes = blob(&mesh(&torus(2.0, 0.75, 8, 6)), 4);
     let triboxes = Triboxes::open(&bytes).expect("opens");
-    let stack = &mut [BoundEntry::EMPTY; 8];
+    let stack = &mut [ScratchEntry::EMPTY; 8];
     let fine = [0.0; 3];
     for (x, error) in [
         (f32::NAN, QueryError::NotFinite),
@@ -103,9 +101,9 @@ fn what_is_no_point_is_refused() {
         (2e36, QueryError::OutOfDomain),
     ] {
         let odd = [0.0, x, 1.0];
-        assert_eq!(distance(&triboxes, odd, stack).unwrap_err(), error);
-        assert_eq!(clip(&triboxes, odd, fine, stack).unwrap_err(), error);
-        assert_eq!(clip(&triboxes, fine, odd, stack).unwrap_err(), error);
+        assert_eq!(triboxes.distance(odd, Budget::EXACT, stack).unwrap_err(), error);
+        assert_eq!(triboxes.clip(odd, fine, Budget::EXACT, stack).unwrap_err(), error);
+        assert_eq!(triboxes.clip(fine, odd, Budget::EXACT, stack).unwrap_err(), error);
     }
-    assert_eq!(distance(&triboxes, fine, &mut []).unwrap_err(), QueryError::NoQueue);
+    assert_eq!(triboxes.distance(fine, Budget::EXACT, &mut []).unwrap_err(), QueryError::NoScratch);
 }

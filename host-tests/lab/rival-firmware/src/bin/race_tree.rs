@@ -7,8 +7,8 @@ mod carried;
 #[path = "../tree.rs"]
 mod tree;
 
-use meshsweep_core::num::root;
-use meshsweep_core::query::ClosestPoint;
+use meshsweep_core::internal::num::root;
+use meshsweep_core::ClosestPoint;
 use meshsweep_rival_firmware::race::{self, Engine};
 use tree::BoxTree;
 

@@ -8,7 +8,7 @@ mod bare;
 mod tree;
 
 use bare::Input;
-use meshsweep_core::query::{ClosestPoint, SegmentHit};
+use meshsweep_core::{ClosestPoint, FirstHit};
 use tree::BoxTree;
 
 #[unsafe(no_mangle)]
@@ -26,6 +26,6 @@ extern "C" fn ask_closest(
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_first_hit(input: &Input<'_>, tree: &mut BoxTree, hit: &mut Option<SegmentHit>) {
+extern "C" fn ask_first_hit(input: &Input<'_>, tree: &mut BoxTree, hit: &mut Option<FirstHit>) {
     *hit = tree.first_hit(input.a, input.b);
 }

@@ -8,7 +8,7 @@ mod bare;
 mod tree;
 
 use bare::Input;
-use meshsweep_core::query::ClosestPoint;
+use meshsweep_core::ClosestPoint;
 use tree::BoxTree;
 
 #[unsafe(no_mangle)]

@@ -9,7 +9,7 @@ mod bare;
 mod tree;
 
 use bare::Input;
-use meshsweep_core::query::SegmentHit;
+use meshsweep_core::FirstHit;
 use tree::BoxTree;
 
 #[unsafe(no_mangle)]
@@ -18,6 +18,6 @@ extern "C" fn ask_open(input: &Input<'static>, tree: &mut Option<BoxTree>) {
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_first_hit(input: &Input<'_>, tree: &mut BoxTree, hit: &mut Option<SegmentHit>) {
+extern "C" fn ask_first_hit(input: &Input<'_>, tree: &mut BoxTree, hit: &mut Option<FirstHit>) {
     *hit = tree.first_hit(input.a, input.b);
 }

@@ -1,7 +1,7 @@
 //! Every bound in every way that it can be moved: what is compared, one a row.
 
 use glam::DVec3;
-use meshsweep_core::tribox::Tribox;
+use meshsweep_core::Tribox;
 use meshsweep_host_tests::workload::pose::Pose;
 
 use super::Bounds;

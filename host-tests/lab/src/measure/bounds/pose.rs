@@ -1,6 +1,6 @@
 //! Poses as programs have them, in f32, and as parry3d takes them.
 
-use meshsweep_core::tribox::Pose as Matrix;
+use meshsweep_core::Pose as Matrix;
 use meshsweep_host_tests::workload::pose::Pose;
 use parry3d::math::{Pose as ParryPose, Rotation, Vector};
 

@@ -5,12 +5,12 @@ use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
 use meshsweep_core::Bvh;
-use meshsweep_core::blob::layout::{
-    TIGHT_BYTES, TIGHT_HULL_BYTES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
-    TRIBOXES_BYTES,
+use meshsweep_core::internal::num::Radius16;
+use meshsweep_core::internal::tight::format::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES};
+use meshsweep_core::internal::tribox::FACES;
+use meshsweep_core::internal::tribox::format::layout::{
+    TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
 };
-use meshsweep_core::num::Radius16;
-use meshsweep_core::tribox::FACES;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::sphere::Sphere;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};

@@ -1,8 +1,7 @@
 //! Answers against every triangle in f64: of the surface that the blob stores, and of the input.
 
 use glam::{DVec3, Vec3};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
+use meshsweep_core::{Budget, Bvh};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points};
 use meshsweep_xtask::table::{Table, row, scientific};
@@ -51,7 +50,8 @@ pub fn table(subject: &Subject, grid: &Built, single: &Built) -> Result<Table, S
             let (mut widest, mut width) = (0f64, 0f64);
             for (&point, answer) in asked.iter().zip(&run.answers) {
                 let (here, there) = (stored.distance(point), input.distance(point));
-                let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+                let (lower, upper) =
+                    (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
                 outside += usize::from(!contains(lower, upper, there, point));
                 if lower > 0.0 {
                     middle.push((0.5 * (lower + upper) / here - 1.0).abs());
@@ -113,7 +113,7 @@ fn stored(tree: &Bvh<'_>) -> Result<Vec<[DVec3; 3]>, String> {
         for lane in links.inner..links.count {
             let patch = tree.leaf(node, lane).ok_or("no leaf")?;
             let corners = |triangle| patch.corners(triangle).map(|corner| corner.as_dvec3() * unit);
-            triangles.extend((0..patch.tag().triangles()).map(corners));
+            triangles.extend((0..patch.shape().triangles()).map(corners));
         }
     }
     Ok(triangles)

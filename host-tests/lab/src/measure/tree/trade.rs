@@ -1,7 +1,6 @@
 //! Speed for accuracy: what an early stop costs, guarantees and finds.
 
-use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
+use meshsweep_core::{Budget, Bvh};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points};
 use meshsweep_xtask::table::{Cell, Table, fixed, row, scientific};
@@ -37,12 +36,12 @@ pub fn tables(subject: &Subject, built: &Built) -> Result<[Table; 2], String> {
     let title = "Box tree, closest point within a relative tolerance";
     let mut tolerances = Table::new("tree_tolerance", title, &columns("tolerance %"));
     let stops = TOLERANCES.map(|relative| {
-        (fixed(100.0 * f64::from(relative), 1), Budget { relative, ..Budget::EXACT })
+        (fixed(100.0 * f64::from(relative), 1), Budget::EXACT.with_relative(relative))
     });
     fill(&mut tolerances, subject, &tree, &stops)?;
     let title = "Box tree, closest point after so many opened nodes";
     let mut steps = Table::new("tree_steps", title, &columns("steps"));
-    let stops = STEPS.map(|steps| (Cell::from(steps), Budget { steps, ..Budget::EXACT }));
+    let stops = STEPS.map(|steps| (Cell::from(steps), Budget::EXACT.with_steps(steps)));
     fill(&mut steps, subject, &tree, &stops)?;
     Ok([tolerances, steps])
 }
@@ -59,19 +58,29 @@ fn fill(
         let timed =
             |stop: &Budget| fastest(|| Answers::of(tree, &asked, stop), |run| run.nanoseconds);
         let exact = timed(&Budget::EXACT)?;
-        let quantised = exact.mean(|answer| f64::from(answer.upper - answer.lower));
+        let quantised =
+            exact.mean(|answer| f64::from(answer.distance.upper - answer.distance.lower));
         for (name, stop) in stops {
             let run = timed(stop)?;
-            let width =
-                run.mean(|answer| f64::from(answer.upper) - f64::from(answer.lower)) - quantised;
+            let width = run
+                .mean(|answer| f64::from(answer.distance.upper) - f64::from(answer.distance.lower))
+                - quantised;
             let relative =
                 |excess: f64, of: f32| if of > 0.0 { excess / f64::from(of) } else { 0.0 };
-            let promised = run.mean(|a| relative(f64::from(a.upper) - f64::from(a.lower), a.upper));
+            let promised = run.mean(|a| {
+                relative(
+                    f64::from(a.distance.upper) - f64::from(a.distance.lower),
+                    a.distance.upper,
+                )
+            });
             let pairs = || run.answers.iter().zip(&exact.answers);
             let excess = |pair: (&_, &_)| above(pair.0, pair.1);
-            let found = pairs().map(|pair| relative(excess(pair), pair.1.upper)).sum::<f64>()
-                / COUNT as f64;
-            let finished = pairs().filter(|(early, exact)| early.upper <= exact.upper).count();
+            let found =
+                pairs().map(|pair| relative(excess(pair), pair.1.distance.upper)).sum::<f64>()
+                    / COUNT as f64;
+            let finished = pairs()
+                .filter(|(early, exact)| early.distance.upper <= exact.distance.upper)
+                .count();
             table.push(row![
                 kind.name(),
                 name.clone(),
@@ -93,9 +102,6 @@ fn fill(
 }
 
 /// By how much an upper bound is above the exact query's.
-fn above(
-    early: &meshsweep_core::query::ClosestPoint,
-    exact: &meshsweep_core::query::ClosestPoint,
-) -> f64 {
-    f64::from(early.upper) - f64::from(exact.upper)
+fn above(early: &meshsweep_core::ClosestPoint, exact: &meshsweep_core::ClosestPoint) -> f64 {
+    f64::from(early.distance.upper) - f64::from(exact.distance.upper)
 }

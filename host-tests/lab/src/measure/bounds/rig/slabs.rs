@@ -1,7 +1,7 @@
 //! Slabs in f32: their ranges about moved points, and the comparisons.
 
 use glam::DVec3;
-use meshsweep_core::tribox::Tribox;
+use meshsweep_core::Tribox;
 
 use super::{Motion, Moving, Rig, single};
 use crate::measure::bounds::dop::Slabs;
