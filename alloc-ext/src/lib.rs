@@ -1,23 +1,55 @@
-//! Builds `meshsweep` blobs from mesh files: progressive hulls, split tables, certified radii.
+//! Builds `meshsweep` blobs from mesh files. The program `meshsweep` is its command line.
 //!
 //! ```text
-//! mesh file ─ mesh::read ─ mesh::repair ─ precision::store ─ collapse ─ sweep ─ emit ─ blob
+//! mesh file ─ mesh ─ surface ─┬─ bvh      boxes over triangle fans      ─┐
+//!                             ├─ hull     edge collapses, split tables   │
+//!                             ├─ tight    hulls shrunk onto the mesh     ├─ emit ─ blob
+//!                             └─ tribox   bounds of 18 planes           ─┘
 //! ```
 //!
-//! Each stage takes a value and returns a value and one invariant more; [`hull::build()`] runs
-//! them. The kernels are `meshsweep-core`'s, so that builder and reader compute the same bits; the
-//! core opens what was written before it is handed out.
+//! Each stage takes a value and returns a value with one invariant more. Kernels are those of
+//! `meshsweep-core`, so builder and reader compute the same bits.
+//!
+//! | room | owns |
+//! | --- | --- |
+//! | [`lp`] | the linear program in three variables |
+//! | [`mesh`] | mesh files, what is wrong with a mesh, repair, report |
+//! | [`surface`] | the triangle surface that all builders share |
+//! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
+//! | [`hausdorff`] | certified distances between two meshes |
+//! | [`bvh`], [`hull`], [`tight`], [`tribox`] | one structure each, as in core |
+//! | [`emit`] | sections to bytes; it knows no builder |
+//! | [`cut`] | a coarser blob out of a finer one |
+//!
+//! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
+//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox}` ← `cut` ← the program. A test keeps that
+//! (`host-tests/tests/house.rs`).
 
+pub mod bvh;
 pub mod collapse;
 pub mod counted;
+pub mod cut;
 pub mod emit;
-pub mod fan;
+mod error;
+pub mod hausdorff;
 pub mod hull;
 pub mod lp;
 pub mod mesh;
-pub mod precision;
-pub mod sweep;
+pub mod surface;
 pub mod tight;
-pub mod tree;
 pub mod tribox;
-pub mod wrap;
+
+pub use error::BuildError;
+
+// Paths of before, until their users are moved.
+pub use bvh as tree;
+pub use bvh::fans as fan;
+pub use surface as precision;
+
+/// The names of [`tight`] under which the program and the tests use one hull.
+pub mod wrap {
+    pub use crate::tight::{
+        Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
+        WrapError, split_components, wrap,
+    };
+}

@@ -1,52 +1,115 @@
 //! Geometric questions about triangle meshes, answered from a binary blob where it lies: no heap,
 //! no recursion, no panic.
 //!
-//! A host tool (`meshsweep`) turns a mesh into a blob; [`Model::open`] checks every byte of
-//! it once; the functions of [`query`] then answer with intervals that contain the true distance to
-//! the input mesh in real arithmetic.
+//! A host tool (`meshsweep`) turns a mesh into a blob. [`Blob::open`] checks every byte of it once.
+//! The views that it hands out answer with intervals that contain the true distance to the input
+//! mesh in real arithmetic.
 //!
 //! ```
-//! use meshsweep_core::{Bvh, query::{Budget, tree::{ScratchEntry, closest_point}}};
-//! # fn probe(blob: &[u8]) -> Result<(), Box<dyn core::error::Error>> {
-//! let tree = Bvh::open(blob)?;
-//! let mut stack = [ScratchEntry::EMPTY; 64]; // `tree.header().stack_entries` says what this mesh needs
-//! let answer = closest_point(&tree, [0.1, 0.2, 0.3], &Budget::EXACT, &mut stack)?;
-//! assert!(answer.lower <= answer.upper);
-//! # Ok(()) }
+//! use meshsweep_core::{Blob, Budget, Scratch};
+//!
+//! // By `meshsweep build groove.obj -o groove.msw`.
+//! let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+//! let part = Blob::open(bytes)?.bvh()?;
+//! let mut scratch = Scratch::<64>::new(); // `part.scratch_entries()` says how many are enough
+//! let near = part.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch)?;
+//! assert!(near.distance.lower <= near.distance.upper);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
+//!
+//! # Which structure answers
+//! | question | method |
+//! | --- | --- |
+//! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_points`] |
+//! | closest point of a query that moves little | [`CoherentQuery::closest_point`] |
+//! | is the mesh within a distance; the nearest triangles | [`Bvh::within`], [`Bvh::all_within`], [`Bvh::nearest`] |
+//! | inside or outside | [`Bvh::signed_distance`] |
+//! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
+//! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
+//! | triangles that may face an eye | [`Bvh::front_facing`] |
+//! | the same of a part that is known by a hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
+//! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |
+//! | the faces of a nested hull; hits from outside | [`Hull::faces`], [`Hull::outer_hits`] |
 //!
 //! # Layers
-//! Each layer may use those to its left and no other: `num` ← `geom` ← `fan` ← {`tree`, `refine`} ←
-//! `query`, with `blob` under the last three. `geom` and `fan` know no bytes; of geometry `blob`
-//! knows the box and how lanes of a fan lie side by side.
+//! A folder may use those to its left in this line and no other:
+//! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`} ← `tight` ← `blob`.
 //!
 //! | folder | owns |
 //! | --- | --- |
-//! | [`num`] | directed rounding, stored radii, every tolerance with its derivation |
-//! | [`geom`] | closed-form kernels: point–triangle, segment–triangle, swept triangle |
-//! | [`fan`] | point–fan and ray–fan kernels, scalar and eight lanes wide; normal cones |
-//! | [`blob`] | the format: header, sections, checked views; the only place that reads bytes |
-//! | [`tree`] | the box tree: eight boxes at a time |
-//! | [`tribox`] | bounds of eighteen planes: closure, boundary, reach |
-//! | [`refine`] | split tables: the selectively refined hull, the faces of a level |
-//! | [`query`] | one file per question; stop rules, intervals, work counters |
+//! | `num` | rounding-aware scalars, stored radii, every tolerance with its derivation |
+//! | `geom` | closed-form kernels: point–triangle, segment–triangle, triangle pair, box, fan, swept triangle; they know no bytes |
+//! | `format` | what all structures share of the bytes: header, section table, CRC, reading numbers |
+//! | `query` | what all questions share: [`Budget`], [`Scratch`], intervals, work counters, errors |
+//! | `bvh` | the box tree over fans, one file per question |
+//! | `hull` | split tables: levels, the refined hull, the cover tree |
+//! | `tribox` | bounds of eighteen planes, and their hierarchy |
+//! | `tight` | tight hulls, whose index is a box tree |
+//! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
+//!
+//! Each structure has its bytes in a folder `format`: `layout` (sizes and offsets), `view`,
+//! `check`.
 //!
 //! # The same bits everywhere
 //! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is
-//! `libm`'s, which is correctly rounded on every target; the box tree's is [`num::sqrt_approx`]. The same
-//! blob and query give the same bits on a workstation and on a Cortex-M0.
+//! `libm`'s, which is correctly rounded on every target; the box tree has its own, of products and
+//! sums. The same blob and query give the same bits on a workstation and on a Cortex-M0.
 
 #![no_std]
 #![forbid(unsafe_code)]
 
-pub mod blob;
-pub mod fan;
-pub mod geom;
-pub mod num;
-pub mod query;
-pub mod refine;
-pub mod tree;
-pub mod tribox;
+mod blob;
+mod bvh;
+mod format;
+mod geom;
+mod hull;
+mod num;
+mod query;
+mod tight;
+mod tribox;
 
-pub use blob::{Bvh, Model, OpenError, TightHull, TightHulls, Triboxes};
-pub use query::{QueryError, QueueEntry};
+pub use blob::Blob;
+pub use bvh::{
+    AllWithin, AnyHit, Bvh, CoherentClosest, CoherentQuery, Eye, Facing, FrontFacing, Hint,
+    KNearest, Neighbor, Overlap, Overlaps, SignedDistance, TrianglePair, Within,
+};
+pub use format::layout::{BuildFor, SectionKind};
+pub use format::{OpenError, Section};
+pub use geom::Pose;
+pub use hull::format::VertIdx;
+pub use hull::{Face, Hull, HullFace, Level, OuterHits, RefinedHull, Search};
+pub use query::{
+    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, QueryError, Scratch,
+    ScratchEntry, Side, Undecided, Verdict, Work,
+};
+pub use tight::{TightHull, TightHulls, TightRecord};
+pub use tribox::{
+    Bound, Boundary, Candidates, NodePair, Separation, Tribox, TriboxError, TriboxLevel, Triboxes,
+};
+
+/// The rooms, for the builder, the checker and the laboratory. It promises nothing.
+#[doc(hidden)]
+#[allow(missing_docs, reason = "each room documents itself")]
+pub mod internal {
+    pub mod num {
+        pub use crate::num::*;
+    }
+    pub mod geom {
+        pub use crate::geom::*;
+    }
+    pub mod format {
+        pub use crate::format::*;
+    }
+    pub mod bvh {
+        pub use crate::bvh::*;
+    }
+    pub mod hull {
+        pub use crate::hull::*;
+    }
+    pub mod tribox {
+        pub use crate::tribox::*;
+    }
+    pub mod tight {
+        pub use crate::tight::*;
+    }
+}

@@ -1,16 +1,54 @@
-//! Blobs and answers that are committed: whoever computes other bits, another machine or a later
-//! version, is noticed.
+//! Blobs and answers that are committed. A machine or a version that computes other bits is noticed.
 
-use meshsweep::emit::{self, Parts};
+use std::fs;
+use std::path::Path;
+
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::hull::BuildOptions;
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, chain};
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep::tribox::store;
 use meshsweep_suite::ask::{Refused, Subject, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
+use crate::generate::fixtures::write_fixtures;
 use crate::generate::{bracket, groove_block, torus};
+use crate::workload;
+
+/// Writes the committed fixtures: meshes by their generators, blobs by the builder, then answers.
+///
+/// # Errors
+/// A file that cannot be written, or a blob that the core refuses.
+pub fn write(folder: &Path) -> Result<(), String> {
+    let put = |name: &str, bytes: &[u8]| {
+        let file = folder.join(name);
+        fs::write(&file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
+    };
+    write_fixtures(folder)
+        .map_err(|error| format!("cannot write {}: {error}", folder.display()))?;
+    let hull = bracket_model(folder)?;
+    let (tree, triboxes, tight) = (groove_tree(), torus_triboxes(), bracket_hulls());
+    put("bracket.msw", &hull)?;
+    put("groove.msw", &tree)?;
+    put("torus.msw", &triboxes)?;
+    put("hulls.msw", &tight)?;
+    let refused = |refused| format!("the core refuses the blob: {refused:?}");
+    let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
+        + &tree_answers("groove.msw", &tree).map_err(refused)?
+        + &tribox_answers("torus.msw", &triboxes).map_err(refused)?
+        + &tight_answers("hulls.msw", &tight).map_err(refused)?;
+    put("answers.txt", answers.as_bytes())
+}
+
+/// The blob of `bracket.stl` with the builder's defaults.
+///
+/// # Errors
+/// The file is missing.
+pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
+    let subject = workload::Subject::load(&folder.join("bracket.stl"))?;
+    Ok(subject.build_with(&BuildOptions::default())?.bytes)
+}
 
 /// The box tree of `groove_block()`, with every section that a tree can have.
 #[must_use]
@@ -18,8 +56,8 @@ pub fn groove_tree() -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
     let options = TreeOptions { cull: true, ..TreeOptions::default() };
-    let (tables, _) = build(&mesh, 0.0, mesh.triangles.len(), &options);
-    emit::blob(None, Some(&tables))
+    let (tables, _) = build(mesh.as_input(), &options);
+    tables.to_bytes()
 }
 
 /// 64 triboxes of the torus of the fixtures, and nothing else.
@@ -30,8 +68,8 @@ pub fn groove_tree() -> Vec<u8> {
 pub fn torus_triboxes() -> Vec<u8> {
     let (positions, triangles) = torus(2.0, 0.75, 48, 24);
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = store(&mesh, 0.0, mesh.triangles.len(), 64).expect("in the domain");
-    emit::assemble(&Parts { triboxes: Some(&tables), ..Parts::default() })
+    let (tables, _) = store(mesh.as_input(), 64).expect("in the domain");
+    tables.to_bytes()
 }
 
 /// Tight hulls of the bracket, and nothing else.
@@ -43,10 +81,9 @@ pub fn bracket_hulls() -> Vec<u8> {
     let (positions, triangles) = bracket();
     let mesh = Mesh::new(positions, triangles);
     // Little polish: a test makes them again.
-    let options = ChainOptions { faces: vec![64, 160], effort: 0.1, ..ChainOptions::default() };
-    let (tables, _) =
-        chain(&mesh, 0.0, mesh.triangles.len(), &options, |_| {}).expect("room around it");
-    emit::assemble(&Parts { tight: Some(&tables), ..Parts::default() })
+    let options = ChainOptions::of_faces(&[64, 160]).with_effort(0.1);
+    let (tables, _) = chain(mesh.as_input(), &options, |_| {}).expect("room around it");
+    tables.to_bytes()
 }
 
 /// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash

@@ -1,10 +1,22 @@
-//! Oracles, generators and corrupters that the tests, benches and fuzz targets share.
+//! Oracles, generators and corrupters that the tests, the laboratory and the fuzz targets share.
 
+pub mod blobs;
 pub mod check;
 pub mod corrupt;
+pub mod counted;
 pub mod fuzz_targets;
 pub mod generate;
 pub mod golden;
-pub mod measure;
 pub mod oracle;
-pub mod race;
+pub mod scene;
+pub mod workload;
+
+/// The Rust of `README.md`, run as it stands.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}
+
+/// The recipes of the guide.
+#[cfg(doctest)]
+#[doc = include_str!("../../core/docs/guide.md")]
+mod guide {}

@@ -1,16 +1,18 @@
-//! The greedy loop: cheapest legal collapse first.
+//! The progressive hull of a mesh: its edges as the [greedy loop](super::greedy) sees them, and the
+//! record of its collapses.
 //!
 //! Costs are evaluated lazily: after a collapse only the edges of the new vertex are evaluated at
 //! once; other edges around it keep their old cost until they reach the top of the queue. With few
 //! faces left, where every choice shows, evaluation is eager, as in the paper. `core/DESIGN.md` has
 //! the measurements.
 
+use super::greedy::{self, Candidate, Collapsing, Schedule};
 use super::history::{Collapse, History};
 use super::placement::{Placement, Refusal};
-use super::queue::{Candidate, Queue};
+use super::star::Connectivity;
 use super::surface::Surface;
 use super::{Conditions, Priority};
-use crate::precision::Grid;
+use crate::surface::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -50,16 +52,18 @@ enum EdgeState {
 
 /// A mesh being collapsed.
 pub struct Engine {
+    edges: Edges,
+    schedule: Schedule,
+}
+
+/// The edges of the mesh, and the record of their collapses.
+struct Edges {
     surface: Surface,
     /// Label of the vertex that now sits in each slot.
     labels: Vec<u32>,
     /// Instance of the triangle that now sits in each slot.
     instances: Vec<u32>,
-    /// When the star of each vertex last changed.
-    changed: Vec<u32>,
-    now: u32,
-    queue: Queue,
-    edges: FxHashMap<[u32; 2], EdgeState>,
+    states: FxHashMap<[u32; 2], EdgeState>,
     around: Vec<[u32; 2]>,
     history: History,
     priority: Priority,
@@ -74,14 +78,11 @@ impl Engine {
         priority: Priority,
         grid: Grid,
     ) -> Self {
-        let mut engine = Engine {
+        let mut edges = Edges {
             surface: Surface::new(positions.to_vec(), triangles, conditions, grid),
             labels: (0..positions.len() as u32).collect(),
             instances: (0..triangles.len() as u32).collect(),
-            changed: vec![0; positions.len()],
-            now: 1,
-            queue: Queue::new(),
-            edges: FxHashMap::default(),
+            states: FxHashMap::default(),
             around: Vec::new(),
             history: History {
                 positions: positions.to_vec(),
@@ -91,93 +92,73 @@ impl Engine {
             },
             priority,
         };
-        engine.edges.reserve(triangles.len() * 3 / 2);
-        for &[a, b, c] in triangles {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                if from < to {
-                    engine.evaluate([from, to]);
-                }
-            }
+        edges.states.reserve(triangles.len() * 3 / 2);
+        let mut schedule = Schedule::new(positions.len());
+        for ends in edges.surface.mesh.edges() {
+            edges.evaluate(ends, &mut schedule);
         }
-        engine
+        Engine { edges, schedule }
     }
 
     /// Where the loop stands.
     pub fn progress(&self) -> Progress {
-        Progress {
-            faces: self.surface.mesh.alive_count(),
-            collapses: self.history.collapses.len(),
-            programs: self.surface.programs,
-        }
+        self.edges.progress()
     }
 
     /// Volume that all collapses have added, local frame.
     pub fn added_volume(&self) -> f64 {
-        self.history.added_volume.iter().sum()
+        self.edges.history.added_volume.iter().sum()
     }
 
     /// Positions by label, those that are gone too.
     pub fn positions(&self) -> &[DVec3] {
-        &self.history.positions
+        &self.edges.history.positions
     }
 
     /// Faces now, corners as labels of [`History`].
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let alive =
-            (0..self.surface.mesh.corners.len() as u32).filter(|&t| self.surface.mesh.is_alive(t));
-        alive.map(|t| self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]))
+        self.edges.faces()
     }
 
     /// Collapses until at most `target` faces are left, `Some` if no legal collapse gets there.
     pub fn run(&mut self, target: usize, mut on_progress: impl FnMut(Progress)) -> Option<Stuck> {
-        while self.surface.mesh.alive_count() > target {
-            if !self.step() {
-                return Some(self.why_stuck());
+        let show = |edges: &Edges| {
+            if edges.history.collapses.len().is_multiple_of(1024) {
+                on_progress(edges.progress());
             }
-            if self.history.collapses.len().is_multiple_of(1024) {
-                on_progress(self.progress());
-            }
+        };
+        if !greedy::run(&mut self.edges, &mut self.schedule, target, show) {
+            return Some(self.edges.why_stuck());
         }
         on_progress(self.progress());
         None
     }
 
     /// Ends the loop: labels and instances of what is left go into the history.
-    pub fn finish(mut self) -> History {
-        for t in 0..self.surface.mesh.corners.len() as u32 {
-            if self.surface.mesh.is_alive(t) {
-                let corners =
-                    self.surface.mesh.corners[t as usize].map(|v| self.labels[v as usize]);
-                self.history.base.push(corners);
-                self.history.base_instances.push(self.instances[t as usize]);
-            }
+    pub fn finish(self) -> History {
+        let Edges { surface, labels, instances, mut history, .. } = self.edges;
+        for t in surface.mesh.alive() {
+            history.base.push(surface.mesh.corners[t as usize].map(|v| labels[v as usize]));
+            history.base_instances.push(instances[t as usize]);
         }
-        self.history
+        history
+    }
+}
+
+impl Collapsing for Edges {
+    type Note = ();
+
+    fn mesh(&self) -> &Connectivity {
+        &self.surface.mesh
     }
 
-    /// One collapse; `false` if the queue has run dry.
-    fn step(&mut self) -> bool {
-        while let Some(candidate) = self.queue.pop() {
-            let [a, b] = candidate.ends;
-            if !matches!(self.edges.get(&candidate.ends), Some(EdgeState::Queued(time)) if *time == candidate.time)
-            {
-                continue;
-            }
-            let changed = self.changed[a as usize].max(self.changed[b as usize]);
-            if candidate.time < changed {
-                // The cost is of another star. An edge that is gone has lost its state, see
-                // `apply`.
-                self.evaluate(candidate.ends);
-            } else if self.collapse(&candidate) {
-                return true;
-            }
-        }
-        false
+    fn is_valid(&self, candidate: &Candidate) -> bool {
+        // An edge that is gone has lost its state, see `apply`.
+        matches!(self.states.get(&candidate.ends), Some(EdgeState::Queued(time)) if *time == candidate.time)
     }
 
-    /// Queues an edge by its cost now. A refused edge is remembered and comes back when something
-    /// near it changes.
-    fn evaluate(&mut self, ends: [u32; 2]) {
+    /// A refused edge is remembered and comes back when something near it changes.
+    fn evaluate(&mut self, ends: [u32; 2], schedule: &mut Schedule) {
         let cost = if !self.surface.gather(ends) {
             Err(Refusal::NoVertex)
         } else if self.priority == Priority::Span {
@@ -186,22 +167,9 @@ impl Engine {
             self.surface.place(ends, false).map(|placement| placement.volume)
         };
         match cost {
-            Ok(cost) => self.enqueue(cost, ends, self.now),
+            Ok(cost) => self.enqueue(cost, ends, schedule.now(), schedule),
             Err(refusal) => self.refuse(ends, refusal),
         }
-    }
-
-    fn enqueue(&mut self, cost: f64, ends: [u32; 2], time: u32) {
-        self.edges.insert(ends, EdgeState::Queued(time));
-        self.queue.push(Candidate { cost, ends, time });
-    }
-
-    fn refuse(&mut self, ends: [u32; 2], refusal: Refusal) {
-        let cost = match refusal {
-            Refusal::NoVertex => 0.0,
-            Refusal::Condition(cost) => cost,
-        };
-        self.edges.insert(ends, EdgeState::Refused(cost));
     }
 
     /// Places the vertex exactly and collapses; `false` if it is refused after all, or put back.
@@ -210,7 +178,7 @@ impl Engine {
     /// priority promised goes back and waits for its turn by that; the paper would apply it. It
     /// costs no further program for the edges that do collapse at once, and keeps the worst of
     /// them from the last few hundred faces.
-    fn collapse(&mut self, candidate: &Candidate) -> bool {
+    fn collapse(&mut self, candidate: &Candidate, schedule: &mut Schedule) -> bool {
         let ends = candidate.ends;
         let placed = if self.surface.gather(ends) {
             self.surface.place(ends, true)
@@ -226,17 +194,72 @@ impl Engine {
                 if self.priority == Priority::Span
                     && placement.volume > 6.000_001 * candidate.cost =>
             {
-                self.enqueue(placement.volume / 6.0, ends, self.now);
+                self.enqueue(placement.volume / 6.0, ends, schedule.now(), schedule);
                 false
             }
-            Ok(placement) => self.apply(ends, placement),
+            Ok(placement) => self.apply(ends, placement).is_some(),
         }
     }
 
-    fn apply(&mut self, [a, b]: [u32; 2], placement: Placement) -> bool {
-        let Some(ring) = self.surface.mesh.ring(a, b) else { return false };
-        let wings = (self.surface.mesh.leaving(b, a), self.surface.mesh.leaving(a, b));
-        let (Some(right_wing), Some(left_wing)) = wings else { return false };
+    /// Edges of the new vertex are evaluated at once, refused ones get another chance, and the rest
+    /// are found stale when they come out of the queue.
+    fn reconsider(&mut self, vertex: u32, ring: &[u32], schedule: &mut Schedule) {
+        for &v in ring {
+            self.evaluate([vertex.min(v), vertex.max(v)], schedule);
+        }
+        let eager = self.surface.mesh.alive_count() <= EAGER_BELOW;
+        let mut around = std::mem::take(&mut self.around);
+        around.clear();
+        for &v in ring {
+            let others = self.surface.mesh.neighbours(v).filter(|&w| w != vertex);
+            around.extend(others.map(|w| [v.min(w), v.max(w)]));
+        }
+        if eager {
+            around.sort_unstable();
+            around.dedup();
+        }
+        for &ends in &around {
+            if eager {
+                self.evaluate(ends, schedule);
+            } else if let Some(&EdgeState::Refused(cost)) = self.states.get(&ends) {
+                self.enqueue(cost, ends, 0, schedule);
+            }
+        }
+        self.around = around;
+    }
+}
+
+impl Edges {
+    fn progress(&self) -> Progress {
+        Progress {
+            faces: self.surface.mesh.alive_count(),
+            collapses: self.history.collapses.len(),
+            programs: self.surface.programs,
+        }
+    }
+
+    fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let label = |v: u32| self.labels[v as usize];
+        self.surface.mesh.alive().map(move |t| self.surface.mesh.corners[t as usize].map(label))
+    }
+
+    fn enqueue(&mut self, cost: f64, ends: [u32; 2], time: u32, schedule: &mut Schedule) {
+        self.states.insert(ends, EdgeState::Queued(time));
+        schedule.add(Candidate { cost, rank: 0, ends, time, note: () });
+    }
+
+    fn refuse(&mut self, ends: [u32; 2], refusal: Refusal) {
+        let cost = match refusal {
+            Refusal::NoVertex => 0.0,
+            Refusal::Condition(cost) => cost,
+        };
+        self.states.insert(ends, EdgeState::Refused(cost));
+    }
+
+    fn apply(&mut self, [a, b]: [u32; 2], placement: Placement) -> Option<()> {
+        let ring = self.surface.mesh.ring(a, b)?;
+        let right_wing = self.surface.mesh.leaving(b, a)?;
+        let left_wing = self.surface.mesh.leaving(a, b)?;
         let index = self.history.collapses.len();
         let vertex = self.history.positions.len() as u32;
         let label = |slot: u32| self.labels[slot as usize];
@@ -255,9 +278,8 @@ impl Engine {
         self.history.positions.push(placement.position);
         self.history.added_volume.push(placement.volume / 6.0);
 
-        self.now += 1;
         for v in self.surface.mesh.neighbours(b) {
-            self.edges.remove(&[b.min(v), b.max(v)]);
+            self.states.remove(&[b.min(v), b.max(v)]);
         }
         self.surface.mesh.collapse(a, b);
         self.surface.move_vertex(a, placement.position);
@@ -266,67 +288,20 @@ impl Engine {
         for (i, &t) in ring.triangles.iter().enumerate() {
             self.instances[t as usize] = first + i as u32;
         }
-        self.changed[a as usize] = self.now;
-        for &v in &ring.vertices {
-            self.changed[v as usize] = self.now;
-        }
-        self.reconsider(a, &ring.vertices);
-        true
-    }
-
-    /// Edges whose star the collapse has changed: those of the new vertex are evaluated at once,
-    /// refused ones get another chance, and the rest are found stale when they come out of the
-    /// queue.
-    fn reconsider(&mut self, vertex: u32, ring: &[u32]) {
-        for &v in ring {
-            self.evaluate([vertex.min(v), vertex.max(v)]);
-        }
-        let eager = self.surface.mesh.alive_count() <= EAGER_BELOW;
-        let mut around = std::mem::take(&mut self.around);
-        around.clear();
-        for &v in ring {
-            around.extend(
-                self.surface
-                    .mesh
-                    .neighbours(v)
-                    .filter(|&w| w != vertex)
-                    .map(|w| [v.min(w), v.max(w)]),
-            );
-        }
-        if eager {
-            around.sort_unstable();
-            around.dedup();
-        }
-        for &ends in &around {
-            if eager {
-                self.evaluate(ends);
-            } else if let Some(&EdgeState::Refused(cost)) = self.edges.get(&ends) {
-                self.enqueue(cost, ends, 0);
-            }
-        }
-        self.around = around;
+        Some(())
     }
 
     /// Tries every edge once more to say what is in the way.
     fn why_stuck(&mut self) -> Stuck {
         let mut stuck = Stuck::default();
-        for t in 0..self.surface.mesh.corners.len() as u32 {
-            if !self.surface.mesh.is_alive(t) {
+        for ends in self.surface.mesh.edges() {
+            if !self.surface.gather(ends) {
+                stuck.topology += 1;
                 continue;
             }
-            let [a, b, c] = self.surface.mesh.corners[t as usize];
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                if from > to {
-                    continue;
-                }
-                if !self.surface.gather([from, to]) {
-                    stuck.topology += 1;
-                    continue;
-                }
-                match self.surface.place([from, to], true) {
-                    Err(Refusal::Condition(_)) => stuck.shape += 1,
-                    Err(Refusal::NoVertex) | Ok(_) => stuck.no_vertex += 1,
-                }
+            match self.surface.place(ends, true) {
+                Err(Refusal::Condition(_)) => stuck.shape += 1,
+                Err(Refusal::NoVertex) | Ok(_) => stuck.no_vertex += 1,
             }
         }
         stuck

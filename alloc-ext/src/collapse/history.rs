@@ -37,7 +37,7 @@ pub struct History {
     /// Ring labels of all collapses, counter-clockwise, each starting at the left wing.
     pub rings: Vec<u32>,
     /// Instances of the fine fragment of each collapse, `ring_len + 2` each, in the slot order of
-    /// [`Split`](meshsweep_core::blob::Split).
+    /// [`Split`](meshsweep_core::internal::hull::format::Split).
     pub fine: Vec<u32>,
     /// Volume that each collapse adds, local frame.
     pub added_volume: Vec<f64>,

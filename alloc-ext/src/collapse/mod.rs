@@ -2,17 +2,18 @@
 //! that can be inverted.
 //!
 //! Progressive hulls after Platis & Theoharis 2003, 3.1. Topology never looks at positions
-//! (`star`), placement never at topology (`placement`), and the queue at neither (`queue`).
+//! (`star`), placement never at topology (`placement`), and the loop at neither (`greedy`).
 
 mod engine;
+mod greedy;
 mod history;
 mod placement;
-mod queue;
 mod star;
 mod surface;
 mod thin;
 
 pub use engine::{Engine, Progress, Stuck};
+pub(crate) use greedy::{Candidate, Collapsing, Schedule, run};
 pub use history::{Collapse, History, VertexOrder};
 pub use star::{Connectivity, MAX_STAR, Wings};
 pub use thin::thin;

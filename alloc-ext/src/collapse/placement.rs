@@ -4,7 +4,7 @@
 
 use super::Conditions;
 use crate::lp::{HalfSpace, minimise_bounded};
-use crate::precision::Grid;
+use crate::surface::Grid;
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 

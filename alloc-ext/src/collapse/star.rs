@@ -46,6 +46,20 @@ impl Connectivity {
         self.alive[triangle as usize]
     }
 
+    /// Numbers of the triangles that are left.
+    pub fn alive(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.corners.len() as u32).filter(|&t| self.is_alive(t))
+    }
+
+    /// Each edge that is left once, lesser end first, in the order of the triangles.
+    pub fn edges(&self) -> Vec<[u32; 2]> {
+        let edges = self.alive().flat_map(|t| {
+            let [a, b, c] = self.corners[t as usize];
+            [[a, b], [b, c], [c, a]]
+        });
+        edges.filter(|[a, b]| a < b).collect()
+    }
+
     /// Triangles at a vertex, in no order; none once it was collapsed away.
     #[inline]
     pub fn at(&self, vertex: u32) -> &[u32] {

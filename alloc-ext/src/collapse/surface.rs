@@ -4,7 +4,7 @@ use super::Conditions;
 use super::placement::{Facet, Placement, Refusal, StarFace, place};
 use super::star::Connectivity;
 use crate::lp::HalfSpace;
-use crate::precision::Grid;
+use crate::surface::{Grid, compact_in_order};
 use glam::DVec3;
 
 /// A closed manifold mesh while its edges are collapsed.
@@ -123,17 +123,6 @@ impl Surface {
 
     /// Positions and triangles without gaps, each in the order that it had.
     pub fn compact(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-        let mut number = vec![u32::MAX; self.positions.len()];
-        let mut positions = Vec::new();
-        for v in 0..self.positions.len() as u32 {
-            if !self.mesh.at(v).is_empty() {
-                number[v as usize] = positions.len() as u32;
-                positions.push(self.positions[v as usize]);
-            }
-        }
-        let alive = (0..self.mesh.corners.len() as u32).filter(|&t| self.mesh.is_alive(t));
-        let triangles = alive.map(|t| self.mesh.corners[t as usize].map(|v| number[v as usize]));
-        let triangles = triangles.collect();
-        (positions, triangles)
+        compact_in_order(&self.positions, self.mesh.alive().map(|t| self.mesh.corners[t as usize]))
     }
 }

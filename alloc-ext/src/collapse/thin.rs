@@ -5,8 +5,10 @@
 //! as long: it solves a program for each edge around each collapse, and reads memory in no order.
 
 use super::Conditions;
+use super::greedy::{self, Candidate, Collapsing, Schedule};
+use super::star::Connectivity;
 use super::surface::Surface;
-use crate::precision::Grid;
+use crate::surface::Grid;
 use glam::DVec3;
 
 /// Part of the edges that a round tries, the cheapest: with more the hull grows into itself in
@@ -26,93 +28,121 @@ pub fn thin(
     target: usize,
     conditions: Conditions,
     grid: Grid,
-    mut stop: impl FnMut(usize) -> bool,
+    stop: impl FnMut(usize) -> bool,
 ) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let mut surface = Surface::new(positions.to_vec(), triangles, conditions, grid);
-    let mut costs = Costs::new(&surface);
-    loop {
-        costs.update(&surface);
-        let cheapest = costs.cheapest();
-        costs.is_stale.fill(false);
-        let mut collapsed = 0;
-        for &(_, edge) in &cheapest {
-            if surface.mesh.alive_count() <= target + 1 {
-                return surface.compact();
+    let mut schedule = Schedule::new(positions.len());
+    let surface = Surface::new(positions.to_vec(), triangles, conditions, grid);
+    let mut rounds = Rounds { surface, conditions, grid, costs: Vec::new(), round: None, stop };
+    greedy::run(&mut rounds, &mut schedule, target + 1, |_| ());
+    rounds.surface.compact()
+}
+
+/// A surface whose edges are evaluated once a round.
+struct Rounds<F> {
+    surface: Surface,
+    conditions: Conditions,
+    grid: Grid,
+    /// Cost of edge `3 · t + k`, which runs from corner `k` of triangle `t` to the next one. It
+    /// counts where the first end is the lesser.
+    costs: Vec<f64>,
+    round: Option<Round>,
+    stop: F,
+}
+
+/// A round of collapses.
+struct Round {
+    /// When it began.
+    time: u32,
+    tried: usize,
+    collapsed: usize,
+}
+
+impl<F: FnMut(usize) -> bool> Collapsing for Rounds<F> {
+    type Note = ();
+
+    fn mesh(&self) -> &Connectivity {
+        &self.surface.mesh
+    }
+
+    /// A round does not try an edge again whose star has changed.
+    fn evaluate(&mut self, _ends: [u32; 2], _schedule: &mut Schedule) {}
+
+    fn is_valid(&self, _candidate: &Candidate) -> bool {
+        true
+    }
+
+    fn collapse(&mut self, candidate: &Candidate, _schedule: &mut Schedule) -> bool {
+        let [a, b] = candidate.ends;
+        let placed =
+            if self.surface.gather([a, b]) { self.surface.place([a, b], true).ok() } else { None };
+        let Some(placement) = placed else {
+            // Refused as long as its star is the same.
+            self.costs[candidate.rank as usize] = f64::INFINITY;
+            return false;
+        };
+        self.surface.mesh.collapse(a, b);
+        self.surface.move_vertex(a, placement.position);
+        if let Some(round) = &mut self.round {
+            round.collapsed += 1;
+        }
+        true
+    }
+
+    /// The next round.
+    fn refill(&mut self, schedule: &mut Schedule) -> bool {
+        let mesh = &self.surface.mesh;
+        if let Some(Round { tried, collapsed, .. }) = self.round {
+            if collapsed * TOO_FEW <= tried || (self.stop)(mesh.alive_count()) {
+                return false;
             }
-            let [a, b] = costs.ends(&surface, edge);
-            if costs.is_stale[a as usize] || costs.is_stale[b as usize] {
-                continue;
+            if mesh.alive_count() * 2 < mesh.corners.len() {
+                let (positions, triangles) = self.surface.compact();
+                *schedule = Schedule::new(positions.len());
+                self.surface = Surface::new(positions, &triangles, self.conditions, self.grid);
+                self.costs.clear();
             }
-            let placed =
-                if surface.gather([a, b]) { surface.place([a, b], true).ok() } else { None };
-            let Some(placement) = placed else {
-                // Refused as long as its star is the same.
-                costs.of[edge as usize] = f64::INFINITY;
-                continue;
-            };
-            surface.mesh.collapse(a, b);
-            surface.move_vertex(a, placement.position);
-            costs.is_stale[a as usize] = true;
-            surface.mesh.neighbours(a).for_each(|v| costs.is_stale[v as usize] = true);
-            collapsed += 1;
         }
-        if collapsed * TOO_FEW <= cheapest.len() || stop(surface.mesh.alive_count()) {
-            return surface.compact();
+        self.update_costs(schedule);
+        let cheapest = self.cheapest();
+        let time = schedule.now();
+        self.round = Some(Round { time, tried: cheapest.len(), collapsed: 0 });
+        for (cost, rank) in cheapest {
+            schedule.add(Candidate { cost, rank, ends: self.ends(rank), time, note: () });
         }
-        if surface.mesh.alive_count() * 2 < surface.mesh.corners.len() {
-            let (positions, triangles) = surface.compact();
-            surface = Surface::new(positions, &triangles, conditions, grid);
-            costs = Costs::new(&surface);
-        }
+        true
     }
 }
 
-/// What edges cost: edge `3 · t + k` is that between corners `k` and `k + 1` of triangle `t`, and
-/// counts where the first is the lesser.
-struct Costs {
-    of: Vec<f64>,
-    /// By vertex, whether its star is another than when its edges were evaluated.
-    is_stale: Vec<bool>,
-}
-
-impl Costs {
-    fn new(surface: &Surface) -> Self {
-        Self {
-            of: vec![f64::INFINITY; 3 * surface.mesh.corners.len()],
-            is_stale: vec![true; surface.positions.len()],
-        }
-    }
-
-    fn ends(&self, surface: &Surface, edge: u32) -> [u32; 2] {
-        let corners = surface.mesh.corners[edge as usize / 3];
+impl<F> Rounds<F> {
+    fn ends(&self, edge: u32) -> [u32; 2] {
+        let corners = self.surface.mesh.corners[edge as usize / 3];
         [corners[edge as usize % 3], corners[(edge as usize + 1) % 3]]
     }
 
-    fn update(&mut self, surface: &Surface) {
-        for t in 0..surface.mesh.corners.len() as u32 {
-            let [a, b, c] = surface.mesh.corners[t as usize];
-            let is_alive = surface.mesh.is_alive(t);
-            for (k, [a, b]) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
-                let cost = &mut self.of[3 * t as usize + k];
-                if !is_alive || a > b {
-                    *cost = f64::INFINITY;
-                } else if self.is_stale[a as usize] || self.is_stale[b as usize] {
-                    *cost = surface.span([a, b]);
-                }
+    /// Evaluates the edges whose stars the last round has changed, or all.
+    fn update_costs(&mut self, schedule: &Schedule) {
+        let edge_count = 3 * self.surface.mesh.corners.len();
+        let last = self.round.as_ref().map_or(0, |round| round.time);
+        let all = self.costs.len() != edge_count;
+        self.costs.resize(edge_count, f64::INFINITY);
+        for edge in 0..edge_count as u32 {
+            let ends = self.ends(edge);
+            if !self.surface.mesh.is_alive(edge / 3) || ends[0] > ends[1] {
+                self.costs[edge as usize] = f64::INFINITY;
+            } else if all || schedule.is_stale(ends, last) {
+                self.costs[edge as usize] = self.surface.span(ends);
             }
         }
     }
 
     fn cheapest(&self) -> Vec<(f64, u32)> {
-        let all = self.of.iter().zip(0u32..).filter(|(cost, _)| **cost < f64::INFINITY);
+        let all = self.costs.iter().zip(0u32..).filter(|(cost, _)| **cost < f64::INFINITY);
         let mut all: Vec<(f64, u32)> = all.map(|(&cost, edge)| (cost, edge)).collect();
         let tried = (all.len() as f64 * TRIED) as usize + 1;
-        let by_cost = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
         if tried < all.len() {
-            all.select_nth_unstable_by(tried, by_cost);
+            all.select_nth_unstable_by(tried, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             all.truncate(tried);
         }
-        all.sort_unstable_by(by_cost);
         all
     }
 }
@@ -121,7 +151,7 @@ impl Costs {
 mod tests {
     use super::*;
     use crate::mesh::{Mesh, require_closed_manifold};
-    use crate::precision::{VertexBits, store};
+    use crate::surface::{VertexBits, store};
     use robust::{Coord3D, orient3d};
 
     /// A lumpy torus around the z-axis.

@@ -1,18 +1,22 @@
 //! The stages in order, and what they report.
 
-use super::one_sided::hull_to_surface;
+use super::cover::{Cover, Offspring, plant};
+use super::forest::{Forest, grow};
+use super::groups::{base_groups, sort_base};
+use super::tables::{NodeRecord, SplitRecord, Tables};
 use super::wires::wires_off_surface;
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
-use crate::emit::{NodeRecord, SplitRecord, Tables};
-use crate::mesh::Mesh;
-use crate::precision::{Stored, VertexBits, store};
-use crate::sweep::{Cover, Forest, Offspring, base_groups, grow, plant, sort_base};
+use crate::error::BuildError;
+use crate::hausdorff::hull_to_surface;
+use crate::mesh::{Input, Mesh};
+use crate::surface::{SignedVolume, Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::MAX_RING;
-use meshsweep_core::blob::{Children, Level, NodeIdx, OpenError};
-use meshsweep_core::geom::Aabb;
-use meshsweep_core::num::{Radius8, Radius16, sum_up, up_to_f32};
+use meshsweep_core::Hull;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::hull::format::layout::MAX_RING;
+use meshsweep_core::internal::hull::format::{Children, NodeIdx};
+use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
+use meshsweep_core::{Level, OpenError};
 use std::time::{Duration, Instant};
 
 /// What to build.
@@ -71,45 +75,6 @@ pub struct Built {
     pub report: BuildReport,
 }
 
-/// Why there is no blob.
-#[derive(Clone, Debug, PartialEq)]
-pub enum BuildError {
-    /// More records than a blob can address.
-    TooLarge {
-        /// Triangles of the mesh.
-        triangles: usize,
-    },
-    /// The signed volume is not positive: the mesh is inside out where it passes through itself.
-    NotPositive {
-        /// The volume, input units.
-        volume: f64,
-    },
-    /// The reader refused what was written: a defect of this program.
-    Reopen(OpenError),
-}
-
-impl std::fmt::Display for BuildError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            BuildError::TooLarge { triangles } => {
-                write!(
-                    f,
-                    "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh"
-                )
-            }
-            BuildError::NotPositive { volume } => write!(
-                f,
-                "the enclosed volume is {volume}: the mesh passes through itself and is inside out there; unite its parts first"
-            ),
-            BuildError::Reopen(error) => {
-                write!(f, "internal error: the blob does not open: {error}; please report it")
-            }
-        }
-    }
-}
-
-impl std::error::Error for BuildError {}
-
 /// Most triangles of a mesh: instances and ring entries must fit the format's counts.
 const MAX_TRIANGLES: usize = 20_000_000;
 
@@ -120,19 +85,17 @@ const MAX_TRIANGLES: usize = 20_000_000;
 /// points negatively, its hulls do not enclose it; distances and
 /// [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::precision::snap)), 0 if none were. How far [wires](crate::mesh::Wire) are from
-/// the triangles with an area is part of the surface error: the hulls need not enclose them.
+/// How far [wires](crate::mesh::Wire) are from the triangles with an area is part of the surface
+/// error: the hulls need not enclose them.
 ///
 /// # Errors
 /// [`BuildError`].
 pub fn build(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     options: &BuildOptions,
     mut on_progress: impl FnMut(Progress),
 ) -> Result<Built, BuildError> {
+    let mesh = input.mesh;
     if mesh.triangles.len() > MAX_TRIANGLES {
         return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
     }
@@ -150,18 +113,17 @@ pub fn build(
     let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
-    let mut tables =
-        assemble(&stored, mesh, moved, input_triangles, &history, &order, &forest, &cover);
+    let mut tables = assemble(&stored, input, &history, &order, &forest, &cover);
     tables.levels = levels(&history, &cover, &level_splits, volume);
     certify(&mut tables).map_err(BuildError::Reopen)?;
     // Levels were measured to the triangles with an area, without it.
     if wires > 0.0 {
-        let off = wires * meshsweep_core::num::exp2(-stored.scale_exponent);
+        let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
         tables.surface_error = sum_up(tables.surface_error, up_to_f32(off));
     }
     let bytes = tables.to_bytes();
-    Model::open(&bytes).map_err(BuildError::Reopen)?;
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    Hull::open(&bytes).map_err(BuildError::Reopen)?;
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let report = BuildReport {
         base_faces: tables.base.len(),
         stuck,
@@ -201,7 +163,7 @@ pub fn hull_of(
     let volume = positive_volume(&stored, mesh)?;
     let (history, stuck, _) = collapse(&stored, mesh, options, faces, &mut on_progress);
     let order = VertexOrder::new(&history);
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     let positions = order.label[..order.base as usize]
         .iter()
         .map(|&l| (history.positions[l as usize] * scale).as_vec3().to_array())
@@ -213,8 +175,9 @@ pub fn hull_of(
 
 /// Volume in the local frame, which void is measured against.
 fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
-    let volume = signed_volume(&stored.positions, &mesh.triangles);
-    let scale = meshsweep_core::num::exp2(stored.scale_exponent);
+    let corners = mesh.triangles.iter().map(|t| t.map(|v| stored.positions[v as usize]));
+    let volume = SignedVolume::of(corners).value;
+    let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
     if volume > 0.0 {
         Ok(volume)
     } else {
@@ -241,14 +204,6 @@ fn collapse(
     let mut history = engine.finish();
     sort_base(&mut history);
     (history, stuck, programs)
-}
-
-fn signed_volume(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    // Around a vertex of the mesh, so that a part far from the origin loses nothing to
-    // cancellation.
-    let Some(&origin) = positions.first() else { return 0.0 };
-    let at = |v: u32| positions[v as usize] - origin;
-    triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c)))).sum::<f64>() / 6.0
 }
 
 /// Split counts of the levels: the base hull, then every doubling of the faces, then all.
@@ -286,12 +241,9 @@ fn levels(history: &History, cover: &Cover, level_splits: &[u32], volume: f64) -
         .collect()
 }
 
-#[expect(clippy::too_many_arguments, reason = "the one place where all stages meet")]
 fn assemble(
     stored: &Stored,
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
+    input: Input<'_>,
     history: &History,
     order: &VertexOrder,
     forest: &Forest,
@@ -341,11 +293,11 @@ fn assemble(
     let single = |p: DVec3| p.as_vec3();
     let low = stored.positions.iter().fold(Vec3::INFINITY, |m, &p| m.min(single(p)));
     let high = stored.positions.iter().fold(Vec3::NEG_INFINITY, |m, &p| m.max(single(p)));
-    let scale = meshsweep_core::num::exp2(-stored.scale_exponent);
+    let scale = meshsweep_core::internal::num::exp2(-stored.scale_exponent);
     Tables {
         scale_exponent: stored.scale_exponent,
         grid: stored.grid,
-        surface_error: up_to_f32((stored.surface_error + moved * scale) * (1.0 + 1e-15)),
+        surface_error: up_to_f32((stored.surface_error + input.moved * scale) * (1.0 + 1e-15)),
         vertices: order.label.iter().map(|&l| single(history.positions[l as usize])).collect(),
         base_vertices: order.base,
         base: history.base.iter().map(|t| t.map(index)).collect(),
@@ -363,10 +315,8 @@ fn assemble(
             .iter()
             .map(|&t| history.original_triangles[t as usize].map(index))
             .collect(),
-        source: cover.triangles.iter().map(|&t| mesh.source[t as usize]).collect(),
-        input_triangles: input_triangles
-            .max(mesh.source.iter().map(|&s| s as usize + 1).max().unwrap_or(0))
-            as u32,
+        source: cover.triangles.iter().map(|&t| input.mesh.source[t as usize]).collect(),
+        input_triangles: input.triangle_count(),
         surface_box: Aabb { min: low, max: high },
         levels: Vec::new(),
         queue_capacity: cover.queue_capacity,
@@ -378,7 +328,7 @@ fn assemble(
 /// model.
 fn certify(tables: &mut Tables) -> Result<(), OpenError> {
     let bytes = tables.to_bytes();
-    let model = Model::open(&bytes)?;
+    let model = Hull::open(&bytes)?;
     let corners_of: rustc_hash::FxHashMap<u32, [u32; 3]> =
         tables.source.iter().copied().zip(tables.surface.iter().copied()).collect();
     let at = |v: u32| tables.vertices[v as usize].as_dvec3();

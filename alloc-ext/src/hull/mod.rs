@@ -1,9 +1,24 @@
-//! From a closed mesh to the tables of a hull hierarchy.
+//! From a closed mesh to the tables of a hull hierarchy: certified radii and the cover tree.
+//!
+//! Each collapse replaces a fine fragment by a coarse one. Every fine triangle gets one parent in
+//! the coarse fragment, so that all levels form a forest whose leaves are the mesh's own triangles;
+//! a coarse triangle stands for the leaves below it. Distance to a triangle is a convex function,
+//! so the largest distance from a *vertex* of those leaves is the exact radius that makes the swept
+//! triangle (Guéziec 2000, 3.1) contain them. Rounded up, it is certified for any assignment.
 
 mod build;
-mod one_sided;
+mod cover;
+mod cut;
+mod encode;
+mod forest;
+mod groups;
+mod swept;
+mod tables;
 mod wires;
 
-pub use build::{BuildError, BuildOptions, BuildReport, Built, build, hull_of};
-pub use one_sided::{Farthest, Nearest, farthest, hull_to_surface, is_within};
+pub use build::{BuildOptions, BuildReport, Built, build, hull_of};
+pub use cut::cut;
+pub use tables::{NodeRecord, SplitRecord, Tables};
 pub use wires::wires_off_surface;
+// Paths of before, until their users are moved.
+pub use crate::hausdorff::{Farthest, Nearest, farthest, hull_to_surface, is_within};

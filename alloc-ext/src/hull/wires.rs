@@ -1,13 +1,10 @@
 //! How far wires are from the surface: what a hull hierarchy carries in its surface error.
 
-use super::one_sided::{Nearest, farthest};
-use crate::emit;
+use crate::bvh::exact_blob;
+use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::Mesh;
-use crate::tree::{self, TreeOptions};
-use glam::DVec3;
+use glam::Vec3;
 use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::{ScratchEntry, closest_point};
 
 /// A distance, input units, that no point of a [wire](crate::mesh::Wire) is farther than from the
 /// triangles with an area; 0 without wires, infinite without triangles.
@@ -24,25 +21,9 @@ pub fn wires_off_surface(mesh: &Mesh) -> f64 {
     if mesh.triangles.is_empty() {
         return f64::INFINITY;
     }
-    let surface =
-        Mesh { source: (0..mesh.triangles.len() as u32).collect(), ..mesh.without_wires() };
-    let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
-    let surface = Mesh { rounding: 0.0, ..surface };
-    let bytes = emit::blob(None, Some(&tree::build(&surface, 0.0, 0, &options).0));
+    let surface = mesh.without_wires();
+    let bytes = exact_blob(&surface);
     let tree = Bvh::open(&bytes).expect("just built");
-    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    let wide = |p: [f32; 3]| DVec3::from(p.map(f64::from));
-    let nearest = |point: DVec3| {
-        // The query is rounded to f32: the distance to what was asked is part of the bound.
-        let asked = point.as_vec3();
-        let offset = (asked.as_dvec3() - point).length();
-        let answer = closest_point(&tree, asked.to_array(), &Budget::EXACT, &mut stack).ok()?;
-        let corners = answer.triangle.and_then(|triangle| surface.corners(triangle as usize));
-        Some(Nearest {
-            lower: f64::from(answer.lower) - offset,
-            upper: f64::from(answer.upper) + offset,
-            triangle: corners.map(|corners| corners.map(wide)),
-        })
-    };
-    farthest(mesh.wire_corners().map(|corners| corners.map(wide)), 0.0, nearest).upper
+    let wires = mesh.wire_corners().map(|corners| corners.map(|p| Vec3::from(p).as_dvec3()));
+    farthest(wires, 0.0, nearest_in(&tree, &surface)).upper
 }

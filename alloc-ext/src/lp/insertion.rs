@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::HalfSpace;
+use super::half_space::HalfSpace;
 use super::tolerance::{VIOLATION, scale};
 
 /// The optimum over `constraints`, from `start`, the optimum without them; `None` if `tight` finds

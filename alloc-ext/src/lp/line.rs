@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::HalfSpace;
+use super::half_space::HalfSpace;
 use super::insertion::offset;
 use super::interval::Interval;
 use super::plane::Plane;

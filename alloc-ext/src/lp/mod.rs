@@ -42,7 +42,7 @@
 //! | most violated first | 686 | 761 | 215 | 79 | 380 | 451 | 555 | 447 |
 //! | most violated first, far points pulled back to the star | 430 | 378 | 235 | 88 | 346 | 329 | 426 | 319 |
 //!
-//! The last row is what `cargo bench -p meshsweep-host-tests --bench lp` prints; the other rules
+//! The last row is what `cargo bench -p meshsweep-lab --bench lp` prints; the other rules
 //! were measured once, beside it.
 //!
 //! *No symbolic `eps`.* With an infinitesimal one, a flat star whose planes differ by rounding
@@ -52,6 +52,7 @@
 //! Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete &
 //! Computational Geometry 6 (1991), §2.
 
+mod half_space;
 mod insertion;
 mod interval;
 mod line;
@@ -59,22 +60,11 @@ mod plane;
 mod tolerance;
 
 use glam::DVec3;
+pub use half_space::HalfSpace;
 use insertion::insert;
 pub use interval::Interval;
 use plane::Plane;
 use tolerance::DESCENT;
-
-/// The points `x` with `normal · x >= offset`.
-///
-/// The normal has length 1 to within rounding, or is zero: then the half-space is everything if
-/// `offset <= 0` and nothing otherwise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSpace {
-    /// Unit vector into the half-space, or zero.
-    pub normal: DVec3,
-    /// Distance of the bounding plane from the origin, along `normal`, in star radii.
-    pub offset: f64,
-}
 
 /// What a program came to.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use super::half_space::HalfSpace;
 use super::insertion::{insert, offset};
-use super::{HalfSpace, line};
+use super::line;
 
 /// A plane, and what of it every line in it needs.
 #[derive(Clone, Copy)]

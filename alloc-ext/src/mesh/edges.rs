@@ -9,13 +9,13 @@ pub(super) const NON_MANIFOLD: u32 = u32::MAX - 1;
 
 /// All half-edges, grouped by undirected edge. Built by a counting sort over the lower vertex and a
 /// short sort for each vertex, which is several times faster than sorting all of them.
-pub(super) struct EdgeTable {
+pub(crate) struct EdgeTable {
     starts: Vec<u32>,
     uses: Vec<(u32, u32)>,
 }
 
 impl EdgeTable {
-    pub(super) fn new(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
         let mut starts = vec![0u32; vertex_count + 1];
         for_each_half_edge(triangles, |_, low, _| starts[low as usize + 1] += 1);
         for v in 0..vertex_count {
@@ -35,7 +35,7 @@ impl EdgeTable {
     }
 
     /// For each edge its half-edges in ascending order, as `(higher vertex, half-edge)`.
-    pub(super) fn edges(&self) -> impl Iterator<Item = &[(u32, u32)]> {
+    pub(crate) fn edges(&self) -> impl Iterator<Item = &[(u32, u32)]> {
         self.starts.windows(2).flat_map(|pair| {
             self.uses[pair[0] as usize..pair[1] as usize].chunk_by(|a, b| a.0 == b.0)
         })
@@ -68,22 +68,22 @@ fn for_each_half_edge(triangles: &[[u32; 3]], mut visit: impl FnMut(u32, u32, u3
 }
 
 /// The vertices that half-edge `half_edge` runs from and to.
-pub(super) fn ends(triangles: &[[u32; 3]], half_edge: u32) -> [u32; 2] {
+pub(crate) fn ends(triangles: &[[u32; 3]], half_edge: u32) -> [u32; 2] {
     let triangle = triangles[half_edge as usize / 3];
     let k = half_edge as usize % 3;
     [triangle[k], triangle[(k + 1) % 3]]
 }
 
 /// A forest of sets of numbers, for grouping.
-pub(super) struct UnionFind(Vec<u32>);
+pub(crate) struct UnionFind(Vec<u32>);
 
 impl UnionFind {
-    pub(super) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self((0..count as u32).collect())
     }
 
     /// The set's least member. Halves the path on its way.
-    pub(super) fn find(&mut self, mut item: u32) -> u32 {
+    pub(crate) fn find(&mut self, mut item: u32) -> u32 {
         while self.0[item as usize] != item {
             let above = self.0[self.0[item as usize] as usize];
             self.0[item as usize] = above;
@@ -93,7 +93,7 @@ impl UnionFind {
     }
 
     /// Joins two sets; the lower root stays, so that results follow file order.
-    pub(super) fn join(&mut self, a: u32, b: u32) {
+    pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.find(a), self.find(b));
         self.0[a.max(b) as usize] = a.min(b);
     }

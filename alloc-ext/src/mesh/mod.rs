@@ -20,6 +20,7 @@ mod duplicate;
 mod edges;
 mod error;
 mod hash;
+mod input;
 mod manifold;
 mod nesting;
 mod obj;
@@ -32,20 +33,24 @@ mod round;
 mod stl;
 mod text;
 mod vertex_fans;
+mod volume;
 mod weld;
 mod winding;
 mod wire;
 mod write_ply;
 
+use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};
 
+pub(crate) use edges::{EdgeTable, UnionFind, ends};
 pub use error::{EdgePlace, MeshError};
+pub use input::Input;
 pub use manifold::require_closed_manifold;
 pub(crate) use nesting::Part as Enclosure;
-pub(crate) use outward::{Volume, volume};
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};
+pub(crate) use volume::SignedVolume;
 pub use wire::Wire;
 pub use write_ply::write_ply;
 
@@ -112,6 +117,20 @@ impl Mesh {
         let [a, b, c] = *self.triangles.get(triangle)?;
         let at = |v: u32| self.positions.get(v as usize).copied();
         Some([at(a)?, at(b)?, at(c)?])
+    }
+
+    /// Corners of all triangles, in the file's unit and frame. Indices must be in range.
+    pub(crate) fn corners_f64(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        self.triangles.iter().map(|&triangle| self.wide(triangle))
+    }
+
+    /// Corners of [`all_triangles`](Self::all_triangles), in f64.
+    pub(crate) fn all_corners_f64(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        self.all_triangles().map(|triangle| self.wide(triangle))
+    }
+
+    fn wide(&self, triangle: [u32; 3]) -> [DVec3; 3] {
+        triangle.map(|v| Vec3::from(self.positions[v as usize]).as_dvec3())
     }
 }
 

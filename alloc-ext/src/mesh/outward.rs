@@ -8,24 +8,9 @@
 //! on a non-manifold edge have no inside and are not looked at.
 
 use super::nesting::Part;
+use super::volume::SignedVolume;
 use super::winding::Parts;
-
-/// A signed volume and the bound of its rounding error.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Volume {
-    pub value: f64,
-    pub bound: f64,
-}
-
-impl Volume {
-    pub(super) fn is_negative(self) -> bool {
-        self.value < -self.bound
-    }
-
-    pub(super) fn is_zero(self) -> bool {
-        self.value.abs() <= self.bound
-    }
-}
+use glam::Vec3;
 
 /// One closed two-sided part.
 pub(super) struct ClosedPart {
@@ -33,7 +18,7 @@ pub(super) struct ClosedPart {
     pub number: u32,
     /// Its first triangle.
     pub first: u32,
-    pub volume: Volume,
+    pub volume: SignedVolume,
     /// It, or an outermost part that it lies in, is inside out.
     pub inside_out: bool,
     /// It lies in another closed part.
@@ -73,7 +58,9 @@ pub(super) fn closed_parts(
         .filter(|(_, t)| !t.is_empty())
         .map(|(number, t)| (number as u32, Part::new(t)))
         .collect();
-    let volumes: Vec<Volume> = solids.iter().map(|(_, part)| volume(&part.triangles)).collect();
+    let wide = |triangle: &[[f32; 3]; 3]| triangle.map(|p| Vec3::from(p).as_dvec3());
+    let volumes: Vec<SignedVolume> =
+        solids.iter().map(|(_, part)| SignedVolume::of(part.triangles.iter().map(wide))).collect();
     let containers: Vec<Vec<usize>> = solids
         .iter()
         .enumerate()
@@ -96,28 +83,4 @@ pub(super) fn closed_parts(
             }
         })
         .collect()
-}
-
-/// The signed volume of a closed surface in f64, relative to its first corner.
-///
-/// Each of the six products of a determinant carries at most 5 roundings (three differences, two
-/// products) and 5 additions, and the sum over n triangles n more, each relative to the sum of
-/// absolute products: (n + 11) u of it, which (n + 16) ε covers with its own rounding. Coordinates
-/// are f32, so nothing over- or underflows.
-pub(crate) fn volume(triangles: &[[[f32; 3]; 3]]) -> Volume {
-    let origin = triangles.first().map_or([0.0; 3], |t| t[0].map(f64::from));
-    let (mut sum, mut absolute) = (0.0, 0.0);
-    for triangle in triangles {
-        let [a, b, c] = triangle.map(|p| {
-            let p = p.map(f64::from);
-            [p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]]
-        });
-        for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
-            let (plus, minus) = (a[i] * b[j] * c[k], a[i] * b[k] * c[j]);
-            sum += plus - minus;
-            absolute += plus.abs() + minus.abs();
-        }
-    }
-    let roundings = 3.0 * triangles.len() as f64 + 16.0;
-    Volume { value: sum / 6.0, bound: roundings * f64::EPSILON * absolute / 6.0 }
 }

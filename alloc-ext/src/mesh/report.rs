@@ -145,32 +145,14 @@ impl RepairReport {
     /// of the first dropped whose corner lies on one of the edges that the error lists. Any
     /// other error is returned as it is.
     #[must_use]
-    pub fn explain(&self, error: MeshError) -> MeshError {
-        match error {
-            MeshError::Open {
-                edge_count,
-                hole_count,
-                largest_hole,
-                slit_count,
-                places,
-                dropped_triangle: None,
-            } => {
-                let on_hole = |corners: &[[f32; 3]; 3]| {
-                    places.iter().any(|e| corners.contains(&e.from) && corners.contains(&e.to))
-                };
-                let dropped_triangle =
-                    self.dropped.iter().find(|(_, corners)| on_hole(corners)).map(|&(t, _)| t);
-                MeshError::Open {
-                    edge_count,
-                    hole_count,
-                    largest_hole,
-                    slit_count,
-                    places,
-                    dropped_triangle,
-                }
-            }
-            other => other,
+    pub fn explain(&self, mut error: MeshError) -> MeshError {
+        if let MeshError::Open { places, dropped_triangle: cause @ None, .. } = &mut error {
+            let on_hole = |corners: &[[f32; 3]; 3]| {
+                places.iter().any(|e| corners.contains(&e.from) && corners.contains(&e.to))
+            };
+            *cause = self.dropped.iter().find(|(_, corners)| on_hole(corners)).map(|&(t, _)| t);
         }
+        error
     }
 }
 

@@ -1,17 +1,62 @@
-//! A chain of tight hulls for a blob: each usable alone, with a box tree of its own and certified
-//! distances both ways between it and the mesh.
+//! Tight hulls: outer hulls of few faces, shrunk onto the original triangles and proved to enclose
+//! them; and chains of such hulls as a section of a blob.
 //!
 //! ```text
-//! mesh ─ wrap, for each number of faces ─ distances ─ tree::build ─ section
+//! mesh ─ initial ─ search ─┬─ Hull ─ store ─ section
+//!                  moves ──┤
+//!                  proof ──┘
 //! ```
-//! Hulls of a chain are made of the mesh, each as tight as it can be, and need not enclose each
-//! other. A nested chain wraps each hull around the next finer one: from coarse to fine every hull
-//! encloses all that follow, at a price in volume, which [`HullReport::free_void`] tells.
+//!
+//! | folder or file | what lies there |
+//! | --- | --- |
+//! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
+//! | `options.rs` | what a hull is asked for, and why there may be none |
+//! | `report.rs` | what a hull is, what it took, and where the work stands |
+//! | `components.rs` | splits a mesh into the components that get a hull each |
+//! | `random.rs` | the same pseudo-random numbers in every run |
+//! | `initial/` | the first hull: a progressive level, a voxel closure, or the grown bounding box |
+//! | `moves/` | local edits of a hull: vertex placement, collapse, flip, split, kick |
+//! | `proof/` | exact predicates, distances, enclosure: whether an edit keeps the invariant |
+//! | `search/` | which initial hull and which edits reach the goal: faces, void or slack |
+//! | `store/` | a chain of hulls, certified distances, and the bytes of the section |
+//!
+//! Dependencies run from the bottom of this list of folders to its top: `proof ← moves ← initial ←
+//! search ← hull.rs ← store`.
+//!
+//! # What holds of every [`Hull`], exactly, for its coordinates as stored
+//! - The hull is a closed manifold. Its faces share no points but common corners and edges, and
+//!   face outwards.
+//! - The hull has no point in common with any triangle of the mesh. Touching counts.
+//! - Every vertex of the mesh is inside.
+//! - With a margin, no point of the hull is within the margin of the mesh. This is proved in
+//!   floating point with bounded rounding; see `proof/distance.rs`. Every point within the margin
+//!   of the mesh is therefore inside.
+//!
+//! The initial hull is tested as a whole. After that, a move is made only if exact predicates prove
+//! that the invariant still holds. Floating point alone decides only which moves are tried.
+//!
+//! Unlike a level of the hull hierarchy, a tight hull does not enclose other tight hulls, and has
+//! no cavities. The mesh may be open, cross itself, or be a heap of loose triangles.
+//!
+//! The initial hull and its linear program follow Platis & Theoharis 2003. The shrinking is our
+//! own.
 
-mod chain;
-mod distances;
+mod components;
+mod hull;
+mod initial;
+mod moves;
+mod options;
+mod proof;
+mod random;
+mod report;
+mod search;
 mod store;
 
-pub use chain::{ChainOptions, HullReport, MAX_HULLS, Stage, chain};
-pub use distances::{Distances, distances};
-pub use store::{TightTables, cut, hull_mesh};
+pub use components::split_components;
+pub use hull::{Hull, wrap};
+pub use options::{Goal, Options, WrapError};
+pub use proof::NoVolume;
+pub use report::{Outcome, Progress, Report, Stage as HullStage, Start};
+pub use store::{
+    ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,
+};

@@ -14,11 +14,11 @@ use super::polygons::{HalfSpace, Polygons, margin};
 use super::span::{Frame, projections};
 use super::winding::{Reference, starts, winding};
 use crate::mesh::Mesh;
+use meshsweep_core::Budget;
 use meshsweep_core::Bvh;
-use meshsweep_core::num::{down_to_f32, up_to_f32};
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::{ScratchEntry, Side, signed_distance};
-use meshsweep_core::tribox::{Tribox, TriboxError};
+use meshsweep_core::internal::num::{down_to_f32, up_to_f32};
+use meshsweep_core::{ScratchEntry, Side};
+use meshsweep_core::{Tribox, TriboxError};
 use std::cell::RefCell;
 
 /// How sure one has to be of what is inside.
@@ -103,7 +103,7 @@ impl<'a> Whole<'a> {
             Trust::Sketch => {
                 let asked = point.map(|x| x as f32);
                 let answer =
-                    signed_distance(self.tree, asked, &Budget::EXACT, &mut self.stack.borrow_mut());
+                    self.tree.signed_distance(asked, Budget::EXACT, &mut self.stack.borrow_mut());
                 answer.is_ok_and(|answer| answer.side != Side::Outside)
             }
         }

@@ -5,7 +5,7 @@ use super::cell::{Cell, Trust, Whole, section};
 use super::extent::Extent;
 use super::polygons::HalfSpace;
 use super::span::{Span, projections};
-use meshsweep_core::tribox::SLABS;
+use meshsweep_core::internal::tribox::SLABS;
 
 /// What a split should make little of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

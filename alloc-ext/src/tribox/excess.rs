@@ -4,7 +4,7 @@
 use super::cell::Cell;
 use super::span::Frame;
 use glam::DVec3;
-use meshsweep_core::tribox::Tribox;
+use meshsweep_core::Tribox;
 
 /// Part of the result by which it may be too great.
 const SLACK: f64 = 0.01;

@@ -2,7 +2,8 @@
 
 use super::span::{Span, Wide};
 use glam::DVec3;
-use meshsweep_core::tribox::{Boundary, FACES, Tribox};
+use meshsweep_core::internal::tribox::FACES;
+use meshsweep_core::{Boundary, Tribox};
 
 /// Area and volume, squared and cubed input units; within 1e-12 of the area and volume of its box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

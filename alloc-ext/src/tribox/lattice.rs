@@ -1,9 +1,10 @@
 //! The grid that a blob stores triboxes on.
 
 use crate::mesh::Mesh;
-use crate::precision::scale_exponent;
-use meshsweep_core::num::exp2;
-use meshsweep_core::tribox::{DIRECTIONS, SLABS, Tribox, TriboxError};
+use crate::surface::scale_exponent;
+use meshsweep_core::internal::num::exp2;
+use meshsweep_core::internal::tribox::{DIRECTIONS, SLABS};
+use meshsweep_core::{Tribox, TriboxError};
 
 /// Largest coordinate of the origin: what a reader accepts.
 const MAX_ORIGIN: f64 = (1u32 << 18) as f64;

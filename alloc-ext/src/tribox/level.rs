@@ -5,15 +5,11 @@ use super::extent::Extent;
 use super::polygons::margin;
 use super::split::Hierarchy;
 use super::union::boundary_of_union;
-use crate::emit;
-use crate::hull::{Farthest, Nearest, farthest};
-use crate::mesh::{Mesh, Wire};
-use crate::tree::{self, TreeOptions};
-use glam::DVec3;
+use crate::hausdorff::{Farthest, farthest, nearest_in};
+use crate::mesh::Mesh;
 use meshsweep_core::Bvh;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::{ScratchEntry, closest_point};
-use meshsweep_core::tribox::{FACES, Tribox};
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::FACES;
 
 /// A union of triboxes that covers a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,33 +44,13 @@ impl Level {
     }
 }
 
-/// The blob of a mesh's box tree as it is needed here: exact, with the triangles' own numbers.
-///
-/// # Panics
-/// On a mesh of more than [`tree::MAX_TRIANGLES`], and, if debug assertions are on, on infinite
-/// coordinates.
-#[must_use]
-pub fn box_tree(mesh: &Mesh) -> Vec<u8> {
-    // Not the numbers of the file, of which two triangles may share one where a flat one was
-    // mended.
-    let count = mesh.triangles.len() as u32;
-    let renumber = |(wire, number): (&Wire, u32)| Wire { source: number, ..*wire };
-    let mesh = Mesh {
-        wires: mesh.wires.iter().zip(count..).map(renumber).collect(),
-        ..Mesh::new(mesh.positions.clone(), mesh.triangles.clone())
-    };
-    let options = TreeOptions { segments: false, single: true, ..TreeOptions::default() };
-    let (tables, _) = tree::build(&mesh, 0.0, 0, &options);
-    emit::blob(None, Some(&tables))
-}
-
 /// The proxies of a level with at most `count` triboxes.
 #[must_use]
 pub fn proxies(hierarchy: &Hierarchy, count: usize) -> Vec<Tribox> {
     hierarchy.leaves(count).into_iter().map(|node| hierarchy.nodes[node as usize].proxy).collect()
 }
 
-/// Measures the level with at most `count` triboxes. `tree` is the mesh's [`box_tree`].
+/// Measures the level with at most `count` triboxes. `tree` is the mesh's [box tree](crate::bvh::exact_blob).
 ///
 /// Cost: a closest-point query for each triangle of the union's boundary, and some dozens more for
 /// the farthest.
@@ -97,8 +73,6 @@ pub fn level(hierarchy: &Hierarchy, count: usize, mesh: &Mesh, tree: &Bvh<'_>) -
 }
 
 fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
-    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    let all: Vec<[u32; 3]> = mesh.all_triangles().collect();
     let largest = |most: f64, x: f32| most.max(f64::from(x).abs());
     let size = triboxes
         .iter()
@@ -108,21 +82,7 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
     let triangles = pieces
         .iter()
         .flat_map(|piece| piece.windows(2).skip(1).map(|edge| [piece[0], edge[0], edge[1]]));
-    let nearest = |point: DVec3| {
-        // The query is rounded to f32: the distance to what was asked is part of the bound.
-        let asked = point.as_vec3();
-        let offset = (asked.as_dvec3() - point).length();
-        let answer = closest_point(tree, asked.to_array(), &Budget::EXACT, &mut stack).ok()?;
-        let corners = answer.triangle.and_then(|triangle| all.get(triangle as usize));
-        Some(Nearest {
-            lower: f64::from(answer.lower) - offset,
-            upper: f64::from(answer.upper) + offset,
-            triangle: corners.map(|corners| {
-                corners.map(|v| DVec3::from(mesh.positions[v as usize].map(f64::from)))
-            }),
-        })
-    };
-    let Farthest { lower, upper } = farthest(triangles, 0.0, nearest);
+    let Farthest { lower, upper } = farthest(triangles, 0.0, nearest_in(tree, mesh));
     // What rounding did to the pieces, and slivers that are missing.
     Farthest { lower: (lower - margin(size)).max(0.0), upper: upper + margin(size) }
 }

@@ -51,10 +51,11 @@ mod tests;
 mod union;
 mod winding;
 
+pub use crate::bvh::exact_blob as box_tree;
 pub use choose::{Measure, Planes};
 pub use extent::Extent;
 pub use lattice::Lattice;
-pub use level::{Level, box_tree, level, proxies};
+pub use level::{Level, level, proxies};
 pub use split::{Hierarchy, Node, Split, SplitOptions};
-pub use store::{TriboxReport, TriboxTables, cut, store, volume};
+pub use store::{TriboxReport, cut, store, volume};
 pub use surface::surface;

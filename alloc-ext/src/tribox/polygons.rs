@@ -18,8 +18,9 @@
 
 use super::span::projections;
 use crate::mesh::Mesh;
-use meshsweep_core::num::{down_to_f32, up_to_f32};
-use meshsweep_core::tribox::{SLABS, Tribox};
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::num::{down_to_f32, up_to_f32};
+use meshsweep_core::internal::tribox::SLABS;
 
 /// A corner of a clipped triangle.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,7 @@
 //! Bounds along the nine directions in f64, and the polytope between them.
 
-use meshsweep_core::tribox::{Boundary, FACES, SLABS, Scalar, Tribox, boundary};
+use meshsweep_core::internal::tribox::{FACES, SLABS, Scalar, boundary};
+use meshsweep_core::{Boundary, Tribox};
 use std::ops::{Add, Neg, Sub};
 
 /// An f64 that a tribox's boundary can be computed in.

@@ -8,8 +8,8 @@ use super::lattice::Lattice;
 use super::polygons::HalfSpace;
 use crate::mesh::Mesh;
 use meshsweep_core::Bvh;
-use meshsweep_core::num::exp2;
-use meshsweep_core::tribox::{Tribox, TriboxError};
+use meshsweep_core::internal::num::exp2;
+use meshsweep_core::{Tribox, TriboxError};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 

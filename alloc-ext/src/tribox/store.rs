@@ -1,33 +1,26 @@
 //! Tribox hierarchies as a section of a blob.
 
 use super::lattice::Lattice;
-use super::level::{Level, box_tree, level};
+use super::level::{Level, level};
 use super::split::{Hierarchy, Node, SplitOptions};
-use crate::mesh::Mesh;
-use meshsweep_core::blob::layout::{
-    MAX_TRIBOXES, SectionKind, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES,
-    TRIBOXES_BYTES, TRIBOXES_SOLID,
+use crate::bvh::exact_blob;
+use crate::emit::Sections;
+use crate::error::BuildError;
+use crate::mesh::{Input, Mesh};
+use crate::surface::SignedVolume;
+use glam::Vec3;
+use meshsweep_core::SectionKind;
+use meshsweep_core::TriboxLevel;
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::num::{Radius16, exp2, up_to_f32};
+use meshsweep_core::internal::tribox::FACES;
+use meshsweep_core::internal::tribox::format::TriboxesHeader;
+use meshsweep_core::internal::tribox::format::layout::{
+    MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
+    TRIBOXES_SOLID,
 };
-use meshsweep_core::blob::{TriboxLevel, TriboxesHeader};
-use meshsweep_core::num::{Radius16, exp2, up_to_f32};
-use meshsweep_core::tribox::{FACES, TriboxError};
-use meshsweep_core::{Bvh, Model};
+use meshsweep_core::{Blob, Bvh};
 use std::time::{Duration, Instant};
-
-/// Everything that a blob holds of a tribox hierarchy.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TriboxTables {
-    /// Input coordinate = local coordinate × 2^this.
-    pub scale_exponent: i32,
-    /// Triangles of the input file.
-    pub input_triangles: u32,
-    /// No vertex of the input is farther than this from the mesh that was split, local frame.
-    pub surface_error: f32,
-    /// Box of the mesh, local frame.
-    pub bounds: [[f32; 3]; 2],
-    /// The section.
-    pub section: Vec<u8>,
-}
 
 /// What storing took and gave.
 #[derive(Clone, Debug)]
@@ -40,39 +33,26 @@ pub struct TriboxReport {
 
 /// Splits a mesh into at most `count` triboxes, and measures unions of 1, 2, 4, … of them.
 ///
-/// `moved` is the distance, in input units, that vertices were moved before (see
-/// [`snap`](crate::precision::snap)), 0 if none were: the triboxes hold the input. Any
-/// triangle soup will do; see [`Hierarchy::new`] for what they hold, and for the cost. Of a mesh
-/// without triangles the section is empty, and the blob does not open.
+/// The triboxes hold the input. Any triangle soup will do; see [`Hierarchy::new`] for what they
+/// hold, and for the cost. The section of a mesh without triangles is empty, and its blob does not
+/// open.
 ///
 /// # Errors
 /// If a coordinate is not finite or beyond
-/// [`Tribox::DOMAIN`](meshsweep_core::tribox::Tribox::DOMAIN).
+/// [`Tribox::DOMAIN`](meshsweep_core::Tribox::DOMAIN).
 ///
 /// # Panics
-/// On a mesh of more than [`MAX_TRIANGLES`](crate::tree::MAX_TRIANGLES).
-pub fn store(
-    mesh: &Mesh,
-    moved: f64,
-    input_triangles: usize,
-    count: u32,
-) -> Result<(TriboxTables, TriboxReport), TriboxError> {
+/// On a mesh of more than [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
+pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), BuildError> {
     let started = Instant::now();
-    let error = mesh.rounding + moved;
-    let lattice = Lattice::of(mesh, error)?;
+    let mesh = input.mesh;
+    let lattice = Lattice::of(mesh, input.error())?;
     if mesh.triangles.is_empty() && mesh.wires.is_empty() {
-        let scale_exponent = lattice.scale_exponent;
-        let (bounds, section) = ([[0.0; 3]; 2], Vec::new());
-        let tables = TriboxTables {
-            scale_exponent,
-            input_triangles: 0,
-            surface_error: 0.0,
-            bounds,
-            section,
-        };
+        let bounds = Aabb { min: Vec3::ZERO, max: Vec3::ZERO };
+        let tables = sections(lattice.scale_exponent, 0.0, 0, bounds, Vec::new());
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
     }
-    let bytes = box_tree(mesh);
+    let bytes = exact_blob(mesh);
     let tree = Bvh::open(&bytes).expect("just built");
     let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
     let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };
@@ -90,24 +70,22 @@ pub fn store(
         void_ratio: solid.map_or(0.0, |solid| level.void(solid).min(f64::from(f32::MAX)) as f32),
     });
     let whole = hierarchy.nodes[0].tribox;
-    let corner = |of: &[f32; 9]| [of[0], of[1], of[2]].map(|x| (f64::from(x) * local) as f32);
-    let tables = TriboxTables {
-        scale_exponent: lattice.scale_exponent,
-        input_triangles: input_triangles.max(mesh.all_triangles().count()) as u32,
-        surface_error: up_to_f32(lattice.padding * local),
-        bounds: [corner(&whole.low), corner(&whole.high)],
-        section: section(&hierarchy, &lattice, &records.collect::<Vec<_>>()),
-    };
+    let corner =
+        |of: &[f32; 9]| Vec3::from([of[0], of[1], of[2]].map(|x| (f64::from(x) * local) as f32));
+    let section = section(&hierarchy, &lattice, &records.collect::<Vec<_>>());
+    let tables = sections(
+        lattice.scale_exponent,
+        up_to_f32(lattice.padding * local),
+        input.triangle_count(),
+        Aabb { min: corner(&whole.low), max: corner(&whole.high) },
+        section,
+    );
     Ok((tables, TriboxReport { levels, time: started.elapsed() }))
 }
 
 /// Volume that a closed mesh bounds, cubed input units.
 pub fn volume(mesh: &Mesh) -> f64 {
-    let wide = |p: [f32; 3]| glam::DVec3::from(p.map(f64::from));
-    let origin = mesh.positions.first().copied().map_or(glam::DVec3::ZERO, wide);
-    let of = |[a, b, c]: [glam::DVec3; 3]| (a - origin).cross(b - origin).dot(c - origin) / 6.0;
-    let corners = (0..mesh.triangles.len()).filter_map(|triangle| mesh.corners(triangle));
-    corners.map(|corners| of(corners.map(wide))).sum::<f64>().abs()
+    SignedVolume::of(mesh.corners_f64()).value.abs()
 }
 
 /// A node in the order of the splits.
@@ -165,8 +143,8 @@ fn section(hierarchy: &Hierarchy, lattice: &Lattice, levels: &[TriboxLevel]) -> 
 /// The triboxes of a blob after the finest level of at most `count`; `None` if it has none. Every
 /// table is a prefix of what it was.
 #[must_use]
-pub fn cut(model: &Model<'_>, count: u32) -> Option<TriboxTables> {
-    let triboxes = model.triboxes()?;
+pub fn cut(blob: &Blob<'_>, count: u32) -> Option<Sections> {
+    let triboxes = blob.triboxes().ok()?;
     let level_count = triboxes.levels().take_while(|level| level.triboxes <= count.max(1)).count();
     let leaves = triboxes.level(level_count.checked_sub(1)? as u32)?.triboxes;
     let coarser = triboxes.coarser(leaves);
@@ -180,8 +158,8 @@ pub fn cut(model: &Model<'_>, count: u32) -> Option<TriboxTables> {
         depth,
         ..*triboxes.header()
     };
-    let place = model.sections().find(|section| section.kind == SectionKind::Triboxes)?;
-    let old = model.bytes().get(place.offset as usize..)?.get(..place.bytes as usize)?;
+    let place = blob.sections().find(|section| section.kind == SectionKind::Triboxes)?;
+    let old = blob.bytes().get(place.offset as usize..)?.get(..place.bytes as usize)?;
     let (levels, rest) = old
         .split_at_checked(TRIBOXES_BYTES)?
         .1
@@ -199,14 +177,23 @@ pub fn cut(model: &Model<'_>, count: u32) -> Option<TriboxTables> {
         }
         section.extend(record);
     }
-    let h = model.header();
-    let bounds = [h.surface_box.min.to_array(), h.surface_box.max.to_array()];
-    let (input_triangles, surface_error) = (h.input_triangles, h.surface_error);
-    Some(TriboxTables {
-        scale_exponent: h.scale_exponent,
-        input_triangles,
-        surface_error,
-        bounds,
+    let h = blob.header();
+    Some(sections(
+        h.scale_exponent,
+        h.surface_error,
+        h.input_triangles,
+        Aabb::of(h.surface_box),
         section,
-    })
+    ))
+}
+
+fn sections(
+    scale_exponent: i32,
+    surface_error: f32,
+    input_triangles: u32,
+    bounds: Aabb,
+    section: Vec<u8>,
+) -> Sections {
+    let bodies = vec![(SectionKind::Triboxes, section)];
+    Sections::new(scale_exponent, surface_error, input_triangles, bounds, bodies)
 }

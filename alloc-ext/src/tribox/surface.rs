@@ -1,7 +1,8 @@
 //! Triboxes as a triangle mesh.
 
 use crate::mesh::Mesh;
-use meshsweep_core::tribox::{FACES, Tribox};
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::FACES;
 
 /// The boundaries of triboxes, triangulated, one after another; they share no vertices. For
 /// triboxes on a [grid](Tribox::on_grid) every vertex is where three planes meet, exactly, so that
@@ -15,7 +16,7 @@ pub fn surface(triboxes: &[Tribox]) -> Mesh {
     let mut triangles = Vec::new();
     for tribox in triboxes.iter().filter(|tribox| !tribox.is_empty()) {
         let boundary = tribox.boundary().cleaned();
-        let mut number = [None; meshsweep_core::tribox::VERTICES];
+        let mut number = [None; meshsweep_core::internal::tribox::VERTICES];
         for face in 0..FACES {
             let corners: Vec<u32> = boundary
                 .face(face)

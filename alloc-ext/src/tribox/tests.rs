@@ -3,13 +3,14 @@
 use super::*;
 use crate::mesh::{Mesh, RawMesh, read, repair};
 use meshsweep_core::Bvh;
-use meshsweep_core::tribox::{DIRECTIONS, Tribox, TriboxError};
+use meshsweep_core::internal::tribox::DIRECTIONS;
+use meshsweep_core::{Tribox, TriboxError};
 use std::path::Path;
 
 type Point = [f64; 3];
 
 fn fixture(name: &str) -> Mesh {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
     repair(read(&path).unwrap()).unwrap().0
 }
 
@@ -168,15 +169,30 @@ fn insides_hold_where_the_plane_is_chosen_by_area_and_at_the_thickest_slab() {
     }
 }
 
+fn volume(hierarchy: &Hierarchy) -> f64 {
+    proxies(hierarchy, usize::MAX).iter().map(|tribox| Extent::of(tribox).volume).sum()
+}
+
 #[test]
 fn a_hole_is_found_although_no_single_split_shows_it() {
     let mesh = fixture("torus.ply");
-    let volume = |hierarchy: &Hierarchy| -> f64 {
-        proxies(hierarchy, usize::MAX).iter().map(|tribox| Extent::of(tribox).volume).sum()
-    };
     let blind = split(&mesh, &SplitOptions { foresight: 0.0, ..options(16) });
     let seeing = split(&mesh, &options(16));
     assert!(volume(&seeing) < 0.85 * volume(&blind), "{} {}", volume(&seeing), volume(&blind));
+}
+
+#[test]
+fn nine_directions_leave_no_more_void_than_the_thickest_slab() {
+    let mesh = fixture("torus.ply");
+    let paper =
+        SplitOptions { measure: Some(Measure::Volume), planes: Planes::Thickest, ..options(16) };
+    assert!(volume(&split(&mesh, &options(16))) <= volume(&split(&mesh, &paper)));
+}
+
+#[test]
+fn a_large_least_gain_ends_splitting_early() {
+    let eager = SplitOptions { least_gain: 0.2, ..options(64) };
+    assert!(split(&fixture("torus.ply"), &eager).order.len() < 63);
 }
 
 #[test]

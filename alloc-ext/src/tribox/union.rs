@@ -2,7 +2,8 @@
 
 use super::span::projections;
 use glam::DVec3;
-use meshsweep_core::tribox::{FACES, SLABS, Tribox};
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::{FACES, SLABS};
 
 /// Faces of the union, in convex pieces: what of the triboxes' faces is in no other tribox. Where
 /// faces of two lie on each other back to back, neither counts; where they face the same way, one

@@ -28,6 +28,16 @@ pub struct Clipped {
 }
 
 impl Aabb {
+    /// The box between a least and a greatest corner.
+    pub fn of([min, max]: [[f32; 3]; 2]) -> Aabb {
+        Aabb { min: Vec3::from_array(min), max: Vec3::from_array(max) }
+    }
+
+    /// Least and greatest corner.
+    pub fn corners(&self) -> [[f32; 3]; 2] {
+        [self.min, self.max].map(|corner| corner.to_array())
+    }
+
     /// Distance bounds `(lower, upper)` from `p` to anything inside, in f64 with rounding taken
     /// into account.
     pub fn distance_range(&self, p: DVec3) -> (f64, f64) {

@@ -1,11 +1,11 @@
-//! Four supporting planes at a time, for targets that have four lanes; one after the other
-//! elsewhere. The same bits either way.
+//! Four supporting planes at a time for targets with four lanes, one after the other elsewhere.
+//! Both give the same bits.
 //!
-//! The lane loop takes every branch of the scalar kernel and selects, which a vectorising compiler
-//! turns into four-lane arithmetic; a Cortex-M would pay for all branches, so it gets the scalar
-//! one. Both evaluate the same formulas in the same order.
+//! The lane loop takes every branch of the scalar kernel and selects. A vectorising compiler turns
+//! it into four-lane arithmetic. A Cortex-M would pay for all branches, so it runs the scalar
+//! kernel. Both evaluate the same formulas in the same order.
 
-use super::swept_triangle::Support;
+use super::support::Support;
 use glam::Vec3;
 
 /// Triangles bounded at a time.
@@ -14,8 +14,8 @@ pub const LANES: usize = 4;
 /// Whether four lanes are worth all branches.
 const VECTOR: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
-/// Up to [`LANES`] triangles, one array for each coordinate of each corner: what a vectoriser can
-/// load whole.
+/// Up to [`LANES`] triangles, one array for each coordinate of each corner, so that a vectoriser
+/// loads whole arrays.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes {
     t: [[f32; LANES]; 9],
@@ -25,7 +25,7 @@ impl Lanes {
     /// No triangles.
     pub const EMPTY: Lanes = Lanes { t: [[0.0; LANES]; 9] };
 
-    /// Puts a triangle into lane `lane` modulo [`LANES`], which needs no check.
+    /// Puts a triangle into lane `lane` modulo [`LANES`]: no bounds check.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, [a, b, c]: [Vec3; 3]) {
         let coordinates = [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z];
@@ -34,8 +34,8 @@ impl Lanes {
         }
     }
 
-    /// Supporting planes, facing the origin, of the first `count` triangles; the others are
-    /// arbitrary.
+    /// Supporting planes, facing the origin, of the first `count` triangles. The other lanes hold
+    /// any value.
     #[inline(always)]
     pub fn supports(&self, count: usize) -> [Support; LANES] {
         if VECTOR {

@@ -1,18 +1,22 @@
-//! Closed-form kernels. They know vectors and nothing of blobs, so the builder calls the very same
-//! code.
+//! Closed-form kernels. They know vectors and no bytes. The builder calls the same code.
 
 mod boxes;
+pub mod fan;
 mod lanes;
 mod point_triangle;
+mod pose;
 mod segment_triangle;
+mod support;
 mod swept_triangle;
 mod triangle_pair;
 
 pub use boxes::{Aabb, Clipped};
 pub use lanes::{LANES, Lanes};
 pub use point_triangle::{PointTriangle, point_triangle};
+pub use pose::Pose;
 pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
-pub use swept_triangle::{PointProbe, SegmentProbe, Support, direction_bound};
+pub use support::Support;
+pub use swept_triangle::{SweptPoint, SweptSegment, direction_bound};
 pub use triangle_pair::{
     Contact, Real, determinant_margin, straddling_triangles_meet, triangles_meet,
 };

@@ -1,8 +1,8 @@
 //! Point–triangle distance in f64, as an interval that contains the real one.
 //!
 //! Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5. The upper end is the
-//! length of the residual `ap − u·ab − v·ac`; the lower end is a supporting plane, which holds
-//! whatever region rounding may have chosen. Derivation: `core/docs/rounding.md` §4.
+//! length of the residual `ap − u·ab − v·ac`. The lower end is a supporting plane, which holds for
+//! any region that rounding chooses. Derivation: `core/docs/rounding.md` §4.
 
 use crate::num::tolerance::{POINT_INTERVAL, U64};
 use glam::DVec3;
@@ -14,7 +14,7 @@ pub struct PointTriangle {
     pub lower: f64,
     /// Not below the distance.
     pub upper: f64,
-    /// Squared length of the residual as computed: what ties are decided by.
+    /// Squared length of the residual as computed. It decides ties.
     pub distance_sq: f64,
     /// The closest point is `a + u·(b − a) + v·(c − a)`, `u, v ≥ 0`, `u + v ≤ 1` up to one
     /// rounding.
@@ -25,10 +25,9 @@ pub struct PointTriangle {
 
 /// Distance interval of `p` and the triangle `a b c`.
 ///
-/// Degenerate triangles (segments, points) are defined: the nearest point of what is left. The
-/// width of the interval is a few 1e-16 of the lengths involved; on a needle of aspect ratio `k`
-/// the lower end loses `k` times that. Coordinates must be finite and below 1e75, so that no
-/// product overflows.
+/// Degenerate triangles (segments, points) have a distance too. The width of the interval is a few
+/// 1e-16 of the lengths involved. On a needle of aspect ratio `k` the lower end loses `k` times as
+/// much. Coordinates must be finite and below 1e75, so that no product overflows.
 #[inline]
 pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
     let ap = p - a;
@@ -50,8 +49,8 @@ pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
     PointTriangle { lower: lower.max(0.0), upper: length + margin, distance_sq, u, v }
 }
 
-/// Barycentric coordinates of the closest point, and the direction to certify it by where a better
-/// one than the residual is known.
+/// Barycentric coordinates of the closest point. The direction is there where it bounds the
+/// distance better than the residual.
 #[inline]
 fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
     let d1 = ab.dot(ap);
@@ -93,21 +92,21 @@ fn closest(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64, Option<DVec3>) {
     }
     let sum = va + vb + vc;
     if sum <= 0.0 {
-        // Only a triangle that rounding has flattened to nothing gets here; corner `a` is a true,
-        // if poor, upper bound.
+        // Only a triangle that rounding has flattened gets here. Corner `a` is a true, if poor,
+        // upper bound.
         return (0.0, 0.0, None);
     }
     let inverse = 1.0 / sum;
     let (u, v) = (vb * inverse, vc * inverse);
     let u = u.clamp(0.0, 1.0);
     let v = v.max(0.0).min(1.0 - u);
-    // Near the surface the residual is all rounding; the normal is not.
+    // Near the surface the residual is only rounding. The normal is not.
     let normal = ab.cross(ac);
     let facing = if normal.dot(ap) < 0.0 { -normal } else { normal };
     (u, v, Some(facing))
 }
 
-/// `r` without what rounding left of it along `edge`. Once more is enough (Kahan, Parlett).
+/// `r` without its component along `edge`. One correction is enough (Kahan, Parlett).
 #[inline]
 fn orthogonal(r: DVec3, edge: DVec3, edge_sq: f64) -> DVec3 {
     if edge_sq > 0.0 { r - edge * (r.dot(edge) / edge_sq) } else { r }

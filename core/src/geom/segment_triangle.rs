@@ -1,12 +1,12 @@
-//! Segment–triangle intersection in f64 that never misses: what rounding leaves undecided counts as
-//! a hit.
+//! Segment–triangle intersection in f64 that never misses: a case that rounding leaves undecided
+//! counts as a hit.
 //!
 //! Signs of the three triple products `d · (B × C)`, `d · (C × A)`, `d · (A × B)` with the corners
-//! taken from the segment's start (Segura & Feito 1998). `x × y = −(y × x)` holds bit for bit, so
-//! that two triangles which share an edge agree on its side, and the closed test with a proved
-//! margin leaves no gap along edges and at vertices. Derivation: `core/docs/rounding.md` §5.
+//! taken from the segment's start (Segura & Feito 1998). `x × y = −(y × x)` holds bit for bit. So
+//! two triangles with a common edge agree on its side. The closed test with a proved margin leaves
+//! no gap along edges and at vertices. Derivation: `core/docs/rounding.md` §5.
 
-use super::point_triangle;
+use super::point_triangle::point_triangle;
 use crate::num::tolerance::{COPLANAR_TOUCH, TRIPLE_PRODUCT, U64};
 use glam::DVec3;
 
@@ -24,9 +24,9 @@ pub struct SegmentTriangle {
 /// First common point of the closed segment `a b` and the closed triangle `v0 v1 v2`.
 ///
 /// `None` proves that they do not meet. `Some` may be a miss by less than some 1e-15 of the lengths
-/// involved (on a needle, times its aspect ratio): a caller that must never hear "clear" by mistake
-/// wants exactly that. Both facings hit. A segment in the triangle's plane hits at the first point
-/// that it shares with it; a segment of zero length hits if its point lies on the triangle.
+/// involved (on a needle, times its aspect ratio): a caller must never hear "clear" by mistake.
+/// Both facings hit. A segment in the triangle's plane hits at their first common point. A segment
+/// of no length hits if its point lies on the triangle.
 pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<SegmentTriangle> {
     let d = b - a;
     let (p, q, r) = (v0 - a, v1 - a, v2 - a);
@@ -41,7 +41,7 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
     if !positive && !negative {
         return None;
     }
-    // From the corners themselves: `q − p` would carry the rounding of a start that is far away.
+    // The difference of the corners: `q − p` would carry the rounding of a far start.
     let (e1, e2) = (v1 - v0, v2 - v0);
     let normal = e1.cross(e2);
     let across = d.dot(normal);
@@ -52,7 +52,7 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
     let height = p.dot(normal);
     let height_error = unit * np * norm_1(e1) * norm_1(e2);
     let t = height / across;
-    // |δt| ≤ (δheight + |t| δacross) / (|across| − δacross), and what the corners' own rounding adds.
+    // |δt| ≤ (δheight + |t| δacross) / (|across| − δacross), and the rounding of the corners.
     let error = (height_error + t.abs() * across_error) / (across.abs() - across_error)
         + 8.0 * U64 * t.abs();
     if t + error < 0.0 || t - error > 1.0 {
@@ -79,7 +79,7 @@ fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> 
         return Some(SegmentTriangle { t: 0.0, t_lower: 0.0, t_upper: 0.0 });
     }
     // The start is outside, so the first common point lies on an edge. The crossing of nearly
-    // parallel lines is ill-conditioned; the shadow of the triangle on the segment is not.
+    // parallel lines is ill-conditioned. The shadow of the triangle on the segment is not.
     let dd = d.dot(d);
     let nearest = d.dot(p).min(d.dot(q)).min(d.dot(r));
     let shadow = if dd > 0.0 { (nearest - touch * libm::sqrt(dd)) / dd - 16.0 * U64 } else { 0.0 };
@@ -93,12 +93,12 @@ fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> 
     Some(SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 })
 }
 
-/// A lower bound of the distance between a segment and a triangle, by separating axes; tight up to
-/// rounding.
+/// A lower bound of the distance between a segment and a triangle, by separating axes. It is tight
+/// up to rounding.
 ///
 /// The closest points of the two are an end and the triangle, two points inside the segment and an
-/// edge, or one inside the segment and a corner; so one of the axes below points from one to the
-/// other. Any axis gives a true bound.
+/// edge, or a point inside the segment and a corner. So one of the axes below points from one to
+/// the other. Any axis gives a true bound.
 fn gap(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> f64 {
     let d = b - a;
     let [v0, v1, v2] = corners;
@@ -142,7 +142,7 @@ fn gap(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> f64 {
     .fold(0.0, f64::max)
 }
 
-/// Whether the segment may come within `reach` of the triangle; `false` proves that it does not.
+/// Whether the segment may come within `reach` of the triangle. `false` proves that it does not.
 pub fn comes_within(a: DVec3, b: DVec3, corners: [DVec3; 3], reach: f64) -> bool {
     gap(a, b, corners) <= reach
 }

@@ -1,12 +1,13 @@
 //! Lower bounds, in f32, of the distance from a point or a segment to a triangle swept by a sphere
 //! (Guéziec 2000, 3.1).
 //!
-//! A bound of this file may be too low by rounding but never too high: it is a supporting plane,
-//! which holds for any direction, so a region misjudged on a sliver costs tightness and not truth.
+//! A bound of this file may be too low by rounding, but never too high. It is a supporting plane,
+//! which holds for any direction. So a region misjudged on a sliver costs tightness and not truth.
 //! Derivation: `core/docs/rounding.md` §2, §3.
 
+use super::boxes::{Aabb, Clipped};
 use super::lanes::Lanes;
-use super::{Aabb, Clipped};
+use super::support::{Support, greater};
 use crate::num::tolerance::{
     POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64, UNDERFLOW,
 };
@@ -21,101 +22,24 @@ pub fn direction_bound(a: Vec3, b: Vec3, c: Vec3) -> f32 {
     if length_sq < TRUSTED_DIRECTION_SQ { 0.0 } else { along / libm::sqrtf(length_sq) }
 }
 
-/// The plane that supports a triangle and faces the origin.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Support {
-    /// Its distance from the origin times the length of its normal.
-    pub along: f32,
-    /// Squared length of its normal.
-    pub length_sq: f32,
-}
-
-impl Support {
-    /// Of the triangle `a b c`.
-    #[inline(always)]
-    pub fn new(a: Vec3, b: Vec3, c: Vec3) -> Self {
-        let ap = -a;
-        let ab = b - a;
-        let ac = c - a;
-        let r = residual(ap, ab, ac);
-        Support {
-            along: r.dot(ap) - greater(greater(0.0, r.dot(ab)), r.dot(ac)),
-            length_sq: r.dot(r),
-        }
-    }
-}
-
-/// The greater of two numbers, by one instruction: `f32::max` spends four on NaN, which does not
-/// occur here.
-#[inline(always)]
-fn greater(x: f32, y: f32) -> f32 {
-    if y > x { y } else { x }
-}
-
-/// Vector from the (approximately) closest point to the query. Any finite result is safe, so no
-/// branch needs a proof. `lanes` evaluates the same formulas.
-#[inline(always)]
-fn residual(ap: Vec3, ab: Vec3, ac: Vec3) -> Vec3 {
-    let d1 = ab.dot(ap);
-    let d2 = ac.dot(ap);
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return ap;
-    }
-    let aa = ab.dot(ab);
-    let bb = ab.dot(ac);
-    let d3 = d1 - aa;
-    let d4 = d2 - bb;
-    if d3 >= 0.0 && d4 <= d3 {
-        return ap - ab;
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && aa > 0.0 {
-        return ap - ab * (d1 * (1.0 / aa));
-    }
-    let cc = ac.dot(ac);
-    let d5 = d1 - bb;
-    let d6 = d2 - cc;
-    if d6 >= 0.0 && d5 <= d6 {
-        return ap - ac;
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && cc > 0.0 {
-        return ap - ac * (d2 * (1.0 / cc));
-    }
-    let va = d3 * d6 - d5 * d4;
-    let e4 = d4 - d3;
-    let e5 = d5 - d6;
-    if va <= 0.0 && e4 >= 0.0 && e5 >= 0.0 && e4 + e5 > 0.0 {
-        let v = e4 * (1.0 / (e4 + e5));
-        return ap - ab * (1.0 - v) - ac * v;
-    }
-    let sum = va + vb + vc;
-    if sum <= 0.0 {
-        return ap;
-    }
-    let inverse = 1.0 / sum;
-    ap - ab * (vb * inverse) - ac * (vc * inverse)
-}
-
 /// A query point with the rounding margin that holds for every triangle inside one box.
 #[derive(Clone, Copy, Debug)]
-pub struct PointProbe {
+pub struct SweptPoint {
     point: Vec3,
     margin: f32,
 }
 
-impl PointProbe {
+impl SweptPoint {
     /// For triangles whose corners all lie in `bounds`.
     pub fn new(point: Vec3, bounds: &Aabb) -> Self {
         let farthest = (point - bounds.min).abs().max((bounds.max - point).abs());
         let edge = bounds.max - bounds.min;
         let norms = farthest.x + farthest.y + farthest.z + edge.x + edge.y + edge.z;
-        PointProbe { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
+        SweptPoint { point, margin: POINT_BOUND * U32 * norms + UNDERFLOW }
     }
 
-    /// Not above the distance from the point to the triangle swept by `radius`, and never negative;
-    /// `None` if that distance certainly exceeds `limit`, which is found out without a square
-    /// root.
+    /// A lower bound of the distance from the point to the triangle swept by `radius`, never
+    /// negative. `None` if the distance certainly exceeds `limit`, which needs no square root.
     #[inline(always)]
     pub fn lower(&self, [a, b, c]: [Vec3; 3], radius: f32, limit: f32) -> Option<f32> {
         self.bound(Support::new(a - self.point, b - self.point, c - self.point), radius, limit)
@@ -145,19 +69,19 @@ impl PointProbe {
 
 /// A segment, clipped to the box of the model, with its rounding margin.
 #[derive(Clone, Copy, Debug)]
-pub struct SegmentProbe {
+pub struct SweptSegment {
     start: Vec3,
     direction: Vec3,
     /// 1 / |direction|², or zero where the segment is too short to have a direction.
     inverse_sq: f32,
     length: f32,
     margin: f32,
-    /// Parameter of `start` on the unclipped segment, and what one unit of `direction` is there.
+    /// Parameter of `start` on the unclipped segment, and the parameter of one unit of `direction`.
     t_start: f32,
     t_scale: f32,
 }
 
-impl SegmentProbe {
+impl SweptSegment {
     /// For triangles whose corners all lie in `bounds`, which `segment` was clipped to.
     pub fn new(segment: &Clipped, bounds: &Aabb) -> Self {
         let start = segment.start.as_vec3();
@@ -176,7 +100,7 @@ impl SegmentProbe {
         let margin = SEGMENT_BOUND * U32 * norms + clipping + UNDERFLOW;
         let has_direction = length_sq >= TRUSTED_DIRECTION_SQ;
         let length = libm::sqrtf(length_sq);
-        SegmentProbe {
+        SweptSegment {
             start,
             direction,
             inverse_sq: if has_direction { 1.0 / length_sq } else { 0.0 },
@@ -188,8 +112,8 @@ impl SegmentProbe {
         }
     }
 
-    /// `Some(t)` if the segment may come within `radius` of the triangle, and then at no parameter
-    /// below `t` of the unclipped segment; `None` only if it certainly does not.
+    /// `Some(t)` if the segment may come within `radius` of the triangle, at no parameter of the
+    /// unclipped segment below `t`. `None` only if it certainly does not.
     #[inline(always)]
     pub fn enter(&self, corners: [Vec3; 3], radius: f32) -> Option<f32> {
         let reach = radius + self.margin;
@@ -201,8 +125,8 @@ impl SegmentProbe {
         if first > 1.0 || last < 0.0 {
             return None;
         }
-        // Seen along the segment, the distance of its line and the triangle is that of a point and
-        // a triangle.
+        // Seen along the segment, the distance of its line and the triangle is the distance of a
+        // point and a triangle.
         let across = direction_bound(
             a - self.direction * sa,
             b - self.direction * sb,
@@ -229,7 +153,7 @@ mod tests {
             (Vec3::new(-3.0, -4.0, 0.0), 5.0),
             (Vec3::new(0.5, -2.0, 0.0), 2.0),
         ] {
-            let probe = PointProbe::new(point, &bounds);
+            let probe = SweptPoint::new(point, &bounds);
             let lower =
                 probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
             assert!(probe.lower(corners, 0.25, distance - 0.2).is_some());
@@ -247,7 +171,7 @@ mod tests {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let probe = |a: [f64; 3], b: [f64; 3]| {
             let clipped = bounds.clip(DVec3::from(a), DVec3::from(b)).expect("meets the box");
-            SegmentProbe::new(&clipped, &bounds)
+            SweptSegment::new(&clipped, &bounds)
         };
         let through = probe([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]);
         let t = through.enter(corners, 0.0).expect("crosses");

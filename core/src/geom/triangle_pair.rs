@@ -9,30 +9,29 @@
 //! and a sign counts only where it would be the same for all vertices within `doubt`:
 //! `core/docs/rounding.md` §11.
 
+use crate::num::tolerance::{DETERMINANT, U32, U64};
 use core::ops::{Add, Mul, Sub};
 
-/// What is known of two surfaces.
+/// The proved relation of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contact {
-    /// Proved: they have no point in common.
+    /// Proved: they have no common point.
     Apart,
-    /// Proved: they have.
+    /// Proved: they have a common point.
     Meets,
-    /// They come so near to each other that what the vertices may be off by, or rounding, leaves it
-    /// open.
+    /// They come so near to each other that the error of the vertices, or rounding, leaves it open.
     Open,
 }
 
-/// A precision that the test is done in.
+/// A precision of the test.
 pub trait Real:
     Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// Zero.
     const ZERO: Self;
-    /// Rounding of a determinant, as a part of the product of its vectors' 1-norms. Proved: 10 unit
-    /// roundoffs; here 16.
+    /// Rounding of a determinant, as a part of the product of its vectors' 1-norms.
     const DETERMINANT: Self;
-    /// More than what underflow takes from a determinant and its bound.
+    /// Upper limit of the loss of a determinant and its bound by underflow.
     const UNDERFLOW: Self;
     /// The absolute value.
     fn abs(self) -> Self;
@@ -40,7 +39,7 @@ pub trait Real:
 
 impl Real for f32 {
     const ZERO: f32 = 0.0;
-    const DETERMINANT: f32 = 8.0 * f32::EPSILON;
+    const DETERMINANT: f32 = DETERMINANT * U32;
     // Products of two that underflow lose 2^-150 each, and are multiplied once more, by less than
     // 2^38.
     const UNDERFLOW: f32 = 1.0 / (1u128 << 100) as f32;
@@ -52,7 +51,7 @@ impl Real for f32 {
 
 impl Real for f64 {
     const ZERO: f64 = 0.0;
-    const DETERMINANT: f64 = 8.0 * f64::EPSILON;
+    const DETERMINANT: f64 = DETERMINANT as f64 * U64;
     const UNDERFLOW: f64 = f64::MIN_POSITIVE;
     #[inline(always)]
     fn abs(self) -> f64 {
@@ -82,7 +81,7 @@ fn norm_1<T: Real>([x, y, z]: Point<T>) -> T {
     x.abs() + y.abs() + z.abs()
 }
 
-/// What a determinant of vectors of these 1-norms may be off by, if each of them may be by `shift`.
+/// Error of a determinant of vectors of these 1-norms, each of which may be off by `shift`.
 #[inline(always)]
 pub fn determinant_margin<T: Real>(x: T, y: T, z: T, shift: T) -> T {
     let (xy, sum) = (x * y, x + y);
@@ -91,13 +90,13 @@ pub fn determinant_margin<T: Real>(x: T, y: T, z: T, shift: T) -> T {
         + T::UNDERFLOW
 }
 
-/// 1 or −1 if that is proved, else 0.
+/// The proved sign, 1 or −1; 0 if no sign is proved.
 #[inline(always)]
 fn sign<T: Real>(value: T, margin: T) -> i8 {
     i8::from(value > margin) - i8::from(value < T::ZERO - margin)
 }
 
-/// An edge of a triangle as the test takes it: its start, its way, and the way's 1-norm.
+/// An edge of a triangle: its start, its direction, and the direction's 1-norm.
 #[derive(Clone, Copy)]
 struct Edge<T> {
     from: Point<T>,
@@ -124,15 +123,15 @@ fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shif
     })
 }
 
-/// Whether the triangles `a` and `b` have a common point, vertices being known up to `doubt`: no
-/// true vertex is farther than that from its place here.
+/// Whether the triangles `a` and `b` have a common point. No true vertex is farther than `doubt`
+/// from its given place.
 ///
-/// Triangles that touch are [`Contact::Open`], whatever the precision; so is every pair of which
-/// one has no area and the other comes within rounding of it. `doubt` may be 0: then the
-/// given coordinates are the truth. Products of three lengths have to stay within the type's range.
+/// Triangles that touch are [`Contact::Open`] in any precision. So is every pair in which one
+/// triangle has no area and the other comes within rounding of it. With a `doubt` of 0 the given
+/// coordinates are the truth. Products of three lengths must stay within the type's range.
 ///
-/// Cost: 3 or 6 determinants if a plane of one parts them, 8 mostly; 15 and 36 inner products where
-/// a vertex comes near the other's plane.
+/// Cost: 3 or 6 determinants if the plane of one triangle separates them, mostly 8; 15 and 36 inner
+/// products where a vertex comes near the other's plane.
 #[inline(always)]
 pub fn triangles_meet<T: Real>(a: [Point<T>; 3], b: [Point<T>; 3], doubt: T) -> Contact {
     // Each end of a difference may be off.
@@ -158,7 +157,7 @@ fn is_certain([p, q, r]: [i8; 3]) -> bool {
     p != 0 && q != 0 && r != 0
 }
 
-/// How one edge turns past another: 1, −1, or 0 if that is not certain.
+/// How one edge turns past another: 1 or −1; 0 if it is not certain.
 #[inline(always)]
 fn turn<T: Real>(first: &Edge<T>, second: &Edge<T>, shift: T) -> i8 {
     let way = minus(second.from, first.from);
@@ -175,7 +174,7 @@ fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2
         Edge { from, way, length: norm_1(way) }
     };
     let (up, down) = if p > q {
-        // The edge from `a` goes down; what goes up begins at `b` if `c` is above.
+        // The edge from `a` goes down. The edge that goes up begins at `b` if `c` is above.
         (if r > q { (b, c) } else { (c, a) }, (a, b))
     } else if p < q {
         ((a, b), if r < q { (b, c) } else { (c, a) })
@@ -187,14 +186,13 @@ fn passing<T: Real>([a, b, c]: [Point<T>; 3], [p, q, r]: [i8; 3]) -> [Edge<T>; 2
     [edge(up.0, up.1), edge(down.0, down.1)]
 }
 
-/// Whether two triangles meet of which each certainly has vertices on both sides of the other's
-/// plane. `sides`: on which side of the other's plane the vertices of the first, and of the second,
-/// lie, 1 where corners run counter-clockwise; `shift` is what a difference of two vertices may be
-/// off by.
+/// Whether two triangles meet that certainly pass through each other's planes. `sides`: on which
+/// side of the other's plane the vertices of the first, and of the second, lie, 1 where corners run
+/// counter-clockwise. `shift`: the error of a difference of two vertices.
 ///
 /// Both meet the planes' common line in an interval. Along the product of their normals the first
-/// triangle's begins where an edge passes up and the second's where one passes down; so two
-/// determinants tell whether either ends before the other begins.
+/// interval begins where an edge passes up, and the second where an edge passes down. So two
+/// determinants tell whether either interval ends before the other begins.
 #[inline(always)]
 pub fn straddling_triangles_meet<T: Real>(
     a: [Point<T>; 3],
@@ -215,7 +213,7 @@ pub fn straddling_triangles_meet<T: Real>(
     }
 }
 
-/// Whether they meet if it is open of some vertex on which side of the other plane it lies.
+/// Whether they meet if some vertex has no certain side of the other plane.
 #[inline(never)]
 fn undecided<T: Real>(
     edges_a: &[Edge<T>; 3],
@@ -247,8 +245,8 @@ fn undecided<T: Real>(
     }
 }
 
-/// Whether some plane upright on a triangle, along one of its edges, parts it from the other. Of
-/// triangles in one plane no determinant says more than that.
+/// Whether some plane upright on a triangle, along one of its edges, separates it from the other.
+/// Of triangles in one plane no determinant says more.
 fn parted_in_a_plane<T: Real>(
     edges_a: &[Edge<T>; 3],
     edges_b: &[Edge<T>; 3],
@@ -306,7 +304,7 @@ mod tests {
             (spike, 0.4, Contact::Open),
             (shifted([0.0, 0.0, 1.5], spike), 0.0, Contact::Apart),
             (shifted([0.0, 0.0, 1.5], spike), 0.3, Contact::Open),
-            // Beyond the slanted edge: planes do not part them, edges do.
+            // Beyond the slanted edge: planes do not separate them, edges do.
             (shifted([2.0, 2.0, 0.0], spike), 0.0, Contact::Apart),
             (shifted([0.0, 0.0, 1e-30], FLAT), 0.0, Contact::Open),
             (FLAT, 0.0, Contact::Open),

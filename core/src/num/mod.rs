@@ -1,10 +1,10 @@
 //! Numbers: directed rounding, the stored radius, and every tolerance.
 
 mod radius;
-mod root;
 mod round;
+mod sqrt;
 pub mod tolerance;
 
 pub use radius::{Radius8, Radius16};
-pub use root::sqrt_approx;
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
+pub use sqrt::sqrt_approx;

@@ -1,7 +1,7 @@
 //! From f64 to f32 without losing a bound, and exact powers of two.
 
-/// The greatest f32 that is not above `x`; `f32::MAX` where `x` exceeds it, so that a finite lower
-/// bound stays finite.
+/// The greatest f32 that is not above `x`. It is `f32::MAX` where `x` exceeds f32's range, so that
+/// a finite lower bound stays finite.
 ///
 /// NaN gives NaN. Cost: one conversion, one comparison.
 pub fn down_to_f32(x: f64) -> f32 {
@@ -9,20 +9,21 @@ pub fn down_to_f32(x: f64) -> f32 {
     if f64::from(nearest) <= x { nearest } else { nearest.next_down() }
 }
 
-/// The least f32 that is not below `x`; infinity where none is.
+/// The least f32 that is not below `x`. It is infinite where `x` exceeds f32's range.
 pub fn up_to_f32(x: f64) -> f32 {
     let nearest = x as f32;
     if f64::from(nearest) >= x { nearest } else { nearest.next_up() }
 }
 
-/// `2^exponent` exactly, for `-1022 ≤ exponent ≤ 1023`; exponents outside are clamped to that
+/// `2^exponent` exactly, for `-1022 ≤ exponent ≤ 1023`. Exponents outside are clamped to that
 /// range.
 pub fn exp2(exponent: i32) -> f64 {
     let clamped = exponent.clamp(-1022, 1023);
     f64::from_bits(u64::from((clamped + 1023).unsigned_abs()) << 52)
 }
 
-/// `a + b`, and what it was rounded by, exactly (Knuth, TAOCP 4.2.2). Both finite, the sum too.
+/// `a + b` and its rounding error, exactly (Knuth, TAOCP 4.2.2). Both numbers and the sum must be
+/// finite.
 #[inline(always)]
 pub fn two_sum(a: f32, b: f32) -> (f32, f32) {
     let sum = a + b;

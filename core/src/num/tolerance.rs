@@ -1,8 +1,10 @@
-//! The tolerances that guarantees rest on, in one place. Derivations: `core/docs/rounding.md`,
-//! whose section each constant names.
+//! Every tolerance that a guarantee rests on. The derivations are in `core/docs/rounding.md`; each
+//! constant names its section.
 //!
-//! All of them are relative: multiplied by lengths of the model and the query at hand, or in the
-//! local frame, where the model's largest coordinate lies in [½, 1).
+//! All tolerances are relative. They multiply lengths of the model and of the query, or they apply
+//! in the local frame, where the model's largest coordinate lies in [½, 1).
+
+// All structures
 
 /// Unit roundoff of f32, 2^-24.
 pub const U32: f32 = f32::EPSILON / 2.0;
@@ -10,88 +12,193 @@ pub const U32: f32 = f32::EPSILON / 2.0;
 /// Unit roundoff of f64, 2^-53.
 pub const U64: f64 = f64::EPSILON / 2.0;
 
+/// Upper limit of the loss by underflow of a sum of a few products: no term loses more than
+/// 2^-147.
+pub const PRODUCT_UNDERFLOW: f32 = f32::MIN_POSITIVE;
+
+/// Rounding of the determinant of three vectors, in unit roundoffs times the product of their
+/// 1-norms. Proved: 10 (§11).
+pub const DETERMINANT: f32 = 16.0;
+
+// Hull, in the local frame
+
 /// Rounding of the f32 lower bound of a point–triangle distance, in units of [`U32`] times
-/// (distance to the farthest corner + longest edge). Proved: 12.7 (§2). Smaller loses the
-/// guarantee; larger opens a few more nodes.
+/// (distance to the farthest corner + longest edge). Proved: 12.7 (§2). A smaller value loses the
+/// guarantee. A larger one opens a few more nodes.
 pub const POINT_BOUND: f32 = 16.0;
 
-/// Rounding of the f32 lower bound of a segment–triangle distance, in the same units, of
-/// which the probe's sum of norms holds two. Proved: 31 (§3).
+/// Rounding of the f32 lower bound of a segment–triangle distance, in the same units; the query's
+/// sum of norms holds two of them. Proved: 31 (§3).
 pub const SEGMENT_BOUND: f32 = 48.0;
 
 /// Rounding of the f64 point–triangle interval, in units of [`U64`] times the 1-norms of `ap`,
-/// `ab`, `ac`. Proved: 8.6 (§4). Larger widens the reported interval, which at 16 is still below
+/// `ab`, `ac`. Proved: 8.6 (§4). A larger value widens the reported interval, which at 16 is below
 /// one unit of f32.
 pub const POINT_INTERVAL: f64 = 16.0;
 
 /// Rounding of a triple product `d · (b × c)` in f64, in units of [`U64`] times the product of the
-/// 1-norms. Proved: 9.1 (§5). It decides how near a segment that just misses an edge may pass and
-/// still be called a hit.
+/// 1-norms. Proved: 9.1 (§5). It decides how near a segment may pass an edge and still be called a
+/// hit.
 pub const TRIPLE_PRODUCT: f64 = 16.0;
 
-/// Distance, in units of [`U64`] times the 1-norms in play, below which a segment in the plane of a
-/// triangle touches it (§5).
+/// Distance below which a segment in the plane of a triangle touches the triangle, in units of
+/// [`U64`] times the 1-norms (§5).
 pub const COPLANAR_TOUCH: f64 = 64.0;
 
-/// Two bounds are compared as squares, which is off by less than eight roundings: a factor that
-/// keeps the comparison on the safe side (§2). It is part of what [`POINT_BOUND`] leaves over.
+/// Bounds are compared as squares, with less than eight roundings. This factor keeps the comparison
+/// on the safe side (§2). [`POINT_BOUND`] has room for it.
 pub const SQUARED_SLACK: f32 = 1.0 - 8.0 * U32;
 
-/// Squared length, in the local frame, below which a direction in f32 is not trusted: 2^-100.
-/// Products of two such components stay above the subnormal range. Below it a lower bound falls
-/// back to zero, which is always true (§2).
+/// Squared length below which a direction in f32 is not trusted: 2^-100. Products of two longer
+/// components stay above the subnormal range. Below it a lower bound falls back to zero, which is
+/// always true (§2).
 pub const TRUSTED_DIRECTION_SQ: f32 = 1.0 / ((1u64 << 50) as f32 * (1u64 << 50) as f32);
 
-/// What underflow can cost a bound in the local frame, 2^-96: every term that underflows loses less
-/// than 2^-146, and it is divided by a direction no shorter than 2^-50 (§2).
+/// Loss of a bound by underflow, 2^-96: a term that underflows loses less than 2^-146, and it is
+/// divided by a direction no shorter than 2^-50 (§2).
 pub const UNDERFLOW: f32 = 1.0 / ((1u64 << 48) as f32 * (1u64 << 48) as f32);
 
-/// Largest query coordinate in the local frame for which nodes are bounded in f32: 2^12. There the
-/// rounding margin is half a percent of the model; farther out it would hide the model, so f64
-/// takes over. Products of four lengths stay below 2^60.
-pub const SINGLE: f64 = 4096.0;
+/// Largest query coordinate for which nodes are bounded in f32: 2^12. There the rounding margin is
+/// half a percent of the model. Farther out the bounds are computed in f64. Products of four
+/// lengths stay below 2^60.
+pub const F32_BOUNDS: f64 = 4096.0;
 
-/// Largest query coordinate in the local frame for which distances are computed at all: 2^40.
-/// Beyond it the whole model subtends less than a unit of f32, and the answer is read off its box.
-pub const FAR: f64 = (1u64 << 40) as f64;
+/// Largest query coordinate for which distances are computed: 2^40. From farther away the model
+/// subtends less than a unit of f32, and its box gives the answer.
+pub const HULL_FAR: f64 = (1u64 << 40) as f64;
 
-/// What a denominator in a fan's kernel has to exceed, grid units to the fourth power or less:
-/// 2^-60. On a u16 grid every denominator that is not 0 is at least 1; with f32 vertices a smaller
-/// one belongs to a triangle that is a point for all that f32 can tell, and its centre stands for
-/// it. The bound that certifies it does not depend on the choice (§8).
-pub const TREE_TINY: f32 = 1.0 / ((1u64 << 60) as f32);
+/// Rounding to f32 and the change of units, at either end of the interval.
+pub const REPORTED: f64 = 8.0 * U32 as f64;
 
-/// Rounding of a computed point–triangle distance of a fan, in units of [`U32`] times the tree's
-/// `reach`. Proved: 23 (§8). Larger widens the interval near the surface, smaller loses the
-/// guarantee.
-pub const TREE_FAN: f32 = 32.0;
+// Box tree, distances, in grid units
 
-/// The same, in units of [`U32`] times the distance itself. Proved: 9 (§8).
-pub const TREE_RELATIVE: f32 = 16.0;
+/// Least denominator of a fan kernel, grid units to the fourth power or less: 2^-60. On a u16 grid
+/// every denominator above 0 is at least 1. With f32 vertices a smaller one belongs to a triangle
+/// that f32 cannot tell from a point, and its centre stands for it. The lower bound does not depend
+/// on the choice (§8).
+pub const LEAST_DENOMINATOR: f32 = 1.0 / ((1u64 << 60) as f32);
 
-/// Rounding of a box bound of the tree, in units of [`U32`] times the 1-norm of the way to the
-/// farthest corner of the model's box. Proved: 11.3 (§8). Larger visits more.
-pub const TREE_BOX: f32 = 16.0;
+/// Rounding of a point–triangle distance of a fan, in units of [`U32`] times the tree's
+/// `star_radius`. Proved: 23 (§8). A larger value widens the interval near the surface. A smaller
+/// one loses the guarantee.
+pub const FAN_DISTANCE: f32 = 32.0;
 
-/// A certified square less than the best square by more than this part, 2^-18, counts as weak and
-/// is looked at again. The lower end of an interval is lower by half of that part.
-pub const TREE_WEAK: f32 = 1.0 - 1.0 / 262_144.0;
+/// Rounding of the same distance, in units of [`U32`] times the distance itself. Proved: 9 (§8).
+pub const FAN_RELATIVE: f32 = 16.0;
 
-/// What a certified square may moreover fall short by on a u16 grid, where vertices moved by up to
-/// 0.87 units anyway: 1 square unit. It costs the interval 1/(2D) units at distance D and spares
-/// nearly every second look. 0 with exact vertices.
-pub const TREE_SHORT: f32 = 1.0;
+/// Rounding of a box bound, in units of [`U32`] times the 1-norm of the way to the farthest corner
+/// of the model's box. Proved: 11.3 (§8). A larger value visits more.
+pub const BOX_DISTANCE: f32 = 16.0;
 
-/// What is added to the sine of a cone of normals before a leaf counts as back-facing, 2^-19. The
-/// way to the eye, its product with the axis and the squares carry less than half of that. Smaller
-/// loses the guarantee; larger keeps a few leaves more.
+/// Part of the best square that the lower bound of every other triangle has to reach, 1 − 2^-18. A
+/// triangle with less is refined as a sliver. The lower end of an interval is lower by half of the
+/// missing part.
+pub const CERTIFIED_PART: f32 = 1.0 - 1.0 / 262_144.0;
+
+/// Further shortfall of a squared lower bound that passes on a u16 grid, where vertices moved by up
+/// to 0.87 units: 1 square unit. It costs the interval 1/(2D) units at distance D and spares nearly
+/// every second look. With f32 vertices it is 0.
+pub const CERTIFIED_SHORTFALL: f32 = 1.0;
+
+/// Distance, 1-norm, beyond which the model's box gives the answer: 2^38, a million times the
+/// model's size. There the interval of the box is narrower than four units of f32.
+pub const BVH_FAR: f32 = (1u64 << 38) as f32;
+
+/// Squared limit above every square of the domain and below the key of a lane without a child.
+pub const EVERYTHING_SQ: f32 = f32::from_bits(0x7E80_0000);
+
+/// Least distance that a limit is made for. Its square is far above underflow.
+pub const LEAST_LIMIT: f32 = 1.0 / (1u64 << 40) as f32;
+
+/// Addition to the sine of a normal cone before a leaf counts as back-facing, 2^-19. The way to the
+/// eye, its product with the axis and the squares carry less than half of it. A smaller value loses
+/// the guarantee. A larger one keeps a few more leaves.
 pub const CONE_SINE: f32 = 1.0 / 524_288.0;
 
-/// Distance in grid units, 1-norm, beyond which the interval of the tree's box is narrower than
-/// four units of f32: 2^38, which is a million times the model's size.
-pub const TREE_FAR: f32 = (1u64 << 38) as f32;
+// Box tree, segments, in grid units
+
+/// Half the width of the strip along an edge in which a kernel decides nothing, in units of [`U32`]
+/// times the 1-norm of the way to the farthest corner. Proved: 12.9 (§9). A smaller value loses the
+/// guarantee. A larger one leaves more segments undecided.
+pub const FAN_SHEAR: f32 = 16.0;
+
+/// Rounding of a parameter, in units of [`U32`] times the greatest parameter of the triangle's
+/// corners and of the segment's far end. Proved: 21.6 (§9).
+pub const FAN_PARAMETER: f32 = 24.0;
+
+/// Rounding of the parameter at which a segment enters a box, in units of [`U32`] times the way to
+/// the farthest corner along that axis. Proved: 28 (§9). A larger value visits more.
+pub const BOX_ENTRY: f32 = 32.0;
+
+/// Extents of the model that its farthest corner may be away from a segment's start before the
+/// start is moved nearer. There the strip along edges in which nothing is decided is 2^-17 of the
+/// model.
+pub const NEAR_START: f32 = 8.0;
+
+/// A component of a direction that counts as 0, 2^-80: the way along it is lost in any rounding.
+pub const STILL: f32 = LEAST_DENOMINATOR / (1u32 << 20) as f32;
+
+// Box tree, the side
+
+/// Rounding of a triple product in f32, in units of [`U32`] times the sum of the absolute values of
+/// its products. Proved: 8 for factors that carry one rounding each, second order apart (§8).
+pub const SIGN_TRIPLE_PRODUCT: f32 = 16.0;
+
+/// Integers of which every product and sum below this value is exact in f32.
+pub const EXACT_INTEGERS: f32 = (1u32 << 24) as f32;
+
+/// Rounding of a cosine, in units of [`U32`].
+pub const SIGN_COSINE: f32 = 16.0;
+
+// Box tree, overlap, in units of the coarser grid
+
+/// Rounding of a box's interval, in units of [`U32`] times the extent of both trees along the
+/// direction. Proved: 76 (§11).
+pub const OVERLAP_INTERVAL: f64 = 96.0;
+
+/// Rounding of a moved vertex, the 2-norm, in unit roundoffs times the longest way along an axis.
+/// Proved: 8.7 in f32, 19.1 in f64 (§11).
+pub const OVERLAP_VERTEX: f64 = 20.0;
+
+/// Longest way along an axis, surface errors included: 2^30. Products of four lengths and their
+/// sums stay in f32's range. Trees are within 2^25 of their origins, so that only an absurd surface
+/// error gets there.
+pub const OVERLAP_FARTHEST: f64 = (1u64 << 30) as f64;
+
+/// Loss of an interval's end by underflow: terms lose 2^-150 each and are multiplied by less than
+/// 2^30 (§11). A shorter direction separates nothing.
+pub const OVERLAP_UNDERFLOW: f64 = 1.0 / (1u128 << 100) as f64;
+
+// Box tree, coherent queries
+
+/// Squared sine of the angle between the spokes of a triangle below which the triangle counts as a
+/// sliver: 2^-16, a quarter of a degree.
+pub const SLIVER_SINE_SQ: f32 = 1.0 / 65_536.0;
+
+/// Shortfall of the lower bound of a triangle that is not a sliver, as a part of (distance +
+/// `star_radius`): 2^-14. It grows with 1/sine; measured at the limit: 2^-15.
+pub const SHORTFALL: f32 = 1.0 / 16_384.0;
+
+/// Rounding of a root and a few products, relative, 2^-20.
+pub const ROOT_AND_PRODUCTS: f32 = 1.0 / 1_048_576.0;
+
+/// Rounding of the length of a scaled normal, relative, 2^-18.
+pub const PLANE_NORMAL: f32 = 1.0 / 262_144.0;
+
+/// Rounding of one sum of a path, relative, 2^-22.
+pub const PATH_SUM: f32 = 1.0 / 4_194_304.0;
+
+/// Length of a path, in units of the rounding of a box bound, after which the path is counted from
+/// zero again. Keys are as long as the path, and their rounding stays below that of the bound.
+pub const LONG_PATH: f32 = 2_097_152.0;
+
+// Triboxes
 
 /// Rounding of the gap between two moved triboxes along a direction, in units of [`U32`] times the
-/// sum of the sizes of what is added up. Proved: 30 (§10). Larger tells less apart: 64 units are 4
+/// sum of the sizes of all terms. Proved: 30 (§10). A larger value separates less: 64 units are 4
 /// millionths of the models' size.
 pub const TRIBOX_AXIS: f32 = 64.0;
+
+/// Rounding of a moved coordinate, in units of [`U32`] times the sum of the sizes of its terms.
+/// Proved: 5, of the product 1, of the sums 3, of this product 1.
+pub const TRIBOX_COORDINATE: f32 = 8.0;

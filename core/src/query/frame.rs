@@ -1,31 +1,31 @@
 //! Between input units and the local frame, which differ by a power of two.
 
-use super::QueryError;
-use crate::blob::Model;
-use crate::num::tolerance::{FAR, U64};
+use super::error::QueryError;
+use crate::format::Header;
+use crate::num::tolerance::{HULL_FAR, U64};
 use crate::num::{down_to_f32, exp2, up_to_f32};
 use glam::{DVec3, Vec3};
 
 /// Conversion of one model's frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     scale: f64,
     inverse: f64,
     surface_error: f64,
 }
 
 impl Frame {
-    pub(super) fn of(model: &Model<'_>) -> Self {
-        let exponent = model.header().scale_exponent;
+    pub(crate) fn of(header: &Header) -> Self {
+        let exponent = header.scale_exponent;
         Frame {
             scale: exp2(exponent),
             inverse: exp2(-exponent),
-            surface_error: f64::from(model.header().surface_error),
+            surface_error: f64::from(header.surface_error),
         }
     }
 
     /// A query coordinate in the local frame, exactly: f32 times a power of two fits an f64.
-    pub(super) fn local(&self, point: [f32; 3]) -> Result<DVec3, QueryError> {
+    pub(crate) fn local(&self, point: [f32; 3]) -> Result<DVec3, QueryError> {
         if !point.iter().all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
         }
@@ -33,32 +33,32 @@ impl Frame {
     }
 
     /// An end of a segment in the local frame.
-    pub(super) fn local_end(&self, point: [f32; 3]) -> Result<DVec3, QueryError> {
+    pub(crate) fn local_end(&self, point: [f32; 3]) -> Result<DVec3, QueryError> {
         let local = self.local(point)?;
-        if local.abs().max_element() > FAR { Err(QueryError::OutOfDomain) } else { Ok(local) }
+        if local.abs().max_element() > HULL_FAR { Err(QueryError::OutOfDomain) } else { Ok(local) }
     }
 
     /// A point in input units, rounded to nearest, kept finite.
-    pub(super) fn point(&self, local: DVec3) -> [f32; 3] {
+    pub(crate) fn point(&self, local: DVec3) -> [f32; 3] {
         (local * self.scale).to_array().map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
-    /// A lower bound of the distance to the stored surface as one to the input surface, in input
-    /// units.
-    pub(super) fn lower(&self, local: f64) -> f32 {
+    /// From a lower bound of the distance to the stored surface to one of the distance to the input
+    /// surface, input units.
+    pub(crate) fn lower(&self, local: f64) -> f32 {
         let bound = (local - self.surface_error) * self.scale;
         down_to_f32((bound - 2.0 * U64 * bound.abs()).max(0.0))
     }
 
-    /// An upper bound of the distance to the stored surface as one to the input surface, in input
-    /// units.
-    pub(super) fn upper(&self, local: f64) -> f32 {
+    /// From an upper bound of the distance to the stored surface to one of the distance to the
+    /// input surface, input units.
+    pub(crate) fn upper(&self, local: f64) -> f32 {
         let bound = (local + self.surface_error) * self.scale;
         up_to_f32(bound + 2.0 * U64 * bound.abs())
     }
 
-    /// A length in the local frame, as a number to compare with.
-    pub(super) fn length(&self, input: f32) -> f64 {
+    /// A length in the local frame.
+    pub(crate) fn length(&self, input: f32) -> f64 {
         f64::from(input) * self.inverse
     }
 }

@@ -5,11 +5,10 @@
 //! another. A corner has four vertices, so that there are 32 vertices, 48 edges and 18
 //! faces, always; some of them may have no extent.
 
-use super::{SLABS, Tribox};
+use super::bounds::Tribox;
+use super::directions::FACES;
+use super::directions::SLABS;
 use core::ops::{Add, Neg, Sub};
-
-/// Faces: face `2·d` is where direction `d` is least, `2·d + 1` where it is greatest.
-pub const FACES: usize = 2 * SLABS;
 
 /// Vertices: four of each corner.
 pub const VERTICES: usize = 32;

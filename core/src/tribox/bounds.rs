@@ -1,6 +1,6 @@
 //! The eighteen parameters, and what comparisons alone can tell of them.
 
-use super::SLABS;
+use super::directions::SLABS;
 use crate::num::tolerance::U32;
 use crate::num::{sum_down, sum_up};
 use core::fmt;
@@ -45,7 +45,7 @@ impl core::error::Error for TriboxError {}
 
 /// What a point measures along the directions, between what is rounded down and what is rounded up.
 #[inline(always)]
-pub(super) fn projections([x, y, z]: [f32; 3]) -> ([f32; SLABS], [f32; SLABS]) {
+pub(crate) fn projections([x, y, z]: [f32; 3]) -> ([f32; SLABS], [f32; SLABS]) {
     let sums = [(x, y), (x, -y), (y, z), (y, -z), (z, x), (z, -x)];
     let [a, b, c, d, e, f] = sums.map(|(a, b)| sum_down(a, b));
     let low = [x, y, z, a, b, c, d, e, f];
@@ -55,7 +55,7 @@ pub(super) fn projections([x, y, z]: [f32; 3]) -> ([f32; SLABS], [f32; SLABS]) {
 
 /// The point, if it is finite and within the domain.
 #[inline(always)]
-pub(super) fn checked(point: [f32; 3]) -> Result<[f32; 3], TriboxError> {
+pub(crate) fn checked(point: [f32; 3]) -> Result<[f32; 3], TriboxError> {
     let [x, y, z] = point.map(f32::abs);
     if !(x.is_finite() & y.is_finite() & z.is_finite()) {
         return Err(TriboxError::NotFinite);

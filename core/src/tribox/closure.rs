@@ -5,7 +5,8 @@
 //! bounds a difference; shortest paths give what differences imply, and one more step what two
 //! bounds of single coordinates do. The result is the tightest there is, over the reals.
 
-use super::{SLABS, Tribox};
+use super::bounds::Tribox;
+use super::directions::SLABS;
 use crate::num::sum_up;
 
 /// Numbers between which parameters bound differences.

@@ -1,7 +1,6 @@
 //! Distance to a tribox, and the part of a segment that is in it.
 
-use super::Tribox;
-use super::bounds::projections;
+use super::bounds::{Tribox, projections};
 use crate::num::tolerance::U32;
 use crate::num::{sqrt_approx, sum_down, sum_up};
 

@@ -7,41 +7,36 @@
 //! compared with each other. What it is for: a first reject that is tighter than a box for three
 //! times the comparisons, and a proxy that can be drawn.
 //!
-//! ```text
-//! bounds    18 parameters: of points, unions, intersections, translations; containment, overlap
-//! closure   parameters that no other ones imply: the strong closure of octagons
-//! boundary  faces, as loops of vertices, corner by corner
-//! snap      planes moved outward until small faces vanish
-//! measure   distance, segments
-//! moved     bounds of what was rotated
-//! support   how far they reach along any direction
-//! ```
+//! | where | what lies there |
+//! | --- | --- |
+//! | `directions` | the nine directions |
+//! | `bounds` | 18 parameters: of points, unions, intersections, translations; containment, overlap |
+//! | `closure` | parameters that no other ones imply: the strong closure of octagons |
+//! | `boundary` | faces, as loops of vertices, corner by corner |
+//! | `snap` | planes moved outward until small faces vanish |
+//! | `measure` | distance, segments |
+//! | `moved` | bounds of rotated points |
+//! | `support` | how far triboxes reach along any direction |
+//! | `format/` | the bytes of the hierarchy |
+//! | `separating_axes`, `separation` | two hierarchies, one of them moved |
+//! | `distance` | a point or a segment against the hierarchy |
 
 mod boundary;
 mod bounds;
 mod closure;
+mod directions;
+mod distance;
+pub mod format;
 mod measure;
 mod moved;
+mod separating_axes;
+mod separation;
 mod snap;
 mod support;
 
-pub use boundary::{Boundary, FACES, LOOP, Scalar, VERTICES, boundary};
+pub use boundary::{Boundary, LOOP, Scalar, VERTICES, boundary};
 pub use bounds::{Tribox, TriboxError};
-pub use moved::Pose;
-pub(crate) use support::Support;
-
-/// Number of slabs.
-pub const SLABS: usize = 9;
-
-/// The slabs' directions. Not of unit length: of the last six it is √2.
-pub const DIRECTIONS: [[i8; 3]; SLABS] = [
-    [1, 0, 0],
-    [0, 1, 0],
-    [0, 0, 1],
-    [1, 1, 0],
-    [1, -1, 0],
-    [0, 1, 1],
-    [0, 1, -1],
-    [1, 0, 1],
-    [-1, 0, 1],
-];
+pub use directions::{DIRECTIONS, FACES, SLABS};
+pub use distance::Bound;
+pub use format::{TriboxLevel, Triboxes};
+pub use separation::{Candidates, NodePair, Separation};

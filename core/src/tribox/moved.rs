@@ -1,37 +1,13 @@
 //! Bounds of what was moved (Crosnier & Rossignac 1999, section 3: from a hull's vertices, or from
 //! the vertices of the tribox).
 
-use super::bounds::{TriboxError, checked};
-use super::{SLABS, Tribox};
-use crate::num::tolerance::U32;
+use super::bounds::{Tribox, TriboxError, checked};
+use super::directions::SLABS;
+use crate::geom::Pose;
+use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_COORDINATE, U32};
 use crate::num::{sum_down, sum_up};
 
-/// A motion: `rotation · p + translation`, each row of the matrix gives a coordinate.
-///
-/// It is taken as it is, in real arithmetic: if the matrix is a rotation up to rounding only, then
-/// so is the motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
-    /// Rows of the matrix; entries of at most 1, up to rounding.
-    pub rotation: [[f32; 3]; 3],
-    /// Added to the rotated point.
-    pub translation: [f32; 3],
-}
-
-/// What rounding may do to a coordinate, in units of [`U32`] times the sum of the sizes of its
-/// terms. Proved: 5, of the product 1, of sums 3, of this product 1.
-const COORDINATE: f32 = 8.0;
-
-/// More than what products lose below f32's range.
-const UNDERFLOW: f32 = f32::MIN_POSITIVE;
-
 impl Pose {
-    /// No motion.
-    pub const IDENTITY: Pose = Pose {
-        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        translation: [0.0; 3],
-    };
-
     pub(crate) fn check(&self) -> Result<(), TriboxError> {
         checked(self.translation)?;
         for row in self.rotation {
@@ -92,7 +68,9 @@ impl Pose {
         let mut margins = [0f32; 3];
         for ((margin, size), [a, b, c]) in margins.iter_mut().zip(sizes).zip(self.rotation) {
             let spread = (a.abs() + b.abs() + c.abs()) * doubt;
-            *margin = size * (COORDINATE * U32) + spread * (1.0 + COORDINATE * U32) + UNDERFLOW;
+            *margin = size * (TRIBOX_COORDINATE * U32)
+                + spread * (1.0 + TRIBOX_COORDINATE * U32)
+                + PRODUCT_UNDERFLOW;
         }
         let ([x, y, z], [sx, sy, sz]) = (margins, sizes);
         // The sum of two coordinates is rounded once more.

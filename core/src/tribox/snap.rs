@@ -1,7 +1,8 @@
 //! Simplified triboxes (Crosnier & Rossignac 1999, section 3): planes are moved outward until small
 //! faces vanish.
 
-use super::{FACES, SLABS, Tribox};
+use super::bounds::Tribox;
+use super::directions::{FACES, SLABS};
 
 /// A plane: its slab, and whether it is where that is greatest.
 type Plane = (usize, bool);

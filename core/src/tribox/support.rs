@@ -18,7 +18,7 @@
 //!
 //! One for each way in which the faces may meet at the corner that lies in that direction.
 
-use super::FACES;
+use super::directions::FACES;
 
 /// A direction, split into multiples of planes' directions in all ways that may be the least.
 #[derive(Clone, Copy, Debug)]

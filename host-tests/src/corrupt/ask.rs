@@ -5,15 +5,10 @@
 //! answers may be wrong. But every question ends, within work that the tree's counts bound, without
 //! a panic, and what it gives is in range.
 
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{
-    BatchError, CoherentQuery, Contact, Facing, Hint, Neighbor, PairEntry, ScratchEntry, Side,
-    Sight, TrianglePair, Verdict, all_hits, all_overlaps, all_within, any_hit, closest_point,
-    closest_point_from, closest_points, first_hit, front_facing, is_within, nearest, overlap,
-    signed_distance,
+use meshsweep_core::{
+    Budget, Bvh, ClosestPoint, CoherentQuery, Eye, Facing, Hint, Hit, Neighbor, Pose, QueryError,
+    ScratchEntry, Side, TrianglePair, Verdict, Work,
 };
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, Hit, QueryError, Work};
-use meshsweep_core::tribox::Pose;
 
 /// The caller's memory, of any length.
 #[derive(Debug)]
@@ -45,29 +40,23 @@ impl Asker {
         let Self { stack, near, hint, .. } = self;
         let once = descent(tree);
         for stop in [stop, &Budget::EXACT] {
-            if let Some(answer) = answered(closest_point(tree, point, stop, stack)) {
+            if let Some(answer) = answered(tree.closest_point(point, *stop, stack)) {
                 closest(tree, &answer, once);
             }
-            if let Some(answer) = answered(closest_point_from(tree, point, stop, stack, hint)) {
+            if let Some(answer) = answered(tree.closest_point_from(point, hint, *stop, stack)) {
                 closest(tree, &answer, once + 16);
             }
-            if let Some(answer) = answered(is_within(tree, point, distance, stop, stack)) {
+            if let Some(answer) = answered(tree.within(point, distance, *stop, stack)) {
                 ends(answer.work, once);
-                if let Verdict::Yes { triangle } = answer.verdict {
-                    assert!(
-                        triangle.is_some_and(|number| number < tree.input_triangles()),
-                        "{answer:?}"
-                    );
-                }
-                let certain = answer.verdict != Verdict::Unknown;
-                assert_eq!(certain, answer.ended == Ended::Exact, "{answer:?}");
+                let named = answer.triangle.is_some_and(|number| number < tree.input_triangles());
+                assert_eq!(answer.verdict == Verdict::Yes, named, "{answer:?}");
             }
-            if let Some(answer) = answered(nearest(tree, point, stop, near, stack)) {
+            if let Some(answer) = answered(tree.nearest(point, near, *stop, stack)) {
                 ends(answer.work, once);
                 assert!(answer.rest_lower >= 0.0, "{answer:?}");
                 found(tree, &near[..answer.stored]);
             }
-            if let Some(answer) = answered(all_within(tree, point, distance, stop, near, stack)) {
+            if let Some(answer) = answered(tree.all_within(point, distance, near, *stop, stack)) {
                 ends(answer.work, once);
                 assert!(answer.certain <= answer.stored, "{answer:?}");
                 assert!(
@@ -76,11 +65,14 @@ impl Asker {
                 );
                 found(tree, &near[..answer.stored]);
             }
-            if let Some(answer) = answered(signed_distance(tree, point, stop, stack)) {
+            if let Some(answer) = answered(tree.signed_distance(point, *stop, stack)) {
                 closest(tree, &ClosestPoint { work: Work::default(), ..answer.closest }, 0);
                 ends(answer.closest.work, 8 * once);
-                assert!(answer.lower <= answer.upper, "{answer:?}");
-                assert!(tree.header().is_closed() || answer.side == Side::Undefined, "{answer:?}");
+                assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
+                assert!(
+                    tree.header().is_closed() || matches!(answer.side, Side::Undecided(_)),
+                    "{answer:?}"
+                );
             }
         }
     }
@@ -93,13 +85,14 @@ impl Asker {
         let Self { stack, hits, .. } = self;
         let once = descent(tree);
         for facing in [Facing::Both, Facing::Front, Facing::Back] {
-            if let Some(answer) = answered(first_hit(tree, a, b, &facing, stack)) {
+            if let Some(answer) = answered(tree.first_hit(a, b, facing, Budget::EXACT, stack)) {
                 ends(answer.work, once);
-                assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
+                assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
                 answer.hit.iter().for_each(|hit| met(tree, hit));
             }
-            answered(any_hit(tree, a, b, &facing, stack));
-            if let Some(answer) = answered(all_hits(tree, a, b, &facing, hits, stack)) {
+            answered(tree.any_hit(a, b, facing, Budget::EXACT, stack));
+            if let Some(answer) = answered(tree.all_hits(a, b, facing, hits, Budget::EXACT, stack))
+            {
                 ends(answer.work, once);
                 let hits = &hits[..answer.stored];
                 hits.iter().for_each(|hit| met(tree, hit));
@@ -122,7 +115,7 @@ impl Asker {
     ) {
         for point in path {
             if let Some(answer) =
-                answered(session.closest_point(tree, point, stop, &mut self.stack))
+                answered(session.closest_point(tree, point, *stop, &mut self.stack))
             {
                 closest(tree, &answer.closest, 4 * descent(tree));
                 assert!(answer.safe_radius >= 0.0, "{answer:?}");
@@ -138,21 +131,15 @@ impl Asker {
     /// If an answer is out of range or took too long.
     pub fn batch(&mut self, tree: &Bvh<'_>, points: &[[f32; 3]], piece: usize, stop: &Budget) {
         let Self { stack, hint, .. } = self;
-        let none = ClosestPoint {
-            lower: 0.0,
-            upper: 0.0,
-            point: [0.0; 3],
-            triangle: None,
-            work: Work::default(),
-            ended: Ended::Exact,
-        };
-        let (mut answers, mut order) = (vec![none; points.len()], vec![0; 2 * piece]);
-        match closest_points(tree, points, &mut answers, stop, stack, &mut order, hint) {
+        let mut answers = vec![ClosestPoint::EMPTY; points.len()];
+        // The entries behind the descent's own put so many queries in order at a time.
+        let mut scratch = vec![ScratchEntry::EMPTY; stack.len() + 2 * piece];
+        match tree.closest_points(points, hint, &mut answers, *stop, &mut scratch) {
             Ok(()) => answers.iter().for_each(|answer| closest(tree, answer, 2 * descent(tree))),
-            Err(BatchError::Query { index, error }) => {
-                assert!(index < points.len() && error != QueryError::Model, "{index}: {error}");
+            Err(QueryError::PointNotFinite { index }) => {
+                assert!((index as usize) < points.len(), "{index}");
             }
-            Err(error) => panic!("{error}"),
+            Err(error) => assert_ne!(error, QueryError::Unchecked),
         }
     }
 
@@ -162,7 +149,7 @@ impl Asker {
     /// # Panics
     /// If an answer is out of range or took too long.
     pub fn overlap(&self, a: &Bvh<'_>, b: &Bvh<'_>, pose: &Pose, steps: u32) {
-        let mut stack = vec![PairEntry::EMPTY; self.stack.len()];
+        let mut stack = vec![ScratchEntry::EMPTY; self.stack.len()];
         let mut pairs = vec![TrianglePair::EMPTY; self.near.len()];
         let in_range = |[first, second]: [u32; 2]| {
             assert!(
@@ -170,12 +157,17 @@ impl Asker {
                 "{first} {second}"
             );
         };
-        if let Some(answer) = answered(overlap(a, b, pose, steps, &mut stack)) {
+        if let Some(answer) =
+            answered(a.overlap(b, *pose, Budget::EXACT.with_steps(steps), &mut stack))
+        {
             assert!(answer.work.splits <= steps, "{answer:?}");
-            assert_eq!(answer.contact != Contact::Open, answer.ended == Ended::Exact, "{answer:?}");
+            let named = answer.triangles.is_some();
+            assert!(named || answer.verdict != Verdict::Yes, "{answer:?}");
             answer.triangles.into_iter().for_each(in_range);
         }
-        if let Some(answer) = answered(all_overlaps(a, b, pose, steps, &mut pairs, &mut stack)) {
+        if let Some(answer) =
+            answered(a.overlaps(b, *pose, &mut pairs, Budget::EXACT.with_steps(steps), &mut stack))
+        {
             assert!(answer.work.splits <= steps, "{answer:?}");
             assert!(answer.dropped == 0 || answer.stored == pairs.len(), "{answer:?}");
             pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
@@ -187,9 +179,9 @@ impl Asker {
     /// # Panics
     /// If an answer is out of range.
     pub fn sight(&self, tree: &Bvh<'_>, eye: [f32; 3]) {
-        for sight in [Sight::From(eye), Sight::Along(eye)] {
+        for sight in [Eye::At(eye), Eye::Along(eye)] {
             let mut triangles = vec![u32::MAX; self.near.len()];
-            if let Some(seen) = answered(front_facing(tree, &sight, &mut triangles)) {
+            if let Some(seen) = answered(tree.front_facing(sight, &mut triangles)) {
                 assert!(
                     triangles[..seen.stored].iter().all(|&t| t < tree.input_triangles()),
                     "{seen:?}"
@@ -215,7 +207,7 @@ fn descent(tree: &Bvh<'_>) -> u32 {
 /// tree.
 fn answered<T>(result: Result<T, QueryError>) -> Option<T> {
     if let Err(error) = &result {
-        assert_ne!(*error, QueryError::Model);
+        assert_ne!(*error, QueryError::Unchecked);
     }
     result.ok()
 }
@@ -226,15 +218,21 @@ fn ends(work: Work, most: u32) {
 
 fn closest(tree: &Bvh<'_>, answer: &ClosestPoint, most: u32) {
     ends(answer.work, most);
-    assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
+    assert!(
+        answer.distance.lower >= 0.0 && answer.distance.lower <= answer.distance.upper,
+        "{answer:?}"
+    );
     assert!(answer.point.iter().all(|x| !x.is_nan()), "{answer:?}");
     assert!(answer.triangle.is_none_or(|triangle| triangle < tree.input_triangles()), "{answer:?}");
 }
 
 fn found(tree: &Bvh<'_>, near: &[Neighbor]) {
     for one in near {
-        assert!(one.lower >= 0.0 && one.lower <= one.upper, "{one:?}");
-        assert!(one.triangle < tree.input_triangles(), "{one:?}");
+        assert!(
+            one.distance().lower >= 0.0 && one.distance().lower <= one.distance().upper,
+            "{one:?}"
+        );
+        assert!(one.triangle() < tree.input_triangles(), "{one:?}");
     }
 }
 

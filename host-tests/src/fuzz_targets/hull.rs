@@ -4,12 +4,10 @@ use super::input::Input;
 use crate::generate::{Triangles, cube, groove_block, icosphere, torus};
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
-use meshsweep::precision::VertexBits;
-use meshsweep_core::query::{
-    Budget, ClosestPoint, Hit, QueryError, Search, all_hits, closest_point, first_hit, outer_hits,
+use meshsweep::surface::VertexBits;
+use meshsweep_core::{
+    Blob, Budget, ClosestPoint, Face, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
 };
-use meshsweep_core::refine::{Face, RefinedHull, hull_faces};
-use meshsweep_core::{Model, QueueEntry};
 use std::sync::OnceLock;
 
 /// Small valid blobs of every vertex format, one of them cut.
@@ -26,8 +24,8 @@ pub fn seeds() -> &'static [Vec<u8>] {
             blob(&torus(2.0, 0.75, 10, 6), VertexBits::Grid24, 12),
             blob(&groove_block(), VertexBits::Auto, 40),
         ];
-        let whole = Model::open(&all[2]).expect("just built");
-        let cut = meshsweep::emit::cut(&whole, 1).expect("it has a second level").to_bytes();
+        let whole = Hull::open(&all[2]).expect("just built");
+        let cut = meshsweep::cut::cut(&whole, 1).expect("it has a second level").to_bytes();
         all.push(cut);
         all
     })
@@ -36,36 +34,37 @@ pub fn seeds() -> &'static [Vec<u8>] {
 fn blob((positions, triangles): &Triangles, vertex_bits: VertexBits, base_faces: usize) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let options = BuildOptions { base_faces, vertex_bits, ..BuildOptions::default() };
-    build(&mesh, 0.0, mesh.triangles.len(), &options, |_| ()).expect("generated meshes build").bytes
+    build(mesh.as_input(), &options, |_| ()).expect("generated meshes build").bytes
 }
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened model gives out.
 pub fn open(data: &[u8]) {
-    if let Ok(model) = Model::open(data) {
-        look(&model);
+    if let Ok(blob) = Blob::open(data) {
+        look(&blob);
     }
-    let blob = Input(data).blob(seeds());
-    if let Ok(model) = Model::open(&blob) {
-        look(&model);
+    let bytes = Input(data).blob(seeds());
+    if let Ok(blob) = Blob::open(&bytes) {
+        look(&blob);
     }
 }
 
 /// Sections, levels, faces of every hull: all in range.
-fn look(model: &Model<'_>) {
-    assert!(model.sections().count() <= model.header().section_count as usize);
+fn look(blob: &Blob<'_>) {
+    assert!(blob.sections().count() <= blob.header().section_count as usize);
+    let Ok(model) = blob.hull() else { return };
     for level in model.levels().take(40) {
-        for face in hull_faces(model, &level) {
+        for face in model.faces(&level) {
             assert!(model.positions(face.corners).is_some_and(|p| p.iter().all(|v| v.is_finite())));
         }
     }
 }
 
-fn queue(input: &mut Input<'_>) -> Vec<QueueEntry> {
-    vec![QueueEntry::EMPTY; usize::from(input.byte())]
+fn queue(input: &mut Input<'_>) -> Vec<ScratchEntry> {
+    vec![ScratchEntry::EMPTY; usize::from(input.byte())]
 }
 
 /// Every record of the tables looked at so many times is more than any query needs.
-fn bound(model: &Model<'_>) -> u32 {
+fn bound(model: &Hull<'_>) -> u32 {
     let h = model.header();
     4 * (h.nodes + h.surface_triangles + h.splits + h.rings + h.base_triangles) + 64
 }
@@ -74,11 +73,14 @@ fn bound(model: &Model<'_>) -> u32 {
 pub fn closest(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(seeds());
-    let Ok(model) = Model::open(&blob) else { return };
+    let Ok(model) = Hull::open(&blob) else { return };
     let mut queue = queue(&mut input);
-    let stop = Budget { relative: input.float(), absolute: input.float(), steps: input.u32() };
+    let stop = Budget::EXACT
+        .with_relative(input.float())
+        .with_absolute(input.float())
+        .with_steps(input.u32());
     for stop in [Budget::EXACT, stop] {
-        if let Ok(answer) = closest_point(&model, input.point(), &stop, &mut queue) {
+        if let Ok(answer) = model.closest_point(input.point(), stop, &mut queue) {
             sound(&answer);
             assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
         }
@@ -86,7 +88,10 @@ pub fn closest(data: &[u8]) {
 }
 
 fn sound(answer: &ClosestPoint) {
-    assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
+    assert!(
+        answer.distance.lower >= 0.0 && answer.distance.lower <= answer.distance.upper,
+        "{answer:?}"
+    );
     assert!(answer.point.iter().all(|x| x.is_finite()), "{answer:?}");
 }
 
@@ -94,18 +99,18 @@ fn sound(answer: &ClosestPoint) {
 pub fn segment(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(seeds());
-    let Ok(model) = Model::open(&blob) else { return };
+    let Ok(model) = Hull::open(&blob) else { return };
     let mut queue = queue(&mut input);
     let (a, b) = (input.point(), input.point());
-    let stop = Budget { steps: input.u32(), ..Budget::EXACT };
+    let stop = Budget::EXACT.with_steps(input.u32());
     let mut hits = vec![Hit::EMPTY; usize::from(input.byte() % 8)];
     for stop in [Budget::EXACT, stop] {
-        if let Ok(answer) = first_hit(&model, a, b, &stop, &mut queue) {
-            assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
+        if let Ok(answer) = model.first_hit(a, b, stop, &mut queue) {
+            assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
             assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
         }
     }
-    if let Ok(answer) = all_hits(&model, a, b, &mut queue, &mut hits) {
+    if let Ok(answer) = model.all_hits(a, b, &mut hits, Budget::EXACT, &mut queue) {
         assert!(
             answer.stored <= hits.len() && hits[..answer.stored].is_sorted_by(|x, y| x.t <= y.t)
         );
@@ -118,7 +123,7 @@ pub fn segment(data: &[u8]) {
 pub fn outer(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(seeds());
-    let Ok(model) = Model::open(&blob) else { return };
+    let Ok(model) = Hull::open(&blob) else { return };
     let words = usize::from(input.byte() % 8);
     let (mut performed, mut swept) = (vec![u32::MAX; words], vec![u32::MAX; words]);
     let mut candidates = vec![Face::EMPTY; 4096];
@@ -126,13 +131,13 @@ pub fn outer(data: &[u8]) {
     let (a, b) = (input.point(), input.point());
     for search in [Search::First, Search::Outer] {
         let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
-        match outer_hits(&model, a, b, search, &mut front, &mut hits) {
+        match model.outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT) {
             Ok(answer) => {
-                assert!(answer.lower >= 0.0 && answer.lower <= answer.upper, "{answer:?}");
+                assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
                 assert!(answer.stored <= hits.len(), "{answer:?}");
                 assert!(answer.work.splits <= model.header().splits, "{:?}", answer.work);
             }
-            Err(error) => assert_ne!(error, QueryError::Model),
+            Err(error) => assert_ne!(error, QueryError::Unchecked),
         }
     }
 }

@@ -2,40 +2,29 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep::emit::{Parts, assemble};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::emit::assemble;
 use meshsweep::mesh::Mesh;
-use meshsweep::precision::VertexBits;
+use meshsweep::surface::VertexBits;
 use meshsweep::tight::{ChainOptions, chain};
-use meshsweep::tree::{TreeOptions, build};
-use meshsweep_core::query::tight::{closest_point, is_within};
-use meshsweep_core::query::tree::{ScratchEntry, Verdict};
-use meshsweep_core::query::{Budget, Ended, QueryError};
-use meshsweep_core::{Model, TightHull, TightHulls};
+use meshsweep_core::{Blob, Budget, Ended, QueryError, ScratchEntry, TightHull, TightHulls};
 use std::sync::OnceLock;
 
-/// Small valid blobs of tight hulls: one and several, closed and open, nested, on a grid and not,
-/// one beside a box tree.
+/// Small valid blobs of tight hulls: one and several, closed and open, on a grid and not, one
+/// beside a box tree.
 ///
 /// # Panics
 /// If one of them cannot be built.
 pub fn tight_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
-        let options = |faces: &[usize]| ChainOptions {
-            faces: faces.to_vec(),
-            effort: 0.0,
-            ..Default::default()
-        };
+        let options = |faces: &[usize]| ChainOptions::of_faces(faces).with_effort(0.0);
         let mut open = rough_sphere(1, 0.4, 5);
         open.1.truncate(50);
         vec![
             blob(&cube(1), &options(&[64]), false),
-            blob(
-                &torus(2.0, 0.75, 10, 6),
-                &ChainOptions { nested: true, ..options(&[64, 76]) },
-                false,
-            ),
-            blob(&open, &ChainOptions { vertex_bits: VertexBits::F32, ..options(&[64]) }, false),
+            blob(&torus(2.0, 0.75, 10, 6), &options(&[64, 76]), false),
+            blob(&open, &options(&[64]).with_vertex_bits(VertexBits::F32), false),
             blob(&icosphere(1), &options(&[64, 70]), true),
         ]
     })
@@ -47,10 +36,9 @@ fn blob(
     beside_a_tree: bool,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let all = mesh.triangles.len();
-    let (tables, _) = chain(&mesh, 0.0, all, options, |_| {}).expect("room around it");
-    let tree = beside_a_tree.then(|| build(&mesh, 0.0, all, &TreeOptions::default()).0);
-    assemble(&Parts { tree: tree.as_ref(), tight: Some(&tables), ..Parts::default() })
+    let (tables, _) = chain(mesh.as_input(), options, |_| {}).expect("room around it");
+    let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
+    assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 
 /// Looks at all hulls and asks each everything, at ordinary places and at hostile ones.
@@ -68,24 +56,32 @@ pub fn ask_tight(hulls: &TightHulls<'_>) {
         assert!(hull.slack(record.faces).is_none());
         for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0], [1e36, -1e36, 1e36], [1e-40, 0.0, -0.0]] {
             ask(&hull, p, 0.5, &Budget::EXACT, 64);
-            ask(&hull, p, 1e30, &Budget { steps: 2, relative: 0.1, absolute: 1.0 }, 1);
+            ask(
+                &hull,
+                p,
+                1e30,
+                &Budget::EXACT.with_steps(2).with_relative(0.1).with_absolute(1.0),
+                1,
+            );
         }
     }
 }
 
 fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Budget, entries: usize) {
     let mut stack = vec![ScratchEntry::EMPTY; entries];
-    let closest = closest_point(hull, p, stop, &mut stack);
-    let within = is_within(hull, p, distance, stop, &mut stack);
+    let closest = hull.closest_point(p, *stop, &mut stack);
+    let within = hull.within(p, distance, *stop, &mut stack);
     match (closest, within) {
         (Ok(closest), Ok(within)) => {
-            assert!(closest.lower >= 0.0 && closest.lower <= closest.upper, "{closest:?}");
+            assert!(
+                closest.distance.lower >= 0.0 && closest.distance.lower <= closest.distance.upper,
+                "{closest:?}"
+            );
             assert!(closest.triangle.is_none() && closest.ended != Ended::Exact);
-            assert_eq!(within.ended == Ended::Exact, within.verdict != Verdict::Unknown);
-            assert!(!matches!(within.verdict, Verdict::Yes { triangle: Some(_) }), "{within:?}");
+            assert!(within.triangle.is_none(), "{within:?}");
             // A side may be asked from nearer by, from several places.
             let most =
-                64 * (u64::from(hull.tree().header().nodes) + u64::from(hull.record().faces) + 1);
+                64 * (u64::from(hull.bvh().header().nodes) + u64::from(hull.record().faces) + 1);
             assert!(
                 u64::from(closest.work.total()) <= most
                     && u64::from(within.work.total()) <= 2 * most
@@ -93,7 +89,7 @@ fn ask(hull: &TightHull<'_>, p: [f32; 3], distance: f32, stop: &Budget, entries:
         }
         (first, second) => {
             for error in [first.err(), second.err()].into_iter().flatten() {
-                assert_ne!(error, QueryError::Model);
+                assert_ne!(error, QueryError::Unchecked);
             }
         }
     }
@@ -107,14 +103,17 @@ pub fn tight(data: &[u8]) {
     let mut input = Input(data);
     let bytes = input.blob(tight_seeds());
     let opened = TightHulls::open(&bytes);
-    // The same bytes as a model: all of them are checked, the hulls among them. An edit may have
+    // The same bytes as a blob: all of them are checked, the hulls among them. An edit may have
     // made a section of an unknown kind of them.
-    if let Ok(model) = Model::open(&bytes) {
-        assert_eq!(model.tight_hulls().is_some(), opened.is_ok(), "{opened:?}");
+    if let Ok(blob) = Blob::open(&bytes) {
+        assert_eq!(blob.tight_hulls().is_ok(), opened.is_ok(), "{opened:?}");
     }
     let Ok(hulls) = opened else { return };
     ask_tight(&hulls);
-    let stop = Budget { relative: input.float(), absolute: input.float(), steps: input.u32() };
+    let stop = Budget::EXACT
+        .with_relative(input.float())
+        .with_absolute(input.float())
+        .with_steps(input.u32());
     if let Some(hull) = hulls.finest() {
         ask(&hull, input.point(), input.float(), &stop, usize::from(input.byte()));
     }

@@ -3,14 +3,11 @@
 use super::input::Input;
 use crate::corrupt::Asker;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
+use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit;
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tree::CoherentQuery;
-use meshsweep_core::tribox::Pose;
-use meshsweep_core::{Bvh, Model};
+use meshsweep_core::{Budget, Bvh, CoherentQuery, Hull, Pose};
 use std::sync::OnceLock;
 
 /// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
@@ -39,15 +36,14 @@ pub fn tree_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    emit::blob(None, Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+    build(mesh.as_input(), options).0.to_bytes()
 }
 
 fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let coarse = BuildOptions { base_faces: 8, ..BuildOptions::default() };
-    let built =
-        hull::build(&mesh, 0.0, mesh.triangles.len(), &coarse, |_| ()).expect("a sphere has hulls");
-    emit::blob(Some(&built.tables), Some(&build(&mesh, 0.0, mesh.triangles.len(), options).0))
+    let built = hull::build(mesh.as_input(), &coarse, |_| ()).expect("a sphere has hulls");
+    emit::assemble([&built.tables.sections(), &build(mesh.as_input(), options).0])
 }
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened tree gives out.
@@ -61,7 +57,7 @@ pub fn tree_open(data: &[u8]) {
         look(tree);
     }
     // The same bytes as a model: all of them are checked, the tree's among them.
-    if Model::open(&blob).is_ok() {
+    if Hull::open(&blob).is_ok() {
         assert!(tree.is_ok(), "{tree:?}");
     }
 }
@@ -77,11 +73,11 @@ fn look(tree: &Bvh<'_>) {
             let child = tree.child(node, lane).expect("a child");
             if child.is_leaf() {
                 let patch = tree.leaf(node, lane).expect("a leaf");
-                for triangle in 0..child.tag.triangles() {
+                for triangle in 0..child.shape.triangles() {
                     assert!(patch.corners(triangle).iter().all(|corner| corner.is_finite()));
                 }
                 assert_eq!(links.triangle(lane), triangles);
-                triangles += child.tag.triangles() as u32;
+                triangles += child.shape.triangles() as u32;
                 leaves += 1;
             } else {
                 assert!(child.at > node && child.at < header.nodes);
@@ -94,7 +90,7 @@ fn look(tree: &Bvh<'_>) {
 }
 
 fn stop(input: &mut Input<'_>) -> Budget {
-    Budget { relative: input.float(), absolute: input.float(), steps: input.u32() }
+    Budget::EXACT.with_relative(input.float()).with_absolute(input.float()).with_steps(input.u32())
 }
 
 /// Every question about points on an edited blob, one by one and all at once.

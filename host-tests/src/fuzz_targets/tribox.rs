@@ -1,7 +1,8 @@
 //! The target for triboxes: any floats, no blob.
 
 use super::input::Input;
-use meshsweep_core::tribox::{FACES, Pose, SLABS, Tribox};
+use meshsweep_core::internal::tribox::{FACES, SLABS};
+use meshsweep_core::{Pose, Tribox};
 
 /// Triboxes of any floats, also such that contradict each other, are NaN or infinite: nothing
 /// panics, and what is derived holds what it should.

@@ -2,16 +2,11 @@
 
 use super::input::Input;
 use crate::generate::{Triangles, cube, icosphere, rough_sphere, torus};
-use meshsweep::emit::{Parts, assemble};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::emit::assemble;
 use meshsweep::mesh::Mesh;
-use meshsweep::tree::{TreeOptions, build};
 use meshsweep::tribox::store;
-use meshsweep_core::query::tribox::{
-    BoundEntry, NodePair, apart, candidates, clip, distance, stack_entries,
-};
-use meshsweep_core::query::{Ended, QueryError};
-use meshsweep_core::tribox::Pose;
-use meshsweep_core::{Model, Triboxes};
+use meshsweep_core::{Blob, Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Triboxes};
 use std::sync::OnceLock;
 
 /// Small valid blobs of triboxes: one and several, closed and open, one beside a box tree.
@@ -34,10 +29,9 @@ pub fn triboxes_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let all = mesh.triangles.len();
-    let (tables, _) = store(&mesh, 0.0, all, count).expect("in the domain");
-    let tree = beside_a_tree.then(|| build(&mesh, 0.0, all, &TreeOptions::default()).0);
-    assemble(&Parts { tree: tree.as_ref(), triboxes: Some(&tables), ..Parts::default() })
+    let (tables, _) = store(mesh.as_input(), count).expect("in the domain");
+    let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
+    assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 
 /// Looks at everything of two opened hierarchies and asks everything, at ordinary places and at
@@ -49,7 +43,7 @@ pub fn ask_triboxes(a: &Triboxes<'_>, b: &Triboxes<'_>) {
     look(a);
     for translation in [[0.1, -0.2, 0.3], [5.0, 0.0, 1.0], [1e36, -1e36, 1e30], [1e-40; 3]] {
         let rotation = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
-        ask(a, b, &Pose { rotation, translation }, stack_entries(a, b));
+        ask(a, b, &Pose { rotation, translation }, a.separation_entries(b));
         ask(b, a, &Pose { translation, ..Pose::IDENTITY }, 3);
     }
     for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0], [1e36, -1e36, 1e36], [1e-40, 0.0, -0.0]] {
@@ -82,10 +76,10 @@ fn look(triboxes: &Triboxes<'_>) {
 }
 
 fn ask(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &Pose, entries: usize) {
-    let mut stack = vec![NodePair::EMPTY; entries];
+    let mut stack = vec![ScratchEntry::EMPTY; entries];
     let mut pairs = [NodePair::EMPTY; 8];
-    let all = candidates(a, b, pose, &mut pairs, &mut stack);
-    let one = apart(a, b, pose, &mut stack);
+    let all = a.candidates(b, *pose, &mut pairs, Budget::EXACT, &mut stack);
+    let one = a.separation(b, *pose, Budget::EXACT, &mut stack);
     match (all, one) {
         (Ok(all), Ok(one)) => {
             assert_eq!(all.is_apart(), one.is_apart());
@@ -97,18 +91,21 @@ fn ask(a: &Triboxes<'_>, b: &Triboxes<'_>, pose: &Pose, entries: usize) {
                 u32::from(pair.a) < a.node_count() && u32::from(pair.b) < b.node_count()
             };
             assert!(pairs[..all.stored].iter().all(fine) && one.may_meet.iter().all(fine));
-            assert!(all.ended == Ended::Exact || entries < stack_entries(a, b));
+            assert!(all.ended == Ended::Exact || entries < a.separation_entries(b));
         }
         (Err(first), Err(second)) => {
-            assert!(first == second && first != QueryError::Model, "{first}")
+            assert!(first == second && first != QueryError::Unchecked, "{first}")
         }
         (all, one) => panic!("{all:?} {one:?}"),
     }
 }
 
 fn bounds(triboxes: &Triboxes<'_>, p: [f32; 3], q: [f32; 3], entries: usize) {
-    let mut stack = vec![BoundEntry::EMPTY; entries];
-    for answer in [distance(triboxes, p, &mut stack), clip(triboxes, p, q, &mut stack)] {
+    let mut stack = vec![ScratchEntry::EMPTY; entries];
+    for answer in [
+        triboxes.distance(p, Budget::EXACT, &mut stack),
+        triboxes.clip(p, q, Budget::EXACT, &mut stack),
+    ] {
         match answer {
             Ok(answer) => {
                 assert!(
@@ -116,9 +113,9 @@ fn bounds(triboxes: &Triboxes<'_>, p: [f32; 3], q: [f32; 3], entries: usize) {
                         && answer.node.is_none_or(|node| node < triboxes.node_count())
                 );
                 assert!(answer.work.nodes <= triboxes.node_count());
-                assert!(answer.ended == Ended::Exact || entries < triboxes.depth() as usize + 2);
+                assert!(answer.ended == Ended::Exact || entries < triboxes.scratch_entries());
             }
-            Err(error) => assert_ne!(error, QueryError::Model),
+            Err(error) => assert_ne!(error, QueryError::Unchecked),
         }
     }
 }
@@ -131,10 +128,10 @@ pub fn triboxes(data: &[u8]) {
     let mut input = Input(data);
     let (first, second) = (input.blob(triboxes_seeds()), input.blob(triboxes_seeds()));
     let opened = Triboxes::open(&first);
-    // The same bytes as a model: all of them are checked, the triboxes among them. An edit may have
+    // The same bytes as a blob: all of them are checked, the triboxes among them. An edit may have
     // made a section of an unknown kind of them.
-    if let Ok(model) = Model::open(&first) {
-        assert_eq!(model.triboxes().is_some(), opened.is_ok(), "{opened:?}");
+    if let Ok(blob) = Blob::open(&first) {
+        assert_eq!(blob.triboxes().is_ok(), opened.is_ok(), "{opened:?}");
     }
     let (Ok(a), Ok(b)) = (opened, Triboxes::open(&second)) else { return };
     ask_triboxes(&a, &b);

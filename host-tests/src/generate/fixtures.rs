@@ -8,7 +8,7 @@ use super::evil::{Outcome, evil};
 use super::writers::{binary_ply, binary_stl, obj};
 use super::{bracket, groove_block, torus};
 
-/// Every mesh fixture as (path below the folder, content), the README among them. Deterministic.
+/// Every mesh fixture as (path in the folder, content), with the README. Deterministic.
 #[must_use]
 pub fn files() -> Vec<(String, Vec<u8>)> {
     let good = [
@@ -30,7 +30,8 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
     ];
     let mut readme = String::from(
         "# Fixtures\n\n\
-         Small meshes from the generators in `host-tests/src/generate`. Regenerate all of them, and this page, with\n\n\
+         Small meshes from the generators in `host-tests/src/generate`. This command\n\
+         writes all of them, and this page:\n\n\
          ```\ncargo xtask fixtures\n```\n\n\
          A test compares the committed files with the generators' bytes.\n\n\
          | file | made by |\n| --- | --- |\n",
@@ -39,11 +40,16 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
         readme.push_str(&format!("| `{name}` | {what} |\n"));
     }
     readme.push_str(
-        "\n`bracket.msw` holds the split hierarchy of `bracket.stl`, `groove.msw` the box tree of `groove.obj`, `torus.msw` triboxes of `torus.ply`, `hulls.msw` tight hulls of `bracket.stl`. `answers.txt` has a \
-         hash of the\nanswers to each kind of query to them: a machine that computes other bits is noticed.\n\
+        "\n| file | holds |\n| --- | --- |\n\
+         | `groove.msw` | the box tree of `groove.obj`, with all sections |\n\
+         | `bracket.msw` | the hull hierarchy of `bracket.stl` |\n\
+         | `torus.msw` | triboxes of `torus.ply` |\n\
+         | `hulls.msw` | tight hulls of `bracket.stl` |\n\
+         | `answers.txt` | a hash of the answers to each kind of query: other bits are noticed |\n\
+         | `part.svg` | the picture of `README.md`, by `cargo xtask picture` |\n\
          \n## evil/\n\n\
-         What must be refused, by the named variant of `MeshError`, or mended. \"No solid\" means that `repair` takes the\n\
-         file and `require_closed_manifold` refuses it.\n\n\
+         Files that must be refused, by the named variant of `MeshError`, or mended. \"No solid\": `repair`\n\
+         takes the file, and `require_closed_manifold` refuses it.\n\n\
          | file | flaw | outcome |\n| --- | --- | --- |\n",
     );
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();

@@ -6,6 +6,7 @@
 
 mod bracket;
 mod builder;
+pub mod corpus;
 pub mod evil;
 mod extrude;
 pub mod fixtures;

@@ -2,12 +2,7 @@
 
 use super::exact::{Corners, distance_compared};
 use super::scene::{Kind, Scene, pierced_cube, scenes};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{
-    CoherentQuery, Hint, Neighbor, Side, Sight, Verdict, all_within, closest_point, closest_points,
-    front_facing, is_within, nearest, signed_distance,
-};
-use meshsweep_core::query::{Budget, Ended};
+use meshsweep_core::{Budget, Bvh, CoherentQuery, Ended, Eye, Hint, Neighbor, Side, Verdict};
 use std::cmp::Ordering::{Greater, Less};
 
 /// Whether the distance to some of the input lies in an interval, by exact comparisons.
@@ -25,15 +20,12 @@ fn every_interval_of_closest_points_holds_the_exact_distance() {
         let (tree, mut stack) = (scene.tree(), scene.stack());
         for p in scene.points(300, 11) {
             let truth = scene.nearest(p);
-            let budgets = [
-                Budget::EXACT,
-                Budget { relative: 0.1, ..Budget::EXACT },
-                Budget { steps: 2, ..Budget::EXACT },
-            ];
+            let budgets =
+                [Budget::EXACT, Budget::EXACT.with_relative(0.1), Budget::EXACT.with_steps(2)];
             for budget in budgets {
-                let answer = closest_point(&tree, p, &budget, &mut stack).expect("a point");
+                let answer = tree.closest_point(p, budget, &mut stack).expect("a point");
                 asked += 1;
-                if !holds(&truth, p, [answer.lower, answer.upper]) {
+                if !holds(&truth, p, [answer.distance.lower, answer.distance.upper]) {
                     wrong.push(format!("{}: {p:?} {budget:?}: {answer:?}", scene.name));
                 }
             }
@@ -49,10 +41,11 @@ fn intervals_are_as_narrow_as_those_of_triangles() {
         let (tree, mut stack) = (scene.tree(), scene.stack());
         let unit = 2f64.powi(tree.scale_exponent() + tree.header().grid_exponent);
         let error = f64::from(tree.header().surface_error) * 2f64.powi(tree.scale_exponent());
-        let reach = f64::from(tree.header().reach) * unit;
+        let reach = f64::from(tree.header().star_radius) * unit;
         for p in scene.points(100, 12) {
-            let answer = closest_point(&tree, p, &Budget::EXACT, &mut stack).expect("a point");
-            let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+            let answer = tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point");
+            let (lower, upper) =
+                (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
             let allowed = 2.0 * error + 1.5 * unit + 1e-5 * (upper + reach);
             assert!(
                 upper - lower <= allowed.max(1e-5 * scene.length()) && answer.ended == Ended::Exact,
@@ -70,25 +63,26 @@ fn verdicts_of_being_within_a_distance_are_true() {
         let (tree, mut stack) = (scene.tree(), scene.stack());
         for p in scene.points(60, 13) {
             let truth = scene.nearest(p);
-            let about = closest_point(&tree, p, &Budget::EXACT, &mut stack).expect("a point").upper;
+            let about =
+                tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point").distance.upper;
             for distance in
                 [0.0, 0.5 * about, 0.999_999 * about, about, 1.000_001 * about, 2.0 * about]
             {
                 let is_near = truth
                     .iter()
                     .any(|t| distance_compared(p.map(f64::from), t, distance.into()) != Greater);
-                let within = is_within(&tree, p, distance, &Budget::EXACT, &mut stack);
+                let within = tree.within(p, distance, Budget::EXACT, &mut stack);
                 let verdict = within.expect("a distance").verdict;
                 let wrong = match verdict {
                     Verdict::Yes { .. } => !is_near,
                     Verdict::No => is_near,
-                    Verdict::Unknown => false,
+                    Verdict::Undecided(_) => false,
                 };
                 assert!(!wrong, "{}: {p:?} within {distance:e}: {verdict:?}", scene.name);
                 seen[match verdict {
                     Verdict::Yes { .. } => 0,
                     Verdict::No => 1,
-                    Verdict::Unknown => 2,
+                    Verdict::Undecided(_) => 2,
                 }] += 1;
             }
         }
@@ -102,12 +96,12 @@ fn check_neighbors(scene: &Scene, p: [f32; 3], found: &[Neighbor], beyond: f32) 
     let at = p.map(f64::from);
     // Of triangles that share edges or numbers only one may be kept, so each has its own interval.
     for neighbor in found {
-        let corners = &scene.corners[neighbor.triangle as usize];
+        let corners = &scene.corners[neighbor.triangle() as usize];
         // A flipped cap's halves have the number of the whole, which is nearer.
-        let is_far = distance_compared(at, corners, neighbor.upper.into()) == Greater;
+        let is_far = distance_compared(at, corners, neighbor.distance().upper.into()) == Greater;
         assert!(!is_far, "{}: {p:?} {neighbor:?}", scene.name);
     }
-    let least = found.iter().map(|n| n.lower).fold(beyond, f32::min);
+    let least = found.iter().map(|n| n.distance().lower).fold(beyond, f32::min);
     for corners in scene.nearest(p) {
         let is_missed = distance_compared(at, corners, least.into()) == Less;
         assert!(!is_missed, "{}: {p:?}: {found:?} beyond {beyond:e}", scene.name);
@@ -121,10 +115,11 @@ fn nearest_triangles_and_all_within_a_distance_miss_nothing() {
         let mut slots = vec![Neighbor::EMPTY; scene.corners.len() + 64];
         for p in scene.points(60, 14) {
             let answer =
-                nearest(&tree, p, &Budget::EXACT, &mut slots[..3], &mut stack).expect("a point");
+                tree.nearest(p, &mut slots[..3], Budget::EXACT, &mut stack).expect("a point");
             check_neighbors(&scene, p, &slots[..answer.stored], answer.rest_lower);
             let radius = (0.3 * scene.length()) as f32;
-            let answer = all_within(&tree, p, radius, &Budget::EXACT, &mut slots, &mut stack)
+            let answer = tree
+                .all_within(p, radius, &mut slots, Budget::EXACT, &mut stack)
                 .expect("a distance");
             assert_eq!(answer.dropped, 0);
             check_neighbors(&scene, p, &slots[..answer.stored], radius);
@@ -139,21 +134,23 @@ fn batches_and_moving_queries_give_the_bits_of_single_ones() {
         let points = scene.points(90, 15);
         let single: Vec<_> = points
             .iter()
-            .map(|&p| closest_point(&tree, p, &Budget::EXACT, &mut stack).expect("a point"))
+            .map(|&p| tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point"))
             .collect();
         let mut batch = single.clone();
-        batch.iter_mut().for_each(|answer| answer.upper = -1.0);
-        let mut order = vec![0; 2 * points.len()];
+        batch.iter_mut().for_each(|answer| answer.distance.upper = -1.0);
         let hint = &mut Hint::NONE.clone();
-        closest_points(&tree, &points, &mut batch, &Budget::EXACT, &mut stack, &mut order, hint)
-            .expect("points");
+        tree.closest_points(&points, hint, &mut batch, Budget::EXACT, &mut stack).expect("points");
         let mut query = CoherentQuery::<64>::new();
         for ((&p, single), batch) in points.iter().zip(&single).zip(&batch) {
-            let moving =
-                query.closest_point(&tree, p, &Budget::EXACT, &mut stack).expect("a point");
+            let moving = query.closest_point(&tree, p, Budget::EXACT, &mut stack).expect("a point");
             for other in [batch, &moving.closest] {
-                let bits = |a: &meshsweep_core::query::ClosestPoint| {
-                    (a.lower.to_bits(), a.upper.to_bits(), a.point.map(f32::to_bits), a.triangle)
+                let bits = |a: &meshsweep_core::ClosestPoint| {
+                    (
+                        a.distance.lower.to_bits(),
+                        a.distance.upper.to_bits(),
+                        a.point.map(f32::to_bits),
+                        a.triangle,
+                    )
                 };
                 assert_eq!(bits(single), bits(other), "{}: {p:?}", scene.name);
             }
@@ -170,13 +167,13 @@ fn follow(scene: &Scene, tree: &Bvh<'_>) {
     for step in 0..60 {
         let t = f64::from(step) / 60.0;
         let p = std::array::from_fn(|k| (from[k] + t * (to[k] - from[k])) as f32);
-        let plain = closest_point(tree, p, &Budget::EXACT, &mut stack).expect("a point");
-        let moving = query.closest_point(tree, p, &Budget::EXACT, &mut stack).expect("a point");
+        let plain = tree.closest_point(p, Budget::EXACT, &mut stack).expect("a point");
+        let moving = query.closest_point(tree, p, Budget::EXACT, &mut stack).expect("a point");
         assert_eq!(
-            (plain.lower, plain.upper, plain.point, plain.triangle),
+            (plain.distance.lower, plain.distance.upper, plain.point, plain.triangle),
             (
-                moving.closest.lower,
-                moving.closest.upper,
+                moving.closest.distance.lower,
+                moving.closest.distance.upper,
                 moving.closest.point,
                 moving.closest.triangle
             ),
@@ -195,24 +192,25 @@ fn a_side_is_never_wrong_and_none_is_decided_where_a_wire_is_nearest() {
         let solid = scene.corners.len() - 5;
         let mut seen = [0; 3];
         for p in scene.points(2000, 17) {
-            let answer = signed_distance(&tree, p, &Budget::EXACT, &mut stack).expect("a point");
+            let answer = tree.signed_distance(p, Budget::EXACT, &mut stack).expect("a point");
             let at = p.map(f64::from);
             let is_inside = at.iter().all(|x| x.abs() < 1.0);
-            let upper = f64::from(answer.closest.upper);
+            let upper = f64::from(answer.closest.distance.upper);
             let is_wire = scene.corners[..solid]
                 .iter()
                 .all(|t| distance_compared(at, t, upper * 1.001 + 1e-4) == Greater);
             match answer.side {
                 Side::Inside => assert!(is_inside && !is_wire, "{kind:?} {p:?} {answer:?}"),
                 Side::Outside => assert!(!is_inside && !is_wire, "{kind:?} {p:?} {answer:?}"),
-                Side::Undefined => {}
+                Side::Undecided(_) => {}
             }
-            seen[answer.side as usize] += 1;
+            let kind = [Side::Inside, Side::Outside].iter().position(|side| *side == answer.side);
+            seen[kind.unwrap_or(2)] += 1;
             let near = scene.nearest(p);
             let interval = match answer.side {
-                Side::Inside => [-answer.upper, -answer.lower],
-                Side::Outside => [answer.lower, answer.upper],
-                Side::Undefined => [0.0, answer.upper],
+                Side::Inside => [-answer.distance.upper, -answer.distance.lower],
+                Side::Outside => [answer.distance.lower, answer.distance.upper],
+                Side::Undecided(_) => [0.0, answer.distance.upper],
             };
             assert!(holds(&near, p, interval), "{kind:?} {p:?} {answer:?}");
         }
@@ -225,8 +223,8 @@ fn culling_keeps_every_wire() {
     for scene in scenes() {
         let tree = scene.tree();
         let mut found = vec![0; tree.header().triangles as usize];
-        for sight in [Sight::Along([0.3, -1.0, 0.2]), Sight::From([3.0, 2.0, -4.0])] {
-            let answer = front_facing(&tree, &sight, &mut found).expect("a place");
+        for sight in [Eye::Along([0.3, -1.0, 0.2]), Eye::At([3.0, 2.0, -4.0])] {
+            let answer = tree.front_facing(sight, &mut found).expect("a place");
             let kept = &found[..answer.stored];
             let sources = scene.mesh.wires.iter().map(|wire| wire.source);
             assert!(sources.into_iter().all(|n| kept.contains(&n)), "{}", scene.name);

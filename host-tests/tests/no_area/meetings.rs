@@ -2,12 +2,7 @@
 
 use super::exact::{Corners, first_meeting, meet};
 use super::scene::{Kind, Raw, Scene, inputs, pierced_cube, scenes, wires};
-use meshsweep_core::query::tree::{
-    AnyHit, Contact, Facing, PairEntry, TrianglePair, all_hits, all_overlaps, any_hit, first_hit,
-    overlap,
-};
-use meshsweep_core::query::{Ended, Hit};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::{Budget, Bvh, Ended, Facing, Hit, Pose, ScratchEntry, TrianglePair, Verdict};
 use meshsweep_host_tests::generate::Rng;
 use std::cmp::Ordering::{Greater, Less};
 
@@ -56,34 +51,36 @@ fn no_segment_is_wrongly_clear_and_no_hit_is_wrongly_certain() {
             let truth: Vec<_> =
                 scene.corners.iter().filter_map(|t| first_meeting(from, to, t)).collect();
             let at = || format!("{}: {a:?} {b:?}", scene.name);
-            let first = first_hit(&tree, a, b, &Facing::Both, &mut stack).expect("a segment");
-            let is_missed = truth.iter().any(|t| t.compared_with(first.lower.into()) == Less);
+            let first =
+                tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut stack).expect("a segment");
+            let is_missed = truth.iter().any(|t| t.compared_with(first.t.lower.into()) == Less);
             let is_missed = is_missed || (first.is_clear() && !truth.is_empty());
             assert!(!is_missed, "{}: {first:?}", at());
             if first.ended == Ended::Exact && first.hit.is_some() {
-                let is_met = truth.iter().any(|t| t.compared_with(first.upper.into()) != Greater);
+                let is_met = truth.iter().any(|t| t.compared_with(first.t.upper.into()) != Greater);
                 assert!(is_met, "{}: {first:?}", at());
                 certain += 1;
             }
-            open += usize::from(first.ended == Ended::Level);
+            open += usize::from(first.ended == Ended::Resolution);
             clear += usize::from(first.is_clear());
             for facing in [Facing::Both, Facing::Front, Facing::Back] {
-                let any = any_hit(&tree, a, b, &facing, &mut stack).expect("a segment");
-                let wrong = match any {
-                    AnyHit::Hit => truth.is_empty(),
-                    AnyHit::Clear => match facing {
+                let any = tree.any_hit(a, b, facing, Budget::EXACT, &mut stack).expect("a segment");
+                let wrong = match any.verdict {
+                    Verdict::Yes => truth.is_empty(),
+                    Verdict::No => match facing {
                         Facing::Both => !truth.is_empty(),
                         // A wire has no sides: who asks for one must not be told that it is clear.
                         _ => scene.mesh.wire_corners().any(|t| {
                             first_meeting(from, to, &t.map(|p| p.map(f64::from))).is_some()
                         }),
                     },
-                    AnyHit::Unknown => false,
+                    Verdict::Undecided(_) => false,
                 };
                 assert!(!wrong, "{} {facing:?}: {any:?}", at());
             }
-            let all =
-                all_hits(&tree, a, b, &Facing::Both, &mut hits, &mut stack).expect("a segment");
+            let all = tree
+                .all_hits(a, b, Facing::Both, &mut hits, Budget::EXACT, &mut stack)
+                .expect("a segment");
             if all.ended == Ended::Exact {
                 assert_eq!(all.stored == 0, truth.is_empty(), "{}: {all:?}", at());
             }
@@ -102,8 +99,9 @@ fn segments_past_a_wire_are_proved_clear() {
             let [from, to] = [a, b].map(|p| p.map(f64::from));
             if scene.corners.iter().all(|t| first_meeting(from, to, t).is_none()) {
                 clear += 1;
-                let answer = any_hit(&tree, a, b, &Facing::Both, &mut stack).expect("a segment");
-                told += usize::from(answer == AnyHit::Clear);
+                let answer =
+                    tree.any_hit(a, b, Facing::Both, Budget::EXACT, &mut stack).expect("a segment");
+                told += usize::from(answer.verdict == Verdict::No);
             }
         }
         // Some begin on a wire, or run along one.
@@ -142,9 +140,9 @@ fn no_overlap_is_wrongly_apart_and_none_wrongly_met() {
 
 fn check_overlap(a: &Scene, b: &Scene, shift: [f32; 3], seen: [&mut usize; 3]) {
     let pose = Pose { translation: shift, ..Pose::IDENTITY };
-    let mut stack = [PairEntry::EMPTY; PairEntry::ENOUGH];
+    let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
     let (first, second) = (a.tree(), b.tree());
-    let answer = overlap(&first, &second, &pose, u32::MAX, &mut stack).expect("a pose");
+    let answer = first.overlap(&second, pose, Budget::EXACT, &mut stack).expect("a pose");
     // Sums of an f32 and of what the scenes are made of are exact in f64, or nearly: then a wrong
     // answer would show as well.
     let moved = |t: &Corners| t.map(|p| std::array::from_fn(|k| p[k] + f64::from(shift[k])));
@@ -152,19 +150,18 @@ fn check_overlap(a: &Scene, b: &Scene, shift: [f32; 3], seen: [&mut usize; 3]) {
     let truth = || a.corners.iter().any(|t| others.iter().any(|other| meet(t, other)));
     let at = || format!("{} and {} by {shift:?}: {answer:?}", a.name, b.name);
     let [apart, met, open] = seen;
-    match answer.contact {
-        Contact::Apart => {
+    match answer.verdict {
+        Verdict::No => {
             assert!(!truth(), "{}", at());
             *apart += 1;
         }
-        Contact::Meets => {
+        Verdict::Yes => {
             assert!(truth(), "{}", at());
             *met += 1;
         }
-        Contact::Open => *open += 1,
+        Verdict::Undecided(_) => *open += 1,
     }
     let mut pairs = vec![TrianglePair::EMPTY; 10_000];
-    let all =
-        all_overlaps(&first, &second, &pose, u32::MAX, &mut pairs, &mut stack).expect("a pose");
-    assert_eq!(all.stored == 0, answer.contact == Contact::Apart, "{}", at());
+    let all = first.overlaps(&second, pose, &mut pairs, Budget::EXACT, &mut stack).expect("a pose");
+    assert_eq!(all.stored == 0, answer.verdict == Verdict::No, "{}", at());
 }

@@ -1,12 +1,10 @@
 //! Meshes with triangles that have no area, or have none when they are stored.
 
 use super::exact::{Corners, about};
-use meshsweep::emit::blob;
-use meshsweep::mesh::{Mesh, RawMesh, RepairReport, read, repair};
-use meshsweep::precision::{VertexBits, snap};
-use meshsweep::tree::{TreeOptions, build};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::ScratchEntry;
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::mesh::{Input, Mesh, RawMesh, RepairReport, read, repair};
+use meshsweep::surface::{VertexBits, snap};
+use meshsweep_core::{Bvh, ScratchEntry};
 use meshsweep_host_tests::check::check_tree;
 use meshsweep_host_tests::generate::{Rng, cube, torus};
 use std::path::Path;
@@ -38,8 +36,9 @@ impl Scene {
         let (mesh, moved, _) = repaired(raw, kind);
         let options =
             TreeOptions { cull: true, single: kind == Kind::F32, ..TreeOptions::default() };
-        let (tables, _) = build(&mesh, moved, raw.1.len(), &options);
-        let bytes = blob(None, Some(&tables));
+        let (tables, _) =
+            build(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, &options);
+        let bytes = tables.to_bytes();
         // The checker tells the halves of a flipped cap apart by their corners: not if the grid
         // makes them alike.
         let mut numbers: Vec<u32> = mesh.all_sources().collect();

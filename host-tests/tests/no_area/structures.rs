@@ -3,15 +3,12 @@
 
 use super::exact::{distance_compared, first_meeting};
 use super::scene::{Kind, Raw, Scene, inputs, joined, pierced_cube, repaired};
-use meshsweep::emit::{Parts, assemble};
 use meshsweep::hull::{self, BuildOptions};
-use meshsweep::mesh::{Mesh, MeshError, require_closed_manifold};
+use meshsweep::mesh::{Input, Mesh, MeshError, require_closed_manifold};
 use meshsweep::tight::{self, ChainOptions, hull_mesh};
 use meshsweep::tribox;
-use meshsweep_core::query::tight::{closest_point as closest_by_hull, is_within};
-use meshsweep_core::query::tree::{ScratchEntry, Verdict};
-use meshsweep_core::query::{Budget, closest_point, first_hit};
-use meshsweep_core::{Model, QueueEntry, TightHulls, Triboxes};
+use meshsweep_core::{Budget, Hull, ScratchEntry, TightHulls, Triboxes, Verdict};
+use meshsweep_host_tests::with;
 use std::cmp::Ordering::{Greater, Less};
 
 const KINDS: [Kind; 2] = [Kind::Grid, Kind::Snapped];
@@ -44,10 +41,11 @@ fn winding(p: [f64; 3], hull: &Mesh) -> f64 {
 }
 
 fn hulls_of(mesh: &Mesh, moved: f64, faces: usize) -> Vec<u8> {
-    let options = ChainOptions { faces: vec![faces], effort: 0.01, ..ChainOptions::default() };
+    let options = ChainOptions::of_faces(&[faces]).with_effort(0.01);
     let count = mesh.all_triangles().count();
-    let (tables, _) = tight::chain(mesh, moved, count, &options, |_| {}).expect("there is room");
-    assemble(&Parts { tight: Some(&tables), ..Parts::default() })
+    let (tables, _) = tight::chain(Input { mesh, moved, input_triangles: count }, &options, |_| {})
+        .expect("there is room");
+    tables.to_bytes()
 }
 
 #[test]
@@ -58,8 +56,7 @@ fn tight_hulls_enclose_wires_and_points_and_their_answers_hold() {
         for kind in KINDS {
             let scene = Scene::new(name, raw, kind);
             let bytes = hulls_of(&scene.mesh, scene.moved, 100);
-            let model = Model::open(&bytes).expect("opens");
-            let hulls: TightHulls<'_> = model.tight_hulls().expect("has hulls");
+            let hulls = TightHulls::open(&bytes).expect("opens");
             let hull = hulls.get(0).expect("a hull");
             let surface = hull_mesh(&hull);
             for wire in scene.mesh.wire_corners() {
@@ -70,21 +67,21 @@ fn tight_hulls_enclose_wires_and_points_and_their_answers_hold() {
                 }
                 assert!((winding(a, &surface) - 1.0).abs() < 1e-6, "{}: {a:?}", scene.name);
             }
-            let mut stack = vec![ScratchEntry::EMPTY; hull.tree().header().stack_entries as usize];
+            let mut stack = vec![ScratchEntry::EMPTY; hull.bvh().header().stack_entries as usize];
             for p in scene.points(120, 31) {
                 let truth = scene.nearest(p);
-                let answer =
-                    closest_by_hull(&hull, p, &Budget::EXACT, &mut stack).expect("a point");
+                let answer = hull.closest_point(p, Budget::EXACT, &mut stack).expect("a point");
                 let compared = |t, x: f32| distance_compared(p.map(f64::from), t, f64::from(x));
-                let holds = truth.iter().all(|t| compared(t, answer.lower) != Less)
-                    && truth.iter().any(|t| compared(t, answer.upper) != Greater);
+                let holds = truth.iter().all(|t| compared(t, answer.distance.lower) != Less)
+                    && truth.iter().any(|t| compared(t, answer.distance.upper) != Greater);
                 assert!(holds, "{}: {p:?} {answer:?}", scene.name);
-                let within = is_within(&hull, p, 0.5 * answer.upper, &Budget::EXACT, &mut stack);
-                let is_near = truth.iter().any(|t| compared(t, 0.5 * answer.upper) != Greater);
+                let within = hull.within(p, 0.5 * answer.distance.upper, Budget::EXACT, &mut stack);
+                let is_near =
+                    truth.iter().any(|t| compared(t, 0.5 * answer.distance.upper) != Greater);
                 match within.expect("a distance").verdict {
-                    Verdict::Yes { .. } => assert!(is_near, "{}: {p:?}", scene.name),
+                    Verdict::Yes => assert!(is_near, "{}: {p:?}", scene.name),
                     Verdict::No => assert!(!is_near, "{}: {p:?}", scene.name),
-                    Verdict::Unknown => {}
+                    Verdict::Undecided(_) => {}
                 }
             }
         }
@@ -107,8 +104,10 @@ fn every_level_of_triboxes_holds_wires_and_points() {
     for (name, raw) in inputs() {
         for kind in KINDS {
             let (mesh, moved, _) = repaired(&raw, kind);
-            let (tables, _) = tribox::store(&mesh, moved, raw.1.len(), 16).expect("in the domain");
-            let bytes = assemble(&Parts { triboxes: Some(&tables), ..Parts::default() });
+            let (tables, _) =
+                tribox::store(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, 16)
+                    .expect("in the domain");
+            let bytes = tables.to_bytes();
             let triboxes = Triboxes::open(&bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
             let size =
                 mesh.positions.iter().flatten().fold(0f64, |m, &x| m.max(f64::from(x).abs()));
@@ -136,21 +135,26 @@ fn a_hull_hierarchy_carries_wires_in_its_surface_error() {
         let scene = Scene::new("pierced cube", &pierced_cube(), kind);
         let options = BuildOptions { base_faces: 12, ..BuildOptions::default() };
         let count = scene.corners.len();
-        let built = hull::build(&scene.mesh, scene.moved, count, &options, |_| {}).expect("a cube");
-        let model = Model::open(&built.bytes).expect("opens");
+        let built = hull::build(
+            Input { moved: scene.moved, input_triangles: count, ..scene.mesh.as_input() },
+            &options,
+            |_| {},
+        )
+        .expect("a cube");
+        let model = Hull::open(&built.bytes).expect("opens");
         // The wire ends 2 in front of the cube.
         assert!(built.report.wires >= 2.0 && built.report.wires < 2.2, "{}", built.report.wires);
-        let mut queue = vec![QueueEntry::EMPTY; model.capacities().queue];
+        let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
         for p in scene.points(200, 32) {
             let truth = scene.nearest(p);
-            let answer = closest_point(&model, p, &Budget::EXACT, &mut queue).expect("a point");
+            let answer = model.closest_point(p, Budget::EXACT, &mut queue).expect("a point");
             let compared = |t, x: f32| distance_compared(p.map(f64::from), t, f64::from(x));
-            let holds = truth.iter().all(|t| compared(t, answer.lower) != Less)
-                && truth.iter().any(|t| compared(t, answer.upper) != Greater);
+            let holds = truth.iter().all(|t| compared(t, answer.distance.lower) != Less)
+                && truth.iter().any(|t| compared(t, answer.distance.upper) != Greater);
             assert!(holds, "{kind:?} {p:?} {answer:?}");
         }
         for pair in scene.points(200, 33).chunks_exact(2) {
-            let answer = first_hit(&model, pair[0], pair[1], &Budget::EXACT, &mut queue);
+            let answer = model.first_hit(pair[0], pair[1], Budget::EXACT, &mut queue);
             let [a, b] = [pair[0], pair[1]].map(|p| p.map(f64::from));
             let is_met = scene.corners.iter().any(|t| first_meeting(a, b, t).is_some());
             assert!(!(is_met && answer.expect("a segment").is_clear()), "{kind:?} {pair:?}");

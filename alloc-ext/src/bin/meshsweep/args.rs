@@ -9,17 +9,15 @@ mod given;
 mod values;
 
 pub use asking::{
-    ClosestArgs, ClosestEngine, CullArgs, FieldArgs, NearestArgs, OverlapArgs, PointArgs,
-    SearchArgs, SegmentArgs, SegmentEngine, SignedArgs, WithinArgs,
+    ClosestArgs, CullArgs, Engine, FieldArgs, NearestArgs, OverlapArgs, SearchArgs, SegmentArgs,
+    SignedArgs, WithinArgs,
 };
-pub use bounding::TriboxArgs;
-pub use building::{
-    BuildArgs, CutArgs, HullArgs, HullServes, InfoArgs, StoredBits, slack_within_margin,
-};
-pub use given::{Given, number};
+pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
+pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
+pub use given::{Given, files, names};
 pub use values::Margin;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 /// Distances, hits, signs and outer hulls of triangle meshes, with guaranteed intervals.
 ///
@@ -32,10 +30,17 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Those that the program was called with; ends it if they are wrong.
+    /// The arguments of the program. Wrong ones end it.
     pub fn of_the_program() -> Self {
-        Self::parse_from(std::env::args_os().map(given::shielded))
+        let arguments = std::env::args_os().map(given::shielded);
+        let mut matches = command().get_matches_from(arguments);
+        Self::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
     }
+}
+
+/// The command line. A negative number is a value, so that its own error names its range.
+fn command() -> clap::Command {
+    Arguments::command().mut_subcommands(|command| command.allow_negative_numbers(true))
 }
 
 #[derive(Debug, Subcommand)]
@@ -47,7 +52,10 @@ pub enum Command {
     #[command(after_help = explained::INFO)]
     Info(InfoArgs),
     /// Closest point and distance interval of each query point, as CSV
-    #[command(after_help = explained::closest(), mut_arg("queue", |queue| queue.help(explained::QUEUE)))]
+    #[command(
+        after_help = explained::closest(),
+        mut_arg("queue", |queue| queue.help(explained::QUEUE))
+    )]
     Closest(ClosestArgs),
     /// Whether each query point is within a distance of the surface, as CSV
     #[command(after_help = explained::within())]
@@ -64,12 +72,14 @@ pub enum Command {
     /// First hit, or all hits, of each query segment, as CSV
     #[command(
         after_help = explained::segment(),
-        mut_arg("queue", |queue| queue.help(explained::QUEUE)),
-        mut_arg("steps", |steps| steps.help(explained::STEPS))
+        mut_arg("queue", |queue| queue.help(explained::QUEUE))
     )]
     Segment(SegmentArgs),
     /// Whether two meshes meet, one of them moved, as CSV
-    #[command(after_help = explained::overlap(), mut_arg("queue", |queue| queue.help(explained::PAIRS)))]
+    #[command(
+        after_help = explained::overlap(),
+        mut_arg("queue", |queue| queue.help(explained::PAIRS))
+    )]
     Overlap(OverlapArgs),
     /// Triangles that may face a viewpoint, as CSV; all others certainly do not
     #[command(after_help = explained::CULL)]
@@ -87,11 +97,8 @@ pub enum Command {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use clap::CommandFactory;
-
     #[test]
     fn the_command_line_is_consistent() {
-        Arguments::command().debug_assert();
+        super::command().debug_assert();
     }
 }

@@ -1,15 +1,15 @@
-//! Reading a blob file and opening what it holds.
+//! Reading a blob file and opening it.
 
-use super::failure::Failure;
-use meshsweep_core::{Bvh, Model};
+use crate::failure::Failure;
+use meshsweep_core::{Blob, Bvh};
 use std::path::Path;
 
 pub fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })
 }
 
-pub fn open<'a>(file: &Path, bytes: &'a [u8]) -> Result<Model<'a>, Failure> {
-    Model::open(bytes).map_err(|error| Failure::open(file, error))
+pub fn open<'a>(file: &Path, bytes: &'a [u8]) -> Result<Blob<'a>, Failure> {
+    Blob::open(bytes).map_err(|error| Failure::open(file, error))
 }
 
 /// The box tree alone.

@@ -1,57 +1,39 @@
 //! `meshsweep build`: a mesh file in, a blob and a report out.
 
-use super::args::{BuildArgs, HullServes, StoredBits, slack_within_margin};
-use super::counted::Counted;
-use super::describe;
-use super::failure::Failure;
-use super::hull::{Tightness, WrapBars, require_met, widened, write_margin, write_start};
-use super::mesh_file::{self, Loaded};
-use super::output::{Output, refuse_same_file};
-use super::progress::Bar;
-use meshsweep::collapse::Stuck;
-use meshsweep::hull::{self, BuildError, BuildOptions, BuildReport, Built};
-use meshsweep::tight::{self, ChainOptions, HullReport, Stage, TightTables};
-use meshsweep::tree::{self, TreeOptions};
-use meshsweep::tribox::{self, TriboxReport, TriboxTables};
-use meshsweep::wrap::Goal;
-use meshsweep::{emit, emit::Parts, precision::VertexBits};
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::VertexFormat;
+use crate::args::{BuildArgs, FACES, HullServes, StoredBits, slack_within_margin};
+use crate::describe;
+use crate::failure::Failure;
+use crate::hull_report::{
+    require_met, why_stuck, write_margin, write_no_void, write_start, write_wires,
+};
+use crate::mesh_file::{self, Loaded};
+use crate::number::{About, AtMost};
+use crate::output::{Output, refuse_same_file};
+use crate::progress::{Bar, StageBars};
+use crate::unmet::Tightness;
+use meshsweep::BuildError;
+use meshsweep::bvh::{self, TreeOptions};
+use meshsweep::counted::Counted;
+use meshsweep::emit::{self, Sections};
+use meshsweep::hull::{self, BuildReport, Built};
+use meshsweep::surface::VertexBits;
+use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
+use meshsweep::tribox::{self, TriboxReport};
+use meshsweep_core::Blob;
+use meshsweep_core::internal::format::layout::VertexFormat;
 use std::io::{self, Write};
 use std::time::Duration;
-
-/// Faces of a hull unless told otherwise.
-pub const FACES: u32 = 200;
 
 /// Triboxes unless told otherwise.
 const TRIBOXES: u32 = 64;
 
-/// What a mesh that is not closed can be built for.
+/// What can be built from a mesh that is not closed.
 const INSTEAD: &str = "for distances and segments, --for closest,segment needs no closed mesh";
 
 pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     let wanted = args.wanted();
-    if let Some(option) = args.hull_option().filter(|_| !wanted.hull) {
-        return Err(Failure::Usage { what: format!("{option} is for a hull; add hull to --for") });
-    }
-    if args.triboxes.is_some() && !wanted.triboxes {
-        return Err(Failure::Usage {
-            what: "--triboxes is for triboxes; add triboxes to --for".to_owned(),
-        });
-    }
-    if let Some(option) = args.tight_option().filter(|_| !wanted.tight) {
-        return Err(Failure::Usage {
-            what: format!("{option} is for tight hulls; add tight to --for"),
-        });
-    }
-    if let Some(what) = slack_within_margin(args.slack, args.margin) {
-        return Err(Failure::Usage { what });
-    }
-    if args.tight.len() > tight::MAX_HULLS {
-        let what = format!("--tight takes at most {} numbers of faces", tight::MAX_HULLS);
-        return Err(Failure::Usage { what });
-    }
-    refuse_same_file(&args.output, &[&args.mesh])?;
+    refuse_options(args).map_or(Ok(()), |what| Err(Failure::Usage { what }))?;
+    refuse_same_file(Some(&args.output), &[&args.mesh])?;
     Output::probe(&args.output)?;
     let loaded = if wanted.hull {
         mesh_file::load_solid(&args.mesh, args.vertex_bits.format(), Some(INSTEAD))?
@@ -63,26 +45,29 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         closest: wanted.closest,
         segments: wanted.segment,
         cull: wanted.cull,
-        single: args.vertex_bits.is_single(),
+        single: args.vertex_bits.is_f32(),
         ..TreeOptions::default()
     };
     let triangles = loaded.mesh.triangles.len() + loaded.mesh.wires.len();
-    if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > tree::MAX_TRIANGLES {
+    if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > bvh::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
-    let tree = wanted
-        .tree()
-        .then(|| tree::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options));
+    let tree = wanted.tree().then(|| bvh::build(loaded.input(), &options));
     let triboxes = if wanted.triboxes { Some(build_triboxes(args, &loaded)?) } else { None };
     let tight = if wanted.tight { Some(build_tight(args, &loaded)?) } else { None };
-    let bytes = emit::assemble(&Parts {
-        hull: hull.as_ref().map(|hull| &hull.tables),
-        tree: tree.as_ref().map(|(tables, _)| tables),
-        triboxes: triboxes.as_ref().map(|(tables, _)| tables),
-        tight: tight.as_ref().map(|(tables, _)| tables),
-    });
-    // What does not open must not be handed out.
-    let model = Model::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
+    let hierarchy = hull.as_ref().map(|hull| hull.tables.sections());
+    let bytes = emit::assemble(
+        [
+            hierarchy.as_ref(),
+            tree.as_ref().map(|(tables, _)| tables),
+            triboxes.as_ref().map(|(tables, _)| tables),
+            tight.as_ref().map(|(tables, _)| tables),
+        ]
+        .into_iter()
+        .flatten(),
+    );
+    // A blob that does not open must not be written.
+    let blob = Blob::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
     let report = Report {
         args,
@@ -91,59 +76,61 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         tree_time: tree.as_ref().map(|(_, report)| report.time),
         tribox_time: triboxes.as_ref().map(|(_, report)| report.time),
         tight: tight.as_ref().map(|(_, reports)| reports.as_slice()),
-        model: &model,
+        blob: &blob,
     };
     Output::stdout().finish(|out| report.write(out))
 }
 
+/// Why the options do not go together, if they do not.
+fn refuse_options(args: &BuildArgs) -> Option<String> {
+    let wanted = args.wanted();
+    if let Some(option) = args.hull_option().filter(|_| !wanted.hull) {
+        return Some(format!("{option} is for a hull; add hull to --for"));
+    }
+    if args.triboxes.is_some() && !wanted.triboxes {
+        return Some("--triboxes is for triboxes; add triboxes to --for".to_owned());
+    }
+    if let Some(option) = args.tight_option().filter(|_| !wanted.tight) {
+        return Some(format!("{option} is for tight hulls; add tight to --for"));
+    }
+    let too_many = || format!("--tight takes at most {} numbers of faces", tight::MAX_HULLS);
+    slack_within_margin(args.slack, args.margin)
+        .or_else(|| (args.tight.len() > tight::MAX_HULLS).then(too_many))
+}
+
 fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
-    let options = BuildOptions {
-        base_faces: args.base.unwrap_or(FACES) as usize,
-        priority: args.collapse.priority(),
-        conditions: args.collapse.conditions(),
-        vertex_bits: args.vertex_bits.format(),
-    };
+    let options = args.collapse.options(args.base.unwrap_or(FACES), args.vertex_bits);
     let faces = loaded.mesh.triangles.len();
     let bar = Bar::new(faces.saturating_sub(options.base_faces), "collapsing", "faces");
-    hull::build(&loaded.mesh, loaded.moved, loaded.input_triangles, &options, |progress| {
+    hull::build(loaded.input(), &options, |progress| {
         bar.show(faces.saturating_sub(progress.faces));
     })
     .map_err(|error| failed(args, error))
 }
 
-fn build_triboxes(
-    args: &BuildArgs,
-    loaded: &Loaded,
-) -> Result<(TriboxTables, TriboxReport), Failure> {
-    let Loaded { mesh, moved, input_triangles, .. } = loaded;
-    tribox::store(mesh, *moved, *input_triangles, args.triboxes.unwrap_or(TRIBOXES))
-        .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })
+fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, TriboxReport), Failure> {
+    tribox::store(loaded.input(), args.triboxes.unwrap_or(TRIBOXES))
+        .map_err(|error| Failure::Build { file: args.mesh.clone(), error })
 }
 
-fn build_tight(
-    args: &BuildArgs,
-    loaded: &Loaded,
-) -> Result<(TightTables, Vec<HullReport>), Failure> {
-    let Loaded { mesh, moved, input_triangles, .. } = loaded;
+fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullReport>), Failure> {
     let asked = |what: HullServes| args.tight_for.is_empty() || args.tight_for.contains(&what);
-    let options = ChainOptions {
-        faces: args.tight.iter().map(|&faces| faces as usize).collect(),
-        goal: args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack)),
-        margin: widened(args.margin.unwrap_or(0.0), loaded),
-        nested: args.nested,
-        effort: args.effort.unwrap_or(1.0),
-        vertex_bits: args.vertex_bits.format(),
-        closest: asked(HullServes::Closest),
-        segments: asked(HullServes::Segment),
-    };
-    let mut bars = WrapBars::default();
-    let made = tight::chain(mesh, *moved, *input_triangles, &options, |stage| match stage {
+    let goal = args.void.map(|percent| Goal::Void(percent / 100.0)).or(args.slack.map(Goal::Slack));
+    let faces: Vec<usize> = args.tight.iter().map(|&faces| faces as usize).collect();
+    let options = goal
+        .map_or_else(|| ChainOptions::of_faces(&faces), ChainOptions::of_goal)
+        .with_margin(loaded.widened(args.margin))
+        .with_effort(args.effort.unwrap_or(1.0))
+        .with_vertex_bits(args.vertex_bits.format())
+        .with_boxes(asked(HullServes::Closest), asked(HullServes::Segment));
+    let mut bars = StageBars::default();
+    let made = tight::chain(loaded.input(), &options, |stage| match stage {
         Stage::Wrapping { progress, .. } => bars.show(progress),
-        Stage::Certifying => bars = WrapBars::default(),
+        Stage::Certifying => bars = StageBars::default(),
     })
     .map_err(|error| Failure::Wrap { file: args.mesh.clone(), error })?;
     let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--tight" };
-    require_met(&args.mesh, &asked, made.1.iter().map(|report| &report.wrapped))?;
+    require_met(&args.mesh, asked, made.1.iter().map(|report| &report.wrapped))?;
     Ok(made)
 }
 
@@ -151,7 +138,7 @@ fn failed(args: &BuildArgs, error: BuildError) -> Failure {
     Failure::Build { file: args.mesh.clone(), error }
 }
 
-/// What was read, built and written.
+/// What the command reports.
 struct Report<'a> {
     args: &'a BuildArgs,
     loaded: &'a Loaded,
@@ -159,24 +146,20 @@ struct Report<'a> {
     tree_time: Option<Duration>,
     tribox_time: Option<Duration>,
     tight: Option<&'a [HullReport]>,
-    model: &'a Model<'a>,
+    blob: &'a Blob<'a>,
 }
 
 impl Report<'_> {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Report { args, loaded, hull, tree_time, tribox_time, tight, model } = self;
+        let Report { args, loaded, hull, tree_time, tribox_time, tight, blob } = self;
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
-            writeln!(out, "  volume {}", describe::About(report.volume))?;
+            writeln!(out, "  volume {}", About(report.volume))?;
             write_wires(out, report.wires)?;
         }
         if loaded.moved > 0.0 {
-            writeln!(
-                out,
-                "  vertices moved to the hull's grid by up to {}",
-                describe::AtMost(loaded.moved)
-            )?;
+            writeln!(out, "  vertices moved to the hull's grid by up to {}", AtMost(loaded.moved))?;
         }
         writeln!(out, "{}", args.output.display())?;
         if let Some(report) = hull {
@@ -184,17 +167,15 @@ impl Report<'_> {
             if let Some(stuck) = report.stuck {
                 writeln!(out, "  {}", why_stuck(args.base.unwrap_or(FACES), &stuck))?;
             }
-            if let Some(note) = other_format(args.vertex_bits, model.header().vertex_format) {
+            if let Some(note) = other_format(args.vertex_bits, blob.header().vertex_format) {
                 writeln!(out, "  {note}")?;
             }
         }
-        describe::write_blob(out, model)?;
+        describe::write_blob(out, blob)?;
         if let Some(reports) = tight {
             write_left_out(out, args, reports)?;
             write_margin(out, args.margin, "mesh")?;
-            if let Some(Err(why)) = reports.first().map(|report| report.void) {
-                writeln!(out, "  {why}; there is no volume to measure void against")?;
-            }
+            reports.first().map_or(Ok(()), |report| write_no_void(out, &report.void))?;
             reports.iter().try_for_each(|report| write_tight(out, report))?;
         }
         write!(out, "seconds: read and repair {:.3}", loaded.time.as_secs_f64())?;
@@ -222,19 +203,7 @@ impl Report<'_> {
     }
 }
 
-/// How far the points of triangles without area are off the hulls' surface.
-pub fn write_wires(out: &mut dyn Write, off: f64) -> io::Result<()> {
-    if off > 0.0 {
-        let off = describe::AtMost(off);
-        writeln!(
-            out,
-            "  triangles without area lie up to {off} off the surface: hulls may leave them out by as much"
-        )?;
-    }
-    Ok(())
-}
-
-/// Which tight hulls are not there.
+/// Names the tight hulls that the blob lacks.
 fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport]) -> io::Result<()> {
     let mut asked: Vec<u32> = args.tight.clone();
     asked.sort_unstable();
@@ -249,23 +218,15 @@ fn write_left_out(out: &mut dyn Write, args: &BuildArgs, reports: &[HullReport])
     Ok(())
 }
 
-/// What the table of tight hulls does not say.
+/// Adds to the table of tight hulls.
 fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
-    if let (Ok(void), Some(free)) = (report.void, report.free_void) {
-        writeln!(
-            out,
-            "  tight hull of {}: {} % void space, {} % if it did not enclose the finer ones",
-            Counted(report.wrapped.faces, "face"),
-            describe::Percent(void * 100.0),
-            describe::Percent(free * 100.0)
-        )?;
-    }
     if let Goal::Faces(asked) = report.asked
         && report.wrapped.faces > asked
     {
         writeln!(
             out,
-            "  tight hull of {}: stopped before {}, where no edge may collapse and leave it closed, clear of the mesh and of itself",
+            "  tight hull of {}: stopped before {}, where no edge may collapse and leave it \
+             closed, clear of the mesh and of itself",
             Counted(report.wrapped.faces, "face"),
             asked
         )?;
@@ -273,17 +234,7 @@ fn write_tight(out: &mut dyn Write, report: &HullReport) -> io::Result<()> {
     write_start(out, &report.wrapped)
 }
 
-/// Why a hull has more faces than `wanted`.
-pub fn why_stuck(wanted: u32, stuck: &Stuck) -> String {
-    format!(
-        "stopped before {wanted} faces, for no edge may collapse: {} by topology or valence, {} because no vertex is \
-         outside all planes, {} by compactness or normals; --max-valence, --compactness and --max-normal-deviation relax \
-         the conditions",
-        stuck.topology, stuck.no_vertex, stuck.shape
-    )
-}
-
-/// Says so if the hull could not have the wanted format.
+/// A note if the hull could not have the wanted format.
 fn other_format(wanted: StoredBits, got: VertexFormat) -> Option<&'static str> {
     let wanted_format = match wanted.format() {
         VertexBits::Grid16 => VertexFormat::Grid16,
@@ -291,6 +242,7 @@ fn other_format(wanted: StoredBits, got: VertexFormat) -> Option<&'static str> {
         VertexBits::Auto | VertexBits::F32 => return None,
     };
     (got != wanted_format).then_some(
-        "the mesh is too small or too far from its origin for the hull's grid: its coordinates are stored as f32",
+        "the mesh is too small or too far from its origin for the hull's grid: its coordinates \
+         are stored as f32",
     )
 }

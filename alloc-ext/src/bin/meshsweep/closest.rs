@@ -1,120 +1,130 @@
-//! `meshsweep closest`: query points in, intervals and closest points out.
+//! `meshsweep closest`: points in, intervals and closest points out.
 
-use super::args::{ClosestArgs, ClosestEngine};
-use super::blob_file;
-use super::csv::Short;
-use super::failure::Failure;
-use super::output::{Output, refuse_same_file};
-use super::queries::Queries;
-use super::served::{self, Need};
-use super::stop::Tally;
-use super::threads;
-use meshsweep_core::query::tight;
-use meshsweep_core::query::tree::{BatchError, Hint, closest_points};
-use meshsweep_core::query::{ClosestPoint, Ended, QueryError, Work, closest_point};
+use crate::args::{self, ClosestArgs, SearchArgs, files};
+use crate::ask::threads::Refused;
+use crate::ask::{self, Question, write_end, write_numbers};
+use crate::failure::Failure;
+use crate::output::refuse_same_file;
+use crate::queries::Queries;
+use crate::served::Engine;
+use crate::{blob_file, served};
+use meshsweep_core::{
+    Budget, BuildFor, ClosestPoint, Ended, Hint, Interval, QueryError, ScratchEntry, TightHull,
+    Work,
+};
 use std::io::{self, Write};
 
-/// Queries that are sorted at once: enough for neighbours to be near, and for all threads to have
-/// some.
+/// Points that the box tree sorts and answers at once: enough for neighbours to be near, and for
+/// all threads to have some.
 const BATCH: usize = 1 << 14;
 
-const UNANSWERED: ClosestPoint = ClosestPoint {
-    lower: 0.0,
-    upper: f32::INFINITY,
-    point: [0.0; 3],
-    triangle: None,
-    work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
-    ended: Ended::Steps,
-};
-
-const HEADER: &str = "x,y,z,lower,upper,px,py,pz,triangle,work";
-
 pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
-    let blob = &args.input.blob;
-    let output = args.search.output.as_deref();
-    if let Some(output) = output {
-        refuse_same_file(output, &args.input.files())?;
-    }
-    let bytes = blob_file::read(blob)?;
-    let model = blob_file::open(blob, &bytes)?;
-    let tree_chosen = args.engine.map(|engine| engine == ClosestEngine::Tree);
+    let file = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let tree_chosen = args.engine.map(|engine| engine == args::Engine::Tree);
     let hull = match tree_chosen {
         Some(_) => None,
-        None => served::tight_hull(blob, &model, args.tight)?,
+        None => served::tight_hull(file, &blob, args.tight)?,
     };
-    let tree = match hull {
-        Some(_) => None,
-        None => served::choose(blob, &model, Need::Distances, tree_chosen)?,
+    let by = match hull {
+        Some(hull) => By::Tight(hull),
+        None => By::Engine(served::choose(file, &blob, BuildFor::Closest, tree_chosen)?),
     };
-    let mut points = Queries::points(&args.input.points)?;
-    let output = Output::file_or_stdout(output)?;
-    let stop = args.search.stop(args.rel, args.abs);
-    let asked = match (hull, tree) {
-        (Some(hull), _) => threads::ask(&points, args.search.threads, || {
-            let mut stack = args.search.stack(hull.tree());
-            move |_, point, answers: &mut Vec<ClosestPoint>| {
-                let answer = tight::closest_point(&hull, point, &stop, &mut stack)?;
-                answers.push(answer);
-                Ok((answer.ended, answer.work))
-            }
-        }),
-        (None, Some(tree)) => threads::ask_batches(&points, args.search.threads, BATCH, || {
-            let mut stack = args.search.stack(&tree);
-            let mut order = vec![0; 2 * BATCH.min(points.rows.len())];
-            move |first, rows: &[[f32; 3]], answers: &mut Vec<ClosestPoint>, tally: &mut Tally| {
-                answers.resize(rows.len(), UNANSWERED);
-                // From nowhere, so that the work does not depend on which thread took the batch
-                // before.
-                let mut hint = Hint::NONE;
-                let done =
-                    closest_points(&tree, rows, answers, &stop, &mut stack, &mut order, &mut hint);
-                if done.is_err() {
-                    // A batch is not answered in its order.
-                    answers.clear();
+    let queries = Queries::read(&args.input.points)?;
+    let budget = args.search.budget().with_relative(args.rel).with_absolute(args.abs);
+    let points = queries.rows.len();
+    ask::run(&Closest { by, budget, search: &args.search, points }, queries, &args.search)
+}
+
+/// What answers.
+enum By<'a> {
+    Engine(Engine<'a>),
+    Tight(TightHull<'a>),
+}
+
+struct Closest<'a> {
+    by: By<'a>,
+    budget: Budget,
+    search: &'a SearchArgs,
+    /// Number of queries.
+    points: usize,
+}
+
+impl Question<3> for Closest<'_> {
+    type Answer = ClosestPoint;
+    type Memory = Vec<ScratchEntry>;
+
+    fn header(&self) -> &'static str {
+        "x,y,z,lower,upper,px,py,pz,triangle,work"
+    }
+
+    fn memory(&self) -> Self::Memory {
+        self.search.scratch(match &self.by {
+            // Two entries more for each point sort a batch.
+            By::Engine(Engine::Tree(tree)) => tree.scratch_entries() + 2 * BATCH.min(self.points),
+            By::Engine(engine) => engine.scratch_entries(),
+            By::Tight(hull) => hull.scratch_entries(),
+        })
+    }
+
+    fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<ClosestPoint, QueryError> {
+        match &self.by {
+            By::Engine(Engine::Tree(tree)) => tree.closest_point(point, self.budget, scratch),
+            By::Engine(Engine::Cover(hull)) => hull.closest_point(point, self.budget, scratch),
+            By::Tight(hull) => hull.closest_point(point, self.budget, scratch),
+        }
+    }
+
+    fn outcome(answer: &ClosestPoint) -> (Ended, Work) {
+        (answer.ended, answer.work)
+    }
+
+    fn at_once(&self) -> usize {
+        if matches!(self.by, By::Engine(Engine::Tree(_))) { BATCH } else { ask::AT_ONCE }
+    }
+
+    fn ask_many(
+        &self,
+        first: usize,
+        rows: &[[f32; 3]],
+        scratch: &mut Self::Memory,
+        answers: &mut Vec<ClosestPoint>,
+    ) -> Result<(), Refused> {
+        let By::Engine(Engine::Tree(tree)) = &self.by else {
+            return ask::each(self, first, rows, scratch, answers);
+        };
+        answers.resize(rows.len(), ClosestPoint::EMPTY);
+        // Without a hint: so the work does not depend on the batch before.
+        let mut hint = Hint::NONE;
+        let done = tree.closest_points(rows, &mut hint, answers, self.budget, scratch);
+        done.map_err(|error| {
+            answers.clear();
+            match error {
+                QueryError::PointNotFinite { index } => {
+                    (first + index as usize, QueryError::NotFinite)
                 }
-                answers.iter().for_each(|answer| tally.count(answer.ended, answer.work));
-                done.map_err(|error| refused(first, error))
+                error => (first, error),
             }
-        }),
-        (None, None) => threads::ask(&points, args.search.threads, || {
-            let mut queue = args.search.queue(&model);
-            let model = &model;
-            move |_, point, answers: &mut Vec<ClosestPoint>| {
-                let answer = closest_point(model, point, &stop, &mut queue)?;
-                answers.push(answer);
-                Ok((answer.ended, answer.work))
-            }
-        }),
-    };
-    let stopped = points.stopped(asked.refused);
-    output.finish_until(stopped, |out| {
-        writeln!(out, "{HEADER}")?;
-        points
-            .rows
-            .iter()
-            .zip(&asked.answers)
-            .try_for_each(|(point, answer)| write_row(out, point, answer))
-    })?;
-    args.search.note(&asked, hull.is_some());
-    Ok(())
-}
+        })
+    }
 
-fn refused(first: usize, error: BatchError) -> (usize, QueryError) {
-    match error {
-        BatchError::Query { index, error } => (first + index, error),
-        // There is a place for each.
-        BatchError::Length { .. } => (first, QueryError::Model),
+    fn is_by_hull(&self) -> bool {
+        matches!(self.by, By::Tight(_))
     }
-}
 
-fn write_row(out: &mut dyn Write, [x, y, z]: &[f32; 3], answer: &ClosestPoint) -> io::Result<()> {
-    let ClosestPoint { lower, upper, point: [px, py, pz], triangle, work, .. } = answer;
-    for number in [x, y, z, lower, upper, px, py, pz] {
-        write!(out, "{},", Short(*number))?;
+    fn write(
+        &self,
+        out: &mut dyn Write,
+        _: usize,
+        point: &[f32; 3],
+        answer: &ClosestPoint,
+    ) -> io::Result<()> {
+        let Interval { lower, upper } = answer.distance;
+        let [x, y, z] = answer.point;
+        write_numbers(out, point)?;
+        write_numbers(out, &[lower, upper, x, y, z])?;
+        write_end(out, answer.triangle, answer.work)
     }
-    // A cut blob and a tight hull know no triangles of the file.
-    if let Some(triangle) = triangle {
-        write!(out, "{triangle}")?;
-    }
-    writeln!(out, ",{}", work.total())
 }

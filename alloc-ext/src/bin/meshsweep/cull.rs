@@ -1,25 +1,24 @@
-//! `meshsweep cull`: which triangles may face the eye.
+//! `meshsweep cull`: the triangles that may face the eye.
 
-use super::args::CullArgs;
-use super::blob_file;
-use super::counted::Counted;
-use super::failure::Failure;
-use super::output::{Output, refuse_same_file};
-use super::served::{self, Need};
-use meshsweep_core::query::tree::front_facing;
+use crate::args::CullArgs;
+use crate::blob_file;
+use crate::failure::Failure;
+use crate::output::{Output, refuse_same_file};
+use crate::served;
+use meshsweep::counted::Counted;
+use meshsweep_core::BuildFor;
 use std::io::Write;
 
 pub fn run(args: &CullArgs) -> Result<(), Failure> {
     let output = args.output.as_deref();
-    if let Some(output) = output {
-        refuse_same_file(output, &[&args.blob])?;
-    }
+    refuse_same_file(output, &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
-    let model = blob_file::open(&args.blob, &bytes)?;
-    let tree = served::require_tree(&args.blob, &model, Need::Culling)?;
+    let blob = blob_file::open(&args.blob, &bytes)?;
+    let tree = served::require_tree(&args.blob, &blob, BuildFor::Cull)?;
     let output = Output::file_or_stdout(output)?;
-    let mut triangles = vec![0; tree.header().triangles as usize];
-    let found = front_facing(&tree, &args.sight(), &mut triangles)
+    let mut triangles = vec![0; tree.triangle_count() as usize];
+    let found = tree
+        .front_facing(args.eye(), &mut triangles)
         .map_err(|error| Failure::Search { file: args.blob.clone(), error })?;
     triangles.truncate(found.stored);
     triangles.sort_unstable();
@@ -27,12 +26,12 @@ pub fn run(args: &CullArgs) -> Result<(), Failure> {
         writeln!(out, "triangle")?;
         triangles.iter().try_for_each(|triangle| writeln!(out, "{triangle}"))
     })?;
-    // A standard error that is closed is no reason to withhold the answers.
+    // A closed standard error does not withhold the answers.
     let _ = writeln!(
         std::io::stderr(),
         "{} of {} certainly show their backs, {} of {} whole; the others are listed",
         found.culled,
-        Counted(tree.header().triangles, "triangle"),
+        Counted(tree.triangle_count(), "triangle"),
         found.culled_leaves,
         Counted(found.leaves, "leaf")
     );

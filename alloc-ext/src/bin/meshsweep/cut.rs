@@ -1,29 +1,29 @@
-//! `meshsweep cut`: a coarser blob out of a finer one. A box tree knows the whole surface or none,
-//! so it is left out.
+//! `meshsweep cut`: a coarser blob from a finer one. A box tree holds all of the surface or
+//! nothing, so it is left out beside a cut hull hierarchy.
 
-use super::args::CutArgs;
-use super::counted::Counted;
-use super::failure::Failure;
-use super::output::{Output, refuse_same_file};
-use super::{blob_file, served};
-use meshsweep::emit::{self, Keep};
-use meshsweep_core::Model;
+use crate::args::CutArgs;
+use crate::failure::Failure;
+use crate::output::{Output, refuse_same_file};
+use crate::{blob_file, served};
+use meshsweep::counted::Counted;
+use meshsweep::cut::{Keep, cut_blob};
+use meshsweep_core::Blob;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {
-    refuse_same_file(&args.output, &[&args.blob])?;
+    refuse_same_file(Some(&args.output), &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
-    let model = blob_file::open(&args.blob, &bytes)?;
+    let blob = blob_file::open(&args.blob, &bytes)?;
     if args.level.is_some() {
-        served::require_hull(&args.blob, &model)?;
+        served::require_hull(&args.blob, &blob)?;
     }
     if let Some(faces) = args.tight {
-        served::require_tight(&args.blob, &model, faces)?;
+        served::require_tight(&args.blob, &blob, faces)?;
     }
     let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
-    let cut = emit::cut_blob(&model, &keep)
-        .map_err(|error| Failure::Cut { file: args.blob.clone(), error })?;
-    // What does not open must not be handed out.
-    let left = Model::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
+    let cut = cut_blob(&blob, &keep)
+        .map_err(|error| Failure::Build { file: args.blob.clone(), error })?;
+    // A blob that does not open must not be written.
+    let left = Blob::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
     Output::stdout().finish(|out| {
         let (kept, all) = (cut.len(), bytes.len());
@@ -37,14 +37,14 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         if let Some(level) = args.level {
             write!(out, ", levels 0 to {level}")?;
         }
-        if let Some(triboxes) = left.triboxes().filter(|_| args.triboxes.is_some()) {
+        if let Some(triboxes) = left.triboxes().ok().filter(|_| args.triboxes.is_some()) {
             write!(out, ", {}", Counted(triboxes.leaf_count(), "tribox"))?;
         }
-        if let Some(hulls) = left.tight_hulls().filter(|_| args.tight.is_some()) {
+        if let Some(hulls) = left.tight_hulls().ok().filter(|_| args.tight.is_some()) {
             write!(out, ", {}", Counted(hulls.count(), "tight hull"))?;
         }
         writeln!(out)?;
-        match model.tree().filter(|_| args.level.is_some()) {
+        match blob.bvh().ok().filter(|_| args.level.is_some()) {
             Some(_) => writeln!(
                 out,
                 "the box tree cannot be cut and is left out: closest and segment use the cover tree"

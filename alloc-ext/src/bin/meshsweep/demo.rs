@@ -1,18 +1,15 @@
-//! `meshsweep` without a command: what it does, shown on a part that is built in.
+//! `meshsweep` without a command: a demonstration on a built-in part.
 
-use super::failure::{Failure, Place};
-use super::output::Output;
-use super::signed::name;
-use super::{blob_file, describe};
-use meshsweep::tree::{self, TreeOptions};
-use meshsweep::{emit, mesh};
-use meshsweep_core::query::tree::{
-    Facing, ScratchEntry, closest_point, first_hit, signed_distance,
-};
-use meshsweep_core::query::{Budget, Ended};
+use crate::failure::{Failure, Place};
+use crate::output::Output;
+use crate::signed::name;
+use crate::{blob_file, describe};
+use meshsweep::bvh::{self, TreeOptions};
+use meshsweep::mesh;
+use meshsweep_core::{Budget, Ended, Facing, Interval, ScratchEntry};
 use std::path::Path;
 
-/// A copy of `fixtures/bracket.stl`, which a package would not contain.
+/// A copy of `fixtures/bracket.stl`, because a package holds no file outside of its folder.
 const BRACKET: &[u8] = include_bytes!("demo/bracket.stl");
 
 pub fn run() -> Result<(), Failure> {
@@ -21,34 +18,43 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = tree::build(&mesh, 0.0, triangles, &TreeOptions::default());
-    let bytes = emit::blob(None, Some(&tables));
+    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default());
+    let bytes = tables.to_bytes();
     let tree = blob_file::open_tree(file, &bytes)?;
-    let entries = tree.header().stack_entries as usize;
-    let mut stack = vec![ScratchEntry::EMPTY; entries];
+    let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let place = |error| Failure::Query { place: Place::BuiltIn, error };
     let point = [10.0, 4.5, 7.0];
-    let closest = closest_point(&tree, point, &Budget::EXACT, &mut stack).map_err(place)?;
-    let side = signed_distance(&tree, point, &Budget::EXACT, &mut stack).map_err(place)?.side;
+    let closest = tree.closest_point(point, Budget::EXACT, &mut scratch).map_err(place)?;
+    let side = tree.signed_distance(point, Budget::EXACT, &mut scratch).map_err(place)?.side;
     let (from, to) = ([20.0, 10.0, 90.0], [20.0, 10.0, -90.0]);
-    let segment = first_hit(&tree, from, to, &Facing::Both, &mut stack).map_err(place)?;
+    let segment =
+        tree.first_hit(from, to, Facing::Both, Budget::EXACT, &mut scratch).map_err(place)?;
+    let Interval { lower, upper } = closest.distance;
     Output::stdout().finish(|out| {
-        writeln!(out, "meshsweep answers questions about triangle meshes: distances, hits, signs, outer hulls.")?;
-        writeln!(out, "Every answer is an interval that contains the truth; a blob is read in place, without a heap.")?;
         writeln!(
             out,
-            "Built in: a bracket of {triangles} triangles. Its box tree: a blob of {} bytes, {:.1} a triangle; a query needs {} \
-             bytes of RAM.",
+            "meshsweep answers questions about triangle meshes: distances, hits, signs, \
+            outer hulls."
+        )?;
+        writeln!(
+            out,
+            "Every answer is an interval that contains the truth; a blob is read in \
+            place, without a heap."
+        )?;
+        writeln!(
+            out,
+            "Built in: a bracket of {triangles} triangles. Its box tree: a blob of {} bytes, \
+             {:.1} a triangle; a query needs {} bytes of RAM.",
             bytes.len(),
             bytes.len() as f64 / triangles as f64,
-            describe::stack_bytes(&tree)
+            describe::tree::stack_bytes(&tree)
         )?;
         writeln!(
             out,
             "Closest point to {point:?}, which is {}: distance {} to {}, at {:?}{}.",
             name(side),
-            closest.lower,
-            closest.upper,
+            lower,
+            upper,
             closest.point,
             in_triangle(closest.triangle)
         )?;
@@ -61,7 +67,7 @@ pub fn run() -> Result<(), Failure> {
                 hit.point,
                 in_triangle(hit.triangle)
             )?,
-            _ => writeln!(out, "From {from:?} to {to:?}: clear before t = {}.", segment.lower)?,
+            _ => writeln!(out, "From {from:?} to {to:?}: clear before t = {}.", segment.t.lower)?,
         }
         let program = program();
         writeln!(out, "Try:  {program} build part.stl -o part.msw")?;
@@ -72,8 +78,7 @@ pub fn run() -> Result<(), Failure> {
     })
 }
 
-/// How the program is called: by `cargo run`, which says so in the environment, or by the name that
-/// it was called by now.
+/// The words that call the program: `cargo run`, which sets a variable, or the program's name.
 fn program() -> String {
     if std::env::var_os("CARGO_MANIFEST_DIR").is_some() {
         return "cargo run --release --".to_owned();

@@ -1,61 +1,64 @@
-//! What a blob costs and guarantees, as tables for people. Lengths are in the mesh's unit.
+//! The cost and the guarantees of a blob, as tables for people and as JSON. Lengths are in the
+//! mesh's unit.
 
-mod hull;
-mod length;
+pub mod hull;
 mod shape;
-mod tight;
-mod tree;
+pub mod tight;
+pub mod tree;
 mod triboxes;
 
-pub use hull::{LevelDistances, distances, format_name, front_bytes, queue_bytes, surface_error};
-pub use length::{About, AtLeast, AtMost, Given, Percent};
-pub use shape::Shape;
-pub use tight::{as_json as tight_as_json, void as tight_void};
-pub use tree::{bounds, half_widths, stack_bytes, tree_format_name, tree_surface_error};
-pub use triboxes::as_json as triboxes_as_json;
-
-use super::served;
-use meshsweep_core::Model;
-use meshsweep_core::blob::layout::SectionKind;
-use meshsweep_core::geom::Aabb;
+use crate::number::{AtLeast, AtMost};
+use crate::served;
+use meshsweep::counted::Counted;
+use meshsweep_core::internal::format::layout::{FLAG_CUT, VERSION_MAJOR, VERSION_MINOR};
+use meshsweep_core::internal::num::exp2;
+use meshsweep_core::{Blob, SectionKind};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// What bytes per triangle are divided by: the surface's triangles, or in a cut blob those of its
-/// finest level.
-pub fn triangles(model: &Model<'_>) -> u32 {
-    let of_levels = || model.levels().last().map_or(0, |level| level.faces);
-    let of_tree = || model.tree().map_or(0, |tree| tree.header().triangles);
-    [model.header().surface_triangles, of_tree(), of_levels(), model.header().input_triangles]
+/// The number of triangles for bytes per triangle: those of the surface, or in a cut blob those of
+/// the finest level.
+fn triangles(blob: &Blob<'_>) -> u32 {
+    let of_levels =
+        || blob.hull().ok().and_then(|hull| hull.levels().last()).map_or(0, |level| level.faces);
+    let of_tree = || blob.bvh().map_or(0, |tree| tree.triangle_count());
+    [blob.header().surface_triangles, of_tree(), of_levels(), blob.header().input_triangles]
         .into_iter()
         .find(|&n| n > 0)
         .unwrap_or(1)
 }
 
 /// A box of the local frame in the mesh's unit: low and high corner.
-pub fn in_input_units(model: &Model<'_>, local: &Aabb) -> [[f64; 3]; 2] {
-    [local.min, local.max].map(|corner| (corner.as_dvec3() * model.scale()).to_array())
+fn in_input_units(blob: &Blob<'_>, local: [[f32; 3]; 2]) -> [[f64; 3]; 2] {
+    let scale = exp2(blob.header().scale_exponent);
+    local.map(|corner| corner.map(|x| f64::from(x) * scale))
+}
+
+/// The box of the mesh, in its unit.
+pub fn surface_box(blob: &Blob<'_>) -> [[f64; 3]; 2] {
+    in_input_units(blob, blob.header().surface_box)
 }
 
 /// The diagonal of the mesh's box, in its unit.
-pub fn diagonal(model: &Model<'_>) -> f64 {
-    let [low, high] = in_input_units(model, &model.header().surface_box);
+fn diagonal(blob: &Blob<'_>) -> f64 {
+    let [low, high] = surface_box(blob);
     low.iter().zip(high).map(|(low, high)| (high - low).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Which hierarchy a section belongs to.
+/// The structure that a section belongs to.
 fn hierarchy(kind: SectionKind) -> &'static str {
     if kind.is_hull() {
         "hull hierarchy"
-    } else if kind.is_tree() {
+    } else if kind.is_bvh() {
         "box tree"
     } else {
-        // One section each.
+        // The other structures have one section each.
         kind.name()
     }
 }
 
 /// The same for machines.
-pub fn hierarchy_key(kind: SectionKind) -> &'static str {
+fn hierarchy_key(kind: SectionKind) -> &'static str {
     match hierarchy(kind) {
         "hull hierarchy" => "hull",
         "box tree" => "tree",
@@ -64,17 +67,17 @@ pub fn hierarchy_key(kind: SectionKind) -> &'static str {
     }
 }
 
-/// Sections with their bytes, those of each hierarchy together.
-fn write_sections(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    let triangles = f64::from(triangles(model));
+/// Sections with their bytes, structure by structure.
+fn write_sections(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
+    let triangles = f64::from(triangles(blob));
     let mut line = |name: &str, bytes: usize| {
         writeln!(out, "  {name:<30} {bytes:>10} {:>12.2}", bytes as f64 / triangles)
     };
-    let header = model.header().header_bytes as usize;
+    let header = blob.header().header_bytes as usize;
     line("header", header)?;
     let mut all = 0;
     for title in ["hull hierarchy", "box tree", "triboxes", "tight hulls"] {
-        let of_kind = || model.sections().filter(|section| hierarchy(section.kind) == title);
+        let of_kind = || blob.sections().filter(|section| hierarchy(section.kind) == title);
         let bytes: usize = of_kind().map(|section| section.bytes as usize).sum();
         if bytes == 0 {
             continue;
@@ -85,23 +88,86 @@ fn write_sections(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
         }
         all += bytes;
     }
-    line("padding", model.bytes().len() - header - all)?;
-    line("total", model.bytes().len())
+    line("padding", blob.bytes().len() - header - all)?;
+    line("total", blob.bytes().len())
 }
 
-/// Everything that both `build` and `info` print of a blob.
-pub fn write_blob(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    writeln!(out, "  serves {}", served::listed(model))?;
+/// The tables that both `build` and `info` print.
+pub fn write_blob(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
+    writeln!(out, "  serves {}", served::listed(blob))?;
     writeln!(out, "section                               bytes per triangle")?;
-    write_sections(out, model)?;
-    if model.has_hull() {
-        hull::write(out, model)?;
+    write_sections(out, blob)?;
+    if let Ok(hull) = blob.hull() {
+        hull::write(out, &hull)?;
     }
-    if let Some(tree) = model.tree() {
-        tree::write(out, &tree, diagonal(model))?;
+    if let Ok(tree) = blob.bvh() {
+        tree::write(out, &tree, diagonal(blob))?;
     }
-    if let Some(triboxes) = model.triboxes() {
+    if let Ok(triboxes) = blob.triboxes() {
         triboxes::write(out, &triboxes)?;
     }
-    model.tight_hulls().map_or(Ok(()), |hulls| tight::write(out, &hulls))
+    blob.tight_hulls().map_or(Ok(()), |hulls| tight::write(out, &hulls))
+}
+
+/// Format, input and hull hierarchy, before the tables of `info`.
+pub fn write_header(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
+    let h = blob.header();
+    let [low, high] = surface_box(blob);
+    let low = low.map(|x| AtLeast(x).to_string());
+    let high = high.map(|x| AtMost(x).to_string());
+    let cut = if h.flags & FLAG_CUT != 0 { ", cut: finer levels are not there" } else { "" };
+    let input =
+        Counted(blob.bvh().map_or(h.input_triangles, |tree| tree.input_triangles()), "triangle");
+    writeln!(out, "  format {VERSION_MAJOR}, {} bytes{cut}", h.total_bytes)?;
+    writeln!(out, "  {input} in the input file; box {} to {}", low.join(", "), high.join(", "))?;
+    if blob.hull().is_ok() {
+        writeln!(
+            out,
+            "  hull hierarchy of {}: {}, {}, {}",
+            Counted(h.surface_triangles, "triangle"),
+            Counted(h.vertices, "vertex"),
+            Counted(h.splits, "split"),
+            Counted(h.nodes, "cover node")
+        )?;
+        writeln!(
+            out,
+            "  base hull: {}, {}",
+            Counted(h.base_triangles, "triangle"),
+            Counted(h.base_vertices, "vertex")
+        )?;
+    }
+    Ok(())
+}
+
+/// All that `info --json` prints.
+pub fn as_json(blob: &Blob<'_>) -> Value {
+    let h = blob.header();
+    let sections: Vec<Value> = blob
+        .sections()
+        .map(|s| {
+            json!({
+                "name": s.kind.name(),
+                "kind": s.kind as u32,
+                "hierarchy": hierarchy_key(s.kind),
+                "offset": s.offset,
+                "bytes": s.bytes,
+                "bytes_per_triangle": f64::from(s.bytes) / f64::from(triangles(blob)),
+                "crc": format!("{:08x}", s.crc),
+            })
+        })
+        .collect();
+    json!({
+        "version": { "major": VERSION_MAJOR, "minor_known": VERSION_MINOR },
+        "bytes": h.total_bytes,
+        "header_bytes": h.header_bytes,
+        "scale_exponent": h.scale_exponent,
+        "input_triangles": h.input_triangles,
+        "surface_box": surface_box(blob),
+        "serves": served::questions(blob),
+        "sections": sections,
+        "hull": blob.hull().ok().map(|hull| hull::as_json(&hull, in_input_units(blob, h.hull_box))),
+        "tree": blob.bvh().ok().map(|tree| tree::as_json(&tree, diagonal(blob))),
+        "triboxes": blob.triboxes().ok().map(|triboxes| triboxes::as_json(&triboxes)),
+        "tight_hulls": blob.tight_hulls().ok().map(|hulls| tight::as_json(&hulls)),
+    })
 }

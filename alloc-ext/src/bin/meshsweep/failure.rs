@@ -1,22 +1,18 @@
-//! What ends the program early: each variant one line that names the file, the place and the
-//! remedy.
+//! What can go wrong. Each variant is one line that names the file, the place and the remedy.
 
-use super::counted::Counted;
-use super::hull::Unmet;
-use super::served::Need;
-use meshsweep::emit::CutError;
-use meshsweep::hull::BuildError;
+use crate::unmet::Unmet;
+use meshsweep::BuildError;
+use meshsweep::counted::Counted;
 use meshsweep::mesh::MeshError;
-use meshsweep::wrap::WrapError;
-use meshsweep_core::tribox::TriboxError;
-use meshsweep_core::{OpenError, QueryError};
+use meshsweep::tight::WrapError;
+use meshsweep_core::{OpenError, QueryError, TriboxError};
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Why a command did not do what it was asked. No file was written then; on the standard output are
-/// the answers to the queries before the one that is refused.
+/// Why a command failed. It has written no file then. The standard output has the answers to the
+/// queries before the refused one.
 #[derive(Debug)]
 pub enum Failure {
     /// A file cannot be read.
@@ -25,9 +21,9 @@ pub enum Failure {
     ReadQueries { file: PathBuf, error: io::Error, wanted: &'static str },
     /// A file cannot be written.
     Write { file: PathBuf, error: io::Error },
-    /// The output would replace an input.
+    /// The output is one of the inputs.
     SameFile { file: PathBuf },
-    /// The directory that a file should be written to is not there.
+    /// The directory of an output does not exist.
     NoDirectory { file: PathBuf, directory: PathBuf },
     /// The mesh is refused.
     Mesh { file: PathBuf, error: MeshError },
@@ -35,28 +31,30 @@ pub enum Failure {
     Misnamed { file: PathBuf, content: &'static str },
     /// The mesh does not bound a solid, and a hull is wanted.
     NotSolid { file: PathBuf, error: Box<MeshError>, instead: Option<&'static str> },
-    /// A blob was given where a mesh is wanted.
+    /// A mesh is wanted, and a blob is given.
     BlobForMesh { file: PathBuf },
-    /// The blob was not built.
+    /// The blob cannot be built or cut.
     Build { file: PathBuf, error: BuildError },
-    /// No tight hull.
+    /// The tight hull cannot be made.
     Wrap { file: PathBuf, error: WrapError },
     /// No hull is as tight as asked for.
     Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
-    /// The blob has no such level.
-    Cut { file: PathBuf, error: CutError },
-    /// The blob was built without what the question needs; another engine may have it. What it does
-    /// serve.
-    NotServed { file: PathBuf, need: Need, other: Option<&'static str>, served: String },
+    /// The blob was built without the part that the question needs. `other` names an engine that
+    /// has it; `served` lists the questions that the blob serves.
+    NotServed {
+        file: PathBuf,
+        part: &'static str,
+        build_for: String,
+        other: Option<&'static str>,
+        served: String,
+    },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
-    /// The hull engine cannot say anything about this blob.
-    HullEngine { file: PathBuf, reason: &'static str },
-    /// The mesh is beyond what triboxes can hold.
+    /// The mesh's coordinates are beyond the range of triboxes.
     Tribox { file: PathBuf, error: TriboxError },
-    /// Sides are asked of a mesh that bounds no solid.
+    /// The mesh bounds no solid, and signs are wanted.
     NotClosed { file: PathBuf },
     /// The mesh has more triangles than a blob can hold.
     TooLarge { file: PathBuf, triangles: usize },
@@ -72,15 +70,15 @@ pub enum Failure {
     Query { place: Place, error: QueryError },
     /// A pose's quaternion is 0.
     NoRotation { place: Place },
-    /// An end of a segment is too far away; `limit` says what is not.
+    /// An end of a segment is too far away; `limit` says how far it may be.
     TooFar { place: Place, limit: String },
-    /// The queries end too early for a file of answers.
+    /// The queries end early, so no file of answers is written.
     Unwritten { file: PathBuf, cause: Box<Failure> },
-    /// A search over many points of the program's own is refused.
+    /// A query that the program made itself is refused.
     Search { file: PathBuf, error: QueryError },
     /// The arguments do not go together.
     Usage { what: String },
-    /// Whoever read the standard output has gone: no error.
+    /// The reader of the standard output has closed it: no error.
     ClosedPipe,
 }
 
@@ -113,15 +111,15 @@ impl Failure {
         }
     }
 
-    /// Says it on the standard error.
+    /// Prints the failure to the standard error.
     pub fn report(&self) -> ExitCode {
         if matches!(self, Failure::ClosedPipe) {
             return ExitCode::SUCCESS;
         }
-        // A mesh error lists places on lines of their own.
+        // A mesh error lists each place on a line of its own.
         let text = self.to_string();
         let line = text.lines().map(str::trim).collect::<Vec<_>>().join("; ");
-        // If the standard error is closed too, there is nobody left to tell.
+        // If the standard error is closed too, nobody can be told.
         let _ = writeln!(io::stderr(), "error: {line}");
         let is_usage = matches!(
             self,
@@ -131,7 +129,7 @@ impl Failure {
     }
 }
 
-/// What the operating system says, and what to do about it.
+/// The operating system's message, and a remedy.
 struct Cause<'a>(&'a io::Error);
 
 impl fmt::Display for Cause<'_> {
@@ -186,7 +184,7 @@ impl fmt::Display for Failure {
             }
             Failure::NotSolid { file, error, instead } => {
                 write!(f, "{}: {error}", file.display())?;
-                // On a line of its own, as places are.
+                // On a line of its own, like places.
                 instead.map_or(Ok(()), |instead| write!(f, "\n{instead}"))
             }
             Failure::Misnamed { file, content } => write!(
@@ -210,16 +208,14 @@ impl fmt::Display for Failure {
             Failure::Open { file, error } => {
                 write!(f, "{}: {error}; {}", file.display(), remedy(error))
             }
-            Failure::Cut { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Tribox { file, error } => {
                 write!(f, "{}: {error}; choose a larger unit", file.display())
             }
-            Failure::NotServed { file, need, other, served } => {
-                let (part, option) = (need.part(), need.option());
+            Failure::NotServed { file, part, build_for, other, served } => {
                 write!(f, "{}: has no {part}, and serves {served}", file.display())?;
                 write!(
                     f,
-                    "; build one from the mesh: meshsweep build MESH -o BLOB --for {option}"
+                    "; build one from the mesh: meshsweep build MESH -o BLOB --for {build_for}"
                 )?;
                 other.map_or(Ok(()), |engine| write!(f, ", or use --engine {engine}"))
             }
@@ -230,26 +226,26 @@ impl fmt::Display for Failure {
             ),
             Failure::NotClosed { file } => write!(
                 f,
-                "{}: was built from a mesh that is not closed, so inside and outside are not defined; leave out --signed",
+                "{}: was built from a mesh that is not closed, so inside and outside are not \
+                 defined; leave out --signed",
                 file.display()
             ),
             Failure::TooLarge { file, triangles } => write!(
                 f,
-                "{}: {triangles} triangles are more than the {} that a box tree holds; split the mesh",
+                "{}: {triangles} triangles are more than the {} that a box tree holds; split the \
+                 mesh",
                 file.display(),
-                meshsweep::tree::MAX_TRIANGLES
+                meshsweep::bvh::MAX_TRIANGLES
             ),
             Failure::GridTooLarge { file } => write!(
                 f,
                 "{}: the grid reaches beyond f32 (3.4e38); choose a smaller --margin",
                 file.display()
             ),
-            Failure::HullEngine { file, reason } => {
-                write!(f, "{}: the hull engine needs {reason}; use --engine cover", file.display())
-            }
             Failure::FieldCount { file, line, wanted, found } => write!(
                 f,
-                "{}, line {line}: {}, and the query needs {wanted}; mend the line or begin it with #",
+                "{}, line {line}: {}, and the query needs {wanted}; mend the line or begin it \
+                 with #",
                 file.display(),
                 Counted(*found, "field")
             ),
@@ -259,7 +255,8 @@ impl fmt::Display for Failure {
             }
             Failure::RawLength { file, bytes, record } => write!(
                 f,
-                "{}: {} is no whole number of queries of {record} bytes, the last begins at byte {}; write little-endian f32",
+                "{}: {} is no whole number of queries of {record} bytes, the last begins at byte \
+                 {}; write little-endian f32",
                 file.display(),
                 Counted(*bytes, "byte"),
                 bytes - bytes % record

@@ -4,21 +4,21 @@ mod lattice;
 mod npy;
 mod sampler;
 
-use super::args::FieldArgs;
-use super::counted::Counted;
-use super::failure::Failure;
-use super::output::{Output, refuse_same_file};
-use super::progress::Bar;
-use super::served::{self, Need};
-use super::{blob_file, describe, threads};
+use crate::args::FieldArgs;
+use crate::ask::threads;
+use crate::failure::Failure;
+use crate::output::{Output, refuse_same_file};
+use crate::progress::Bar;
+use crate::{blob_file, describe, served};
 use lattice::Lattice;
-use meshsweep_core::query::QueryError;
+use meshsweep::counted::Counted;
+use meshsweep_core::{BuildFor, QueryError};
 use sampler::{NoSign, Sampler};
 use std::io::{self, Write};
 use std::path::Path;
 use std::time::Instant;
 
-/// Bytes of a file from which on its size is told before the work.
+/// Least bytes of a file whose size is told before the work.
 const LARGE: u64 = 1 << 30;
 
 pub fn run(args: &FieldArgs) -> Result<(), Failure> {
@@ -33,14 +33,14 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
             });
         }
     };
-    refuse_same_file(&args.output, &[&args.blob])?;
+    refuse_same_file(Some(&args.output), &[&args.blob])?;
     let bytes = blob_file::read(&args.blob)?;
-    let model = blob_file::open(&args.blob, &bytes)?;
-    let tree = served::require_tree(&args.blob, &model, Need::Distances)?;
-    if args.signed && !tree.header().is_closed() {
+    let blob = blob_file::open(&args.blob, &bytes)?;
+    let tree = served::require_tree(&args.blob, &blob, BuildFor::Closest)?;
+    if args.signed && !tree.is_closed() {
         return Err(Failure::NotClosed { file: args.blob.clone() });
     }
-    let bounds = describe::in_input_units(&model, &model.header().surface_box);
+    let bounds = describe::surface_box(&blob);
     let lattice = Lattice::around(bounds, args.size, args.margin)
         .ok_or_else(|| Failure::GridTooLarge { file: args.blob.clone() })?;
     let output = Output::file(&args.output)?;
@@ -49,7 +49,7 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
     let bytes =
         4 * sampler.values() as u64 * lattice.size.iter().map(|&n| n as u64).product::<u64>();
     if bytes > LARGE {
-        // A standard error that is closed is no reason to withhold the field.
+        // A closed standard error does not withhold the field.
         let (file, gibibytes) = (args.output.display(), bytes as f64 / LARGE as f64);
         let _ = writeln!(io::stderr(), "{file}: will be a file of {gibibytes:.1} GiB");
     }
@@ -98,7 +98,7 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
     })
 }
 
-/// Says on the standard error how many of `samples` have no sign, and why.
+/// Says on the standard error how many of the `samples` have no sign, and why.
 fn note(file: &Path, no_sign: &NoSign, samples: usize, interval: bool) {
     if no_sign.count() > 0 {
         let instead = if interval {
@@ -106,7 +106,7 @@ fn note(file: &Path, no_sign: &NoSign, samples: usize, interval: bool) {
         } else {
             "their value is NaN"
         };
-        // A standard error that is closed is no reason to fail.
+        // A closed standard error is no failure.
         let _ = writeln!(
             io::stderr(),
             "{}: {} of {} have no sign: {no_sign}; {instead}",

@@ -4,21 +4,25 @@
 //! | --- | --- |
 //! | `args` | the command line |
 //! | `failure` | what can go wrong, each in one line, and the exit status |
+//! | `number` | numbers as text: short, and bounds stay bounds |
 //! | `mesh_file` | from a mesh file to a clean mesh, closed if a hull is wanted |
-//! | `blob_file`, `served` | reading and opening a blob; which questions it answers, and by which hierarchy |
-//! | `queries`, `csv`, `threads` | points and segments of arguments and files; asking many on several threads |
-//! | `stop` | stop rules, working memory, how queries ended |
-//! | `output` | files that are whole or not there, and pipes that close early |
-//! | `describe` | tables of sections, levels and memory |
-//! | `progress` | the bar |
-//! | `points` | questions about points that only the box tree answers: `within`, `nearest`, `signed` |
-//! | `build`, `info`, `closest`, `field`, `segment`, `overlap`, `cull`, `hull`, `cut`, `tribox`, `demo` | one command each |
+//! | `blob_file`, `served` | opening a blob, and which questions it serves |
+//! | `queries` | points, segments and poses of arguments and files |
+//! | `ask` | one question about many queries, on several threads, answered as CSV |
+//! | `output` | files that are complete or not there, and pipes that close early |
+//! | `describe` | tables and JSON of sections, levels and memory |
+//! | `hull_report`, `unmet` | what `build` and `hull` say of hulls that they make |
+//! | `progress` | progress bars |
+//! | all others | one command each |
+//!
+//! A new question: its arguments in `args/asking.rs`, a file like `nearest.rs` that implements
+//! `ask::Question`, and a line in `run`.
 
 mod args;
+mod ask;
 mod blob_file;
 mod build;
 mod closest;
-mod csv;
 mod cull;
 mod cut;
 mod demo;
@@ -26,25 +30,24 @@ mod describe;
 mod failure;
 mod field;
 mod hull;
+mod hull_report;
 mod info;
 mod mesh_file;
 mod nearest;
+mod number;
 mod output;
 mod overlap;
-mod points;
 mod progress;
 mod queries;
 mod segment;
 mod served;
 mod signed;
-mod stop;
-mod threads;
 mod tribox;
+mod unmet;
 mod within;
 
 use args::{Arguments, Command};
 use failure::Failure;
-use meshsweep::counted;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

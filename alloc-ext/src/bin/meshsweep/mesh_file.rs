@@ -1,25 +1,39 @@
-//! From a mesh file to a clean mesh, closed or not, and what had to be done for it.
+//! From a mesh file to a clean mesh, closed or not, with a report of the repairs.
 
-use super::failure::Failure;
-use meshsweep::mesh::{self, Mesh, RawMesh, RepairReport};
-use meshsweep::precision::{VertexBits, snap};
-use meshsweep_core::blob::layout::MAGIC;
+use crate::failure::Failure;
+use meshsweep::mesh::{self, Input, Mesh, RawMesh, RepairReport};
+use meshsweep::surface::{VertexBits, snap};
+use meshsweep_core::internal::format::layout::MAGIC;
 use std::io::Read;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// A mesh that a blob can be built of.
+/// A mesh that a blob can be built from.
 pub struct Loaded {
     /// Repaired.
     pub mesh: Mesh,
-    /// What was mended.
+    /// What was repaired.
     pub report: RepairReport,
-    /// Distance that no vertex was moved more than to reach the grid, file's unit.
+    /// Largest distance that a vertex moved to reach the grid, in the file's unit.
     pub moved: f64,
     /// Triangles of the file.
     pub input_triangles: usize,
-    /// Reading and repairing.
+    /// Time of reading and repairing.
     pub time: Duration,
+}
+
+impl Loaded {
+    /// The mesh as the builders take it.
+    pub fn input(&self) -> Input<'_> {
+        let Self { mesh, moved, input_triangles, .. } = self;
+        Input { mesh, moved: *moved, input_triangles: *input_triangles }
+    }
+
+    /// A margin that the file's vertices keep too, before they were rounded and moved.
+    pub fn widened(&self, margin: Option<f64>) -> f64 {
+        let moved = (self.moved + self.mesh.rounding) * (1.0 + 4.0 * f64::EPSILON);
+        margin.filter(|&margin| margin > 0.0).map_or(0.0, |margin| margin + moved)
+    }
 }
 
 /// Reads and repairs any triangle soup.
@@ -35,21 +49,21 @@ pub fn load_snapped(file: &Path, bits: VertexBits) -> Result<Loaded, Failure> {
     repaired(file, raw, moved, started)
 }
 
-/// A file's mesh on the hull's grid, and how far its vertices were moved for it.
+/// A file's mesh on the hull's grid, and the largest distance that a vertex moved.
 fn read_snapped(file: &Path, bits: VertexBits) -> Result<(RawMesh, f64), Failure> {
     let mut raw = read(file)?;
     let mut moved = snap(&mut raw.positions, bits);
     if moved > 0.0 && raw.decimal {
-        // The decimals were rounded to f64 first, which repair no longer sees: half a unit in the
-        // last place per axis.
+        // Reading rounded the decimals to f64, by half a unit in the last place per axis. Repair
+        // cannot see that any more.
         let largest = raw.positions.iter().flatten().fold(0f64, |m, x| m.max(x.abs()));
         moved += 2.0 * f64::EPSILON * largest;
     }
     Ok((raw, moved))
 }
 
-/// Reads, moves to the hull's grid, repairs, and refuses what is not closed and manifold; the
-/// refusal says what can be had `instead`.
+/// Reads, moves to the hull's grid, repairs, and refuses meshes that are not closed and manifold.
+/// The refusal says what can be had `instead`.
 pub fn load_solid(
     file: &Path,
     bits: VertexBits,
@@ -65,7 +79,15 @@ pub fn load_solid(
     }
 }
 
-/// Whether the file is a blob. One that cannot be read is none here; whoever reads it next says
+/// Whether the file's name ends as that of a mesh.
+pub fn is_named_as_mesh(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.is_some_and(|extension| {
+        ["stl", "ply", "obj"].into_iter().any(|mesh| mesh.eq_ignore_ascii_case(extension))
+    })
+}
+
+/// Whether the file is a blob. A file that cannot be read counts as none; reading it later says
 /// why.
 pub fn is_blob(path: &Path) -> bool {
     let mut head = [0; MAGIC.len()];
@@ -89,7 +111,7 @@ fn read(file: &Path) -> Result<RawMesh, Failure> {
     })
 }
 
-/// The kind of mesh file that the first bytes give away, as its extension.
+/// The kind of mesh file by the first bytes, as an extension.
 fn content(bytes: &[u8]) -> Option<&'static str> {
     let begins = |with: &[u8]| {
         bytes

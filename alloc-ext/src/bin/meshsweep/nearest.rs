@@ -1,45 +1,56 @@
 //! `meshsweep nearest`: the closest triangles of each point.
 
-use super::args::NearestArgs;
-use super::failure::Failure;
-use super::points::{self, Question};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{Nearest, Neighbor, ScratchEntry, nearest};
-use meshsweep_core::query::{Budget, Ended, QueryError, Work};
+use crate::args::{NearestArgs, SearchArgs, files};
+use crate::ask::{self, Question, write_neighbor};
+use crate::failure::Failure;
+use crate::output::refuse_same_file;
+use crate::queries::Queries;
+use crate::{blob_file, served};
+use meshsweep_core::{BuildFor, Bvh, Ended, KNearest, Neighbor, QueryError, ScratchEntry, Work};
 use std::io::{self, Write};
 
 pub fn run(args: &NearestArgs) -> Result<(), Failure> {
-    let found = vec![Neighbor::EMPTY; args.count as usize];
-    points::run(&args.input, &args.search, &Ranking { found })
+    let file = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
+    let points = Queries::read(&args.input.points)?;
+    let question = Ranking { tree, count: args.count, search: &args.search };
+    ask::run(&question, points, &args.search)
 }
 
-#[derive(Clone)]
-struct Ranking {
-    found: Vec<Neighbor>,
+struct Ranking<'a> {
+    tree: Bvh<'a>,
+    count: u32,
+    search: &'a SearchArgs,
 }
 
-impl Question for Ranking {
-    type Answer = (Nearest, Vec<Neighbor>);
+impl Question<3> for Ranking<'_> {
+    type Answer = (KNearest, Vec<Neighbor>);
+    type Memory = (Vec<Neighbor>, Vec<ScratchEntry>);
 
     fn header(&self) -> &'static str {
         "query,rank,lower,upper,px,py,pz,triangle,work"
     }
 
-    fn ask(
-        &mut self,
-        tree: &Bvh<'_>,
-        point: [f32; 3],
-        stop: &Budget,
-        stack: &mut [ScratchEntry],
-    ) -> Result<Self::Answer, QueryError> {
-        // A mesh has no more triangles than that.
-        self.found.truncate(tree.header().triangles as usize);
-        let went = nearest(tree, point, stop, &mut self.found, stack)?;
-        Ok((went, self.found.iter().take(went.stored).copied().collect()))
+    fn memory(&self) -> Self::Memory {
+        // There are no more triangles than the mesh has.
+        let count = self.count.min(self.tree.triangle_count());
+        (vec![Neighbor::EMPTY; count as usize], self.search.scratch(self.tree.scratch_entries()))
     }
 
-    fn outcome((went, _): &Self::Answer) -> (Ended, Work) {
-        (went.ended, went.work)
+    fn ask(
+        &self,
+        point: [f32; 3],
+        (room, scratch): &mut Self::Memory,
+    ) -> Result<Self::Answer, QueryError> {
+        let found = self.tree.nearest(point, room, self.search.budget(), scratch)?;
+        Ok((found, room.iter().take(found.stored).copied().collect()))
+    }
+
+    fn outcome((found, _): &Self::Answer) -> (Ended, Work) {
+        (found.ended, found.work)
     }
 
     fn write(
@@ -47,12 +58,11 @@ impl Question for Ranking {
         out: &mut dyn Write,
         query: usize,
         _: &[f32; 3],
-        (went, found): &Self::Answer,
+        (found, triangles): &Self::Answer,
     ) -> io::Result<()> {
-        for (rank, near) in found.iter().enumerate() {
-            write!(out, "{query},{},", rank + 1)?;
-            points::write_near(out, near, went.work.total())?;
-        }
-        Ok(())
+        (1..).zip(triangles).try_for_each(|(rank, near): (usize, _)| {
+            write!(out, "{query},{rank},")?;
+            write_neighbor(out, near, found.work)
+        })
     }
 }

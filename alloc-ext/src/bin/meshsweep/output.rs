@@ -1,12 +1,12 @@
-//! Output that is whole or not there: a file is written beside its place and renamed when it is
-//! complete.
+//! Output that is complete or not there: a file is written beside its place, and renamed when it
+//! is complete.
 
-use super::failure::Failure;
+use crate::failure::Failure;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 
-/// Where a command writes. Dropped before [`finish`](Self::finish), a file leaves no trace.
+/// The output of a command. A file that is dropped before [`finish`](Self::finish) leaves no trace.
 pub struct Output {
     path: PathBuf,
     target: Target,
@@ -46,16 +46,15 @@ impl Output {
         Output { path: PathBuf::from("standard output"), target }
     }
 
-    /// Whether `path` can be written, asked before hours of work.
+    /// Checks that `path` can be written, before hours of work.
     pub fn probe(path: &Path) -> Result<(), Failure> {
-        // Opening a pipe and closing it would tell its reader that this was all.
+        // Opening and closing a pipe would tell its reader that the output is complete.
         let is_device =
             fs::metadata(path).is_ok_and(|existing| !existing.is_file() && !existing.is_dir());
         if is_device { Ok(()) } else { Self::file(path).map(drop) }
     }
 
-    /// Whether the file system has files of so many bytes; whether it has room for one is not
-    /// known.
+    /// Checks that the file system allows files of so many bytes. It may still lack room for one.
     pub fn require_size(&self, bytes: u64) -> Result<(), Failure> {
         let Target::File { out, .. } = &self.target else { return Ok(()) };
         let file = out.get_ref();
@@ -79,8 +78,8 @@ impl Output {
         })
     }
 
-    /// The same for answers that end before their time, if they are `stopped`: the standard output
-    /// gets them, a file does not come to be, for it is whole or not there.
+    /// The same for answers that may be `stopped` by a failure. The standard output gets the
+    /// answers before it. A file is not written, for it would be incomplete.
     pub fn finish_until(
         self,
         stopped: Option<Failure>,
@@ -107,8 +106,8 @@ impl Output {
 }
 
 /// Refuses an output that is one of the inputs.
-pub fn refuse_same_file(output: &Path, inputs: &[&Path]) -> Result<(), Failure> {
-    let Ok(output_file) = fs::canonicalize(output) else { return Ok(()) };
+pub fn refuse_same_file(output: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
+    let Some(Ok(output_file)) = output.map(fs::canonicalize) else { return Ok(()) };
     let is_output = |input: &&Path| fs::canonicalize(input).is_ok_and(|input| input == output_file);
     match inputs.iter().copied().find(is_output) {
         Some(input) => Err(Failure::SameFile { file: input.to_owned() }),
@@ -116,8 +115,18 @@ pub fn refuse_same_file(output: &Path, inputs: &[&Path]) -> Result<(), Failure> 
     }
 }
 
+/// Refuses an output whose name does not end in `.extension`. `why` says why it must.
+pub fn refuse_other_extension(output: &Path, extension: &str, why: &str) -> Result<(), Failure> {
+    if output.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension)) {
+        return Ok(());
+    }
+    let file = output.display();
+    let what = format!("{file}: {why}; name an output that ends in .{extension}");
+    Err(Failure::Usage { what })
+}
+
 fn open(path: &Path) -> io::Result<Target> {
-    // Through a link, so that the link stays.
+    // The target of a link, so that the link stays.
     let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let existing = match fs::metadata(&place) {
         Ok(existing) => Some(existing),
@@ -128,7 +137,7 @@ fn open(path: &Path) -> io::Result<Target> {
         if existing.is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
         }
-        // Asks for the permission that renaming would pass over.
+        // Renaming would ignore the permissions of the file; this asks for them.
         let device = File::options().write(true).open(&place)?;
         if !existing.is_file() {
             return Ok(Target::Device(BufWriter::new(device)));
@@ -169,7 +178,7 @@ impl Drop for Target {
         if let Target::File { temporary, .. } = self
             && !temporary.as_os_str().is_empty()
         {
-            // The error that brought us here is the one to report.
+            // The first error is the one to report.
             let _ = fs::remove_file(temporary);
         }
     }

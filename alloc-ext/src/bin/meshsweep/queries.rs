@@ -1,103 +1,77 @@
 //! Queries of the command line, of text files, of raw f32 files and of the standard input, in the
 //! order given.
 
-use super::args::Given;
-use super::csv::{self, Rows, Short};
-use super::failure::{Failure, Place};
+mod text;
+
+use crate::args::{Given, names};
+use crate::failure::{Failure, Place};
+use crate::number::Short;
 use meshsweep_core::QueryError;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-/// What messages call the standard input.
+/// The name of the standard input in messages.
 const STANDARD_INPUT: &str = "standard input";
 
 /// Queries of `N` finite numbers, and where each came from.
 pub struct Queries<const N: usize> {
     /// The queries, in the order given.
     pub rows: Vec<[f32; N]>,
-    /// Where they came from, each with its first row.
-    origins: Vec<(usize, Origin)>,
-    /// What is wrong with the query after the last one. Those before it are asked all the same.
+    /// The sources, each with the index of its first row.
+    sources: Vec<(usize, Source)>,
+    /// What is wrong with the query after the last one. The queries before it are asked all the
+    /// same.
     pub broken: Option<Failure>,
 }
 
-enum Origin {
+enum Source {
     Argument,
-    /// Line of each query.
-    Text {
-        file: PathBuf,
-        lines: Vec<usize>,
-    },
-    Raw {
-        file: PathBuf,
-    },
-}
-
-impl Queries<3> {
-    /// Points.
-    pub fn points(given: &[Given<3>]) -> Result<Self, Failure> {
-        Self::read(given, "3: x, y, z")
-    }
-}
-
-impl Queries<6> {
-    /// Segments.
-    pub fn segments(given: &[Given<6>]) -> Result<Self, Failure> {
-        Self::read(given, "6: ax, ay, az, bx, by, bz")
-    }
-}
-
-impl Queries<7> {
-    /// Motions by quaternion.
-    pub fn poses(given: &[Given<7>]) -> Result<Self, Failure> {
-        Self::read(given, "7: x, y, z, qw, qx, qy, qz")
-    }
-}
-
-impl Queries<12> {
-    /// Motions by matrix.
-    pub fn matrices(given: &[Given<12>]) -> Result<Self, Failure> {
-        Self::read(given, "12: three rows of a matrix and translation")
-    }
+    /// A text, with the line of each query.
+    Text(PathBuf, Vec<usize>),
+    Raw(PathBuf),
 }
 
 impl<const N: usize> Queries<N> {
-    fn read(given: &[Given<N>], wanted: &'static str) -> Result<Self, Failure> {
+    /// Reads all queries up to the first broken one.
+    ///
+    /// # Errors
+    /// A file cannot be read, or the first query is broken.
+    pub fn read(given: &[Given<N>]) -> Result<Self, Failure> {
         let is_stdin = |path: &Path| path.as_os_str() == "-";
-        if given.iter().filter_map(Given::file).filter(|path| is_stdin(path)).count() > 1 {
-            return Err(Failure::Usage {
-                what: "-: the standard input can be read only once".to_owned(),
-            });
+        let from_stdin = |given: &&Given<N>| matches!(given, Given::File(path) if is_stdin(path));
+        if given.iter().filter(from_stdin).count() > 1 {
+            let what = "-: the standard input can be read only once".to_owned();
+            return Err(Failure::Usage { what });
         }
-        let mut queries = Queries { rows: Vec::new(), origins: Vec::new(), broken: None };
+        let mut queries = Queries { rows: Vec::new(), sources: Vec::new(), broken: None };
         for given in given {
-            if queries.broken.is_some() {
-                break;
-            }
-            let before = queries.rows.len();
-            match given {
+            let first = queries.rows.len();
+            let name = match given {
                 Given::Query(query) => {
-                    queries.origins.push((queries.rows.len(), Origin::Argument));
+                    queries.sources.push((first, Source::Argument));
                     queries.rows.push(*query);
+                    continue;
                 }
                 Given::File(path) if is_stdin(path) => {
                     let mut bytes = Vec::new();
                     let read = std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes);
-                    queries.text(Path::new(STANDARD_INPUT), read, wanted)?;
+                    queries.text(Path::new(STANDARD_INPUT), read)?;
+                    Path::new(STANDARD_INPUT)
                 }
-                Given::File(path)
-                    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("f32")) =>
-                {
+                Given::File(path) if path.extension().is_some_and(is_raw) => {
                     queries.raw(path)?;
+                    path
                 }
-                Given::File(path) => queries.text(path, std::fs::read(path), wanted)?,
+                Given::File(path) => {
+                    queries.text(path, std::fs::read(path))?;
+                    path
+                }
+            };
+            if queries.broken.is_some() {
+                break;
             }
-            if let Given::File(path) = given
-                && queries.rows.len() == before
-                && queries.broken.is_none()
-            {
-                let name = if is_stdin(path) { Path::new(STANDARD_INPUT) } else { path };
-                // A standard error that is closed is no reason to withhold the answers.
+            if queries.rows.len() == first {
+                // A closed standard error does not withhold the answers.
                 let _ = writeln!(std::io::stderr(), "no queries in {}", name.display());
             }
         }
@@ -107,48 +81,45 @@ impl<const N: usize> Queries<N> {
         }
     }
 
-    fn text(
-        &mut self,
-        file: &Path,
-        bytes: std::io::Result<Vec<u8>>,
-        wanted: &'static str,
-    ) -> Result<(), Failure> {
-        let bytes =
-            bytes.map_err(|error| Failure::ReadQueries { file: file.to_owned(), error, wanted })?;
-        let Rows { rows, lines, broken } = csv::parse(file, &bytes, wanted);
-        self.origins.push((self.rows.len(), Origin::Text { file: file.to_owned(), lines }));
+    fn text(&mut self, file: &Path, bytes: std::io::Result<Vec<u8>>) -> Result<(), Failure> {
+        let file = file.to_owned();
+        let bytes = bytes.map_err(|error| Failure::ReadQueries {
+            file: file.clone(),
+            error,
+            wanted: names(N),
+        })?;
+        let text::Rows { rows, lines, broken } = text::parse(&file, &bytes);
+        self.sources.push((self.rows.len(), Source::Text(file, lines)));
         self.rows.extend(rows);
         self.broken = broken;
         Ok(())
     }
 
     fn raw(&mut self, file: &Path) -> Result<(), Failure> {
+        let file = file.to_owned();
         let bytes =
-            std::fs::read(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
+            std::fs::read(&file).map_err(|error| Failure::Read { file: file.clone(), error })?;
         let (words, rest) = bytes.as_chunks::<4>();
         let numbers: Vec<f32> = words.iter().map(|&word| f32::from_le_bytes(word)).collect();
         let (rows, partial) = numbers.as_chunks::<N>();
         if !(rest.is_empty() && partial.is_empty()) {
-            return Err(Failure::RawLength {
-                file: file.to_owned(),
-                bytes: bytes.len(),
-                record: 4 * N,
-            });
+            return Err(Failure::RawLength { file, bytes: bytes.len(), record: 4 * N });
         }
         let first = self.rows.len();
-        self.origins.push((first, Origin::Raw { file: file.to_owned() }));
+        self.sources.push((first, Source::Raw(file)));
         self.rows.extend(rows);
         if let Some(index) = rows.iter().position(|row| !row.iter().all(|x| x.is_finite())) {
-            self.broken = Some(self.refused(first + index, QueryError::NotFinite));
+            let (place, error) = (self.place(first + index), QueryError::NotFinite);
+            self.broken = Some(Failure::Query { place, error });
             self.rows.truncate(first + index);
         }
         Ok(())
     }
 
-    /// Ends the queries before number `index`, which cannot be asked.
+    /// Ends the queries before query `index`, which cannot be asked.
     ///
     /// # Errors
-    /// What is wrong with it, if no query is left.
+    /// `failure`, if no query is left.
     pub fn end_at(&mut self, index: usize, failure: Failure) -> Result<(), Failure> {
         if index == 0 {
             return Err(failure);
@@ -158,33 +129,25 @@ impl<const N: usize> Queries<N> {
         Ok(())
     }
 
-    /// Why the answers end before their time: a query was refused, or the next one could not be
-    /// read.
-    pub fn stopped(&mut self, refused: Option<(usize, QueryError)>) -> Option<Failure> {
-        let broken = self.broken.take();
-        refused.map(|(index, error)| self.refused(index, error)).or(broken)
-    }
-
-    /// A query that was refused, by its place.
-    pub fn refused(&self, index: usize, error: QueryError) -> Failure {
-        Failure::Query { place: self.place(index), error }
-    }
-
     /// Where a query came from.
     pub fn place(&self, index: usize) -> Place {
-        let after = self.origins.partition_point(|(first, _)| *first <= index);
-        match after.checked_sub(1).and_then(|at| self.origins.get(at)) {
-            Some((first, Origin::Text { file, lines })) => {
+        let after = self.sources.partition_point(|(first, _)| *first <= index);
+        match after.checked_sub(1).and_then(|at| self.sources.get(at)) {
+            Some((first, Source::Text(file, lines))) => {
                 let line = lines.get(index - first).copied().unwrap_or_default();
                 Place::Line { file: file.clone(), line }
             }
-            Some((first, Origin::Raw { file })) => {
+            Some((first, Source::Raw(file))) => {
                 let number = index - first;
                 Place::Record { file: file.clone(), number, byte: number * 4 * N }
             }
-            Some((_, Origin::Argument)) | None => {
+            Some((_, Source::Argument)) | None => {
                 Place::Argument { text: self.rows[index].map(|x| Short(x).to_string()).join(",") }
             }
         }
     }
+}
+
+fn is_raw(extension: &std::ffi::OsStr) -> bool {
+    extension.eq_ignore_ascii_case("f32")
 }

@@ -1,141 +1,100 @@
-//! Which questions a blob answers, and by which of its hierarchies.
+//! Which questions a blob answers, and by which of its structures.
 
-use super::failure::Failure;
-use meshsweep_core::{Bvh, Model, TightHull};
+use crate::failure::Failure;
+use meshsweep_core::{Blob, BuildFor, Bvh, Hull, TightHull};
 use std::path::Path;
 
-/// Names of the questions that `model` serves, as the commands are called.
-pub fn questions(model: &Model<'_>) -> Vec<&'static str> {
-    let tree = model.tree();
-    let tree = tree.as_ref();
-    let distances = tree.is_some_and(Bvh::serves_distances);
-    let hull = model.has_hull();
-    let tight = finest_tight(model).is_some_and(|hull| hull.tree().serves_distances());
+/// The questions that a blob serves, by the names of the commands.
+pub fn questions(blob: &Blob<'_>) -> Vec<&'static str> {
+    let serves = |build_for| tree(blob, build_for).is_some();
+    let distances = serves(BuildFor::Closest);
+    let hull = blob.hull().is_ok();
+    let tight = finest_tight(blob).is_some_and(|hull| hull.bvh().serves_distances());
     [
         ("closest", distances || hull || tight),
         ("within", distances || tight),
         ("nearest", distances),
         ("field", distances),
-        ("signed", distances && tree.is_some_and(|tree| tree.header().is_closed())),
-        ("segment", tree.is_some_and(Bvh::serves_segments) || hull),
-        ("overlap", tree.is_some_and(Bvh::serves_segments)),
-        ("cull", tree.is_some_and(Bvh::serves_culling)),
+        ("signed", distances && blob.bvh().is_ok_and(|tree| tree.is_closed())),
+        ("segment", serves(BuildFor::Segment) || hull),
+        ("overlap", serves(BuildFor::Segment)),
+        ("cull", serves(BuildFor::Cull)),
         ("hull --level", hull),
-        ("hull --tight", model.tight_hulls().is_some()),
-        ("triboxes", model.triboxes().is_some()),
-        ("cut", hull || model.triboxes().is_some() || model.tight_hulls().is_some()),
+        ("hull --tight", blob.tight_hulls().is_ok()),
+        ("triboxes", blob.triboxes().is_ok()),
+        ("cut", hull || blob.triboxes().is_ok() || blob.tight_hulls().is_ok()),
     ]
     .into_iter()
     .filter_map(|(question, serves)| serves.then_some(question))
     .collect()
 }
 
-/// The same for people: what `model` serves in part only says so.
-pub fn listed(model: &Model<'_>) -> String {
-    let knows_triangles = tree(model, Need::Distances).is_some();
+/// The same for people. A question that is served in part is marked.
+pub fn listed(blob: &Blob<'_>) -> String {
+    let knows_triangles = tree(blob, BuildFor::Closest).is_some();
     let said = |question| match question {
         "within" if !knows_triangles => "within without --all",
         other => other,
     };
-    questions(model).into_iter().map(said).collect::<Vec<_>>().join(", ")
+    questions(blob).into_iter().map(said).collect::<Vec<_>>().join(", ")
 }
 
-/// A refusal of what `model` does not serve, which says what it does.
-fn not_served(file: &Path, model: &Model<'_>, need: Need, other: Option<&'static str>) -> Failure {
-    Failure::NotServed { file: file.to_owned(), need, other, served: listed(model) }
-}
-
-/// What a question needs of a blob.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Need {
-    Distances,
-    Segments,
-    Culling,
-    Hull,
-    Tight,
-    TightDistances,
-}
-
-impl Need {
-    /// The part of the blob.
-    pub fn part(self) -> &'static str {
-        match self {
-            Need::Distances => "box tree for distances",
-            Need::Segments => "box tree for segments",
-            Need::Culling => "box tree with normal cones",
-            Need::Hull => "hull hierarchy",
-            Need::Tight => "tight hulls",
-            Need::TightDistances => "tight hull for distances",
-        }
-    }
-
-    /// What `build --for` has to be given.
-    pub fn option(self) -> &'static str {
-        match self {
-            Need::Distances => "closest",
-            Need::Segments => "segment",
-            Need::Culling => "cull",
-            Need::Hull => "hull",
-            Need::Tight => "tight",
-            Need::TightDistances => "tight --tight-for closest",
-        }
-    }
-}
-
-/// The blob's tree, if it serves `need`.
-pub fn tree<'a>(model: &Model<'a>, need: Need) -> Option<Bvh<'a>> {
-    model.tree().filter(|tree| match need {
-        Need::Distances => tree.serves_distances(),
-        Need::Segments => tree.serves_segments(),
-        Need::Culling => tree.serves_culling(),
-        Need::Hull | Need::Tight | Need::TightDistances => false,
+/// The blob's box tree, if it was built for these questions.
+fn tree<'a>(blob: &Blob<'a>, build_for: BuildFor) -> Option<Bvh<'a>> {
+    blob.bvh().ok().filter(|tree| match build_for {
+        BuildFor::Closest => tree.serves_distances(),
+        BuildFor::Segment => tree.serves_segments(),
+        BuildFor::Cull => tree.serves_culling(),
+        _ => false,
     })
 }
 
-/// The blob's tree for `need`.
-pub fn require_tree<'a>(file: &Path, model: &Model<'a>, need: Need) -> Result<Bvh<'a>, Failure> {
-    tree(model, need).ok_or_else(|| not_served(file, model, need, None))
+fn finest_tight<'a>(blob: &Blob<'a>) -> Option<TightHull<'a>> {
+    blob.tight_hulls().ok()?.finest()
 }
 
-fn finest_tight<'a>(model: &Model<'a>) -> Option<TightHull<'a>> {
-    model.tight_hulls()?.finest()
-}
-
-/// The finest tight hull of at most so many faces. Where nothing is said of faces, the finest of
-/// all if nothing else in the blob knows distances.
-pub fn tight_hull<'a>(
+/// The refusal of a question that the blob does not serve. It lists the served ones.
+fn not_served(
     file: &Path,
-    model: &Model<'a>,
-    faces: Option<u32>,
-) -> Result<Option<TightHull<'a>>, Failure> {
-    let Some(faces) = faces else {
-        let others = model.has_hull() || tree(model, Need::Distances).is_some();
-        let finest = finest_tight(model).filter(|_| !others);
-        return finest.map(|hull| for_distances(file, model, hull)).transpose();
+    blob: &Blob<'_>,
+    build_for: BuildFor,
+    other: Option<&'static str>,
+) -> Failure {
+    let part = match build_for {
+        BuildFor::Closest => "box tree for distances",
+        BuildFor::Segment => "box tree for segments",
+        BuildFor::Cull => "box tree with normal cones",
+        BuildFor::Hull => "hull hierarchy",
+        BuildFor::Triboxes => "triboxes",
+        BuildFor::Tight => "tight hulls",
+        _ => "such part",
     };
-    require_tight(file, model, faces).and_then(|hull| for_distances(file, model, hull)).map(Some)
+    let (file, build_for) = (file.to_owned(), build_for.to_string());
+    Failure::NotServed { file, part, build_for, other, served: listed(blob) }
 }
 
-fn for_distances<'a>(
+/// The blob's box tree for these questions.
+pub fn require_tree<'a>(
     file: &Path,
-    model: &Model<'_>,
-    hull: TightHull<'a>,
-) -> Result<TightHull<'a>, Failure> {
-    if hull.tree().serves_distances() {
-        Ok(hull)
-    } else {
-        Err(not_served(file, model, Need::TightDistances, None))
-    }
+    blob: &Blob<'a>,
+    build_for: BuildFor,
+) -> Result<Bvh<'a>, Failure> {
+    tree(blob, build_for).ok_or_else(|| not_served(file, blob, build_for, None))
+}
+
+/// The blob's hull hierarchy.
+pub fn require_hull<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failure> {
+    blob.hull().map_err(|_| not_served(file, blob, BuildFor::Hull, None))
 }
 
 /// The finest tight hull of at most so many faces.
 pub fn require_tight<'a>(
     file: &Path,
-    model: &Model<'a>,
+    blob: &Blob<'a>,
     faces: u32,
 ) -> Result<TightHull<'a>, Failure> {
-    let refuse = || not_served(file, model, Need::Tight, None);
-    let hulls = model.tight_hulls().ok_or_else(refuse)?;
+    let refuse = || not_served(file, blob, BuildFor::Tight, None);
+    let hulls = blob.tight_hulls().map_err(|_| refuse())?;
     let count = hulls.records().take_while(|record| record.faces <= faces).count();
     let Some(index) = count.checked_sub(1) else {
         let least = hulls.records().next().map_or(0, |record| record.faces);
@@ -144,26 +103,67 @@ pub fn require_tight<'a>(
     hulls.get(index as u32).ok_or_else(refuse)
 }
 
-/// That the blob has a hull hierarchy.
-pub fn require_hull(file: &Path, model: &Model<'_>) -> Result<(), Failure> {
-    if model.has_hull() { Ok(()) } else { Err(not_served(file, model, Need::Hull, None)) }
+/// The finest tight hull of at most so many faces. Without a number of faces: the finest of all, if
+/// no other structure of the blob knows distances.
+pub fn tight_hull<'a>(
+    file: &Path,
+    blob: &Blob<'a>,
+    faces: Option<u32>,
+) -> Result<Option<TightHull<'a>>, Failure> {
+    let hull = match faces {
+        Some(faces) => require_tight(file, blob, faces)?,
+        None if blob.hull().is_ok() || tree(blob, BuildFor::Closest).is_some() => return Ok(None),
+        None => match finest_tight(blob) {
+            Some(hull) => hull,
+            None => return Ok(None),
+        },
+    };
+    if hull.bvh().serves_distances() {
+        return Ok(Some(hull));
+    }
+    Err(Failure::NotServed {
+        file: file.to_owned(),
+        part: "tight hull for distances",
+        build_for: "tight --tight-for closest".to_owned(),
+        other: None,
+        served: listed(blob),
+    })
 }
 
-/// The tree, or `None` for the hull hierarchy: what `--engine` chooses, else the tree where the
-/// blob has one.
+/// A structure that answers both distances and segments.
+#[derive(Clone, Copy)]
+pub enum Engine<'a> {
+    Tree(Bvh<'a>),
+    Cover(Hull<'a>),
+}
+
+impl Engine<'_> {
+    /// Scratch entries with which no query ends for want of memory.
+    pub fn scratch_entries(&self) -> usize {
+        match self {
+            Engine::Tree(tree) => tree.scratch_entries(),
+            Engine::Cover(hull) => hull.scratch_entries().max(COMFORTABLE_QUEUE),
+        }
+    }
+}
+
+/// Least number of scratch entries of a cover tree unless `--queue` says otherwise: enough to
+/// search best first, and small beside a cache.
+const COMFORTABLE_QUEUE: usize = 4096;
+
+/// The engine that `--engine` chooses; or else the box tree, if the blob has one.
 pub fn choose<'a>(
     file: &Path,
-    model: &Model<'a>,
-    need: Need,
+    blob: &Blob<'a>,
+    build_for: BuildFor,
     tree_chosen: Option<bool>,
-) -> Result<Option<Bvh<'a>>, Failure> {
-    let tree = tree(model, need);
-    let refuse = |need, other| Err(not_served(file, model, need, other));
-    match (tree_chosen, tree) {
-        (Some(true) | None, Some(tree)) => Ok(Some(tree)),
-        (Some(false) | None, _) if model.has_hull() => Ok(None),
-        (Some(false), tree) => refuse(Need::Hull, tree.map(|_| "tree")),
-        (Some(true), None) => refuse(need, model.has_hull().then_some("cover")),
-        (None, None) => refuse(need, None),
+) -> Result<Engine<'a>, Failure> {
+    let refuse = |build_for, other| Err(not_served(file, blob, build_for, other));
+    match (tree_chosen, tree(blob, build_for), blob.hull()) {
+        (Some(true) | None, Some(tree), _) => Ok(Engine::Tree(tree)),
+        (Some(false) | None, _, Ok(hull)) => Ok(Engine::Cover(hull)),
+        (Some(false), tree, Err(_)) => refuse(BuildFor::Hull, tree.map(|_| "tree")),
+        (Some(true), None, hull) => refuse(build_for, hull.ok().map(|_| "cover")),
+        (None, None, Err(_)) => refuse(build_for, None),
     }
 }

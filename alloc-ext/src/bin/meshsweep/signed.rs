@@ -1,17 +1,34 @@
 //! `meshsweep signed`: on which side points are, and how far from the surface.
 
-use super::args::SignedArgs;
-use super::csv::Short;
-use super::failure::Failure;
-use super::points::{self, Question};
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{ScratchEntry, Side, SignedDistance, signed_distance};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, QueryError, Work};
+use crate::args::{SearchArgs, SignedArgs, files};
+use crate::ask::{self, Question, write_end, write_numbers};
+use crate::failure::Failure;
+use crate::output::refuse_same_file;
+use crate::queries::Queries;
+use crate::{blob_file, served};
+use meshsweep_core::{
+    BuildFor, Bvh, Ended, Interval, QueryError, ScratchEntry, Side, SignedDistance, Undecided, Work,
+};
 use std::io::{self, Write};
-use std::path::Path;
 
 pub fn run(args: &SignedArgs) -> Result<(), Failure> {
-    points::run(&args.input, &args.search, &Signed)
+    let file = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
+    let points = Queries::read(&args.input.points)?;
+    ask::run(&Signed { tree, search: &args.search }, points, &args.search)?;
+    if !tree.is_closed() {
+        // A closed standard error does not withhold the answers.
+        let _ = writeln!(
+            io::stderr(),
+            "{}: was built from a mesh that is not closed, so every side is undefined; distances \
+             are not",
+            file.display()
+        );
+    }
+    Ok(())
 }
 
 /// The side in a word.
@@ -19,75 +36,63 @@ pub fn name(side: Side) -> &'static str {
     match side {
         Side::Outside => "outside",
         Side::Inside => "inside",
-        Side::Undefined => "undefined",
+        Side::Undecided(_) => "undefined",
     }
 }
 
-#[derive(Clone)]
-struct Signed;
-
-/// Why a side is undefined.
-pub fn reason(tree: &Bvh<'_>, answer: &SignedDistance) -> &'static str {
-    let ClosestPoint { lower, ended, .. } = answer.closest;
-    match (answer.side, ended) {
-        (Side::Outside | Side::Inside, _) => "",
-        _ if !tree.header().is_closed() => "open mesh",
-        (_, Ended::Steps) => "out of steps",
-        (_, Ended::Capacity) => "out of stack",
-        _ if lower <= 0.0 => "at the surface",
-        _ => "rounding",
+/// Why a side is undefined, in a word or two; nothing if it is not.
+pub fn reason(side: Side) -> &'static str {
+    match side {
+        Side::Outside | Side::Inside => "",
+        Side::Undecided(Undecided::OpenMesh) => "open mesh",
+        Side::Undecided(Undecided::Steps) => "out of steps",
+        Side::Undecided(Undecided::Scratch) => "out of stack",
+        Side::Undecided(Undecided::OnSurface) => "at the surface",
+        Side::Undecided(_) => "rounding",
     }
 }
 
-impl Question for Signed {
-    type Answer = (SignedDistance, &'static str);
+struct Signed<'a> {
+    tree: Bvh<'a>,
+    search: &'a SearchArgs,
+}
+
+impl Question<3> for Signed<'_> {
+    type Answer = SignedDistance;
+    type Memory = Vec<ScratchEntry>;
 
     fn header(&self) -> &'static str {
         "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work"
     }
 
+    fn memory(&self) -> Self::Memory {
+        self.search.scratch(self.tree.scratch_entries())
+    }
+
     fn ask(
-        &mut self,
-        tree: &Bvh<'_>,
+        &self,
         point: [f32; 3],
-        stop: &Budget,
-        stack: &mut [ScratchEntry],
-    ) -> Result<Self::Answer, QueryError> {
-        let answer = signed_distance(tree, point, stop, stack)?;
-        Ok((answer, reason(tree, &answer)))
+        scratch: &mut Self::Memory,
+    ) -> Result<SignedDistance, QueryError> {
+        self.tree.signed_distance(point, self.search.budget(), scratch)
     }
 
-    fn outcome((answer, _): &Self::Answer) -> (Ended, Work) {
+    fn outcome(answer: &SignedDistance) -> (Ended, Work) {
         (answer.closest.ended, answer.closest.work)
-    }
-
-    fn remark(&self, blob: &Path, tree: &Bvh<'_>) {
-        if !tree.header().is_closed() {
-            // A standard error that is closed is no reason to withhold the answers.
-            let _ = writeln!(
-                io::stderr(),
-                "{}: was built from a mesh that is not closed, so every side is undefined; distances are not",
-                blob.display()
-            );
-        }
     }
 
     fn write(
         &self,
         out: &mut dyn Write,
         _: usize,
-        [x, y, z]: &[f32; 3],
-        (answer, reason): &Self::Answer,
+        point: &[f32; 3],
+        answer: &SignedDistance,
     ) -> io::Result<()> {
-        let SignedDistance { lower, upper, side, closest } = answer;
+        let SignedDistance { distance: Interval { lower, upper }, side, closest } = *answer;
         let [px, py, pz] = closest.point;
-        write!(out, "{},{},{},{},{reason},", Short(*x), Short(*y), Short(*z), name(*side))?;
-        for number in [lower, upper, &px, &py, &pz] {
-            write!(out, "{},", Short(*number))?;
-        }
-        if let Some(triangle) = closest.triangle {
-            write!(out, "{triangle}")?;
-        }
-        writeln!(out, ",{}", closest.work.total())
+        write_numbers(out, point)?;
+        write!(out, "{},{},", name(side), reason(side))?;
+        write_numbers(out, &[lower, upper, px, py, pz])?;
+        write_end(out, closest.triangle, closest.work)
     }
 }

@@ -1,14 +1,14 @@
-//! `meshsweep tribox`: a mesh as unions of 1, 2, 4, … triboxes, what each misses, and the finest as
-//! binary PLY.
+//! `meshsweep tribox`: a mesh as unions of 1, 2, 4, … triboxes, the error of each, and the finest
+//! one as binary PLY.
 
-use super::args::TriboxArgs;
-use super::counted::Counted;
-use super::describe::{About, AtLeast, AtMost, Percent};
-use super::failure::Failure;
-use super::mesh_file::{self, Loaded};
-use super::output::{Output, refuse_same_file};
+use crate::args::TriboxArgs;
+use crate::failure::Failure;
+use crate::mesh_file::{self, Loaded};
+use crate::number::{About, AtLeast, AtMost, Percent};
+use crate::output::{Output, refuse_other_extension, refuse_same_file};
+use meshsweep::bvh;
+use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::tree;
 use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
 use meshsweep_core::Bvh;
 use serde_json::{Value, json};
@@ -17,19 +17,13 @@ use std::time::{Duration, Instant};
 
 pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
     if let Some(output) = &args.output {
-        if !output.extension().is_some_and(|e| e.eq_ignore_ascii_case("ply")) {
-            let what = format!(
-                "{}: triboxes are written as PLY; name an output that ends in .ply",
-                output.display()
-            );
-            return Err(Failure::Usage { what });
-        }
-        refuse_same_file(output, &[&args.mesh])?;
+        refuse_other_extension(output, "ply", "triboxes are written as PLY")?;
+        refuse_same_file(Some(output), &[&args.mesh])?;
         Output::probe(output)?;
     }
     let loaded = mesh_file::load(&args.mesh)?;
     let triangles = loaded.mesh.triangles.len();
-    if triangles > tree::MAX_TRIANGLES {
+    if triangles > bvh::MAX_TRIANGLES {
         return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
     }
     let started = Instant::now();
@@ -79,7 +73,7 @@ fn levels(args: &TriboxArgs, mesh: &Mesh, tree: &Bvh<'_>, hierarchy: &Hierarchy)
 struct Report<'a> {
     args: &'a TriboxArgs,
     loaded: &'a Loaded,
-    /// Its volume, if the mesh bounds a solid.
+    /// Volume of the mesh, if it bounds a solid.
     solid: Option<f64>,
     hierarchy: &'a Hierarchy,
     levels: &'a [Level],
@@ -124,7 +118,8 @@ impl Report<'_> {
         }
         writeln!(
             out,
-            "triboxes   faces compression      volume    void %  hull error  largest distance to the mesh"
+            "triboxes   faces compression      volume    void %  hull error  largest distance to \
+             the mesh"
         )?;
         for level in self.levels {
             let void =

@@ -1,128 +1,129 @@
-//! `meshsweep within`: whether points are within a distance of the surface, or which triangles are.
+//! `meshsweep within`: whether points are within a distance of the surface, or of which triangles.
 
-use super::args::WithinArgs;
-use super::blob_file;
-use super::csv::Short;
-use super::failure::Failure;
-use super::points::{self, Question};
-use super::served::{self, Need};
-use meshsweep_core::query::tight;
-use meshsweep_core::query::tree::{
-    AllWithin, Neighbor, ScratchEntry, Verdict, Within, all_within, is_within,
+use crate::args::{SearchArgs, WithinArgs, files};
+use crate::ask::{self, Question, write_end, write_neighbor, write_numbers};
+use crate::failure::Failure;
+use crate::output::refuse_same_file;
+use crate::queries::Queries;
+use crate::{blob_file, served};
+use meshsweep_core::{
+    AllWithin, BuildFor, Bvh, Ended, Neighbor, QueryError, ScratchEntry, TightHull, Verdict,
+    Within, Work,
 };
-use meshsweep_core::query::{Budget, Ended, QueryError, Work};
-use meshsweep_core::{Bvh, TightHull};
 use std::io::{self, Write};
 
-const HEADER: &str = "x,y,z,within,triangle,work";
-
-/// Triangles that fit at first; a point with more is asked again with as much room as it needs.
+/// Room for triangles at first.
 const TRIANGLES: usize = 64;
 
 pub fn run(args: &WithinArgs) -> Result<(), Failure> {
-    let distance = args.distance;
+    let file = &args.input.blob;
+    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
+    let bytes = blob_file::read(file)?;
+    let blob = blob_file::open(file, &bytes)?;
+    let hull = if args.all { None } else { served::tight_hull(file, &blob, args.tight)? };
+    let tree = match &hull {
+        Some(hull) => *hull.bvh(),
+        None => served::require_tree(file, &blob, BuildFor::Closest)?,
+    };
+    let points = Queries::read(&args.input.points)?;
+    let (search, distance) = (&args.search, args.distance);
     if args.all {
-        let found = vec![Neighbor::EMPTY; TRIANGLES];
-        points::run(&args.input, &args.search, &All { distance, found })
+        ask::run(&All { tree, distance, search }, points, search)
     } else {
-        let blob = &args.input.blob;
-        points::refuse_blob_as_output(&args.input, &args.search)?;
-        let bytes = blob_file::read(blob)?;
-        let model = blob_file::open(blob, &bytes)?;
-        let hull = served::tight_hull(blob, &model, args.tight)?;
-        let tree = match &hull {
-            Some(hull) => *hull.tree(),
-            None => served::require_tree(blob, &model, Need::Distances)?,
-        };
-        points::ask(&args.input, &args.search, &tree, &Any { hull, distance })
+        ask::run(&Any { tree, hull, distance, search }, points, search)
     }
 }
 
 /// Whether the surface is within the distance.
-#[derive(Clone)]
 struct Any<'a> {
-    /// By which the surface is known, if the tree asked is not its own but a hull's.
+    tree: Bvh<'a>,
+    /// The hull that the tree is of, if the mesh's own tree is not asked.
     hull: Option<TightHull<'a>>,
     distance: f32,
+    search: &'a SearchArgs,
 }
 
-impl Question for Any<'_> {
+impl Question<3> for Any<'_> {
     type Answer = Within;
+    type Memory = Vec<ScratchEntry>;
 
     fn header(&self) -> &'static str {
-        HEADER
+        "x,y,z,within,triangle,work"
+    }
+
+    fn memory(&self) -> Self::Memory {
+        self.search.scratch(self.tree.scratch_entries())
+    }
+
+    fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<Within, QueryError> {
+        let (distance, budget) = (self.distance, self.search.budget());
+        match &self.hull {
+            Some(hull) => hull.within(point, distance, budget, scratch),
+            None => self.tree.within(point, distance, budget, scratch),
+        }
+    }
+
+    fn outcome(answer: &Within) -> (Ended, Work) {
+        (ask::ended(answer.verdict), answer.work)
     }
 
     fn is_by_hull(&self) -> bool {
         self.hull.is_some()
     }
 
-    fn ask(
-        &mut self,
-        tree: &Bvh<'_>,
-        point: [f32; 3],
-        stop: &Budget,
-        stack: &mut [ScratchEntry],
-    ) -> Result<Within, QueryError> {
-        match &self.hull {
-            Some(hull) => tight::is_within(hull, point, self.distance, stop, stack),
-            None => is_within(tree, point, self.distance, stop, stack),
-        }
-    }
-
-    fn outcome(answer: &Within) -> (Ended, Work) {
-        (answer.ended, answer.work)
-    }
-
     fn write(
         &self,
         out: &mut dyn Write,
         _: usize,
-        [x, y, z]: &[f32; 3],
+        point: &[f32; 3],
         answer: &Within,
     ) -> io::Result<()> {
-        write!(out, "{},{},{},", Short(*x), Short(*y), Short(*z))?;
-        match answer.verdict {
-            Verdict::Yes { triangle: Some(triangle) } => write!(out, "yes,{triangle}")?,
-            Verdict::Yes { triangle: None } => write!(out, "yes,")?,
-            Verdict::No => write!(out, "no,")?,
-            Verdict::Unknown => write!(out, "unknown,")?,
-        }
-        writeln!(out, ",{}", answer.work.total())
+        let verdict = match answer.verdict {
+            Verdict::Yes => "yes",
+            Verdict::No => "no",
+            Verdict::Undecided(_) => "unknown",
+        };
+        write_numbers(out, point)?;
+        write!(out, "{verdict},")?;
+        write_end(out, answer.triangle, answer.work)
     }
 }
 
 /// Which triangles are within the distance.
-#[derive(Clone)]
-struct All {
+struct All<'a> {
+    tree: Bvh<'a>,
     distance: f32,
-    found: Vec<Neighbor>,
+    search: &'a SearchArgs,
 }
 
-impl Question for All {
+impl Question<3> for All<'_> {
     type Answer = (AllWithin, Vec<Neighbor>);
+    type Memory = (Vec<Neighbor>, Vec<ScratchEntry>);
 
     fn header(&self) -> &'static str {
         "query,within,lower,upper,px,py,pz,triangle,work"
     }
 
-    fn ask(
-        &mut self,
-        tree: &Bvh<'_>,
-        point: [f32; 3],
-        stop: &Budget,
-        stack: &mut [ScratchEntry],
-    ) -> Result<Self::Answer, QueryError> {
-        let mut went = all_within(tree, point, self.distance, stop, &mut self.found, stack)?;
-        if went.dropped > 0 {
-            self.found.resize(went.stored + went.dropped as usize, Neighbor::EMPTY);
-            went = all_within(tree, point, self.distance, stop, &mut self.found, stack)?;
-        }
-        Ok((went, self.found.iter().take(went.stored).copied().collect()))
+    fn memory(&self) -> Self::Memory {
+        (vec![Neighbor::EMPTY; TRIANGLES], self.search.scratch(self.tree.scratch_entries()))
     }
 
-    fn outcome((went, _): &Self::Answer) -> (Ended, Work) {
-        (went.ended, went.work)
+    fn ask(
+        &self,
+        point: [f32; 3],
+        (room, scratch): &mut Self::Memory,
+    ) -> Result<Self::Answer, QueryError> {
+        let budget = self.search.budget();
+        ask::all(
+            room,
+            Neighbor::EMPTY,
+            |room| self.tree.all_within(point, self.distance, room, budget, scratch),
+            |found| (found.stored, found.dropped),
+        )
+    }
+
+    fn outcome((found, _): &Self::Answer) -> (Ended, Work) {
+        (found.ended, found.work)
     }
 
     fn write(
@@ -130,20 +131,20 @@ impl Question for All {
         out: &mut dyn Write,
         query: usize,
         _: &[f32; 3],
-        (went, found): &Self::Answer,
+        (found, triangles): &Self::Answer,
     ) -> io::Result<()> {
-        let work = went.work.total();
-        for (index, near) in found.iter().enumerate() {
-            let verdict = if index < went.certain { "yes" } else { "unknown" };
+        for (index, near) in triangles.iter().enumerate() {
+            let verdict = if index < found.certain { "yes" } else { "unknown" };
             write!(out, "{query},{verdict},")?;
-            points::write_near(out, near, work)?;
+            write_neighbor(out, near, found.work)?;
         }
-        if went.ended != Ended::Exact {
+        let verdict = match found.ended {
+            Ended::Exact if triangles.is_empty() => "no",
+            Ended::Exact => return Ok(()),
             // Triangles may be missing.
-            writeln!(out, "{query},unknown,,,,,,,{work}")?;
-        } else if found.is_empty() {
-            writeln!(out, "{query},no,,,,,,,{work}")?;
-        }
-        Ok(())
+            _ => "unknown",
+        };
+        write!(out, "{query},{verdict},,,,,,")?;
+        write_end(out, None, found.work)
     }
 }

@@ -222,7 +222,7 @@ extern "C" fn ask_tree_overlap(
 ) {
     if let Ok(tree) = tree::open(input.blob) {
         let pose = tree::pose(([input.a, input.b, input.a], input.b));
-        tree::overlap(&tree, &pose, scratch, &mut (), fold);
+        tree::overlap(&tree, pose, scratch, &mut (), fold);
     }
 }
 
@@ -234,7 +234,7 @@ extern "C" fn ask_tree_all_overlaps(
 ) {
     if let Ok(tree) = tree::open(input.blob) {
         let pose = tree::pose(([input.a, input.b, input.a], input.b));
-        tree::all_overlaps(&tree, &pose, scratch, &mut (), fold);
+        tree::all_overlaps(&tree, pose, scratch, &mut (), fold);
     }
 }
 

@@ -1,18 +1,18 @@
 //! Questions to the split hierarchy.
 
-pub use meshsweep_core::Model;
-use meshsweep_core::QueueEntry;
-use meshsweep_core::blob::Header;
-use meshsweep_core::query::{
-    Budget, Hit, Search, all_hits as core_all_hits, closest_point, first_hit as core_first_hit,
-    outer_hits as core_outer_hits,
-};
-use meshsweep_core::refine::{Face, RefinedHull, hull_faces};
+use meshsweep_core::{Blob, Budget, Face, Hit, Hull, RefinedHull, ScratchEntry, Search};
 
 use super::{Refused, Subject, timed};
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
+
+/// A blob, and its hull hierarchy.
+#[derive(Clone, Copy, Debug)]
+pub struct Model<'t> {
+    blob: Blob<'t>,
+    hull: Hull<'t>,
+}
 
 /// Entries of the queue.
 const QUEUE: usize = 256;
@@ -23,7 +23,7 @@ const FRONT_WORDS: usize = 64;
 /// What the queries need beside the model, 4 KiB in all.
 #[derive(Debug)]
 pub struct Scratch {
-    queue: [QueueEntry; QUEUE],
+    queue: [ScratchEntry; QUEUE],
     hits: [Hit; 16],
     performed: [u32; FRONT_WORDS],
     swept: [u32; FRONT_WORDS],
@@ -35,7 +35,7 @@ impl Scratch {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            queue: [QueueEntry::EMPTY; QUEUE],
+            queue: [ScratchEntry::EMPTY; QUEUE],
             hits: [Hit::EMPTY; 16],
             performed: [0; FRONT_WORDS],
             swept: [0; FRONT_WORDS],
@@ -62,8 +62,7 @@ impl<'t> Subject<'t> for Model<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        let needed = self.capacities();
-        needed.queue <= QUEUE && needed.front_words <= FRONT_WORDS
+        self.hull.scratch_entries() <= QUEUE && self.hull.refined_words() <= FRONT_WORDS
     }
 
     fn memory(&self) -> usize {
@@ -119,33 +118,30 @@ impl<'t> Subject<'t> for Model<'t> {
 /// # Errors
 /// The core's refusal.
 pub fn open(bytes: &[u8]) -> Result<Model<'_>, Refused> {
-    Model::open(bytes).map_err(Refused::of)
+    let blob = Blob::open(bytes).map_err(Refused::of)?;
+    let hull = blob.hull().map_err(|_| Refused::NO_SECTION)?;
+    Ok(Model { blob, hull })
 }
 
 /// The surface's box in input units.
 #[must_use]
 pub fn bounds(model: &Model<'_>) -> Bounds {
-    let Header { surface_box, .. } = *model.header();
-    // A power of two: exact unless the box leaves f32's normal range, and then rounded alike
-    // everywhere.
-    let scale = model.scale();
-    [surface_box.min, surface_box.max]
-        .map(|corner| corner.as_dvec3().to_array().map(|x| (x * scale) as f32))
+    model.hull.bounds()
 }
 
 /// Sections, levels and the faces of every hull.
 pub fn contents(model: &Model<'_>, fold: &mut Fold) {
-    for section in model.sections() {
+    for section in model.blob.sections() {
         fold.word(section.kind as u32);
         fold.word(section.crc);
     }
-    for level in model.levels() {
+    for level in model.hull.levels() {
         fold.word(level.faces);
         fold.f32(level.hull_to_surface);
-        for face in hull_faces(model, &level) {
+        for face in model.hull.faces(&level) {
             fold.f32(face.radius);
             for corner in face.corners {
-                if let Some(position) = model.position(corner) {
+                if let Some(position) = model.hull.position(corner) {
                     fold.point(position.to_array());
                 }
             }
@@ -161,7 +157,7 @@ pub fn closest(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(model, point, &Budget::EXACT, &mut scratch.queue)) {
+    match timed(clock, || model.hull.closest_point(point, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => {
             super::closest_point(fold, &answer);
             answer.point
@@ -181,7 +177,7 @@ pub fn first_hit(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_first_hit(model, a, b, &Budget::EXACT, &mut scratch.queue)) {
+    match timed(clock, || model.hull.first_hit(a, b, Budget::EXACT, &mut scratch.queue)) {
         Ok(answer) => super::segment_hit(fold, &answer),
         Err(error) => super::refusal(fold, error),
     }
@@ -195,7 +191,9 @@ pub fn all_hits(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_all_hits(model, a, b, &mut scratch.queue, &mut scratch.hits)) {
+    match timed(clock, || {
+        model.hull.all_hits(a, b, &mut scratch.hits, Budget::EXACT, &mut scratch.queue)
+    }) {
         Ok(answer) => {
             super::hits(fold, scratch.hits.get(..answer.stored).unwrap_or_default());
             fold.word(answer.dropped);
@@ -215,11 +213,11 @@ pub fn outer_hits(
 ) {
     let Scratch { hits: found, performed, swept, candidates, .. } = scratch;
     let mut ask = |search| {
-        let mut front = RefinedHull::new(performed, swept, candidates);
-        match core_outer_hits(model, a, b, search, &mut front, found) {
+        let mut refined = RefinedHull::new(performed, swept, candidates);
+        match model.hull.outer_hits(a, b, search, &mut refined, found, Budget::EXACT) {
             Ok(answer) => {
-                fold.f32(answer.lower);
-                fold.f32(answer.upper);
+                fold.f32(answer.t.lower);
+                fold.f32(answer.t.upper);
                 super::hits(fold, found.get(..answer.stored).unwrap_or_default());
                 fold.word(answer.dropped);
                 fold.word(u32::from(answer.starts_inside));

@@ -12,7 +12,7 @@ pub mod tribox;
 pub mod triboxes;
 
 use meshsweep_core::OpenError;
-use meshsweep_core::query::{ClosestPoint, Ended, Hit, QueryError, SegmentHit, Work};
+use meshsweep_core::{ClosestPoint, Ended, FirstHit, Hit, QueryError, Undecided, Verdict, Work};
 
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
@@ -79,6 +79,7 @@ impl Refused {
             OpenError::Section { .. } => 10,
             OpenError::MissingSection { .. } => Self::NO_SECTION.0,
             OpenError::Record { .. } => 12,
+            _ => 13,
         })
     }
 }
@@ -93,16 +94,16 @@ fn timed<T>(clock: &mut impl Clock, call: impl FnOnce() -> T) -> T {
 }
 
 fn closest_point(fold: &mut Fold, answer: &ClosestPoint) {
-    fold.f32(answer.lower);
-    fold.f32(answer.upper);
+    fold.f32(answer.distance.lower);
+    fold.f32(answer.distance.upper);
     fold.point(answer.point);
     number(fold, answer.triangle);
     how(fold, answer.work, answer.ended);
 }
 
-fn segment_hit(fold: &mut Fold, answer: &SegmentHit) {
-    fold.f32(answer.lower);
-    fold.f32(answer.upper);
+fn segment_hit(fold: &mut Fold, answer: &FirstHit) {
+    fold.f32(answer.t.lower);
+    fold.f32(answer.t.upper);
     hits(fold, answer.hit.as_slice());
     how(fold, answer.work, answer.ended);
 }
@@ -125,7 +126,28 @@ fn how(fold: &mut Fold, work: Work, ended: Ended) {
     }
 }
 
+/// The work of a search with a verdict, and why there is none, by the number of the reason.
+fn verdict(fold: &mut Fold, work: Work, verdict: Verdict) {
+    let ended = match verdict {
+        Verdict::Yes | Verdict::No => Ended::Exact,
+        Verdict::Undecided(Undecided::Steps) => Ended::Steps,
+        Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
+        Verdict::Undecided(_) => Ended::Resolution,
+    };
+    how(fold, work, ended);
+}
+
 fn refusal(fold: &mut Fold, error: QueryError) {
+    let number = match error {
+        QueryError::NotFinite | QueryError::PointNotFinite { .. } => 0,
+        QueryError::Tolerance => 1,
+        QueryError::OutOfDomain => 2,
+        QueryError::PoseOutOfDomain => 3,
+        QueryError::NoScratch => 4,
+        QueryError::NotServed { .. } => 5,
+        QueryError::Unchecked => 6,
+        _ => 7,
+    };
     // A word that no answer begins with: it would be a NaN's bits.
-    fold.word(0xffff_ff00 | error as u32);
+    fold.word(0xffff_ff00 | number);
 }

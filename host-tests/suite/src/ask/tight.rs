@@ -1,12 +1,11 @@
 //! Questions to the finest tight hull of a blob, about the mesh within.
 
+use meshsweep_core::Budget;
 pub use meshsweep_core::TightHull;
 use meshsweep_core::TightHulls;
-use meshsweep_core::query::Budget;
-use meshsweep_core::query::tight::{closest_point, is_within as core_is_within};
-use meshsweep_core::query::tree::{ScratchEntry, Verdict};
+use meshsweep_core::{ScratchEntry, Verdict};
 
-use super::{Refused, Subject, closest_point as fold_answer, how, refusal, timed, tree};
+use super::{Refused, Subject, closest_point as fold_answer, refusal, timed, tree, verdict};
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
@@ -53,12 +52,12 @@ impl<'t> Subject<'t> for Hulls<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        self.finest.tree().header().stack_entries as usize <= STACK
+        self.finest.scratch_entries() <= STACK
     }
 
     /// The opened hull, and the entries that it asks for.
     fn memory(&self) -> usize {
-        let entries = self.finest.tree().header().stack_entries as usize;
+        let entries = self.finest.scratch_entries();
         size_of::<TightHull<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
@@ -111,7 +110,7 @@ pub fn open(bytes: &[u8]) -> Result<Hulls<'_>, Refused> {
 /// The finest hull's box.
 #[must_use]
 pub fn bounds(hulls: &Hulls<'_>) -> Bounds {
-    tree::bounds(hulls.finest.tree())
+    tree::bounds(hulls.finest.bvh())
 }
 
 /// What the table says of each hull, its tree, and its distances.
@@ -124,7 +123,7 @@ pub fn contents(hulls: &Hulls<'_>, fold: &mut Fold) {
     }
     for index in 0..hulls.all.count() {
         let Some(hull) = hulls.all.get(index) else { continue };
-        tree::contents(hull.tree(), fold);
+        tree::contents(hull.bvh(), fold);
         (0..hull.record().faces)
             .filter_map(|face| hull.slack(face))
             .for_each(|slack| fold.f32(slack));
@@ -140,7 +139,7 @@ pub fn closest(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(&hulls.finest, point, &Budget::EXACT, &mut scratch.stack)) {
+    match timed(clock, || hulls.finest.closest_point(point, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold_answer(fold, &answer);
             answer.point
@@ -164,15 +163,15 @@ pub fn stopped(
     fold: &mut Fold,
 ) {
     let coarsest = hulls.all.get(0).unwrap_or(hulls.finest);
-    let tolerant = Budget { absolute: distance, ..Budget::EXACT };
-    let brief = Budget { steps: 2, ..Budget::EXACT };
+    let tolerant = Budget::EXACT.with_absolute(distance);
+    let brief = Budget::EXACT.with_steps(2);
     for (hull, stop, entries) in [
         (&coarsest, tolerant, STACK),
         (&hulls.finest, brief, STACK),
         (&hulls.finest, Budget::EXACT, 4),
     ] {
         let stack = scratch.stack.get_mut(..entries).unwrap_or_default();
-        match timed(clock, || closest_point(hull, point, &stop, stack)) {
+        match timed(clock, || hull.closest_point(point, stop, stack)) {
             Ok(answer) => fold_answer(fold, &answer),
             Err(error) => refusal(fold, error),
         }
@@ -189,16 +188,14 @@ pub fn is_within(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || {
-        core_is_within(&hulls.finest, point, distance, &Budget::EXACT, &mut scratch.stack)
-    }) {
+    match timed(clock, || hulls.finest.within(point, distance, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold.word(match answer.verdict {
                 Verdict::Yes { .. } => 1,
                 Verdict::No => 2,
-                Verdict::Unknown => 3,
+                Verdict::Undecided(_) => 3,
             });
-            how(fold, answer.work, answer.ended);
+            verdict(fold, answer.work, answer.verdict);
         }
         Err(error) => refusal(fold, error),
     }

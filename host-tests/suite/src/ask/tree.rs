@@ -5,10 +5,8 @@ mod meeting;
 mod sight;
 
 pub use meshsweep_core::Bvh;
-use meshsweep_core::query::Hit;
-use meshsweep_core::query::tree::{
-    CoherentQuery, Hint, Neighbor, PairEntry, ScratchEntry, TrianglePair,
-};
+use meshsweep_core::Hit;
+use meshsweep_core::{CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
 use super::{Refused, Subject};
 use crate::fold::Fold;
@@ -33,7 +31,7 @@ pub struct Scratch<'t> {
     hint: Hint,
     session: CoherentQuery<'t>,
     facing: [u32; 64],
-    pairs: [PairEntry; PairEntry::ENOUGH],
+    pairs: [ScratchEntry; Bvh::OVERLAP_ENTRIES],
     meeting: [TrianglePair; 8],
 }
 
@@ -48,7 +46,7 @@ impl Scratch<'_> {
             hint: Hint::NONE,
             session: CoherentQuery::new(),
             facing: [0; 64],
-            pairs: [PairEntry::EMPTY; PairEntry::ENOUGH],
+            pairs: [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES],
             meeting: [TrianglePair::EMPTY; 8],
         }
     }
@@ -72,12 +70,12 @@ impl<'t> Subject<'t> for Bvh<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        self.header().stack_entries as usize <= STACK
+        self.scratch_entries() <= STACK
     }
 
     /// The opened tree, and the entries that it asks for.
     fn memory(&self) -> usize {
-        let entries = self.header().stack_entries as usize;
+        let entries = self.scratch_entries();
         size_of::<Bvh<'_>>() + entries.saturating_mul(size_of::<ScratchEntry>())
     }
 
@@ -132,8 +130,8 @@ impl<'t> Subject<'t> for Bvh<'t> {
                 batch(self, &core::array::from_fn(|_| place.far()), scratch, clock, fold)
             }
             Kind::Cull => cull(self, place.far(), scratch, clock, fold),
-            Kind::Overlap => overlap(self, &pose(place.motion()), scratch, clock, fold),
-            Kind::AllOverlaps => all_overlaps(self, &pose(place.motion()), scratch, clock, fold),
+            Kind::Overlap => overlap(self, pose(place.motion()), scratch, clock, fold),
+            Kind::AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, clock, fold),
         }
     }
 }
@@ -172,7 +170,7 @@ pub fn contents(tree: &Bvh<'_>, fold: &mut Fold) {
         fold.word(word);
     }
     fold.f32(header.surface_error);
-    fold.f32(header.reach);
+    fold.f32(header.star_radius);
     let mut leaf = 0;
     for node in 0..header.nodes {
         let boxes = tree.boxes(node).into_iter().flatten();
@@ -183,10 +181,10 @@ pub fn contents(tree: &Bvh<'_>, fold: &mut Fold) {
         for lane in 0..links.count {
             let child = links.child(lane);
             fold.word(child.at);
-            fold.byte(child.tag.0);
+            fold.byte(child.shape.0);
             let Some(patch) = tree.leaf(node, lane) else { continue };
             let first = links.triangle(lane);
-            for triangle in 0..child.tag.triangles() {
+            for triangle in 0..child.shape.triangles() {
                 for corner in patch.corners(triangle) {
                     fold.point(corner.to_array());
                 }

@@ -1,7 +1,8 @@
 //! Questions to triboxes. They need no blob: points are placed around its box.
 
-pub use meshsweep_core::tribox::Tribox;
-use meshsweep_core::tribox::{Boundary, FACES, Pose, TriboxError};
+pub use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::FACES;
+use meshsweep_core::{Boundary, Pose, TriboxError};
 
 use super::timed;
 use crate::fold::Fold;

@@ -1,11 +1,10 @@
 //! Questions to the tribox hierarchy of a blob.
 
+use meshsweep_core::Budget;
+use meshsweep_core::Pose;
+use meshsweep_core::QueryError;
 pub use meshsweep_core::Triboxes;
-use meshsweep_core::query::QueryError;
-use meshsweep_core::query::tribox::{
-    Bound, BoundEntry, NodePair, apart, candidates as all_candidates, clip, distance, stack_entries,
-};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::{Bound, NodePair, ScratchEntry};
 
 use super::{Refused, Subject, how, number, refusal, timed};
 use crate::fold::Fold;
@@ -18,20 +17,15 @@ const STACK: usize = 64;
 /// What the queries need beside the triboxes.
 #[derive(Debug)]
 pub struct Scratch {
-    pairs: [NodePair; STACK],
+    stack: [ScratchEntry; STACK],
     found: [NodePair; 16],
-    stack: [BoundEntry; STACK / 2],
 }
 
 impl Scratch {
     /// Scratch that no query has used.
     #[must_use]
     pub const fn new() -> Self {
-        Self {
-            pairs: [NodePair::EMPTY; STACK],
-            found: [NodePair::EMPTY; 16],
-            stack: [BoundEntry::EMPTY; STACK / 2],
-        }
+        Self { stack: [ScratchEntry::EMPTY; STACK], found: [NodePair::EMPTY; 16] }
     }
 }
 
@@ -53,12 +47,13 @@ impl<'t> Subject<'t> for Triboxes<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        stack_entries(self, self) <= STACK && self.depth() as usize + 2 <= STACK / 2
+        self.separation_entries(self) <= STACK && self.scratch_entries() <= STACK
     }
 
     /// The opened hierarchy, and the pairs that two of them ask for.
     fn memory(&self) -> usize {
-        size_of::<Triboxes<'_>>() + stack_entries(self, self).saturating_mul(size_of::<NodePair>())
+        size_of::<Triboxes<'_>>()
+            + self.separation_entries(self).saturating_mul(size_of::<ScratchEntry>())
     }
 
     fn suits(kind: Kind) -> bool {
@@ -146,7 +141,7 @@ pub fn reject(
     fold: &mut Fold,
 ) {
     let pose = pose(motion);
-    match timed(clock, || apart(triboxes, triboxes, &pose, &mut scratch.pairs)) {
+    match timed(clock, || triboxes.separation(triboxes, pose, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             pairs(fold, answer.may_meet.as_slice());
             how(fold, answer.work, answer.ended);
@@ -165,8 +160,8 @@ pub fn candidates(
     fold: &mut Fold,
 ) {
     let pose = pose(motion);
-    let Scratch { pairs: stack, found, .. } = scratch;
-    match timed(clock, || all_candidates(triboxes, triboxes, &pose, found, stack)) {
+    let Scratch { stack, found } = scratch;
+    match timed(clock, || triboxes.candidates(triboxes, pose, found, Budget::EXACT, stack)) {
         Ok(answer) => {
             pairs(fold, found.get(..answer.stored).unwrap_or_default());
             fold.word(answer.dropped);
@@ -196,7 +191,7 @@ pub fn nearest(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    let answer = timed(clock, || distance(triboxes, point, &mut scratch.stack));
+    let answer = timed(clock, || triboxes.distance(point, Budget::EXACT, &mut scratch.stack));
     bound(fold, answer);
 }
 
@@ -209,6 +204,6 @@ pub fn first(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    let answer = timed(clock, || clip(triboxes, a, b, &mut scratch.stack));
+    let answer = timed(clock, || triboxes.clip(a, b, Budget::EXACT, &mut scratch.stack));
     bound(fold, answer);
 }

@@ -3,9 +3,9 @@
 use super::given::{self, Given};
 use super::values::{Margin, direction, margin, point, size, threads, tolerance, whole};
 use clap::{Args, ValueEnum};
-use meshsweep_core::query::tree::{Facing, Sight};
+use meshsweep_core::{Eye, Facing};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Where answers go, and what limits a search.
 #[derive(Debug, Args)]
@@ -14,13 +14,13 @@ pub struct SearchArgs {
     #[arg(short, long, value_name = "CSV")]
     pub output: Option<PathBuf>,
     /// Stop a query after opening so many nodes
-    #[arg(long, value_name = "NODES", allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
+    #[arg(long, value_name = "NODES", value_parser = whole::<0, { u32::MAX }>)]
     pub steps: Option<u32>,
     /// Stack entries to search with [default: what the blob needs]
-    #[arg(long, value_name = "ENTRIES", allow_negative_numbers = true, value_parser = whole::<1, { 1 << 24 }>)]
+    #[arg(long, value_name = "ENTRIES", value_parser = whole::<1, { 1 << 24 }>)]
     pub queue: Option<u32>,
     /// Threads [default: as many as the machine has processors for]; answers do not depend on it
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
     /// Print nanoseconds per query, and how queries ended, to the standard error
     #[arg(long)]
@@ -33,16 +33,8 @@ pub struct PointArgs {
     /// Blob file
     pub blob: PathBuf,
     /// Query points: x,y,z each, or files of them
-    #[arg(required = true, value_parser = given::points())]
+    #[arg(required = true, value_parser = given::queries::<3>())]
     pub points: Vec<Given<3>>,
-}
-
-impl PointArgs {
-    /// Files that are read.
-    pub fn files(&self) -> Vec<&Path> {
-        let points = self.points.iter().filter_map(Given::file);
-        std::iter::once(self.blob.as_path()).chain(points).collect()
-    }
 }
 
 #[derive(Debug, Args)]
@@ -50,28 +42,26 @@ pub struct ClosestArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// Stop a query when upper ≤ lower · (1 + REL)
-    #[arg(long, value_name = "REL", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
+    #[arg(long, value_name = "REL", default_value_t = 0.0, value_parser = tolerance)]
     pub rel: f32,
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
-    #[arg(long, value_name = "ABS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance)]
+    #[arg(long, value_name = "ABS", default_value_t = 0.0, value_parser = tolerance)]
     pub abs: f32,
-    /// tree, the box tree; or cover (hull does as well), the hull hierarchy's cover tree [default:
-    /// tree if the blob has one]
+    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
+    /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
-    pub engine: Option<ClosestEngine>,
+    pub engine: Option<Engine>,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// within [default: the finest of all, if the blob knows distances by nothing else]
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "engine")]
+    /// inside it [default: the finest of all, if the blob knows distances by nothing else]
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_parser = whole::<4, { u32::MAX }>,
+        conflicts_with = "engine"
+    )]
     pub tight: Option<u32>,
     #[command(flatten)]
     pub search: SearchArgs,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ClosestEngine {
-    Tree,
-    #[value(alias = "hull")]
-    Cover,
 }
 
 #[derive(Debug, Args)]
@@ -79,15 +69,20 @@ pub struct WithinArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// The distance, in the mesh's unit
-    #[arg(short, long, value_name = "D", allow_negative_numbers = true, value_parser = tolerance)]
+    #[arg(short, long, value_name = "D", value_parser = tolerance)]
     pub distance: f32,
     /// All triangles that are within the distance or may be, nearest first, one on a line, with
     /// the number of the query (from 0) in front
     #[arg(long)]
     pub all: bool,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// within [default: the finest of all, if the blob knows distances by nothing else]
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>, conflicts_with = "all")]
+    /// inside it [default: the finest of all, if the blob knows distances by nothing else]
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_parser = whole::<4, { u32::MAX }>,
+        conflicts_with = "all"
+    )]
     pub tight: Option<u32>,
     #[command(flatten)]
     pub search: SearchArgs,
@@ -98,7 +93,7 @@ pub struct NearestArgs {
     #[command(flatten)]
     pub input: PointArgs,
     /// Triangles for each point, nearest first
-    #[arg(short = 'n', long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { 1 << 20 }>)]
+    #[arg(short = 'n', long, value_name = "N", value_parser = whole::<1, { 1 << 20 }>)]
     pub count: u32,
     #[command(flatten)]
     pub search: SearchArgs,
@@ -120,11 +115,11 @@ pub struct FieldArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Samples along each axis: one number for all, or NX,NY,NZ
-    #[arg(long, value_name = "SIZE", default_value = "64", allow_negative_numbers = true, value_parser = size)]
+    #[arg(long, value_name = "SIZE", default_value = "64", value_parser = size)]
     pub size: Size,
     /// How far the grid reaches beyond the mesh's box: a length, or a percentage of the box's
     /// longest edge
-    #[arg(long, value_name = "MARGIN", default_value = "10%", allow_negative_numbers = true, value_parser = margin)]
+    #[arg(long, value_name = "MARGIN", default_value = "10%", value_parser = margin)]
     pub margin: Margin,
     /// Negative values inside, NaN where the side is not proved; the mesh must be closed
     #[arg(long)]
@@ -133,7 +128,7 @@ pub struct FieldArgs {
     #[arg(long)]
     pub interval: bool,
     /// Threads [default: as many as the machine has processors for]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
 }
 
@@ -145,32 +140,24 @@ pub struct SegmentArgs {
     /// Blob file
     pub blob: PathBuf,
     /// Query segments: ax,ay,az,bx,by,bz each, or files of them
-    #[arg(required = true, value_parser = given::segments())]
+    #[arg(required = true, value_parser = given::queries::<6>())]
     pub segments: Vec<Given<6>>,
     /// All hits, one on a line, with the number of the query (from 0) in front
-    #[arg(long, conflicts_with = "steps")]
+    #[arg(long)]
     pub all: bool,
     /// Only hits of fronts or of backs, on the box tree; the front of a triangle is where its
     /// corners run counter-clockwise [default: both]
     #[arg(long, value_enum)]
     pub facing: Option<FacingName>,
-    /// tree, the box tree; cover, the hull hierarchy's cover tree; or hull, the selectively
-    /// refined hull, for first hits of segments that start outside (others use the cover
-    /// tree), without --all, --steps and --queue [default: tree if the blob has one, else
-    /// cover]
+    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
+    /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
-    pub engine: Option<SegmentEngine>,
+    pub engine: Option<Engine>,
     #[command(flatten)]
     pub search: SearchArgs,
 }
 
 impl SegmentArgs {
-    /// Files that are read.
-    pub fn files(&self) -> Vec<&Path> {
-        let segments = self.segments.iter().filter_map(Given::file);
-        std::iter::once(self.blob.as_path()).chain(segments).collect()
-    }
-
     /// Which sides of triangles count.
     pub fn facing(&self) -> Facing {
         match self.facing {
@@ -189,10 +176,9 @@ pub enum FacingName {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SegmentEngine {
+pub enum Engine {
     Tree,
     Cover,
-    Hull,
 }
 
 #[derive(Debug, Args)]
@@ -203,7 +189,7 @@ pub struct OverlapArgs {
     pub second: PathBuf,
     /// Where the second mesh is: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was
     /// built]
-    #[arg(long, value_name = "POSE", num_args = 1.., allow_negative_numbers = true, value_parser = given::poses())]
+    #[arg(long, value_name = "POSE", num_args = 1.., value_parser = given::queries::<7>())]
     pub pose: Vec<Given<7>>,
     /// The same as three rows of a matrix, each with its translation:
     /// m00,m01,m02,x,m10,m11,m12,y,m20,m21,m22,z each, or files
@@ -212,8 +198,7 @@ pub struct OverlapArgs {
         value_name = "MATRIX",
         num_args = 1..,
         conflicts_with = "pose",
-        allow_negative_numbers = true,
-        value_parser = given::matrices()
+        value_parser = given::queries::<12>()
     )]
     pub matrix: Vec<Given<12>>,
     /// All pairs of triangles that meet, one on a line
@@ -221,19 +206,6 @@ pub struct OverlapArgs {
     pub all: bool,
     #[command(flatten)]
     pub search: SearchArgs,
-}
-
-impl OverlapArgs {
-    /// Files that are read.
-    pub fn files(&self) -> Vec<&Path> {
-        let poses = self.pose.iter().filter_map(Given::file);
-        let matrices = self.matrix.iter().filter_map(Given::file);
-        [self.first.as_path(), self.second.as_path()]
-            .into_iter()
-            .chain(poses)
-            .chain(matrices)
-            .collect()
-    }
 }
 
 #[derive(Debug, Args)]
@@ -254,10 +226,10 @@ pub struct CullArgs {
 
 impl CullArgs {
     /// Where the eye is, or which way it looks.
-    pub fn sight(&self) -> Sight {
+    pub fn eye(&self) -> Eye {
         match (self.viewpoint, self.along) {
-            (Some(viewpoint), _) => Sight::From(viewpoint),
-            (None, along) => Sight::Along(along.unwrap_or_default()),
+            (Some(viewpoint), _) => Eye::At(viewpoint),
+            (None, along) => Eye::Along(along.unwrap_or_default()),
         }
     }
 }

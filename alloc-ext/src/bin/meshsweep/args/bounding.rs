@@ -1,9 +1,121 @@
-//! Arguments of the command that covers meshes with triboxes.
+//! Arguments of the commands that write hulls and triboxes of meshes.
 
-use super::values::{tolerance, whole};
-use clap::{Args, ValueEnum};
-use meshsweep::tribox::{Measure, Planes, SplitOptions};
+use super::building::{CollapseArgs, StoredBits};
+use super::values::{distance, factor, length, percent, positive, tolerance, whole};
+use crate::number::Typed;
+use clap::Args;
+use meshsweep::tribox::SplitOptions;
 use std::path::PathBuf;
+
+/// Options of hulls that are made from a mesh.
+const OF_MESH: [&str; 12] = [
+    "faces",
+    "void",
+    "slack",
+    "margin",
+    "parts",
+    "effort",
+    "seconds",
+    "progressive",
+    "vertex_bits",
+    "max_valence",
+    "compactness",
+    "max_normal_deviation",
+];
+
+#[derive(Debug, Args)]
+pub struct HullArgs {
+    /// Mesh file; or blob file, with --level or --tight
+    pub input: PathBuf,
+    /// PLY file to write
+    #[arg(short, long, value_name = "PLY")]
+    pub output: PathBuf,
+    /// Most faces of the hull of a mesh [default: 200]
+    #[arg(long, value_parser = whole::<4, { u32::MAX }>)]
+    pub faces: Option<u32>,
+    /// Fewest faces found that leave at most this void space, in percent of the mesh's volume
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        value_parser = percent,
+        conflicts_with_all = ["faces", "progressive"]
+    )]
+    pub void: Option<f64>,
+    /// Fewest faces found of which no point is farther than this from the mesh, in its unit
+    #[arg(
+        long,
+        value_name = "DISTANCE",
+        value_parser = distance,
+        conflicts_with_all = ["faces", "void", "progressive"]
+    )]
+    pub slack: Option<f64>,
+    /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are
+    /// inside [default: 0]
+    #[arg(long, value_name = "DISTANCE", value_parser = length, conflicts_with = "progressive")]
+    pub margin: Option<f64>,
+    /// One hull for each part of the mesh, all in one file
+    #[arg(long, conflicts_with = "progressive")]
+    pub parts: bool,
+    /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
+    #[arg(long, value_name = "FACTOR", value_parser = factor, conflicts_with = "progressive")]
+    pub effort: Option<f64>,
+    /// Stop each hull after about so many seconds: with more faces than asked for, if they are not
+    /// gone by then
+    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "progressive")]
+    pub seconds: Option<f64>,
+    /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so
+    #[arg(long)]
+    pub progressive: bool,
+    /// Level of a blob, 0 being the coarsest
+    #[arg(
+        long,
+        value_parser = whole::<0, { u32::MAX }>,
+        conflicts_with_all = OF_MESH
+    )]
+    pub level: Option<u32>,
+    /// The finest tight hull of a blob of at most so many faces
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_parser = whole::<4, { u32::MAX }>,
+        conflicts_with_all = OF_MESH,
+        conflicts_with = "level"
+    )]
+    pub tight: Option<u32>,
+    /// Bits of a coordinate of the hull of a mesh: auto, single precision, or with --progressive
+    /// the fewest that hold the mesh exactly; 16 or 24, on a grid, to which the mesh moves;
+    /// 32, single precision
+    #[arg(
+        long,
+        value_enum,
+        value_name = "BITS",
+        default_value_t = StoredBits::Auto,
+        hide_possible_values = true
+    )]
+    pub vertex_bits: StoredBits,
+    #[command(flatten)]
+    pub collapse: CollapseArgs,
+}
+
+impl HullArgs {
+    /// The first given option that applies to a progressive hull only.
+    pub fn progressive_option(&self) -> Option<&'static str> {
+        self.collapse.given()
+    }
+}
+
+/// Why no hull can have both this slack and this margin, if none can.
+pub fn slack_within_margin(slack: Option<f64>, margin: Option<f64>) -> Option<String> {
+    let (slack, margin) = (slack?, margin?);
+    let is_within = slack <= margin;
+    is_within.then(|| {
+        let (slack, margin) = (Typed(slack), Typed(margin));
+        format!(
+            "--slack {slack} is no more than --margin {margin}: the hull is farther from the mesh \
+             than the margin; ask for a larger --slack"
+        )
+    })
+}
 
 #[derive(Debug, Args)]
 pub struct TriboxArgs {
@@ -13,62 +125,28 @@ pub struct TriboxArgs {
     #[arg(short, long, value_name = "PLY")]
     pub output: Option<PathBuf>,
     /// Levels, of 1, 2, 4, ... triboxes
-    #[arg(long, value_name = "N", default_value_t = 7, allow_negative_numbers = true, value_parser = whole::<1, 12>)]
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = whole::<1, 12>)]
     pub levels: u32,
     /// How far planes may move outward so that small faces vanish, in the mesh's unit
-    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = tolerance, hide_default_value = true)]
+    #[arg(
+        long,
+        value_name = "T",
+        default_value_t = 0.0,
+        value_parser = tolerance,
+        hide_default_value = true
+    )]
     pub simplify: f32,
-    /// What splits make little of: volume, or area [default: volume if the mesh is closed, else
-    /// area]
-    #[arg(long, value_enum, hide_possible_values = true)]
-    pub measure: Option<MeasureName>,
-    /// Planes that splits are chosen from: nine, some of each direction; thickest, the one that
-    /// bisects the thickest slab
-    #[arg(long, value_enum, default_value_t = PlanesName::Nine, hide_possible_values = true)]
-    pub planes: PlanesName,
-    /// Split a tribox only if that saves more than this part of its measure; negative: although
-    /// the total grows [default: 0.0001]
-    #[arg(long, value_name = "RATIO", value_parser = gain, allow_hyphen_values = true)]
-    pub least_gain: Option<f64>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum MeasureName {
-    Area,
-    Volume,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum PlanesName {
-    Nine,
-    Thickest,
-}
-
-/// At most 1, for no split saves all.
-fn gain(text: &str) -> Result<f64, String> {
-    let wanted = || "a number up to 1 is wanted, as 0.05".to_owned();
-    text.parse().ok().filter(|x: &f64| *x <= 1.0).ok_or_else(wanted)
-}
-
 impl TriboxArgs {
     pub fn options(&self) -> SplitOptions {
-        let default = SplitOptions::default();
         SplitOptions {
             leaves: 1 << (self.levels - 1),
-            measure: self.measure.map(|measure| match measure {
-                MeasureName::Area => Measure::Area,
-                MeasureName::Volume => Measure::Volume,
-            }),
-            planes: match self.planes {
-                PlanesName::Nine => default.planes,
-                PlanesName::Thickest => Planes::Thickest,
-            },
-            least_gain: self.least_gain.unwrap_or(default.least_gain),
             simplify: self.simplify,
-            ..default
+            ..SplitOptions::default()
         }
     }
 }

@@ -1,11 +1,14 @@
 //! Arguments of the commands that make, describe and cut blobs.
 
-use super::values::{degrees, distance, factor, length, percent, positive, ratio, whole};
-use crate::describe::Given;
+use super::values::{degrees, distance, factor, length, percent, ratio, whole};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::collapse::{Conditions, Priority};
-use meshsweep::precision::VertexBits;
+use meshsweep::hull::BuildOptions;
+use meshsweep::surface::VertexBits;
 use std::path::PathBuf;
+
+/// Faces of a hull unless told otherwise.
+pub const FACES: u32 = 200;
 
 #[derive(Debug, Args)]
 pub struct BuildArgs {
@@ -24,35 +27,43 @@ pub struct BuildArgs {
     )]
     pub serves: Vec<Serves>,
     /// Bits of a stored coordinate (see below)
-    #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "BITS",
+        default_value_t = StoredBits::Auto,
+        hide_possible_values = true
+    )]
     pub vertex_bits: StoredBits,
     /// Faces of the base hull, with --for hull [default: 200]
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
+    #[arg(long, value_name = "FACES", value_parser = whole::<4, { u32::MAX }>)]
     pub base: Option<u32>,
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, MAX_TRIBOXES>)]
+    #[arg(long, value_name = "N", value_parser = whole::<1, MAX_TRIBOXES>)]
     pub triboxes: Option<u32>,
     /// Faces of each tight hull, with --for tight [default: 200]
-    #[arg(long, value_name = "FACES", value_delimiter = ',', allow_negative_numbers = true, value_parser = whole::<4, MAX_TIGHT>)]
+    #[arg(long, value_name = "FACES", value_delimiter = ',', value_parser = whole::<4, MAX_TIGHT>)]
     pub tight: Vec<u32>,
     /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point
     /// is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["tight", "nested"])]
+    #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "tight")]
     pub slack: Option<f64>,
     /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most
     /// this void space, in percent of the mesh's volume
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["tight", "nested", "slack"])]
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        value_parser = percent,
+        conflicts_with_all = ["tight", "slack"]
+    )]
     pub void: Option<f64>,
     /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther
     /// are inside [default: 0]
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length)]
+    #[arg(long, value_name = "DISTANCE", value_parser = length)]
     pub margin: Option<f64>,
-    /// Each tight hull encloses all finer ones
-    #[arg(long)]
-    pub nested: bool,
     /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default:
     /// 1]
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor)]
+    #[arg(long, value_name = "FACTOR", value_parser = factor)]
     pub effort: Option<f64>,
     /// Questions to tight hulls: closest; segment, which no command asks, only the library
     /// [default: closest,segment]
@@ -80,7 +91,7 @@ pub enum HullServes {
     Segment,
 }
 
-/// Most triboxes that are worth the time.
+/// Most triboxes of a blob. More take too long.
 const MAX_TRIBOXES: u32 = 4096;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -93,7 +104,7 @@ pub enum Serves {
     Tight,
 }
 
-/// What a blob has to serve.
+/// The questions that a blob must serve.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
     pub closest: bool,
@@ -124,14 +135,13 @@ impl BuildArgs {
         }
     }
 
-    /// The first option given that only tight hulls heed.
+    /// The first given option that applies to tight hulls only.
     pub fn tight_option(&self) -> Option<&'static str> {
         [
             ("--tight", !self.tight.is_empty()),
             ("--slack", self.slack.is_some()),
             ("--void", self.void.is_some()),
             ("--margin", self.margin.is_some()),
-            ("--nested", self.nested),
             ("--effort", self.effort.is_some()),
             ("--tight-for", !self.tight_for.is_empty()),
         ]
@@ -139,36 +149,31 @@ impl BuildArgs {
         .find_map(|(option, given)| given.then_some(option))
     }
 
-    /// The first option given that only a hull heeds.
+    /// The first given option that applies to the hull hierarchy only.
     pub fn hull_option(&self) -> Option<&'static str> {
         if self.base.is_some() { Some("--base") } else { self.collapse.given() }
     }
 }
 
-/// Order and conditions of edge collapses.
+/// Conditions of edge collapses.
 #[derive(Debug, Args)]
 pub struct CollapseArgs {
-    /// Order of the hull's collapses: lp, by the volume that each adds (tighter); span, by a
-    /// cheaper estimate of it [default: lp]
-    #[arg(long, value_enum, hide_possible_values = true)]
-    pub priority: Option<PriorityName>,
     /// Largest valence of a hull vertex [default: 12]
-    #[arg(long, value_name = "EDGES", allow_negative_numbers = true, value_parser = whole::<3, 255>)]
+    #[arg(long, value_name = "EDGES", value_parser = whole::<3, 255>)]
     pub max_valence: Option<u32>,
     /// Least ratio of a star's worst compactness after a collapse to that before it [default: 0.8]
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, value_parser = ratio)]
+    #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub compactness: Option<f64>,
     /// Largest change of a face's normal in a collapse, in degrees [default: 45]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
     pub max_normal_deviation: Option<f64>,
 }
 
 impl CollapseArgs {
-    /// The first of these options that is given.
-    fn given(&self) -> Option<&'static str> {
-        let Self { priority, max_valence, compactness, max_normal_deviation } = self;
+    /// The first given option.
+    pub fn given(&self) -> Option<&'static str> {
+        let Self { max_valence, compactness, max_normal_deviation } = self;
         [
-            ("--priority", priority.is_some()),
             ("--max-valence", max_valence.is_some()),
             ("--compactness", compactness.is_some()),
             ("--max-normal-deviation", max_normal_deviation.is_some()),
@@ -177,17 +182,20 @@ impl CollapseArgs {
         .find_map(|(option, given)| given.then_some(option))
     }
 
-    pub fn priority(&self) -> Priority {
-        match self.priority {
-            None | Some(PriorityName::Lp) => Priority::Program,
-            Some(PriorityName::Span) => Priority::Span,
+    /// Options of a progressive hull of so many faces.
+    pub fn options(&self, faces: u32, bits: StoredBits) -> BuildOptions {
+        BuildOptions {
+            base_faces: faces as usize,
+            priority: Priority::Program,
+            conditions: self.conditions(),
+            vertex_bits: bits.format(),
         }
     }
 
-    pub fn conditions(&self) -> Conditions {
+    fn conditions(&self) -> Conditions {
         let default = Conditions::default();
-        // The library's cosine of 45° and this one may differ in the last bit, and the blob's bytes
-        // with them.
+        // The library's cosine of 45° may differ from this one in the last bit, and so would the
+        // blob's bytes.
         let cosine = |degrees: f64| {
             if degrees == 45.0 { default.min_normal_cosine } else { degrees.to_radians().cos() }
         };
@@ -198,12 +206,6 @@ impl CollapseArgs {
             ..default
         }
     }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum PriorityName {
-    Lp,
-    Span,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -229,7 +231,7 @@ impl StoredBits {
     }
 
     /// Whether the box tree's vertices are f32.
-    pub fn is_single(self) -> bool {
+    pub fn is_f32(self) -> bool {
         matches!(self, StoredBits::TwentyFour | StoredBits::ThirtyTwo)
     }
 }
@@ -244,103 +246,20 @@ pub struct InfoArgs {
 }
 
 #[derive(Debug, Args)]
-pub struct HullArgs {
-    /// Mesh file; or blob file, with --level or --tight
-    pub input: PathBuf,
-    /// PLY file to write
-    #[arg(short, long, value_name = "PLY")]
-    pub output: PathBuf,
-    /// Most faces of the hull of a mesh [default: 200]
-    #[arg(long, allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
-    pub faces: Option<u32>,
-    /// Fewest faces found that leave at most this void space, in percent of the mesh's volume
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = percent, conflicts_with_all = ["faces", "progressive"])]
-    pub void: Option<f64>,
-    /// Fewest faces found of which no point is farther than this from the mesh, in its unit
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["faces", "void", "progressive"])]
-    pub slack: Option<f64>,
-    /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are
-    /// inside [default: 0]
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = length, conflicts_with = "progressive")]
-    pub margin: Option<f64>,
-    /// One hull for each part of the mesh, all in one file
-    #[arg(long, conflicts_with = "progressive")]
-    pub parts: bool,
-    /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = factor, conflicts_with = "progressive")]
-    pub effort: Option<f64>,
-    /// Stop each hull after about so many seconds: with more faces than asked for, if they are not
-    /// gone by then
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive, conflicts_with = "progressive")]
-    pub seconds: Option<f64>,
-    /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so
-    #[arg(long)]
-    pub progressive: bool,
-    /// Level of a blob, 0 being the coarsest
-    #[arg(
-        long,
-        allow_negative_numbers = true,
-        value_parser = whole::<0, { u32::MAX }>,
-        conflicts_with_all = [
-            "faces", "void", "slack", "margin", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence", "compactness",
-            "max_normal_deviation"
-        ]
-    )]
-    pub level: Option<u32>,
-    /// The finest tight hull of a blob of at most so many faces
-    #[arg(
-        long,
-        value_name = "FACES",
-        allow_negative_numbers = true,
-        value_parser = whole::<4, { u32::MAX }>,
-        conflicts_with_all = [
-            "level", "faces", "void", "slack", "margin", "parts", "effort", "seconds", "progressive", "vertex_bits", "priority", "max_valence",
-            "compactness", "max_normal_deviation"
-        ]
-    )]
-    pub tight: Option<u32>,
-    /// Bits of a coordinate of the hull of a mesh: auto, single precision, or with --progressive
-    /// the fewest that hold the mesh exactly; 16 or 24, on a grid, to which the mesh moves;
-    /// 32, single precision
-    #[arg(long, value_enum, value_name = "BITS", default_value_t = StoredBits::Auto, hide_possible_values = true)]
-    pub vertex_bits: StoredBits,
-    #[command(flatten)]
-    pub collapse: CollapseArgs,
-}
-
-impl HullArgs {
-    /// The first option given that only a progressive hull heeds.
-    pub fn progressive_option(&self) -> Option<&'static str> {
-        self.collapse.given()
-    }
-}
-
-/// Why no hull has both a slack and a margin, if none has.
-pub fn slack_within_margin(slack: Option<f64>, margin: Option<f64>) -> Option<String> {
-    let (slack, margin) = (slack?, margin?);
-    let is_within = slack <= margin;
-    is_within.then(|| {
-        let (slack, margin) = (Given(slack), Given(margin));
-        format!(
-            "--slack {slack} is no more than --margin {margin}: the hull is farther from the mesh than the margin; ask \
-             for a larger --slack"
-        )
-    })
-}
-
-#[derive(Debug, Args)]
-#[command(group(ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)))]
+#[command(group(
+    ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)
+))]
 pub struct CutArgs {
     /// Blob file, built --for hull, triboxes or tight
     pub blob: PathBuf,
     /// Finest level of the hull hierarchy to keep, 0 being the coarsest
-    #[arg(long, allow_negative_numbers = true, value_parser = whole::<0, { u32::MAX }>)]
+    #[arg(long, value_parser = whole::<0, { u32::MAX }>)]
     pub level: Option<u32>,
     /// Keep the finest level of at most so many triboxes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<1, { u32::MAX }>)]
+    #[arg(long, value_name = "N", value_parser = whole::<1, { u32::MAX }>)]
     pub triboxes: Option<u32>,
     /// Keep the tight hulls of at most so many faces
-    #[arg(long, value_name = "FACES", allow_negative_numbers = true, value_parser = whole::<4, { u32::MAX }>)]
+    #[arg(long, value_name = "FACES", value_parser = whole::<4, { u32::MAX }>)]
     pub tight: Option<u32>,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]

@@ -12,7 +12,8 @@ pub enum Margin {
 }
 
 pub fn margin(text: &str) -> Result<Margin, String> {
-    let wanted = "a length in the mesh's unit or a percentage of the box's longest edge is wanted, as 2.5 or 10%";
+    let wanted = "a length in the mesh's unit or a percentage of the box's longest edge is \
+        wanted, as 2.5 or 10%";
     let number = |digits: &str| {
         let parsed =
             digits.trim().parse().ok().filter(|x: &f64| (0.0..=f64::from(f32::MAX)).contains(x));

@@ -1,31 +1,32 @@
 //! The hull hierarchy: memory, levels, surface error.
 
-use super::{AtMost, Percent};
-use crate::counted::Counted;
-use meshsweep_core::blob::layout::VertexFormat;
-use meshsweep_core::blob::{Header, Level};
-use meshsweep_core::num::{exp2, up_to_f32};
-use meshsweep_core::{Model, QueueEntry};
+use crate::number::{AtMost, Percent};
+use meshsweep::counted::Counted;
+use meshsweep_core::internal::format::Header;
+use meshsweep_core::internal::format::layout::VertexFormat;
+use meshsweep_core::internal::num::{exp2, up_to_f32};
+use meshsweep_core::{Hull, Level, ScratchEntry};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// Bytes of one word of a front's bit set.
+/// Bytes of one word of a refined hull's bit set.
 const WORD: usize = size_of::<u32>();
 
 /// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
-pub fn surface_error(header: &Header) -> f32 {
+fn surface_error(header: &Header) -> f32 {
     up_to_f32(f64::from(header.surface_error) * exp2(header.scale_exponent))
 }
 
-/// Certified distances of a level, in the mesh's unit and to the mesh as it was read.
+/// Certified distances of a level to the mesh as it was read, in its unit.
 #[derive(Clone, Copy, Debug)]
-pub struct LevelDistances {
+struct LevelDistances {
     /// No point of the level's covering triangles is farther than this from the mesh.
-    pub cover_to_mesh: f32,
+    cover_to_mesh: f32,
     /// No point of the mesh is farther than this from them.
-    pub mesh_to_cover: f32,
+    mesh_to_cover: f32,
 }
 
-pub fn distances(header: &Header, level: &Level) -> LevelDistances {
+fn distances(header: &Header, level: &Level) -> LevelDistances {
     // One rounding of the sum, so a bound stays one.
     let up = |local: f32| {
         let sum = (f64::from(local) + f64::from(header.surface_error)) * (1.0 + f64::EPSILON);
@@ -38,17 +39,17 @@ pub fn distances(header: &Header, level: &Level) -> LevelDistances {
 }
 
 /// Bytes of a queue with which no query overflows.
-pub fn queue_bytes(model: &Model<'_>) -> usize {
-    model.capacities().queue * size_of::<QueueEntry>()
+fn queue_bytes(hull: &Hull<'_>) -> usize {
+    hull.scratch_entries() * size_of::<ScratchEntry>()
 }
 
-/// Bytes of both bit sets of a front that can perform every split.
-pub fn front_bytes(model: &Model<'_>) -> usize {
-    2 * model.capacities().front_words * WORD
+/// Bytes of both bit sets of a refined hull that can perform every split.
+fn front_bytes(hull: &Hull<'_>) -> usize {
+    2 * hull.refined_words() * WORD
 }
 
 /// How coordinates are stored.
-pub fn format_name(format: VertexFormat) -> &'static str {
+fn format_name(format: VertexFormat) -> &'static str {
     match format {
         VertexFormat::F32 => "f32",
         VertexFormat::Grid16 => "16-bit grid",
@@ -56,8 +57,8 @@ pub fn format_name(format: VertexFormat) -> &'static str {
     }
 }
 
-pub(super) fn write(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    let h = model.header();
+pub(super) fn write(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
+    let h = hull.header();
     writeln!(out, "hull hierarchy")?;
     writeln!(
         out,
@@ -65,41 +66,40 @@ pub(super) fn write(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
         AtMost(surface_error(h)),
         format_name(h.vertex_format)
     )?;
-    write_memory(out, model)?;
-    write_levels(out, model)
+    write_memory(out, hull)?;
+    write_levels(out, hull)
 }
 
 /// Working memory that makes overflow impossible.
-fn write_memory(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
-    let capacities = model.capacities();
+fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     writeln!(
         out,
         "  queue: {}, {} bytes of RAM: no query on the cover tree can overflow it",
-        Counted(capacities.queue, "entry"),
-        queue_bytes(model)
+        Counted(hull.scratch_entries(), "entry"),
+        queue_bytes(hull)
     )?;
     writeln!(
         out,
         "  front: {} in each of 2 bit sets, {} bytes of RAM: every split can be performed",
-        Counted(capacities.front_words, "word"),
-        front_bytes(model)
+        Counted(hull.refined_words(), "word"),
+        front_bytes(hull)
     )?;
     writeln!(
         out,
         "  dependency depth: {} in the longest chain",
-        Counted(capacities.dependency_depth, "split")
+        Counted(hull.header().dependency_depth, "split")
     )
 }
 
 /// The level table.
-fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
+fn write_levels(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     writeln!(out, "  levels, with certified distances of their covering triangles")?;
     writeln!(
         out,
         "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover"
     )?;
-    for (index, level) in model.levels().enumerate() {
-        let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(model.header(), &level);
+    for (index, level) in hull.levels().enumerate() {
+        let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(hull.header(), &level);
         writeln!(
             out,
             "  {index:>5} {:>10} {:>10} {:>10} {:>10} {:>15} {:>15}",
@@ -112,4 +112,43 @@ fn write_levels(out: &mut dyn Write, model: &Model<'_>) -> io::Result<()> {
         )?;
     }
     Ok(())
+}
+
+pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
+    let h = hull.header();
+    let levels: Vec<Value> = hull
+        .levels()
+        .map(|level| {
+            let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(h, &level);
+            json!({
+                "faces": level.faces,
+                "splits": level.splits,
+                "nodes": level.nodes,
+                "void_ratio": level.void_ratio,
+                "cover_to_mesh": cover_to_mesh,
+                "mesh_to_cover": mesh_to_cover,
+            })
+        })
+        .collect();
+    json!({
+        "is_cut": hull.is_cut(),
+        "vertex_format": format_name(h.vertex_format),
+        "surface_error": surface_error(h),
+        "vertices": h.vertices,
+        "base_vertices": h.base_vertices,
+        "base_triangles": h.base_triangles,
+        "splits": h.splits,
+        "ring_entries": h.rings,
+        "cover_nodes": h.nodes,
+        "surface_triangles": h.surface_triangles,
+        "hull_box": hull_box,
+        "capacities": {
+            "queue": hull.scratch_entries(),
+            "queue_bytes": queue_bytes(hull),
+            "front_words": hull.refined_words(),
+            "front_bytes": front_bytes(hull),
+            "dependency_depth": hull.header().dependency_depth,
+        },
+        "levels": levels,
+    })
 }

@@ -1,8 +1,8 @@
 //! How full a box tree is: counted by walking it once.
 
 use meshsweep_core::Bvh;
-use meshsweep_core::blob::layout::WIDTH;
-use meshsweep_core::blob::{BvhHeader, FanLeaf};
+use meshsweep_core::internal::bvh::format::{BvhHeader, FanLeaf};
+use meshsweep_core::internal::geom::fan::WIDTH;
 
 /// Counts and means of a tree.
 #[derive(Clone, Copy, Debug)]
@@ -31,13 +31,13 @@ impl Shape {
             let below = depth[node as usize] + 1;
             let first = links.first_node as usize;
             depth.iter_mut().skip(first).take(links.inner as usize).for_each(|d| *d = below);
-            for patch in (links.inner..links.count).filter_map(|lane| tree.leaf(node, lane)) {
-                let count = patch.tag().triangles();
-                let first = patch.tag().turn().min(count);
+            for leaf in (links.inner..links.count).filter_map(|lane| tree.leaf(node, lane)) {
+                let count = leaf.shape().triangles();
+                let first = leaf.shape().turn().min(count);
                 for size in [first, count - first].into_iter().filter(|&size| size > 0) {
                     fan_sizes[size - 1] += 1;
                 }
-                flat += (0..count).filter(|&lane| is_flat(&patch, lane)).count() as u32;
+                flat += (0..count).filter(|&lane| is_flat(&leaf, lane)).count() as u32;
             }
         }
         Shape {
@@ -64,7 +64,7 @@ impl Shape {
     }
 }
 
-fn is_flat(patch: &FanLeaf<'_>, lane: usize) -> bool {
-    let [a, b, c] = patch.corners(lane).map(|corner| corner.as_dvec3());
+fn is_flat(leaf: &FanLeaf<'_>, lane: usize) -> bool {
+    let [a, b, c] = leaf.corners(lane).map(|corner| corner.as_dvec3());
     (b - a).cross(c - a) == glam::DVec3::ZERO
 }

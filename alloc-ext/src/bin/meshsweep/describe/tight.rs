@@ -1,10 +1,9 @@
 //! Tight hulls: faces, void, distances, bytes, memory.
 
-use super::tree::{stack_bytes, tree_format_name};
-use super::{AtMost, Percent};
-use crate::counted::Counted;
-use meshsweep_core::blob::TightRecord;
-use meshsweep_core::{TightHull, TightHulls};
+use super::tree::{format_name, stack_bytes};
+use crate::number::{AtMost, Percent};
+use meshsweep::counted::Counted;
+use meshsweep_core::{TightHull, TightHulls, TightRecord};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -18,8 +17,7 @@ fn bytes(hull: &TightHull<'_>) -> usize {
     hull.bytes().len() + 2 * hull.record().faces as usize
 }
 
-/// Volume beyond that of the mesh as a part of it, if the mesh bounds one: a hull that encloses it
-/// leaves some.
+/// Void as a part of the mesh's volume, if the mesh bounds one. The void of such a mesh is not 0.
 pub fn void(record: &TightRecord) -> Option<f32> {
     (record.void_ratio != 0.0).then_some(record.void_ratio)
 }
@@ -27,14 +25,14 @@ pub fn void(record: &TightRecord) -> Option<f32> {
 pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<()> {
     let encloses = match hulls.count() {
         1 => "it encloses the mesh",
-        _ if hulls.is_nested() => "each encloses the next, and all the mesh",
         _ => "each encloses the mesh",
     };
     writeln!(out, "tight hulls")?;
     writeln!(out, "  {}: {encloses}", Counted(hulls.count(), "hull"))?;
     writeln!(
         out,
-        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to hull, at most"
+        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to \
+         hull, at most"
     )?;
     for hull in all(hulls) {
         let record = hull.record();
@@ -45,8 +43,8 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
             "  {:>8} {void:>9} {:>9} {:>12}  {:<11}  {:>21}  {:>21}",
             record.faces,
             bytes(&hull),
-            stack_bytes(hull.tree()),
-            tree_format_name(hull.tree()),
+            stack_bytes(hull.bvh()),
+            format_name(hull.bvh()),
             AtMost(record.slack),
             AtMost(record.depth)
         )?;
@@ -54,7 +52,7 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     Ok(())
 }
 
-pub fn as_json(hulls: &TightHulls<'_>) -> Value {
+pub(super) fn as_json(hulls: &TightHulls<'_>) -> Value {
     let hull = |hull: TightHull<'_>| {
         let record = hull.record();
         json!({
@@ -63,12 +61,12 @@ pub fn as_json(hulls: &TightHulls<'_>) -> Value {
             "slack": record.slack,
             "depth": record.depth,
             "bytes": bytes(&hull),
-            "vertex_format": tree_format_name(hull.tree()),
-            "serves_distances": hull.tree().serves_distances(),
-            "serves_segments": hull.tree().serves_segments(),
-            "stack_entries": hull.tree().header().stack_entries,
-            "stack_bytes": stack_bytes(hull.tree()),
+            "vertex_format": format_name(hull.bvh()),
+            "serves_distances": hull.bvh().serves_distances(),
+            "serves_segments": hull.bvh().serves_segments(),
+            "stack_entries": hull.bvh().header().stack_entries,
+            "stack_bytes": stack_bytes(hull.bvh()),
         })
     };
-    json!({ "is_nested": hulls.is_nested(), "hulls": all(hulls).map(hull).collect::<Vec<_>>() })
+    json!({ "hulls": all(hulls).map(hull).collect::<Vec<_>>() })
 }

@@ -1,45 +1,40 @@
 //! The box tree: shape, memory, surface error, whether sides are defined.
 
-use super::AtMost;
 use super::shape::Shape;
-use crate::counted::Counted;
-use meshsweep_core::Bvh;
-use meshsweep_core::num::tolerance::{TREE_FAN, TREE_RELATIVE, TREE_WEAK, U32};
-use meshsweep_core::num::{exp2, up_to_f32};
-use meshsweep_core::query::tree::ScratchEntry;
+use crate::number::AtMost;
+use meshsweep::counted::Counted;
+use meshsweep_core::internal::num::exp2;
+use meshsweep_core::internal::num::tolerance::{CERTIFIED_PART, FAN_DISTANCE, FAN_RELATIVE, U32};
+use meshsweep_core::{Bvh, ScratchEntry};
+use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// Bytes of a stack with which no query overflows.
 pub fn stack_bytes(tree: &Bvh<'_>) -> usize {
-    tree.header().stack_entries as usize * size_of::<ScratchEntry>()
-}
-
-/// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
-pub fn tree_surface_error(tree: &Bvh<'_>) -> f32 {
-    up_to_f32(f64::from(tree.header().surface_error) * exp2(tree.scale_exponent()))
+    tree.scratch_entries() * size_of::<ScratchEntry>()
 }
 
 /// About what an exact answer's half-width is, in the mesh's unit: next to the surface, and one
 /// diagonal of the mesh away (`core/docs/rounding.md` §8). Wider where slivers are near.
-pub fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
+fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
     let h = tree.header();
     let unit = exp2(h.grid_exponent + tree.scale_exponent());
     let u = f64::from(U32);
-    let near =
-        f64::from(tree_surface_error(tree)) + f64::from(TREE_FAN) * u * f64::from(h.reach) * unit;
-    // What is not weak is certified to that part of the square: a half of it of the distance, a
-    // quarter at either end.
-    let relative = f64::from(TREE_RELATIVE) * u + (1.0 - f64::from(TREE_WEAK)) / 4.0;
+    let near = f64::from(tree.surface_error())
+        + f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius) * unit;
+    // Other triangles than slivers are certified to that part of the squared distance: half of it
+    // for the distance, a quarter at either end.
+    let relative = f64::from(FAN_RELATIVE) * u + (1.0 - f64::from(CERTIFIED_PART)) / 4.0;
     [near, near + relative * diagonal]
 }
 
 /// How coordinates are stored.
-pub fn tree_format_name(tree: &Bvh<'_>) -> &'static str {
+pub(super) fn format_name(tree: &Bvh<'_>) -> &'static str {
     if tree.header().is_f32() { "f32" } else { "16-bit grid" }
 }
 
 /// What bounds the children of nodes, and the normals of leaves.
-pub fn bounds(tree: &Bvh<'_>) -> Vec<&'static str> {
+fn bounds(tree: &Bvh<'_>) -> Vec<&'static str> {
     [
         (tree.serves_distances(), "boxes in shared frames"),
         (tree.serves_segments(), "axis-aligned boxes"),
@@ -57,17 +52,18 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
     writeln!(
         out,
         "  surface error {} (coordinates: {})",
-        AtMost(tree_surface_error(tree)),
-        tree_format_name(tree)
+        AtMost(tree.surface_error()),
+        format_name(tree)
     )?;
     if tree.serves_distances() {
         let [near, far] = half_widths(tree, diagonal);
         writeln!(
             out,
-            "  half-width of an exact answer: about {near:.1e} near the surface, {far:.1e} one diagonal of the mesh away"
+            "  half-width of an exact answer: about {near:.1e} near the surface, {far:.1e} one \
+             diagonal of the mesh away"
         )?;
     }
-    let closed = if h.is_closed() {
+    let closed = if tree.is_closed() {
         "closed: signed distance is defined"
     } else {
         "open: signed distance is undefined"
@@ -104,4 +100,32 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         Counted(h.stack_entries, "entry"),
         stack_bytes(tree)
     )
+}
+
+pub(super) fn as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
+    let h = tree.header();
+    let shape = Shape::of(tree);
+    let [near, far] = half_widths(tree, diagonal);
+    json!({
+        "is_closed": tree.is_closed(),
+        "vertex_format": format_name(tree),
+        "surface_error": tree.surface_error(),
+        "half_width_near": near,
+        "half_width_one_diagonal_away": far,
+        "triangles": h.triangles,
+        "triangles_without_area": shape.flat,
+        "fans": shape.fans(),
+        "triangles_per_fan": shape.triangles_per_fan(),
+        "single_triangle_fans": shape.single_triangle_fans(),
+        "fans_by_size": shape.fan_sizes,
+        "leaves": h.leaves,
+        "triangles_per_leaf": shape.triangles_per_leaf,
+        "vertices": h.vertices,
+        "nodes": h.nodes,
+        "children_per_node": shape.children_per_node,
+        "depth": shape.depth,
+        "bounds": bounds(tree),
+        "stack_entries": h.stack_entries,
+        "stack_bytes": stack_bytes(tree),
+    })
 }

@@ -1,9 +1,8 @@
 //! The tribox hierarchy: size, levels, memory.
 
-use super::{AtMost, Percent};
-use crate::counted::Counted;
-use meshsweep_core::Triboxes;
-use meshsweep_core::blob::TriboxLevel;
+use crate::number::{AtMost, Percent};
+use meshsweep::counted::Counted;
+use meshsweep_core::{TriboxLevel, Triboxes};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -37,7 +36,7 @@ pub(super) fn write(out: &mut dyn Write, triboxes: &Triboxes<'_>) -> io::Result<
     Ok(())
 }
 
-pub fn as_json(triboxes: &Triboxes<'_>) -> Value {
+pub(super) fn as_json(triboxes: &Triboxes<'_>) -> Value {
     let level = |level: TriboxLevel| {
         json!({
             "triboxes": level.triboxes,

@@ -2,8 +2,8 @@
 
 use crate::args::Margin;
 
-/// Samples at `origin + index · step`, the first and last of each axis on the faces of the enlarged
-/// box.
+/// Samples at `origin + index · step`. The first and the last sample of each axis lie on faces of
+/// the enlarged box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {
     pub size: [usize; 3],
@@ -12,8 +12,8 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Around a box in the mesh's unit. An axis of one sample has it in the middle. `None` if it
-    /// leaves f32's range.
+    /// A lattice around a box in the mesh's unit. The only sample of an axis lies in the middle.
+    /// `None` if the lattice leaves the range of f32.
     pub fn around([low, high]: [[f64; 3]; 2], size: [usize; 3], margin: Margin) -> Option<Lattice> {
         let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
         let margin = match margin {
@@ -33,7 +33,7 @@ impl Lattice {
         lattice.point([0; 3]).iter().chain(&last).all(|x| x.is_finite()).then_some(lattice)
     }
 
-    /// A sample's place, rounded to f32.
+    /// The position of a sample, rounded to f32.
     pub fn point(&self, index: [usize; 3]) -> [f32; 3] {
         core::array::from_fn(|k| (self.origin[k] + index[k] as f64 * self.step[k]) as f32)
     }

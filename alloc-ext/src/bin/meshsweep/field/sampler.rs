@@ -1,18 +1,17 @@
 //! Asks for the values of rows of samples, on several threads.
 
 use super::lattice::Lattice;
+use crate::ask::threads;
 use crate::progress::Bar;
 use crate::signed;
-use meshsweep_core::Bvh;
-use meshsweep_core::query::tree::{Hint, ScratchEntry, Side, closest_point_from, signed_distance};
-use meshsweep_core::query::{Budget, QueryError};
+use meshsweep_core::{Budget, Bvh, Hint, Interval, QueryError, ScratchEntry, Side};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
 use std::sync::Mutex;
 
-/// Samples that are computed before they are written: a bound of the memory, and enough for every
-/// thread.
+/// Samples that are computed before they are written: this bounds the memory, and suffices for all
+/// threads.
 const AT_ONCE: usize = 1 << 22;
 
 /// The value of a sample without a sign: these bits on every machine.
@@ -41,7 +40,7 @@ impl fmt::Display for NoSign {
     }
 }
 
-/// What is asked of a tree.
+/// A lattice of samples, and the tree that answers for them.
 pub struct Sampler<'a> {
     pub tree: &'a Bvh<'a>,
     pub lattice: Lattice,
@@ -50,7 +49,7 @@ pub struct Sampler<'a> {
 }
 
 impl Sampler<'_> {
-    /// Numbers that a sample has.
+    /// Numbers of a sample.
     pub fn values(&self) -> usize {
         1 + usize::from(self.interval)
     }
@@ -74,8 +73,8 @@ impl Sampler<'_> {
         Ok(no_sign)
     }
 
-    /// Computes the rows from `first` on. Threads take rows as they get done; a row's values do not
-    /// depend on which thread takes it.
+    /// Computes the rows from `first` on. A thread that is done takes the next row. The values of a
+    /// row do not depend on the thread.
     fn sample(
         &self,
         first: usize,
@@ -86,40 +85,35 @@ impl Sampler<'_> {
         let row_values = self.lattice.size[0] * self.values();
         let rows = Mutex::new(values.chunks_mut(row_values).enumerate());
         let work = || -> Result<NoSign, QueryError> {
-            let mut stack = vec![ScratchEntry::EMPTY; self.tree.header().stack_entries as usize];
+            let mut scratch = vec![ScratchEntry::EMPTY; self.tree.scratch_entries()];
             let mut no_sign = NoSign::default();
             loop {
                 // No thread can panic while it holds the lock.
                 let Some((row, values)) = rows.lock().ok().and_then(|mut rows| rows.next()) else {
                     return Ok(no_sign);
                 };
-                self.row(first + row, values, &mut stack, &mut no_sign)?;
+                self.row(first + row, values, &mut scratch, &mut no_sign)?;
                 bar.advance(1);
             }
         };
-        std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let mine = work();
-            let join = |other: std::thread::ScopedJoinHandle<'_, _>| {
-                other.join().unwrap_or(Err(QueryError::Model))
-            };
-            others.into_iter().map(join).fold(mine, |all, other| Ok(all?.add(&other?)))
-        })
+        let all = threads::each(threads, work);
+        all.into_iter().try_fold(NoSign::default(), |sum, one| Ok(sum.add(&one?)))
     }
 
-    /// Row `row`: samples next to each other, so that each answer is a good start for the next.
+    /// Row `row`. Neighbouring samples follow each other, so an answer is a good hint for the next
+    /// sample.
     fn row(
         &self,
         row: usize,
         values: &mut [f32],
-        stack: &mut [ScratchEntry],
+        scratch: &mut [ScratchEntry],
         no_sign: &mut NoSign,
     ) -> Result<(), QueryError> {
         let ny = self.lattice.size[1];
         let mut hint = Hint::NONE;
         for (i, slot) in values.chunks_mut(self.values()).enumerate() {
             let point = self.lattice.point([i, row % ny, row / ny]);
-            let ([lower, upper], reason) = self.interval(point, stack, &mut hint)?;
+            let (Interval { lower, upper }, reason) = self.interval(point, scratch, &mut hint)?;
             match slot {
                 [low, high] => (*low, *high) = (lower, upper),
                 [middle] if reason.is_some() => *middle = QUIET_NAN,
@@ -137,16 +131,15 @@ impl Sampler<'_> {
     fn interval(
         &self,
         point: [f32; 3],
-        stack: &mut [ScratchEntry],
+        scratch: &mut [ScratchEntry],
         hint: &mut Hint,
-    ) -> Result<([f32; 2], Option<&'static str>), QueryError> {
+    ) -> Result<(Interval, Option<&'static str>), QueryError> {
         if self.signed {
-            let answer = signed_distance(self.tree, point, &Budget::EXACT, stack)?;
-            let reason =
-                (answer.side == Side::Undefined).then(|| signed::reason(self.tree, &answer));
-            return Ok(([answer.lower, answer.upper], reason));
+            let answer = self.tree.signed_distance(point, Budget::EXACT, scratch)?;
+            let is_undecided = matches!(answer.side, Side::Undecided(_));
+            return Ok((answer.distance, is_undecided.then(|| signed::reason(answer.side))));
         }
-        let answer = closest_point_from(self.tree, point, &Budget::EXACT, stack, hint)?;
-        Ok(([answer.lower, answer.upper], None))
+        let answer = self.tree.closest_point_from(point, hint, Budget::EXACT, scratch)?;
+        Ok((answer.distance, None))
     }
 }

@@ -1,11 +1,7 @@
 //! Distances: closest points, one and many, with a tolerance and with a sign.
 
-use meshsweep_core::query::tree::{
-    BatchError, Neighbor, Side, Verdict, all_within as core_all_within, closest_point,
-    closest_point_from, closest_points, is_within as core_is_within, nearest as core_nearest,
-    signed_distance,
-};
-use meshsweep_core::query::{Budget, ClosestPoint, Ended, Work};
+use meshsweep_core::{Budget, ClosestPoint};
+use meshsweep_core::{Neighbor, QueryError, Side, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::Clock;
@@ -21,7 +17,7 @@ pub fn closest(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
-    match timed(clock, || closest_point(tree, point, &Budget::EXACT, &mut scratch.stack)) {
+    match timed(clock, || tree.closest_point(point, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             ask::closest_point(fold, &answer);
             answer.point
@@ -43,7 +39,7 @@ pub fn follow(
     fold: &mut Fold,
 ) {
     let Scratch { stack, hint, .. } = scratch;
-    match timed(clock, || closest_point_from(tree, point, &Budget::EXACT, stack, hint)) {
+    match timed(clock, || tree.closest_point_from(point, hint, Budget::EXACT, stack)) {
         Ok(answer) => ask::closest_point(fold, &answer),
         Err(error) => ask::refusal(fold, error),
     }
@@ -59,7 +55,7 @@ pub fn session<'t>(
     fold: &mut Fold,
 ) {
     let Scratch { stack, session, .. } = scratch;
-    match timed(clock, || session.closest_point(tree, point, &Budget::EXACT, stack)) {
+    match timed(clock, || session.closest_point(tree, point, Budget::EXACT, stack)) {
         Ok(answer) => {
             ask::closest_point(fold, &answer.closest);
             fold.f32(answer.safe_radius);
@@ -79,12 +75,12 @@ pub fn stopped(
     fold: &mut Fold,
 ) {
     let stops = [
-        Budget { relative: 0.1, ..Budget::EXACT },
-        Budget { absolute: distance, ..Budget::EXACT },
-        Budget { steps: 3, ..Budget::EXACT },
+        Budget::EXACT.with_relative(0.1),
+        Budget::EXACT.with_absolute(distance),
+        Budget::EXACT.with_steps(3),
     ];
     for stop in &stops {
-        match timed(clock, || closest_point(tree, point, stop, &mut scratch.stack)) {
+        match timed(clock, || tree.closest_point(point, *stop, &mut scratch.stack)) {
             Ok(answer) => ask::closest_point(fold, &answer),
             Err(error) => ask::refusal(fold, error),
         }
@@ -101,17 +97,16 @@ pub fn is_within(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_is_within(tree, point, distance, &Budget::EXACT, &mut scratch.stack))
-    {
+    match timed(clock, || tree.within(point, distance, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             let [kind, triangle] = match answer.verdict {
-                Verdict::Yes { triangle } => [1, triangle.unwrap_or(u32::MAX)],
+                Verdict::Yes => [1, answer.triangle.unwrap_or(u32::MAX)],
                 Verdict::No => [2, 0],
-                Verdict::Unknown => [3, 0],
+                Verdict::Undecided(_) => [3, 0],
             };
             fold.word(kind);
             fold.word(triangle);
-            ask::how(fold, answer.work, answer.ended);
+            ask::verdict(fold, answer.work, answer.verdict);
         }
         Err(error) => ask::refusal(fold, error),
     }
@@ -127,7 +122,7 @@ pub fn nearest(
     fold: &mut Fold,
 ) {
     let Scratch { stack, near, .. } = scratch;
-    match timed(clock, || core_nearest(tree, point, &Budget::EXACT, near, stack)) {
+    match timed(clock, || tree.nearest(point, near, Budget::EXACT, stack)) {
         Ok(answer) => {
             found(fold, near.get(..answer.stored).unwrap_or_default());
             fold.f32(answer.rest_lower);
@@ -148,7 +143,7 @@ pub fn all_within(
     fold: &mut Fold,
 ) {
     let Scratch { stack, near, .. } = scratch;
-    match timed(clock, || core_all_within(tree, point, distance, &Budget::EXACT, near, stack)) {
+    match timed(clock, || tree.all_within(point, distance, near, Budget::EXACT, stack)) {
         Ok(answer) => {
             found(fold, near.get(..answer.stored).unwrap_or_default());
             fold.word(answer.certain as u32);
@@ -168,14 +163,14 @@ pub fn signed(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || signed_distance(tree, point, &Budget::EXACT, &mut scratch.stack)) {
+    match timed(clock, || tree.signed_distance(point, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
-            fold.f32(answer.lower);
-            fold.f32(answer.upper);
+            fold.f32(answer.distance.lower);
+            fold.f32(answer.distance.upper);
             fold.word(match answer.side {
                 Side::Outside => 1,
                 Side::Inside => 2,
-                Side::Undefined => 3,
+                Side::Undecided(_) => 3,
             });
             ask::closest_point(fold, &answer.closest);
         }
@@ -195,33 +190,28 @@ pub fn batch<'t>(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    const NONE: ClosestPoint = ClosestPoint {
-        lower: 0.0,
-        upper: 0.0,
-        point: [0.0; 3],
-        triangle: None,
-        work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
-        ended: Ended::Exact,
-    };
-    let Scratch { stack, hint, .. } = scratch;
-    let (mut answers, mut order) = ([NONE; BATCH], [0u64; 2 * BATCH]);
-    match timed(clock, || {
-        closest_points(tree, points, &mut answers, &Budget::EXACT, stack, &mut order, hint)
-    }) {
+    // The longer memory: what is left behind the stack puts the queries in order.
+    let Scratch { pairs, hint, .. } = scratch;
+    let mut answers = [ClosestPoint::EMPTY; BATCH];
+    match timed(clock, || tree.closest_points(points, hint, &mut answers, Budget::EXACT, pairs)) {
         Ok(()) => answers.iter().for_each(|answer| ask::closest_point(fold, answer)),
-        Err(BatchError::Query { index, error }) => {
-            fold.word(index as u32);
+        Err(QueryError::AnswerCount { .. }) => fold.word(u32::MAX),
+        Err(error) => {
+            fold.word(if let QueryError::PointNotFinite { index } = error {
+                index as u32
+            } else {
+                0
+            });
             ask::refusal(fold, error);
         }
-        Err(BatchError::Length { .. }) => fold.word(u32::MAX),
     }
 }
 
 fn found(fold: &mut Fold, triangles: &[Neighbor]) {
     for near in triangles {
-        fold.f32(near.lower);
-        fold.f32(near.upper);
-        fold.point(near.point);
-        fold.word(near.triangle);
+        fold.f32(near.distance().lower);
+        fold.f32(near.distance().upper);
+        fold.point(near.point());
+        fold.word(near.triangle());
     }
 }

@@ -1,9 +1,6 @@
 //! The model and its moved copy.
 
-use meshsweep_core::query::tree::{
-    Contact, all_overlaps as core_all_overlaps, overlap as core_overlap,
-};
-use meshsweep_core::tribox::Pose;
+use meshsweep_core::{Budget, Pose, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::Clock;
@@ -21,24 +18,24 @@ pub fn pose((rotation, translation): Motion) -> Pose {
 #[inline(never)]
 pub fn overlap(
     tree: &Bvh<'_>,
-    pose: &Pose,
+    pose: Pose,
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_overlap(tree, tree, pose, u32::MAX, &mut scratch.pairs)) {
+    match timed(clock, || tree.overlap(tree, pose, Budget::EXACT, &mut scratch.pairs)) {
         Ok(answer) => {
-            fold.word(match answer.contact {
-                Contact::Apart => 1,
-                Contact::Meets => 2,
-                Contact::Open => 3,
+            fold.word(match answer.verdict {
+                Verdict::No => 1,
+                Verdict::Yes => 2,
+                Verdict::Undecided(_) => 3,
             });
             answer
                 .triangles
                 .unwrap_or([u32::MAX; 2])
                 .into_iter()
                 .for_each(|number| fold.word(number));
-            ask::how(fold, answer.work, answer.ended);
+            ask::verdict(fold, answer.work, answer.verdict);
         }
         Err(error) => ask::refusal(fold, error),
     }
@@ -52,13 +49,15 @@ const STEPS: u32 = 4;
 #[inline(never)]
 pub fn all_overlaps(
     tree: &Bvh<'_>,
-    pose: &Pose,
+    pose: Pose,
     scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
     let Scratch { pairs, meeting, .. } = scratch;
-    match timed(clock, || core_all_overlaps(tree, tree, pose, STEPS, meeting, pairs)) {
+    match timed(clock, || {
+        tree.overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs)
+    }) {
         Ok(answer) => {
             for pair in meeting.iter().take(answer.stored) {
                 pair.triangles.into_iter().for_each(|number| fold.word(number));

@@ -1,9 +1,6 @@
 //! Segments, and what faces an eye.
 
-use meshsweep_core::query::tree::{
-    AnyHit, Facing, FrontFacing, Sight, all_hits as core_all_hits, any_hit as core_any_hit,
-    first_hit as core_first_hit, front_facing,
-};
+use meshsweep_core::{Budget, Eye, Facing, FrontFacing, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::Clock;
@@ -44,7 +41,7 @@ fn hit_of(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_first_hit(tree, a, b, &facing, &mut scratch.stack)) {
+    match timed(clock, || tree.first_hit(a, b, facing, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => ask::segment_hit(fold, &answer),
         Err(error) => ask::refusal(fold, error),
     }
@@ -59,11 +56,11 @@ pub fn any_hit(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    match timed(clock, || core_any_hit(tree, a, b, &Facing::Both, &mut scratch.stack)) {
-        Ok(answer) => fold.word(match answer {
-            AnyHit::Hit => 1,
-            AnyHit::Clear => 2,
-            AnyHit::Unknown => 3,
+    match timed(clock, || tree.any_hit(a, b, Facing::Both, Budget::EXACT, &mut scratch.stack)) {
+        Ok(answer) => fold.word(match answer.verdict {
+            Verdict::Yes => 1,
+            Verdict::No => 2,
+            Verdict::Undecided(_) => 3,
         }),
         Err(error) => ask::refusal(fold, error),
     }
@@ -79,7 +76,7 @@ pub fn all_hits(
     fold: &mut Fold,
 ) {
     let Scratch { stack, hits, .. } = scratch;
-    match timed(clock, || core_all_hits(tree, a, b, &Facing::Both, hits, stack)) {
+    match timed(clock, || tree.all_hits(a, b, Facing::Both, hits, Budget::EXACT, stack)) {
         Ok(answer) => {
             ask::hits(fold, hits.get(..answer.stored).unwrap_or_default());
             fold.word(answer.dropped);
@@ -98,8 +95,8 @@ pub fn cull(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    for sight in [Sight::From(point), Sight::Along(point)] {
-        match timed(clock, || front_facing(tree, &sight, &mut scratch.facing)) {
+    for sight in [Eye::At(point), Eye::Along(point)] {
+        match timed(clock, || tree.front_facing(sight, &mut scratch.facing)) {
             Ok(answer) => {
                 scratch.facing.iter().take(answer.stored).for_each(|&triangle| fold.word(triangle));
                 let FrontFacing { dropped, leaves, culled_leaves, culled, .. } = answer;

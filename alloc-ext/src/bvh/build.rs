@@ -1,0 +1,212 @@
+//! The stages in order, and what they report.
+
+use super::cones::cones;
+use super::encode;
+use super::fans::{self, Fan, FanLeaf, Weights};
+use super::nodes::fit::{axis_aligned_boxes, shared_frames};
+use super::nodes::frame::FrameOptions;
+use super::nodes::order::{TopologyOptions, topology_with};
+use super::source;
+use super::store::{OnGrid, store};
+use crate::emit::Sections;
+use crate::mesh::{Input, Mesh, Wire};
+use crate::surface::{EdgeTable, ends};
+use glam::DVec3;
+use meshsweep_core::SectionKind;
+use meshsweep_core::internal::bvh::format::BvhHeader;
+use meshsweep_core::internal::bvh::format::layout::{BVH_CLOSED, BVH_F32, LINK_BYTES};
+use meshsweep_core::internal::geom::fan::WIDTH;
+use meshsweep_core::internal::num::up_to_f32;
+use std::time::{Duration, Instant};
+
+/// What to build.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TreeOptions {
+    /// Boxes in shared frames, which closest points are found with.
+    pub closest: bool,
+    /// Axis-aligned boxes, which segments need.
+    pub segments: bool,
+    /// Normal cones, which culling needs.
+    pub cull: bool,
+    /// Vertices as exact f32 instead of 16 bits on a grid.
+    pub single: bool,
+    /// Weights of the fan decomposition.
+    pub weights: Weights,
+    /// What the topology minimises.
+    pub topology: TopologyOptions,
+    /// How frames are chosen.
+    pub frames: FrameOptions,
+}
+
+impl Default for TreeOptions {
+    fn default() -> Self {
+        TreeOptions {
+            closest: true,
+            segments: true,
+            cull: false,
+            single: false,
+            weights: Weights::default(),
+            topology: TopologyOptions::default(),
+            frames: FrameOptions::default(),
+        }
+    }
+}
+
+/// What building took and gave.
+#[derive(Clone, Debug)]
+pub struct TreeReport {
+    /// Triangles.
+    pub triangles: usize,
+    /// Leaves.
+    pub leaves: usize,
+    /// Nodes.
+    pub nodes: usize,
+    /// Children per node.
+    pub mean_children: f64,
+    /// Nodes on the longest path from the root.
+    pub depth: usize,
+    /// The tree's header.
+    pub header: BvhHeader,
+    /// Time in all.
+    pub time: Duration,
+}
+
+/// Most triangles of a tree: with more, node numbers and the offsets of source numbers could
+/// outgrow the format.
+pub const MAX_TRIANGLES: usize = 1 << 24;
+
+/// Builds the box tree of any triangle soup.
+///
+/// Every triangle is kept, also one that the grid makes degenerate. Each [`Wire`] is kept as a
+/// triangle with a repeated corner, in a leaf of its own.
+///
+/// Cost: O(n log n), about a microsecond a triangle and step.
+///
+/// # Panics
+/// On a mesh of more than [`MAX_TRIANGLES`].
+pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) {
+    let mesh = input.mesh;
+    let triangles = mesh.triangles.len() + mesh.wires.len();
+    assert!(triangles <= MAX_TRIANGLES, "more than 2^24 triangles");
+    let started = Instant::now();
+    let grid = store(input, options.single);
+    let mut leaves = fans::pack(&mesh.triangles, &grid.positions);
+    leaves.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
+    let points: Vec<Vec<DVec3>> = leaves.iter().map(|leaf| points(leaf, &grid)).collect();
+    let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
+    let bounds: Vec<(DVec3, DVec3)> = points.iter().map(|points| bounds(points)).collect();
+    let topology = topology_with(&bounds, &options.topology);
+    let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &leaves))];
+    if options.closest || !options.segments {
+        let frames = shared_frames(&topology, &views, &options.frames);
+        sections.push((SectionKind::TreeFrames, encode::frames(&frames, grid.origin)));
+    }
+    if options.segments {
+        sections.push((
+            SectionKind::TreeBoxes,
+            encode::boxes(&axis_aligned_boxes(&topology, &views), grid.origin),
+        ));
+    }
+    sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, options.single)));
+    let sources: Vec<u32> = mesh.all_sources().collect();
+    let numbers: Vec<u32> = topology
+        .leaf_order
+        .iter()
+        .flat_map(|&item| leaves[item as usize].triangles())
+        .map(|t| sources[t as usize])
+        .collect();
+    sections.push((SectionKind::TreeSource, source::pack(&numbers)));
+    if options.cull {
+        sections.push((SectionKind::TreeCones, cones(&topology, &leaves, &grid.positions)));
+    }
+    let header = header(mesh, &grid, &leaves, &bounds, options, topology.stack_entries);
+    let header = BvhHeader { nodes: topology.nodes.len() as u32, ..header };
+    sections.insert(0, (SectionKind::Bvh, header.write().to_vec()));
+    debug_assert_eq!(sections[1].1.len(), topology.nodes.len() * LINK_BYTES);
+    let children: usize = topology.nodes.iter().map(|node| node.child_count()).sum();
+    let report = TreeReport {
+        triangles,
+        leaves: leaves.len(),
+        nodes: topology.nodes.len(),
+        mean_children: children as f64 / topology.nodes.len().max(1) as f64,
+        depth: topology.depth,
+        header,
+        time: started.elapsed(),
+    };
+    (encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections), report)
+}
+
+/// The leaf of a wire. From its first end both spokes lead to the second: so the kernels see two
+/// equal edges, and find the closest point of the segment in the way of an edge.
+fn wire_leaf((number, wire): (u32, &Wire)) -> FanLeaf {
+    let [centre, end] = wire.ends;
+    let ring = vec![end; 2];
+    FanLeaf { first: Fan { centre, ring, triangles: vec![number], reversed: false }, second: None }
+}
+
+fn points(leaf: &FanLeaf, grid: &OnGrid) -> Vec<DVec3> {
+    let (centres, ring) = encode::vertices(leaf);
+    let origin = DVec3::from(grid.origin.map(f64::from));
+    centres.iter().chain(&ring).map(|&v| grid.positions[v as usize] - origin).collect()
+}
+
+fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
+    points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)))
+}
+
+fn header(
+    mesh: &Mesh,
+    grid: &OnGrid,
+    leaves: &[FanLeaf],
+    bounds: &[(DVec3, DVec3)],
+    options: &TreeOptions,
+    stack_entries: usize,
+) -> BvhHeader {
+    let norm = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
+    let mut reach = 0f64;
+    for leaf in leaves {
+        for fan in std::iter::once(&leaf.first).chain(&leaf.second) {
+            let spoke =
+                |v: u32| norm(grid.positions[v as usize] - grid.positions[fan.centre as usize]);
+            for pair in fan.ring.windows(2) {
+                reach = reach.max(spoke(pair[0]) + spoke(pair[1]));
+            }
+        }
+    }
+    let (low, high) = bounds
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
+    let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
+    let vertices: usize = leaves.iter().map(|leaf| encode::tag(leaf).vertices()).sum();
+    let closed = if is_closed(mesh.positions.len(), &mesh.triangles) { BVH_CLOSED } else { 0 };
+    BvhHeader {
+        flags: closed | if options.single { BVH_F32 } else { 0 },
+        grid_exponent: grid.exponent,
+        grid_origin: grid.origin,
+        nodes: 0,
+        leaves: leaves.len() as u32,
+        vertices: vertices as u32,
+        triangles: (mesh.triangles.len() + mesh.wires.len()) as u32,
+        stack_entries: (stack_entries + WIDTH) as u32,
+        surface_error: up_to_f32(grid.surface_error),
+        // Spokes are rounded when they are f32.
+        star_radius: up_to_f32(reach * (1.0 + 1e-6)),
+        low: short(low.floor()),
+        high: short(high.ceil()),
+    }
+}
+
+/// Whether as many triangles run through every edge in one direction as in the other: then the
+/// surface bounds a volume. Wires bound none.
+fn is_closed(vertex_count: usize, triangles: &[[u32; 3]]) -> bool {
+    if triangles.is_empty() {
+        return false;
+    }
+    let is_up = |&&(_, half_edge): &&(u32, u32)| {
+        let [from, to] = ends(triangles, half_edge);
+        from < to
+    };
+    EdgeTable::new(vertex_count, triangles)
+        .edges()
+        .all(|edge| 2 * edge.iter().filter(is_up).count() == edge.len())
+}

@@ -1,0 +1,101 @@
+//! Which triangle lies across which edge, for any triangle soup.
+//!
+//! Half-edge `3t + k` runs from corner `k` of triangle `t` to the next corner; corner `3t + k` is
+//! the one that it starts from.
+
+use crate::surface::{EdgeTable, ends};
+use std::cmp::Ordering;
+
+/// No half-edge, no corner.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// A soup with its edges paired.
+pub(super) struct Adjacency<'a> {
+    triangles: &'a [[u32; 3]],
+    across: Vec<u32>,
+}
+
+impl<'a> Adjacency<'a> {
+    /// Pairs the half-edges of each edge: first those that run in opposite directions, in ascending
+    /// order, then what is left of one direction; an odd one stays open. So a soup is cut into
+    /// pieces in which at most two triangles meet in an edge. An edge from a vertex to itself
+    /// stays open, and no triangle is its own neighbour.
+    ///
+    /// # Panics
+    /// If a triangle names a vertex that is not below `vertex_count`, or if half-edges do not fit
+    /// in 32 bits.
+    pub(super) fn new(vertex_count: usize, triangles: &'a [[u32; 3]]) -> Self {
+        assert!(triangles.len() < (u32::MAX / 3) as usize, "half-edges are numbered in 32 bits");
+        let mut across = vec![NONE; 3 * triangles.len()];
+        let mut pair = |g: u32, h: u32| {
+            if g / 3 != h / 3 {
+                across[g as usize] = h;
+                across[h as usize] = g;
+            }
+        };
+        let (mut up, mut down) = (Vec::new(), Vec::new());
+        for edge in EdgeTable::new(vertex_count, triangles).edges() {
+            up.clear();
+            down.clear();
+            for &(high, half_edge) in edge {
+                let [from, to] = ends(triangles, half_edge);
+                match from.cmp(&to) {
+                    Ordering::Less => up.push(half_edge),
+                    Ordering::Greater => down.push(half_edge),
+                    Ordering::Equal => debug_assert_eq!(from, high, "it stays open"),
+                }
+            }
+            let both = up.len().min(down.len());
+            up.iter().zip(&down).for_each(|(&g, &h)| pair(g, h));
+            for rest in [&up[both..], &down[both..]] {
+                rest.chunks_exact(2).for_each(|two| pair(two[0], two[1]));
+            }
+        }
+        Self { triangles, across }
+    }
+
+    /// The corners' vertices of each triangle.
+    pub(super) fn triangles(&self) -> &'a [[u32; 3]] {
+        self.triangles
+    }
+
+    /// The vertex of a corner.
+    pub(super) fn vertex(&self, corner: u32) -> u32 {
+        self.triangles[corner as usize / 3][corner as usize % 3]
+    }
+
+    /// The half-edge paired with `half_edge`, whichever way it runs, or [`NONE`].
+    pub(super) fn across(&self, half_edge: u32) -> u32 {
+        self.across[half_edge as usize]
+    }
+
+    /// The half-edge paired with `half_edge` if it runs the other way, as in a consistently wound
+    /// mesh, or [`NONE`].
+    pub(super) fn opposite(&self, half_edge: u32) -> u32 {
+        let across = self.across(half_edge);
+        if across != NONE && self.vertex(across) == self.vertex(half_edge) { NONE } else { across }
+    }
+
+    /// The next corner at the same vertex, in the winding's sense, or [`NONE`].
+    pub(super) fn next_around(&self, corner: u32) -> u32 {
+        self.opposite(preceding(corner))
+    }
+
+    /// The previous corner at the same vertex, or [`NONE`].
+    pub(super) fn previous_around(&self, corner: u32) -> u32 {
+        match self.opposite(corner) {
+            NONE => NONE,
+            half_edge => following(half_edge),
+        }
+    }
+}
+
+/// The half-edge after `half_edge` in its triangle.
+pub(super) const fn following(half_edge: u32) -> u32 {
+    if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
+}
+
+/// The half-edge before `half_edge` in its triangle.
+pub(super) const fn preceding(half_edge: u32) -> u32 {
+    if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
+}

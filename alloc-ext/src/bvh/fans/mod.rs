@@ -1,0 +1,99 @@
+//! Triangle fans: a soup split into fans, and fans packed into leaves of the box tree.
+//!
+//! ```text
+//! triangles ─┬─ decompose ─ fans     the paper's greedy rule, one fan after the other
+//!            └─ pack ────── leaves  the same rule for leaves of two fans, which is what the box tree stores
+//! ```
+//!
+//! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
+//! 5. Any soup will do: open, non-manifold, inconsistently wound, with repeated corners. Every
+//! triangle is in exactly one fan exactly once, which [`validate()`] checks.
+
+mod adjacency;
+mod decompose;
+mod pack;
+mod report;
+mod score;
+mod validate;
+mod window;
+
+#[cfg(test)]
+mod tests;
+
+pub use decompose::decompose;
+pub use pack::pack;
+pub use report::FanReport;
+pub use validate::{FanFault, validate};
+
+/// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.
+pub const MAX_LEAF_TRIANGLES: usize = 8;
+
+/// Triangles about one vertex.
+///
+/// Triangle `i` is `(centre, ring[i], ring[i + 1])`, in the mesh's winding; if `reversed`, it is
+/// `(centre, ring[i + 1], ring[i])`. The first corner may be another than in the mesh. `ring` holds
+/// one vertex more than there are triangles; for a fan that closes, its last vertex is its first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fan {
+    /// The vertex that all triangles share.
+    pub centre: u32,
+    /// The vertices around it, in order.
+    pub ring: Vec<u32>,
+    /// The triangles' numbers, in the ring's order: 1 to [`MAX_LEAF_TRIANGLES`].
+    pub triangles: Vec<u32>,
+    /// True if the ring runs against the mesh's winding.
+    pub reversed: bool,
+}
+
+/// What one leaf of the box tree holds: one fan, or two that share a vertex of their rings.
+///
+/// At most [`MAX_LEAF_TRIANGLES`] triangles together. `first` is not reversed; `second` may be, and its ring
+/// starts with the last vertex of `first`'s, so that both rings are one path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FanLeaf {
+    /// The fan at the path's start.
+    pub first: Fan,
+    /// The fan at its end, if there are two.
+    pub second: Option<Fan>,
+}
+
+impl FanLeaf {
+    /// The one or two fans.
+    pub fn fans(&self) -> impl Iterator<Item = &Fan> {
+        [Some(&self.first), self.second.as_ref()].into_iter().flatten()
+    }
+
+    /// The triangles' numbers in the order in which the leaf stores them.
+    pub fn triangles(&self) -> impl Iterator<Item = u32> {
+        self.fans().flat_map(|fan| fan.triangles.iter().copied())
+    }
+
+    /// How many triangles: 1 to [`MAX_LEAF_TRIANGLES`].
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.fans().map(|fan| fan.triangles.len()).sum()
+    }
+
+    /// How many vertices the leaf stores: one or two centres, and the path of both rings.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.triangle_count() + 1 + self.fans().count()
+    }
+}
+
+/// Weights of the paper's priority `f(c) = α v(c) + β r(c) − γ t(c)` (5.3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Weights {
+    /// For each triangle that is left about the candidate. Paper: 2.
+    pub alpha: i32,
+    /// For each open edge opposite the candidate. Paper: 7.
+    pub beta: i32,
+    /// Against each triangle that the fan would leave alone. Paper: 11.
+    pub gamma: i32,
+}
+
+impl Default for Weights {
+    fn default() -> Self {
+        Self { alpha: 2, beta: 7, gamma: 11 }
+    }
+}

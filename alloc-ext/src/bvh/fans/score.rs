@@ -1,0 +1,102 @@
+//! What a leaf is worth to the greedy packing.
+
+use glam::DVec3;
+
+use super::MAX_LEAF_TRIANGLES;
+use super::window::Window;
+
+// The weights extend the paper's `f` from fans to leaves: size, contact with the front, and what
+// is left behind. They were chosen for few leaves and small boxes together, on two scanned meshes
+// and a modelled one. They lie on a plateau: any one of them half or one and a half times as large
+// moves the number of leaves and the sum of box areas by 3 % at most.
+
+/// For each triangle of the leaf. Twice as much makes 1 % fewer leaves, with boxes 2 % larger.
+const SIZE: i32 = 2;
+/// Against each open edge that the leaf leaves to its neighbours.
+const OPEN_EDGE: i32 = 2;
+/// For each edge inside the leaf.
+const INNER_EDGE: i32 = 1;
+/// Against each triangle left without a neighbour: it will be a leaf by itself.
+const ALONE: i32 = 64;
+/// Against each triangle left with one neighbour.
+const DANGLING: i32 = 6;
+/// Against each lane that will stay empty because a part was cut off whose size is no multiple of
+/// [`MAX_LEAF_TRIANGLES`].
+const EMPTY_LANE: i32 = 4;
+/// Against the box's half area for each triangle, in units of a full leaf's mean squared edge.
+/// Without it boxes are 8 to 10 % larger and leaves no fewer.
+const SPREAD: f64 = 16.0;
+
+/// The triangles of a mask, by their index in the window.
+fn each(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        (mask != 0).then(|| {
+            let i = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            i
+        })
+    })
+}
+
+/// Size, contact, and the triangles next to the leaf: cheap enough for every candidate.
+pub(super) fn contact(window: &Window, leaf: u32) -> i32 {
+    let (mut degrees, mut inner, mut around) = (0, 0, 0);
+    for i in each(leaf) {
+        degrees += window.degree(i).cast_signed();
+        inner += (window.neighbours(i) & leaf).count_ones().cast_signed();
+        around |= window.neighbours(i);
+    }
+    let mut left = 0;
+    for i in each(around & !leaf) {
+        left += match window.degree(i) - (window.neighbours(i) & leaf).count_ones() {
+            0 => ALONE,
+            1 => DANGLING,
+            _ => 0,
+        };
+    }
+    SIZE * leaf.count_ones().cast_signed() - OPEN_EDGE * (degrees - inner) + INNER_EDGE * inner / 2
+        - left
+}
+
+/// The parts that the leaf cuts off, as far as they lie in the window. A part of one triangle is
+/// left to [`contact`].
+pub(super) fn cut_off(window: &Window, leaf: u32) -> i32 {
+    let mut rest = window.all() & !leaf;
+    let mut empty = 0;
+    while rest != 0 {
+        let mut part = rest & rest.wrapping_neg();
+        let mut new = part;
+        while new != 0 {
+            new = each(new).fold(0, |reached, i| reached | window.neighbours(i)) & rest & !part;
+            part |= new;
+        }
+        rest &= !part;
+        if part & window.border() == 0 && part.count_ones() > 1 {
+            empty += (MAX_LEAF_TRIANGLES as u32 - part.count_ones() % MAX_LEAF_TRIANGLES as u32)
+                % MAX_LEAF_TRIANGLES as u32;
+        }
+    }
+    -EMPTY_LANE * empty.cast_signed()
+}
+
+/// How far the leaf spreads, by its axis-parallel box; the same at any scale. 0 if all its edges
+/// have length 0.
+pub(super) fn spread(
+    window: &Window,
+    leaf: u32,
+    triangles: &[[u32; 3]],
+    positions: &[DVec3],
+) -> f64 {
+    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let mut squared_edges = 0.0;
+    for i in each(leaf) {
+        let [a, b, c] = triangles[window.triangles()[i] as usize].map(|v| positions[v as usize]);
+        lower = lower.min(a).min(b).min(c);
+        upper = upper.max(a).max(b).max(c);
+        squared_edges += a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
+    }
+    let size = upper - lower;
+    let half_area = size.x * size.y + size.y * size.z + size.z * size.x;
+    let unit = squared_edges / (3 * MAX_LEAF_TRIANGLES) as f64;
+    if unit > 0.0 { -SPREAD * half_area / (unit * f64::from(leaf.count_ones())) } else { 0.0 }
+}

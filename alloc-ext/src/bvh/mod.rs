@@ -1,0 +1,27 @@
+//! The box tree: triangle fans, an 8-wide tree over them, quantised boxes, and their bytes.
+//!
+//! ```text
+//! mesh ─ store (grid) ─ fan (leaves) ─ sah ─ collapse ─ order ─ fit (frames, boxes) ─ encode ─ sections
+//! ```
+//!
+//! Any triangle soup will do: nothing here asks for a closed or manifold mesh.
+
+mod batch;
+mod build;
+mod cones;
+mod encode;
+mod exact;
+pub mod fans;
+mod nodes;
+mod source;
+mod store;
+
+pub use batch::closest_points;
+pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
+pub use encode::sections_of;
+pub use exact::exact_blob;
+pub use nodes::boxes::{LANES, NodeBoxes, axis_aligned};
+pub use nodes::collapse::WideNode;
+pub use nodes::fit::{axis_aligned_boxes, shared_frames};
+pub use nodes::frame::{FrameOptions, shared_frame, shared_frame_with};
+pub use nodes::order::{Topology, TopologyOptions, topology, topology_with};

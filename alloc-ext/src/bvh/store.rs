@@ -1,0 +1,72 @@
+//! The tree's grid: vertices in grid units, and how far they moved.
+
+use crate::mesh::Input;
+use crate::surface::{scale_exponent, split_exponent};
+use glam::DVec3;
+use meshsweep_core::internal::num::exp2;
+
+/// A mesh in grid units.
+#[derive(Clone, Debug)]
+pub(super) struct OnGrid {
+    /// Input coordinate = local coordinate × 2^this.
+    pub(super) scale_exponent: i32,
+    /// Local coordinate = grid coordinate × 2^this.
+    pub(super) exponent: i32,
+    /// Grid coordinate = stored u16 + origin.
+    pub(super) origin: [i32; 3],
+    /// Vertices as stored, grid units.
+    pub(super) positions: Vec<DVec3>,
+    /// Distance that no vertex moved more than since the input, local frame, rounded up.
+    pub(super) surface_error: f64,
+}
+
+/// Finest exponent for which every coordinate on the grid is an integer below 2^24: exact sums in
+/// f32.
+const FINEST: i32 = -24;
+
+/// Steps that the mesh may take on its longest axis: vertices are rounded to the nearest step, up
+/// or down.
+const STEPS: f64 = 65_534.0;
+
+/// Moves a mesh to the finest power-of-two grid of 16 bits that holds it, or, if `single`, only
+/// changes its units.
+pub(super) fn store(input: Input<'_>, single: bool) -> OnGrid {
+    let mesh = input.mesh;
+    let scale = scale_exponent(mesh);
+    let local: Vec<DVec3> = mesh
+        .positions
+        .iter()
+        .map(|&[x, y, z]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * exp2(-scale))
+        .collect();
+    let (low, high) = local
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+    let extent = (high - low).max_element();
+    let (mantissa, fitting) = split_exponent(extent / STEPS);
+    // `split_exponent` gives the power above; a power itself fits as it is.
+    let fitting = if mantissa == 0.5 { fitting - 1 } else { fitting };
+    let exponent = if extent > 0.0 { fitting.clamp(FINEST, 0) } else { FINEST };
+    let step = exp2(exponent);
+    let floor = (low / step).floor();
+    // Coordinates are below 2^24: the last u16 of that range begins here.
+    let origin = [floor.x, floor.y, floor.z].map(|low| (low as i32).min((1 << 24) - 0xFFFF));
+    let mut error = 0f64;
+    let positions = local
+        .iter()
+        .map(|&p| {
+            let units = p / step;
+            let stored = if single { units.as_vec3().as_dvec3() } else { units.round() };
+            error = error.max((stored - units).length() * step * (1.0 + 1e-15));
+            stored
+        })
+        .collect();
+    let before = input.error() * exp2(-scale);
+    OnGrid {
+        scale_exponent: scale,
+        exponent,
+        origin,
+        positions,
+        // Room for what f32 does to it in a query (`core/docs/rounding.md` §9).
+        surface_error: (error + before) * (1.0 + 1e-6),
+    }
+}

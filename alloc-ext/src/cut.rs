@@ -1,0 +1,50 @@
+//! A coarser blob out of a finer one: each structure cuts its own sections.
+
+use crate::emit::assemble;
+use crate::error::BuildError;
+use crate::{bvh, hull, tight, tribox};
+use meshsweep_core::{Blob, Hull};
+
+/// What to keep of a blob; what nothing is said of stays as it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Keep {
+    /// The finest level of the hull hierarchy. A box tree cannot be cut: it is left out.
+    pub level: Option<u32>,
+    /// Of the triboxes the finest level of at most so many.
+    pub triboxes: Option<u32>,
+    /// The tight hulls of at most so many faces, at least the coarsest.
+    pub tight: Option<u32>,
+}
+
+/// What is left of a blob.
+///
+/// # Errors
+/// [`BuildError`] if there is nothing of the kind to cut.
+pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
+    let hierarchy = match (keep.level, blob.hull()) {
+        (Some(level), Ok(hull)) => Some(cut(&hull, level)?),
+        (Some(wanted), Err(_)) => return Err(BuildError::NoLevel { wanted, levels: 0 }),
+        (None, Ok(hull)) => Some(hull::Tables::from_hull(&hull).ok_or(BuildError::Unchecked)?),
+        (None, Err(_)) => None,
+    };
+    let tree = if keep.level.is_none() { bvh::sections_of(blob) } else { None };
+    if keep.triboxes.is_some() && blob.triboxes().is_err() {
+        return Err(BuildError::NoTriboxes);
+    }
+    if keep.tight.is_some() && blob.tight_hulls().is_err() {
+        return Err(BuildError::NoTightHulls);
+    }
+    let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
+    let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
+    let structures = [hierarchy.map(|tables| tables.sections()), tree, triboxes, tight];
+    Ok(assemble(structures.iter().flatten()))
+}
+
+/// Tables of a hull hierarchy after level `index`: see [`hull::cut()`].
+///
+/// # Errors
+/// [`BuildError::NoLevel`].
+pub fn cut(whole: &Hull<'_>, index: u32) -> Result<hull::Tables, BuildError> {
+    let levels = whole.header().levels;
+    hull::cut(whole, index).ok_or(BuildError::NoLevel { wanted: index, levels })
+}

@@ -1,0 +1,18 @@
+//! One triangle surface for all builders: stored precision, connected components, compaction, signed
+//! volume, enclosure, and one static tree for searches.
+
+mod bounds;
+mod compact;
+mod components;
+mod enclosures;
+mod precision;
+mod tree;
+
+pub(crate) use crate::mesh::{EdgeTable, Enclosure, SignedVolume, ends};
+pub(crate) use bounds::{Bounds, Plane};
+pub(crate) use compact::{compact, compact_in_order};
+pub(crate) use components::{components, least_connected};
+pub(crate) use enclosures::Enclosures;
+pub use precision::{Grid, Stored, VertexBits, snap, store};
+pub(crate) use precision::{scale_exponent, split_exponent};
+pub(crate) use tree::{Frontier, StaticTree, spatial_order};

@@ -1,0 +1,612 @@
+//! The static tree of boxes behind all searches of the builder: eight boxes a node, in single
+//! precision. It passes over what a search cannot need. The searches test the items that are left.
+//!
+//! Its frame has its origin in the middle of all boxes and half their longest side as unit. So every
+//! number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
+
+use super::bounds::{Bounds, Plane};
+use arrayvec::ArrayVec;
+use glam::DVec3;
+
+/// Boxes of a node, and lanes that are compared at once.
+const WIDTH: usize = 8;
+
+/// Distance in the tree's frame by which a box may lie below a plane, or off another box, and still
+/// count as reaching it.
+///
+/// Coordinates of at most 1 are rounded to 2^-25, and so are extents and the plane's normal. The
+/// three products and their sums add less than eight such steps of numbers below 3. All is less
+/// than 40 · 2^-25 = 1.2e-6.
+const SLACK: f64 = 2e-6;
+
+/// An item among the entries of a node; without it, the number of a node.
+const ITEM: u32 = 1 << 31;
+
+/// Eight boxes by middle and half extent, and the entries in them.
+#[derive(Clone, Debug)]
+struct Node {
+    middle: [[f32; WIDTH]; 3],
+    half: [[f32; WIDTH]; 3],
+    entry: [u32; WIDTH],
+}
+
+const EMPTY: Node =
+    Node { middle: [[0.0; WIDTH]; 3], half: [[-1e30; WIDTH]; 3], entry: [0; WIDTH] };
+
+/// A static tree of boxes. Items keep the numbers of their boxes.
+#[derive(Clone, Debug)]
+pub(crate) struct StaticTree {
+    nodes: Vec<Node>,
+    origin: DVec3,
+    /// Units of the tree's frame in one of the mesh.
+    scale: f64,
+}
+
+/// A plane in the tree's frame.
+#[derive(Clone, Copy, Debug)]
+struct Cut {
+    normal: [f32; 3],
+    along: [f32; 3],
+    offset: f32,
+}
+
+/// A box and planes that an item's box has to reach.
+#[derive(Clone, Debug)]
+pub(crate) struct Probe {
+    cuts: ArrayVec<Cut, 5>,
+    fixed: usize,
+    middle: [f32; 3],
+    half: [f32; 3],
+}
+
+/// Nodes that have everything in some bounds below them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Frontier(Vec<u32>);
+
+impl Frontier {
+    /// The root: everything.
+    pub fn whole() -> Self {
+        Self(vec![0])
+    }
+}
+
+/// Nodes of a frontier, about.
+const FRONTIER: usize = 6;
+
+/// Seven entries wait at each of the eleven depths that 2^31 items have.
+const DEPTH: usize = 96;
+
+/// A search of the tree.
+pub(crate) trait Visitor {
+    /// The lanes whose boxes the search looks into, one bit each.
+    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32;
+
+    /// An item whose box was looked into; false ends the search.
+    fn item(&mut self, item: usize) -> bool;
+}
+
+/// The boxes of a node, as a [`Visitor`] sees them.
+#[derive(Clone, Copy)]
+pub(crate) struct NodeBoxes<'a> {
+    tree: &'a StaticTree,
+    node: &'a Node,
+}
+
+impl NodeBoxes<'_> {
+    /// The lanes whose boxes a probe reaches.
+    #[inline]
+    pub fn reached(self, probe: &Probe) -> u32 {
+        probe.hits(self.node)
+    }
+
+    /// The lanes whose boxes pass `keep`. The boxes are in the mesh's frame, larger by rounding.
+    #[inline]
+    pub fn kept(self, keep: impl Fn(&Bounds) -> bool) -> u32 {
+        let Self { tree, node } = self;
+        (0..WIDTH).fold(0, |lanes, lane| {
+            let passes = node.half[0][lane] >= 0.0 && keep(&tree.in_mesh_frame(node, lane));
+            lanes | u32::from(passes) << lane
+        })
+    }
+}
+
+impl StaticTree {
+    /// Of items with these boxes. Cost: n log n.
+    pub fn new(boxes: &[Bounds]) -> Self {
+        let all = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.join(b));
+        let extent = (all.high - all.low).max_element();
+        let unit = if extent > 0.0 && extent.is_finite() { 0.5 * extent } else { 1.0 };
+        let origin = if boxes.is_empty() { DVec3::ZERO } else { (all.low + all.high) * 0.5 };
+        let mut tree = Self { nodes: vec![EMPTY], origin, scale: 1.0 / unit };
+        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+        let mut open = vec![(0usize, 0usize, boxes.len())];
+        while let Some((node, from, to)) = open.pop() {
+            for (lane, (from, to)) in parts(&mut order, boxes, from, to).into_iter().enumerate() {
+                let bounds = order[from..to]
+                    .iter()
+                    .fold(Bounds::EMPTY, |all, &i| all.join(boxes[i as usize]));
+                let entry = if to - from == 1 {
+                    order[from] | ITEM
+                } else {
+                    tree.nodes.push(EMPTY);
+                    open.push((tree.nodes.len() - 1, from, to));
+                    tree.nodes.len() as u32 - 1
+                };
+                let (middle, half) = tree.local(&bounds);
+                let node = &mut tree.nodes[node];
+                node.entry[lane] = entry;
+                for axis in 0..3 {
+                    node.middle[axis][lane] = middle[axis];
+                    node.half[axis][lane] = half[axis];
+                }
+            }
+        }
+        tree
+    }
+
+    /// Middle and half extent in the tree's frame.
+    fn local(&self, bounds: &Bounds) -> ([f32; 3], [f32; 3]) {
+        // Beyond 4 it is beyond everything.
+        let local = |p: DVec3| {
+            ((p - self.origin) * self.scale).clamp(DVec3::splat(-4.0), DVec3::splat(4.0))
+        };
+        let (low, high) = (local(bounds.low), local(bounds.high));
+        (((low + high) * 0.5).as_vec3().to_array(), ((high - low) * 0.5).as_vec3().to_array())
+    }
+
+    fn in_mesh_frame(&self, node: &Node, lane: usize) -> Bounds {
+        let of = |axes: &[[f32; WIDTH]; 3]| DVec3::from(axes.map(|axis| f64::from(axis[lane])));
+        let (middle, half) = (of(&node.middle), of(&node.half) + SLACK);
+        Bounds {
+            low: self.origin + (middle - half) / self.scale,
+            high: self.origin + (middle + half) / self.scale,
+        }
+    }
+
+    /// A probe of a box and at most four planes, whose normals are unit vectors.
+    pub fn probe(&self, bounds: &Bounds, planes: &[Plane]) -> Probe {
+        let (middle, half) = self.local(bounds);
+        let half = half.map(|h| h + SLACK as f32);
+        let mut cuts: ArrayVec<Cut, 5> = planes.iter().map(|plane| self.cut(plane)).collect();
+        let fixed = cuts.len();
+        cuts.truncate(4);
+        Probe { cuts, fixed, middle, half }
+    }
+
+    fn cut(&self, plane: &Plane) -> Cut {
+        let normal = plane.normal.as_vec3().to_array();
+        let offset = (plane.offset - plane.normal.dot(self.origin)) * self.scale - SLACK;
+        Cut { normal, along: normal.map(f32::abs), offset: offset as f32 }
+    }
+
+    /// Adds a plane to a probe, in place of the one that was added last.
+    pub fn raise(&self, probe: &mut Probe, plane: &Plane) {
+        probe.cuts.truncate(probe.fixed);
+        probe.cuts.push(self.cut(plane));
+    }
+
+    /// Some nodes that hold every item whose box meets `bounds`. Many searches in these bounds may
+    /// begin there.
+    pub fn frontier(&self, bounds: &Bounds, frontier: &mut Frontier) {
+        let probe = self.probe(bounds, &[]);
+        let open = &mut frontier.0;
+        open.clear();
+        open.push(0);
+        let mut next = 0;
+        while let Some(&index) = open.get(next) {
+            let node = &self.nodes[index as usize];
+            let hits = probe.hits(node);
+            let mut inner: ArrayVec<u32, WIDTH> = ArrayVec::new();
+            let mut has_items = false;
+            for lane in (0..WIDTH).filter(|lane| hits >> lane & 1 != 0) {
+                has_items |= node.entry[lane] & ITEM != 0;
+                inner.push(node.entry[lane]);
+            }
+            if has_items || open.len() + inner.len() > FRONTIER {
+                next += 1;
+            } else {
+                open.swap_remove(next);
+                open.extend(inner);
+            }
+        }
+    }
+
+    /// Runs a search below a frontier; whether it was not ended.
+    #[inline]
+    pub fn visit(&self, near: &Frontier, visitor: &mut impl Visitor) -> bool {
+        near.0.iter().all(|&root| self.visit_below(root, visitor))
+    }
+
+    #[inline]
+    fn visit_below(&self, root: u32, visitor: &mut impl Visitor) -> bool {
+        let mut stack = [0u32; DEPTH];
+        stack[0] = root;
+        let mut height = 1;
+        while height > 0 {
+            height -= 1;
+            let node = &self.nodes[stack[height] as usize];
+            let mut lanes = visitor.lanes(NodeBoxes { tree: self, node });
+            while lanes != 0 {
+                let entry = node.entry[lanes.trailing_zeros() as usize];
+                lanes &= lanes - 1;
+                if entry & ITEM == 0 {
+                    stack[height] = entry;
+                    height += 1;
+                } else if !visitor.item((entry ^ ITEM) as usize) {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Calls `visit` with every item whose box meets `bounds`, and perhaps with others that are
+    /// next to it, until it returns false; whether it never did.
+    pub fn visit_meeting(&self, bounds: &Bounds, visit: impl FnMut(usize) -> bool) -> bool {
+        self.visit_below(0, &mut Reached { probe: self.probe(bounds, &[]), visit })
+    }
+
+    /// As [`visit_meeting`](Self::visit_meeting), with the items whose boxes also reach planes.
+    pub fn visit_reached(
+        &self,
+        bounds: &Bounds,
+        planes: &[Plane],
+        visit: impl FnMut(usize) -> bool,
+    ) -> bool {
+        self.visit_below(0, &mut Reached { probe: self.probe(bounds, planes), visit })
+    }
+
+    /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and perhaps
+    /// with others, until it returns false; whether it never did.
+    #[inline]
+    pub fn visit_kept(
+        &self,
+        near: &Frontier,
+        keep: impl Fn(&Bounds) -> bool,
+        visit: impl FnMut(usize) -> bool,
+    ) -> bool {
+        self.visit(near, &mut Kept { keep, visit })
+    }
+
+    /// Calls `visit` with every item below a frontier whose box a probe reaches. The plane that it
+    /// returns is [raised](Self::raise) in the probe.
+    #[inline]
+    pub fn visit_raising(
+        &self,
+        near: &Frontier,
+        probe: Probe,
+        visit: impl FnMut(usize) -> Option<Plane>,
+    ) {
+        self.visit(near, &mut Raising { tree: self, probe, visit });
+    }
+
+    /// The item of the least squared distance, as `distance_sq` gives it, and that square; the least
+    /// number of equals. `None` without items.
+    ///
+    /// `distance_sq` must not be below the squared distance from `p` to the item's box.
+    pub fn nearest(
+        &self,
+        p: DVec3,
+        mut distance_sq: impl FnMut(usize) -> f64,
+    ) -> Option<(usize, f64)> {
+        let local = (p - self.origin) * self.scale;
+        // Factor by which no rounding exceeds a bound.
+        let to_mesh = (1.0 - 1e-12) / (self.scale * self.scale);
+        let mut best: Option<(usize, f64)> = None;
+        let least = |best: &Option<(usize, f64)>| best.map_or(f64::INFINITY, |(_, least)| least);
+        let mut stack: ArrayVec<(u32, f64), DEPTH> = ArrayVec::new();
+        stack.push((0, 0.0));
+        while let Some((entry, bound)) = stack.pop() {
+            if bound > least(&best) {
+                continue;
+            }
+            if entry & ITEM != 0 {
+                let item = (entry ^ ITEM) as usize;
+                let found = distance_sq(item);
+                let is_better = |&(other, least): &(usize, f64)| {
+                    found < least || (found == least && item < other)
+                };
+                if best.as_ref().is_none_or(is_better) && found < f64::INFINITY {
+                    best = Some((item, found));
+                }
+                continue;
+            }
+            let node = &self.nodes[entry as usize];
+            let mut near: ArrayVec<(u32, f64), WIDTH> = ArrayVec::new();
+            let bounds = node.distances_sq(local);
+            for lane in (0..WIDTH).filter(|&lane| node.half[0][lane] >= 0.0) {
+                let bound = bounds[lane] * to_mesh;
+                if bound <= least(&best) {
+                    near.push((node.entry[lane], bound));
+                }
+            }
+            // The nearest is looked at first.
+            near.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(b.0.cmp(&a.0)));
+            stack.extend(near);
+        }
+        best
+    }
+}
+
+/// Every item whose box a probe reaches.
+struct Reached<F> {
+    probe: Probe,
+    visit: F,
+}
+
+impl<F: FnMut(usize) -> bool> Visitor for Reached<F> {
+    #[inline]
+    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32 {
+        boxes.reached(&self.probe)
+    }
+
+    #[inline]
+    fn item(&mut self, item: usize) -> bool {
+        (self.visit)(item)
+    }
+}
+
+/// Every item whose box passes a test.
+struct Kept<K, F> {
+    keep: K,
+    visit: F,
+}
+
+impl<K: Fn(&Bounds) -> bool, F: FnMut(usize) -> bool> Visitor for Kept<K, F> {
+    #[inline]
+    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32 {
+        boxes.kept(&self.keep)
+    }
+
+    #[inline]
+    fn item(&mut self, item: usize) -> bool {
+        (self.visit)(item)
+    }
+}
+
+/// Every item whose box a probe reaches that rises with the items.
+struct Raising<'a, F> {
+    tree: &'a StaticTree,
+    probe: Probe,
+    visit: F,
+}
+
+impl<F: FnMut(usize) -> Option<Plane>> Visitor for Raising<'_, F> {
+    #[inline]
+    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32 {
+        boxes.reached(&self.probe)
+    }
+
+    #[inline]
+    fn item(&mut self, item: usize) -> bool {
+        if let Some(plane) = (self.visit)(item) {
+            self.tree.raise(&mut self.probe, &plane);
+        }
+        true
+    }
+}
+
+impl Node {
+    /// For each lane the square of a distance, in the tree's frame, that no point of its box is
+    /// nearer than.
+    fn distances_sq(&self, p: DVec3) -> [f64; WIDTH] {
+        let p = p.to_array();
+        let mut sum = [0.0; WIDTH];
+        for axis in 0..3 {
+            for (lane, sum) in sum.iter_mut().enumerate() {
+                let off = (f64::from(self.middle[axis][lane]) - p[axis]).abs()
+                    - f64::from(self.half[axis][lane])
+                    - SLACK;
+                let off = if off > 0.0 { off } else { 0.0 };
+                *sum += off * off;
+            }
+        }
+        sum
+    }
+}
+
+impl Probe {
+    /// The lanes whose boxes are reached, one bit each.
+    #[inline]
+    fn hits(&self, node: &Node) -> u32 {
+        let mut out = [f32::NEG_INFINITY; WIDTH];
+        for (k, out) in out.iter_mut().enumerate() {
+            let off = |axis: usize| {
+                (node.middle[axis][k] - self.middle[axis]).abs()
+                    - node.half[axis][k]
+                    - self.half[axis]
+            };
+            let (x, y, z) = (off(0), off(1), off(2));
+            let xy = if x > y { x } else { y };
+            *out = if xy > z { xy } else { z };
+        }
+        for cut in &self.cuts {
+            for (k, out) in out.iter_mut().enumerate() {
+                let reach = cut.normal[0] * node.middle[0][k]
+                    + cut.normal[1] * node.middle[1][k]
+                    + cut.normal[2] * node.middle[2][k]
+                    + cut.along[0] * node.half[0][k]
+                    + cut.along[1] * node.half[1][k]
+                    + cut.along[2] * node.half[2][k];
+                let below = cut.offset - reach;
+                *out = if *out > below { *out } else { below };
+            }
+        }
+        let mut hits = 0;
+        for (k, out) in out.iter().enumerate() {
+            hits |= u32::from(*out <= 0.0) << k;
+        }
+        hits
+    }
+}
+
+/// Puts the items of the lower half of boxes, along the longest axis of their centres, before place
+/// `middle`.
+fn halve(items: &mut [u32], boxes: &[Bounds], middle: usize) {
+    let centre = |i: u32| boxes[i as usize].low + boxes[i as usize].high;
+    let axis = items.iter().fold(Bounds::EMPTY, |all, &i| all.with(centre(i))).longest_axis();
+    items.select_nth_unstable_by(middle, |&i, &j| {
+        centre(i)[axis].total_cmp(&centre(j)[axis]).then(i.cmp(&j))
+    });
+}
+
+/// Items of a run that [`spatial_order`] leaves as they are.
+const RUN: usize = 4;
+
+/// The boxes' numbers in an order in which neighbours in space are near each other: halved at the
+/// median of the longest axis, again and again.
+pub(crate) fn spatial_order(boxes: &[Bounds]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+    let mut open = vec![(0, boxes.len())];
+    while let Some((from, to)) = open.pop() {
+        if to - from > RUN {
+            let middle = (to - from) / 2;
+            halve(&mut order[from..to], boxes, middle);
+            open.extend([(from, from + middle), (from + middle, to)]);
+        }
+    }
+    order
+}
+
+/// Ranges of up to eight parts of a range. The items are ordered by halving, again and again.
+fn parts(
+    order: &mut [u32],
+    boxes: &[Bounds],
+    from: usize,
+    to: usize,
+) -> ArrayVec<(usize, usize), WIDTH> {
+    let mut ranges: ArrayVec<(usize, usize), WIDTH> = ArrayVec::new();
+    if from < to {
+        ranges.push((from, to));
+    }
+    // Parts of full nodes, so that few lanes are empty.
+    let mut full = 1;
+    while full * WIDTH < to - from {
+        full *= WIDTH;
+    }
+    while ranges.len() < WIDTH {
+        let widest = (0..ranges.len()).max_by_key(|&i| ranges[i].1 - ranges[i].0);
+        let Some(i) = widest.filter(|&i| ranges[i].1 - ranges[i].0 > full) else { break };
+        let (from, to) = ranges[i];
+        let parts = (to - from).div_ceil(full);
+        let middle = parts / 2 * full;
+        halve(&mut order[from..to], boxes, middle);
+        ranges[i] = (from, from + middle);
+        ranges.push((from + middle, to));
+    }
+    ranges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same numbers in every run (Steele, Lea & Flood 2014, SplitMix64).
+    struct Dice(u64);
+
+    impl Dice {
+        fn roll(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            (((z ^ (z >> 31)) >> 11) as f64) / (1u64 << 53) as f64
+        }
+    }
+
+    fn point(dice: &mut Dice) -> DVec3 {
+        DVec3::new(dice.roll(), dice.roll(), dice.roll()).as_vec3().as_dvec3()
+    }
+
+    /// Boxes of all sizes, some of them points, moved and scaled.
+    fn boxes(dice: &mut Dice, count: usize, scale: f64, shift: DVec3) -> Vec<Bounds> {
+        let mut all = Vec::new();
+        for i in 0..count {
+            let low = point(dice);
+            let high = if i % 3 == 0 { low } else { low + point(dice) * 0.1 };
+            all.push(Bounds { low: low * scale + shift, high: high * scale + shift });
+        }
+        all
+    }
+
+    #[test]
+    fn every_box_that_is_reached_is_visited_once_from_the_root_and_from_a_frontier() {
+        let mut dice = Dice(3);
+        for (count, scale, shift) in [
+            (0, 1.0, 0.0),
+            (1, 1.0, 0.0),
+            (8, 1e-30, 0.0),
+            (9, 1e30, 0.0),
+            (65, 1.0, 1e6),
+            (700, 40.0, -3.0),
+        ] {
+            let shift = DVec3::splat(shift);
+            let boxes = boxes(&mut dice, count, scale, shift);
+            let tree = StaticTree::new(&boxes);
+            for _ in 0..200 {
+                let low = point(&mut dice);
+                let of = Bounds {
+                    low: low * scale + shift,
+                    high: (low + point(&mut dice) * 0.5) * scale + shift,
+                };
+                let through = point(&mut dice) * scale + shift;
+                let normal = (point(&mut dice) - 0.5).normalize();
+                let plane = Plane { normal, offset: normal.dot(through) };
+                let mut near = Frontier::default();
+                tree.frontier(&of, &mut near);
+                for near in [near, Frontier::whole()] {
+                    let mut visits = vec![0; count];
+                    tree.visit_raising(&near, tree.probe(&of, &[plane]), |i| {
+                        visits[i] += 1;
+                        None
+                    });
+                    for (b, visits) in boxes.iter().zip(visits) {
+                        let wanted = b.meets(&of) && b.support(normal) >= plane.offset;
+                        assert!(
+                            visits == 1 || (visits == 0 && !wanted),
+                            "{visits} visits, {wanted}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_below_a_raised_plane_is_passed_over() {
+        let mut dice = Dice(4);
+        let boxes = boxes(&mut dice, 5_000, 1.0, DVec3::ZERO);
+        let tree = StaticTree::new(&boxes);
+        let all = Bounds { low: DVec3::splat(-1.0), high: DVec3::splat(2.0) };
+        let (mut visits, mut highest) = (0, f64::NEG_INFINITY);
+        tree.visit_raising(&Frontier::whole(), tree.probe(&all, &[]), |i| {
+            visits += 1;
+            let top = boxes[i].high.z;
+            (top > highest).then(|| {
+                highest = top;
+                Plane { normal: DVec3::Z, offset: top }
+            })
+        });
+        assert_eq!(highest, boxes.iter().map(|b| b.high.z).fold(0.0, f64::max));
+        assert!(visits < boxes.len() / 2, "{visits}");
+    }
+
+    #[test]
+    fn the_nearest_box_is_found_wherever_the_point_is() {
+        let mut dice = Dice(5);
+        for (count, scale) in [(0, 1.0), (1, 1.0), (9, 1e30), (700, 1e-30), (3_000, 40.0)] {
+            let boxes = boxes(&mut dice, count, scale, DVec3::splat(scale));
+            let tree = StaticTree::new(&boxes);
+            for i in 0..200 {
+                let far = if i % 2 == 0 { 2.0 } else { 1e9 };
+                let p = (point(&mut dice) - 0.5) * far * scale;
+                let distance_sq = |i: usize| {
+                    (boxes[i].low - p).max(p - boxes[i].high).max(DVec3::ZERO).length_squared()
+                };
+                let of = |i: usize| (i, distance_sq(i));
+                let truth = (0..count).map(of).min_by(|a, b| a.1.total_cmp(&b.1));
+                assert_eq!(tree.nearest(p, distance_sq), truth);
+            }
+        }
+    }
+}

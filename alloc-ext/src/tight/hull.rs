@@ -1,0 +1,143 @@
+//! From any triangles to their tight hull: options are checked, the hull is searched and measured.
+
+use super::moves::slack;
+use super::options::{Goal, Options, WrapError};
+use super::proof::{Obstacle, Solid, crosses_itself};
+use super::report::{Outcome, Progress, Report};
+use super::search::{CandidateHull, HullSearch};
+use crate::mesh::Mesh;
+use crate::surface::Bounds;
+use crate::surface::{Stored, VertexBits, store};
+use glam::{DVec3, Vec3};
+use meshsweep_core::internal::num::exp2;
+use std::borrow::Cow;
+use std::time::Instant;
+
+/// A tight hull and its measures.
+#[derive(Clone, Debug)]
+pub struct Hull {
+    /// Closed, embedded, counter-clockwise seen from outside; `source` counts from 0.
+    pub mesh: Mesh,
+    /// Measures of the hull and of the work for it.
+    pub report: Report,
+}
+
+/// A tight hull of any triangles and [wires](crate::mesh::Wire). The [module](crate::tight) says
+/// what is proved of it. Wires bound no volume.
+///
+/// If vertices were moved to a grid before (see [`snap`](crate::surface::snap)), the hull encloses
+/// their places in `mesh`.
+///
+/// # Errors
+/// [`WrapError`].
+pub fn wrap(
+    mesh: &Mesh,
+    options: &Options,
+    mut on_progress: impl FnMut(Progress),
+) -> Result<Hull, WrapError> {
+    let started = Instant::now();
+    let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
+    if triangles.is_empty() {
+        return Err(WrapError::Empty);
+    }
+    if !(options.margin >= 0.0 && options.margin.is_finite()) {
+        return Err(WrapError::BadMargin);
+    }
+    if matches!(options.goal, Goal::Slack(most) if most.is_nan() || most <= options.margin) {
+        return Err(WrapError::SlackWithinMargin { margin: options.margin });
+    }
+    let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
+    let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
+    // The surface that the search starts from has no wires, unless the mesh has only wires.
+    let surface = if mesh.wires.is_empty() {
+        Cow::Borrowed(mesh)
+    } else if mesh.triangles.is_empty() {
+        let Mesh { rounding, .. } = *mesh;
+        Cow::Owned(Mesh { rounding, ..Mesh::new(mesh.positions.clone(), triangles) })
+    } else {
+        Cow::Owned(mesh.without_wires())
+    };
+    let mesh = &*surface;
+    let solid = Solid::of(mesh);
+    if let (Goal::Void(_), Err(why)) = (options.goal, solid) {
+        return Err(WrapError::NoVolume(why));
+    }
+    let crosses =
+        matches!(options.goal, Goal::Void(_)) && crosses_itself(&positions, &mesh.triangles);
+    // A hull keeps some steps of its grid off the mesh. A coarse grid that holds the mesh is
+    // therefore no reason to store the hull on it.
+    let bits = match options.vertex_bits {
+        VertexBits::Auto => VertexBits::F32,
+        bits => bits,
+    };
+    let stored = store(mesh, bits);
+    let is_whole = mesh.positions.len() == positions.len();
+    let around = if is_whole && options.margin <= 0.0 {
+        stored.clone()
+    } else {
+        around(&positions, options.margin, bits)?
+    };
+    // If the mesh is not on the grid, the grid is for the hull alone. The search starts from the
+    // mesh as it is.
+    let is_moved = stored.surface_error > mesh.rounding * exp2(-stored.scale_exponent);
+    let stored = if is_moved { store(mesh, VertexBits::F32) } else { stored };
+    let mut search = HullSearch {
+        mesh,
+        stored: &stored,
+        around: &around,
+        obstacle: &obstacle,
+        solid: solid.ok(),
+        options,
+        // A limit beyond the range of the clock is no limit.
+        deadline: options.time_limit.and_then(|limit| started.checked_add(limit)),
+        is_hurried: false,
+        on_progress: &mut on_progress,
+    };
+    let CandidateHull { mut editor, start, filled, mut stop } = search.run()?;
+    editor.drop_enclosed();
+    if search.is_hurried && stop == Outcome::Reached {
+        stop = Outcome::OutOfTime;
+    }
+    let (positions, triangles) = editor.shell.compact();
+    let volume = editor.shell.volume();
+    let mut slack = slack(&editor.shell, &obstacle);
+    // Every face was proved to be within the slack that was asked for.
+    if let Goal::Slack(most) = options.goal
+        && editor.max_distance <= most
+    {
+        slack.upper = slack.upper.min(most).max(slack.lower);
+    }
+    let mesh = Mesh::new(single(&positions), triangles);
+    let report = Report {
+        faces: mesh.triangles.len(),
+        volume,
+        void: solid.and_then(|solid| solid.void(&mesh, volume)),
+        crosses,
+        slack,
+        start,
+        filled: filled + editor.enclosed,
+        stop,
+        stars: editor.placer.stars,
+        programs: editor.placer.programs,
+        time: started.elapsed(),
+    };
+    Ok(Hull { mesh, report })
+}
+
+fn single(positions: &[DVec3]) -> Vec<[f32; 3]> {
+    positions.iter().map(|p| p.as_vec3().to_array()).collect()
+}
+
+/// The frame and the coordinate format that hold all positions, or with a margin their box enlarged
+/// by it.
+fn around(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, WrapError> {
+    if margin <= 0.0 {
+        return Ok(store(&Mesh::new(single(positions), Vec::new()), bits));
+    }
+    let bounds = Bounds::of(positions).grown(margin);
+    let corners = [bounds.low, bounds.high];
+    if !corners.iter().all(|p| p.as_vec3().is_finite()) {
+        return Err(WrapError::MarginTooLarge);
+    }
+    Ok(store(&Mesh::new(single(&corners), Vec::new()), bits))
+}

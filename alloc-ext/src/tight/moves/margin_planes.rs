@@ -1,0 +1,216 @@
+//! Planes of a placement's program where the hull keeps a margin from the mesh.
+//!
+//! A new face must not pass the mesh grown by the margin: a ball around each of its points. In the
+//! way are points that are cut off, in the tetrahedron between an old face and the new vertex, and
+//! points that the new face is too near to.
+//!
+//! - A ball below the face adds the plane about the ring edge that touches the ball. Of these
+//!   planes the steepest is kept, as without a margin.
+//! - A ball beside the face, near an edge that moves or near the vertex, has no such plane, or one
+//!   that asks too much. There the face's nearest point is pushed away along the line to the mesh.
+//!   The point moves as the vertex does, times its weight. Such a plane is only right near the
+//!   place where it was made, so that these planes are looked for last and all of them are kept.
+//!
+//! All is floating point, as in `placement`.
+
+use super::star::{Frame, StarFace};
+use crate::lp::HalfSpace;
+use crate::surface::{Bounds, Frontier, Plane};
+use crate::tight::proof::{Clearance, Nearest, Obstacle, Tetrahedron, Triangle};
+use glam::DVec3;
+use meshsweep_core::internal::geom::point_triangle;
+use std::cell::Cell;
+
+/// Weights below this are rounding: such a point does not move with the vertex.
+const LIGHT: f64 = 1e-6;
+
+/// Part of the clearance below which a point counts as too near.
+const LEAST_CLEARANCE: f64 = 0.5;
+
+/// A new face, and the region that its vertex sweeps.
+pub(crate) struct Sweep<'a> {
+    obstacle: &'a Obstacle,
+    frame: &'a Frame,
+    ring: [DVec3; 2],
+    /// The new face: its vertex first.
+    face: Triangle,
+    normal: DVec3,
+    tetrahedron: Tetrahedron,
+    clearance: f64,
+    tolerance: f64,
+    /// The highest plane that touches a ball, and the plane above which the centres of higher balls
+    /// are.
+    touching: Cell<Option<(Plane, Plane)>>,
+    /// How far the vertex is below the highest plane.
+    height: Cell<f64>,
+    /// The plane that pushes the nearest point away.
+    pushing: Cell<Option<HalfSpace>>,
+    /// The distance of the nearest point.
+    distance: Cell<f64>,
+}
+
+impl<'a> Sweep<'a> {
+    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit.
+    /// Heights up to `tolerance` are rounding.
+    pub fn new(
+        obstacle: &'a Obstacle,
+        frame: &'a Frame,
+        old: &StarFace,
+        ring: [DVec3; 2],
+        x: DVec3,
+        clearance: f64,
+        tolerance: f64,
+    ) -> Self {
+        let face = [x, ring[0], ring[1]];
+        Self {
+            obstacle,
+            frame,
+            ring,
+            face,
+            normal: (ring[0] - x).cross(ring[1] - x).normalize_or_zero(),
+            tetrahedron: Tetrahedron::new(&old.corners, x),
+            clearance,
+            tolerance,
+            touching: Cell::new(None),
+            height: Cell::new(tolerance),
+            pushing: Cell::new(None),
+            distance: Cell::new(f64::INFINITY),
+        }
+    }
+
+    /// The plane for the vertices of the mesh that are in the way.
+    pub fn points(&self, near: &Frontier) -> Option<HalfSpace> {
+        let far = self.obstacle.margin() + self.clearance;
+        self.obstacle.visit_points(
+            near,
+            |of| self.may_hold_vertex(of),
+            |q| {
+                // All of the tetrahedron is above the new face.
+                let height = self.normal.dot(q - self.face[0]);
+                if self.is_lower(q) || height < -far {
+                    return;
+                }
+                if self.tetrahedron.holds(q) {
+                    return self.touch(q, true);
+                }
+                self.touch(q, height < far && self.is_under(q));
+            },
+        );
+        self.touching()
+    }
+
+    /// Whether the closest point of the new face is in its interior, and too near.
+    fn is_under(&self, q: DVec3) -> bool {
+        let [x, a, b] = self.face;
+        let found = point_triangle(q, x, a, b);
+        let weights = [1.0 - found.u - found.v, found.u, found.v];
+        weights.iter().all(|&w| w > LIGHT) && self.is_near(found.distance_sq.sqrt(), weights[0])
+    }
+
+    /// The plane for the triangles that are in the way, if no vertex is.
+    pub fn pieces(&self, near: &Frontier) -> Option<HalfSpace> {
+        self.obstacle.visit_triangles(
+            near,
+            |of| self.rises_to(of) && self.tetrahedron.may_meet(of),
+            |triangle| {
+                if !triangle.iter().all(|&q| self.is_lower(q)) {
+                    self.tetrahedron.clip(triangle, |q| self.touch(q, true));
+                }
+            },
+        );
+        self.touching()
+    }
+
+    /// The plane for the nearest triangle beside the face, if nothing is cut off.
+    pub fn beside(&self, near: &Frontier) -> Option<HalfSpace> {
+        let clearance = Clearance::new(self.obstacle.margin() + LEAST_CLEARANCE * self.clearance);
+        let bounds = Bounds::of(&self.face);
+        self.obstacle.visit_triangles(
+            near,
+            |of| !clearance.separates_box(&self.face, &bounds, self.normal, of),
+            |triangle| {
+                if clearance.separates_quickly(&self.face, self.normal, triangle) {
+                    return;
+                }
+                if let Some(found) = Nearest::of(&self.face, triangle) {
+                    self.push(&found);
+                }
+            },
+        );
+        self.pushing.get()
+    }
+
+    /// Whether the ball around a point is below the plane that touches another.
+    fn is_lower(&self, q: DVec3) -> bool {
+        self.touching.get().is_some_and(|(_, centres)| !centres.holds(q))
+    }
+
+    /// Whether a box may hold a vertex that is in the way.
+    fn may_hold_vertex(&self, of: &Bounds) -> bool {
+        let margin = self.obstacle.margin() + self.clearance;
+        self.rises_to(of) && self.tetrahedron.may_come_near(of, margin)
+    }
+
+    /// Whether a box may hold a point that is not [lower](Self::is_lower).
+    fn rises_to(&self, of: &Bounds) -> bool {
+        self.touching.get().is_none_or(|(_, centres)| centres.reaches(of))
+    }
+
+    fn is_near(&self, distance: f64, weight: f64) -> bool {
+        distance < self.obstacle.margin() + LEAST_CLEARANCE * weight * self.clearance
+    }
+
+    /// Pushes the face's nearest point away from a triangle's.
+    fn push(&self, found: &Nearest) {
+        let Nearest { p, weights, q, distance, .. } = *found;
+        if weights[0] <= LIGHT
+            || distance >= self.distance.get()
+            || !self.is_near(distance, weights[0])
+        {
+            return;
+        }
+        let away = if distance > self.tolerance { (p - q) / distance } else { self.normal };
+        let [_, a, b] = self.face.map(|corner| self.frame.local(corner));
+        let rest = a * weights[1] + b * weights[2] - self.frame.local(q);
+        let radius = self.frame.radius;
+        let offset = (self.obstacle.margin() / radius - away.dot(rest)) / weights[0]
+            + self.clearance / radius;
+        self.distance.set(distance);
+        self.pushing.set(Some(HalfSpace { normal: away, offset }));
+    }
+
+    /// Turns the plane about the ring edge until it touches the ball around `q`, if there is such a
+    /// plane. Outside of the tetrahedron the plane counts only if `anyway`.
+    fn touch(&self, q: DVec3, anyway: bool) {
+        let [a, b] = self.ring;
+        let edge = b - a;
+        let normal = edge.cross(q - a);
+        let length = normal.length();
+        let from_edge = length / edge.length();
+        let sine = self.obstacle.margin() / from_edge;
+        if !(from_edge > 10.0 * self.tolerance && sine < 1.0) {
+            return;
+        }
+        let normal = normal / length;
+        // From the ball's centre to the edge.
+        let out = edge.cross(normal) / edge.length();
+        let normal = normal * (1.0 - sine * sine).sqrt() + out * sine;
+        let above = normal.dot(a - self.face[0]);
+        if above > self.height.get()
+            && (anyway || self.tetrahedron.holds(q + normal * self.obstacle.margin()))
+        {
+            self.height.set(above);
+            let offset = normal.dot(a);
+            let centres = Plane { normal, offset: offset - self.obstacle.margin() };
+            self.touching.set(Some((Plane { normal, offset }, centres)));
+        }
+    }
+
+    fn touching(&self) -> Option<HalfSpace> {
+        self.touching.get().map(|(plane, _)| {
+            let offset = plane.normal.dot(self.frame.local(self.ring[0]))
+                + self.clearance / self.frame.radius;
+            HalfSpace { normal: plane.normal, offset }
+        })
+    }
+}

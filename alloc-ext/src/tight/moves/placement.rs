@@ -1,0 +1,277 @@
+//! The place for the vertex of a changed star: as deep as the original mesh lets it.
+//!
+//! The volume below a star is linear in its vertex `x`. A new face turns about its ring edge as `x`
+//! moves, and must not pass the mesh. So this is a linear program whose planes are found on the
+//! way:
+//! 1. solve the program;
+//! 2. look for mesh in the tetrahedra between the old faces and the new vertex;
+//! 3. for each ring edge, add the plane through the edge and the point that stands out most;
+//! 4. solve again, until no mesh is found.
+//!
+//! A plane is only ever replaced by a steeper one about the same edge. Mesh behind the hull that
+//! the edit does not reach adds no plane.
+//!
+//! All is floating point. The editor proves or refuses the place that is found here.
+
+use super::margin_planes::Sweep;
+use super::star::{Frame, StarFace, corners, radius};
+use crate::lp::{HalfSpace, minimise_bounded};
+use crate::surface::{Bounds, Frontier, Plane};
+use crate::tight::proof::{Obstacle, Tetrahedron};
+use glam::DVec3;
+use std::cell::Cell;
+
+/// The objective of a placement besides least volume.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacementObjective {
+    /// Weight of the second term, which keeps the vertex near the star's centre.
+    pub centre_weight: f64,
+    /// Added to the direction of least volume, as a part of its length.
+    pub tilt: DVec3,
+    /// Least part of a face's area that its new face keeps, seen along the old normal; `None`: any.
+    pub upright: Option<f64>,
+}
+
+/// Most programs for one star.
+const ROUNDS: usize = 25;
+
+/// Heights below this part of the star's radius are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Buffers of the programs, kept to save allocations, and counters of work.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Placer {
+    /// Stars that were placed.
+    pub stars: u64,
+    /// Programs that were solved.
+    pub programs: u64,
+    /// Planes that do not depend on the mesh.
+    fixed: Vec<HalfSpace>,
+    /// Per face of the star the plane about its ring edge.
+    cuts: Vec<Option<HalfSpace>>,
+    /// Planes that push faces off the mesh beside them; see
+    /// [`margin_planes`](super::margin_planes).
+    pushes: Vec<HalfSpace>,
+    /// All planes of a program.
+    planes: Vec<HalfSpace>,
+}
+
+impl Placer {
+    /// The vertex, not rounded, which keeps `clearance` from each plane; `None` if the program has
+    /// no answer.
+    pub fn place(
+        &mut self,
+        obstacle: &Obstacle,
+        star: &[StarFace],
+        centre: DVec3,
+        clearance: f64,
+        objective: &PlacementObjective,
+    ) -> Option<DVec3> {
+        self.stars += 1;
+        let radius = radius(star, centre);
+        if !(radius > 0.0 && radius.is_finite()) {
+            return None;
+        }
+        let frame = Frame { centre, radius };
+        let direction = self.open(star, &frame, objective)?;
+        let bounds = corners(star).fold(Bounds::EMPTY, Bounds::with);
+        let mut near = <[Frontier; 2]>::default();
+        let margin = obstacle.margin();
+        obstacle.frontiers(&bounds.grown(margin + clearance), &mut near);
+        let everywhere = [Frontier::whole(), Frontier::whole()];
+        for _ in 0..ROUNDS {
+            self.programs += 1;
+            self.planes.clear();
+            self.planes.extend(self.cuts.iter().flatten());
+            self.planes.extend(&self.pushes);
+            self.planes.extend(&self.fixed);
+            let x = minimise_bounded(direction, &mut self.planes, objective.centre_weight)?;
+            let x = centre + x * radius;
+            // Vertices of the mesh are cheap to look for and find nearly every plane. Edges are
+            // looked for once no vertex is in the way.
+            let near = if bounds.with(x) == bounds { &near } else { &everywhere };
+            let search = |edges: bool| Search { obstacle, near, edges };
+            let mut clear = [false, true]
+                .into_iter()
+                .all(|edges| self.cut(star, &frame, x, clearance, &search(edges)));
+            if margin > 0.0 && clear {
+                clear = self.push_apart(star, &frame, x, clearance, &search(true));
+            }
+            if clear {
+                return Some(x);
+            }
+        }
+        None
+    }
+
+    /// Sets up the planes that do not depend on the mesh; the direction of the program.
+    fn open(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        objective: &PlacementObjective,
+    ) -> Option<DVec3> {
+        self.fixed.clear();
+        self.pushes.clear();
+        self.cuts.clear();
+        self.cuts.resize(star.len(), None);
+        let mut direction = DVec3::ZERO;
+        let mut area = 0.0;
+        for face in star {
+            let Some(ring) = face.ring else { continue };
+            let [a, b] = ring.map(|p| frame.local(p));
+            let cross = a.cross(b);
+            direction += cross;
+            let double_area = face.double_area / (frame.radius * frame.radius);
+            area += double_area;
+            let across = (b - a).cross(face.normal);
+            let length = across.length();
+            if let Some(upright) = objective.upright.filter(|_| length > ROUNDING) {
+                let offset = (upright * double_area - cross.dot(face.normal)) / length;
+                self.fixed.push(HalfSpace { normal: -across / length, offset });
+            }
+        }
+        direction += objective.tilt * direction.length();
+        (area > 0.0).then(|| direction / area)
+    }
+
+    /// Adds a plane for every new face that has mesh in front of it; whether there was none.
+    fn cut(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        x: DVec3,
+        clearance: f64,
+        search: &Search<'_>,
+    ) -> bool {
+        let tolerance = ROUNDING * frame.radius;
+        let margin = search.obstacle.margin();
+        let mut clear = true;
+        for (face, cut) in star.iter().zip(&mut self.cuts) {
+            let rises = face.normal.dot(x - face.corners[0]) >= -tolerance;
+            let found = match face.ring {
+                // A face that rises cuts nothing off, but it may turn towards mesh that it has to
+                // keep the margin from.
+                Some(ring) if margin > 0.0 => {
+                    let sweep =
+                        Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+                    if search.edges {
+                        sweep.pieces(&search.near[1])
+                    } else {
+                        sweep.points(&search.near[0])
+                    }
+                }
+                _ if rises => None,
+                Some(ring) => turned(face, ring, frame, x, clearance / frame.radius, search),
+                None => raised(face, frame, x, (margin + clearance) / frame.radius, search),
+            };
+            if found.is_some() {
+                *cut = found;
+                clear = false;
+            }
+        }
+        clear
+    }
+
+    /// Adds a plane for every new face that has mesh near its side; whether there was none.
+    fn push_apart(
+        &mut self,
+        star: &[StarFace],
+        frame: &Frame,
+        x: DVec3,
+        clearance: f64,
+        search: &Search<'_>,
+    ) -> bool {
+        let before = self.pushes.len();
+        for face in star {
+            let Some(ring) = face.ring else { continue };
+            let tolerance = ROUNDING * frame.radius;
+            let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+            self.pushes.extend(sweep.beside(&search.near[1]));
+        }
+        self.pushes.len() == before
+    }
+}
+
+/// The plane about a ring edge that keeps the new face above the mesh below the old face;
+/// `clearance` is in the frame's unit.
+fn turned(
+    face: &StarFace,
+    [a, b]: [DVec3; 2],
+    frame: &Frame,
+    x: DVec3,
+    clearance: f64,
+    search: &Search<'_>,
+) -> Option<HalfSpace> {
+    let edge = b - a;
+    let tolerance = ROUNDING * frame.radius;
+    let least = 10.0 * tolerance * edge.length();
+    let height = Cell::new(tolerance);
+    let turned = |q: DVec3| {
+        let normal = edge.cross(q - a);
+        let length = normal.length();
+        // A point on the edge gives no plane.
+        if length <= least {
+            return None;
+        }
+        let normal = normal / length;
+        let above = normal.dot(a - x);
+        (above > height.get()).then(|| {
+            height.set(above);
+            Plane { normal, offset: normal.dot(a) }
+        })
+    };
+    search.highest(&Tetrahedron::new(&face.corners, x), turned).map(|plane| {
+        let offset = plane.normal.dot(frame.local(a)) + clearance;
+        HalfSpace { normal: plane.normal, offset }
+    })
+}
+
+/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` is in the
+/// frame's unit.
+fn raised(
+    face: &StarFace,
+    frame: &Frame,
+    x: DVec3,
+    clearance: f64,
+    search: &Search<'_>,
+) -> Option<HalfSpace> {
+    let below = face.normal.dot(x);
+    let height = Cell::new(ROUNDING * frame.radius);
+    let raised = |q: DVec3| {
+        let offset = face.normal.dot(q);
+        (offset - below > height.get()).then(|| {
+            height.set(offset - below);
+            Plane { normal: face.normal, offset }
+        })
+    };
+    search.highest(&Tetrahedron::new(&face.corners, x), raised).map(|plane| {
+        let normal = plane.normal;
+        let offset = normal.dot(frame.local(x)) + height.get() / frame.radius + clearance;
+        HalfSpace { normal, offset }
+    })
+}
+
+/// Where planes are looked for.
+struct Search<'a> {
+    obstacle: &'a Obstacle,
+    near: &'a [Frontier; 2],
+    /// Whether edges of the mesh are looked for, or only its vertices.
+    edges: bool,
+}
+
+impl Search<'_> {
+    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each plane
+    /// must be above the one before, so that points below it need not be visited.
+    fn highest(
+        &self,
+        tetrahedron: &Tetrahedron,
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
+        if self.edges {
+            self.obstacle.highest_piece(&self.near[1], tetrahedron, raise)
+        } else {
+            self.obstacle.highest_point(&self.near[0], tetrahedron, raise)
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What a tight hull is asked for, and why there may be none.
+
+use super::proof::NoVolume;
+use crate::surface::VertexBits;
+use std::fmt;
+use std::time::Duration;
+
+/// The goal of a hull.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// At most this number of faces, and the least volume found with them.
+    Faces(usize),
+    /// The fewest faces found whose void is at most this.
+    ///
+    /// The void is the volume of the hull beyond the mesh's, as a part of the mesh's volume. A
+    /// margin counts as void. The mesh must be closed and must not overlap itself; a proved overlap
+    /// is an error.
+    Void(f64),
+    /// The fewest faces found of which no point is farther than this from the mesh, in its unit;
+    /// more than the margin.
+    Slack(f64),
+}
+
+/// How to make a hull.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// The goal.
+    pub goal: Goal,
+    /// Distance from the mesh that the hull keeps, in the mesh's unit; finite and at least 0. Every
+    /// point within the margin of the mesh is inside the hull.
+    pub margin: f64,
+    /// How long to polish, as a factor of the time behind the numbers in `core/DESIGN.md`. The
+    /// result depends on the effort, and not on the machine.
+    pub effort: f64,
+    /// About when to stop; `None`: never. The result then depends on the machine: at worst it is
+    /// the mesh's bounding box.
+    pub time_limit: Option<Duration>,
+    /// Coordinate format of the vertices. [`VertexBits::Auto`] stands for single precision.
+    pub vertex_bits: VertexBits,
+}
+
+impl Default for Options {
+    /// 200 faces, no margin, an effort of 1, no time limit, single precision.
+    fn default() -> Self {
+        Self::new(Goal::Faces(200))
+    }
+}
+
+impl Options {
+    /// A goal, no margin, an effort of 1, no time limit, single precision.
+    #[must_use]
+    pub const fn new(goal: Goal) -> Self {
+        let vertex_bits = VertexBits::Auto;
+        Self { goal, margin: 0.0, effort: 1.0, time_limit: None, vertex_bits }
+    }
+
+    /// Sets the [margin](Self::margin).
+    #[must_use]
+    pub const fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// Sets the [effort](Self::effort).
+    #[must_use]
+    pub const fn with_effort(self, effort: f64) -> Self {
+        Self { effort, ..self }
+    }
+
+    /// Sets the [time limit](Self::time_limit).
+    #[must_use]
+    pub const fn with_time_limit(self, time_limit: Option<Duration>) -> Self {
+        Self { time_limit, ..self }
+    }
+
+    /// Sets the [coordinate format](Self::vertex_bits).
+    #[must_use]
+    pub const fn with_vertex_bits(self, vertex_bits: VertexBits) -> Self {
+        Self { vertex_bits, ..self }
+    }
+}
+
+/// Why there is no hull.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum WrapError {
+    /// The mesh has no triangle and no wire.
+    Empty,
+    /// A void was asked for, and the mesh has no volume to measure it against.
+    NoVolume(NoVolume),
+    /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the
+    /// mesh is as small as the steps of its coordinates.
+    NoRoom,
+    /// The margin is negative or not a finite number.
+    BadMargin,
+    /// The mesh with its margin leaves the range of single precision.
+    MarginTooLarge,
+    /// The slack is not more than the margin.
+    SlackWithinMargin {
+        /// The margin.
+        margin: f64,
+    },
+}
+
+impl fmt::Display for WrapError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WrapError::Empty => f.write_str("the mesh has no triangles; give one that has"),
+            WrapError::NoVolume(why) => write!(
+                f,
+                "{why}; there is no volume to measure void against: ask for faces or slack"
+            ),
+            WrapError::NoRoom => f.write_str(
+                "there are no coordinates of single precision around the mesh to put a hull on; \
+                 move or scale it",
+            ),
+            WrapError::BadMargin => f.write_str("a margin is a finite number, at least 0"),
+            WrapError::MarginTooLarge => f.write_str(
+                "the mesh and its margin leave the range of single precision, 3.4e38; ask for \
+                 less, or scale both down",
+            ),
+            WrapError::SlackWithinMargin { margin } => write!(
+                f,
+                "no hull can be within the slack: it is not more than {margin:e}, the margin with \
+                 what rounding may take from it; ask for a larger slack"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for WrapError {}

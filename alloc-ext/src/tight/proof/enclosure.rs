@@ -1,0 +1,109 @@
+//! Whether a closed surface is an outer hull of the mesh, tested as a whole and exactly.
+
+use super::obstacle::Obstacle;
+use super::predicates::{Face, are_apart, is_degenerate};
+use crate::surface::{Bounds, Enclosure, Enclosures, StaticTree, components};
+use glam::DVec3;
+
+/// Whether the faces of a closed manifold surface satisfy the whole invariant: the surface is
+/// embedded, does not meet the mesh, and encloses every connected component of the mesh. Exact.
+pub(crate) fn is_outer_hull(faces: &[Face], obstacle: &Obstacle) -> bool {
+    let holds_witnesses = || {
+        let hull = Enclosure::new(faces.iter().map(|face| face.at.map(single)).collect());
+        obstacle.witnesses().iter().all(|p| hull.holds(single(*p)))
+    };
+    !faces.iter().any(|face| is_degenerate(&face.at) || obstacle.meets(&face.at))
+        && is_embedded(faces)
+        && holds_witnesses()
+}
+
+/// Whether faces with area share no points but common corners and common edges. Exact.
+///
+/// Cost: one query of a static tree for each face.
+pub(crate) fn is_embedded(faces: &[Face]) -> bool {
+    let boxes: Vec<Bounds> = faces.iter().map(|face| Bounds::of(&face.at)).collect();
+    let tree = StaticTree::new(&boxes);
+    let is_apart_from_later = |i: usize| {
+        tree.visit_meeting(&boxes[i], |j| {
+            j <= i || !boxes[j].meets(&boxes[i]) || are_apart(&faces[i], &faces[j])
+        })
+    };
+    (0..faces.len()).all(is_apart_from_later)
+}
+
+/// The triangles of the connected components of a closed embedded surface that lie inside no other
+/// component, and the number of the others: cavities, and solids inside solids. `None` if there is
+/// only one component.
+///
+/// Both surfaces have the same outside. The triangles are grouped by component.
+pub(crate) fn outermost(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+) -> Option<(Vec<[u32; 3]>, usize)> {
+    let all = components(positions.len(), triangles);
+    if all.len() < 2 {
+        return None;
+    }
+    let corners = |&t: &u32| triangles[t as usize].map(|v| single(positions[v as usize]));
+    let enclosures = Enclosures::new(all.iter().map(|part| part.iter().map(corners).collect()));
+    let is_enclosed = |i: usize| !enclosures.around(enclosures.corner(i), Some(i)).is_empty();
+    let kept: Vec<usize> = (0..all.len()).filter(|&i| !is_enclosed(i)).collect();
+    let dropped = all.len() - kept.len();
+    let triangles = kept.into_iter().flat_map(|i| &all[i]).map(|&t| triangles[t as usize]);
+    Some((triangles.collect(), dropped))
+}
+
+/// Coordinates that are `f32` numbers.
+fn single(p: DVec3) -> [f32; 3] {
+    p.as_vec3().to_array()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tight::random::SplitMix;
+
+    type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
+
+    /// Tetrahedra at the points of a lattice, every third with another in it, and every sixth with
+    /// one in that.
+    fn tetrahedra(side: usize) -> (Surface, usize) {
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        let mut add = |at: DVec3, size: f64| {
+            let first = positions.len() as u32;
+            let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+            positions.extend(corners.map(|p| (at + p * size).as_vec3().as_dvec3()));
+            triangles.extend(
+                [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3u32]].map(|t| t.map(|v| v + first)),
+            );
+        };
+        let mut dice = SplitMix::new(3);
+        let mut within = 0;
+        for n in 0..side.pow(3) {
+            let at = [n % side, n / side % side, n / side / side].map(|x| 2.0 * x as f64);
+            let at = DVec3::from(at) + DVec3::new(dice.roll(), dice.roll(), dice.roll());
+            add(at, 1.0);
+            for (size, every) in [(0.5, 3), (0.25, 6)] {
+                if n % every == 0 {
+                    add(at + 0.1, size);
+                    within += 1;
+                }
+            }
+        }
+        ((positions, triangles), within)
+    }
+
+    #[test]
+    fn components_inside_others_are_dropped() {
+        for side in [1, 2, 6] {
+            let ((positions, triangles), within) = tetrahedra(side);
+            let (left, dropped) = outermost(&positions, &triangles).unwrap();
+            assert_eq!((dropped, left.len()), (within, triangles.len() - 4 * within));
+            let volume = |t: [u32; 3]| {
+                let [a, b, c] = t.map(|v| positions[v as usize]);
+                a.dot(b.cross(c)) / 6.0
+            };
+            assert!(left.iter().map(|&t| volume(t)).sum::<f64>() > left.len() as f64 / 4.0 / 6.001);
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Why a mesh bounds no volume, so that a hull of it has no void.
+
+use crate::counted::Counted;
+use crate::mesh::{EdgePlace, MeshError};
+use std::fmt;
+
+/// Why a mesh bounds no volume: its first defect in the order of
+/// [`require_closed_manifold`](crate::mesh::require_closed_manifold), with one place of the defect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoVolume {
+    /// Edges have one triangle only.
+    Open {
+        /// Number of them.
+        edges: usize,
+        /// One of them.
+        at: EdgePlace,
+    },
+    /// Edges have more than two triangles, for example where a wall divides the inside.
+    NonManifold {
+        /// Number of them.
+        edges: usize,
+        /// Most triangles at an edge.
+        most: usize,
+        /// One of them.
+        at: EdgePlace,
+    },
+    /// Several fans meet in a vertex; [`repair`](crate::mesh::repair) splits it.
+    Pinched {
+        /// Number of vertices.
+        vertices: usize,
+        /// One of them.
+        at: [f32; 3],
+    },
+    /// Components have one side only, as a Klein bottle, which is closed, and a Möbius strip.
+    OneSided {
+        /// Number of them.
+        parts: usize,
+        /// An edge where the sides change.
+        at: EdgePlace,
+    },
+    /// Neighbours are wound against each other; [`repair`](crate::mesh::repair) turns them.
+    MixedWinding {
+        /// Number of edges with such neighbours.
+        edges: usize,
+        /// One of them.
+        at: EdgePlace,
+    },
+    /// Outermost components face inwards; [`repair`](crate::mesh::repair) turns them.
+    InsideOut {
+        /// Number of them.
+        parts: usize,
+        /// A corner of one.
+        at: [f32; 3],
+    },
+    /// The volume of a closed component cannot be told from 0.
+    Flat {
+        /// The component's first triangle, as the input counts.
+        triangle: u32,
+        /// A corner of the triangle.
+        at: [f32; 3],
+    },
+    /// Components overlap, or one lies in another as a solid in a solid, or one crosses itself. The
+    /// volume then counts places more than once.
+    Overlapping,
+    /// The volume may be rounding alone, because cavities leave next to none.
+    Indistinct,
+    /// No triangle has an area.
+    NoArea,
+    /// The arrays break the contract of [`Mesh`](crate::mesh::Mesh).
+    Invalid,
+}
+
+impl NoVolume {
+    /// The first defect.
+    pub(super) fn of(error: &MeshError) -> Self {
+        let named = match error {
+            MeshError::Open { edge_count: edges, places, .. } => {
+                places.first().map(|&at| NoVolume::Open { edges: *edges, at })
+            }
+            MeshError::NonManifoldEdges { count: edges, most, places } => {
+                places.first().map(|&at| NoVolume::NonManifold { edges: *edges, most: *most, at })
+            }
+            MeshError::NonManifoldVertices { count: vertices, places } => {
+                places.first().map(|&at| NoVolume::Pinched { vertices: *vertices, at })
+            }
+            MeshError::NonOrientable { part_count: parts, places } => {
+                places.first().map(|&at| NoVolume::OneSided { parts: *parts, at })
+            }
+            MeshError::InconsistentWinding { edge_count: edges, places } => {
+                places.first().map(|&at| NoVolume::MixedWinding { edges: *edges, at })
+            }
+            MeshError::InsideOut { part_count: parts, places } => {
+                places.first().map(|&at| NoVolume::InsideOut { parts: *parts, at })
+            }
+            MeshError::ZeroVolume { triangle, at, .. } => {
+                Some(NoVolume::Flat { triangle: *triangle, at: *at })
+            }
+            MeshError::NoArea { .. } => Some(NoVolume::NoArea),
+            _ => None,
+        };
+        named.unwrap_or(NoVolume::Invalid)
+    }
+}
+
+impl fmt::Display for NoVolume {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            NoVolume::Open { edges, at } => {
+                write!(
+                    f,
+                    "the mesh is not closed: {}, {}",
+                    Counted(edges, "boundary edge"),
+                    Edge(at)
+                )
+            }
+            NoVolume::NoArea => f.write_str("no triangle of the mesh has an area"),
+            NoVolume::NonManifold { edges, most, at } => write!(
+                f,
+                "the mesh is not manifold: {} with up to {most} triangles, {}",
+                Counted(edges, "edge"),
+                Edge(at)
+            ),
+            NoVolume::Pinched { vertices, at } => {
+                write!(
+                    f,
+                    "the mesh is not manifold: several fans meet in {}, {}",
+                    Counted(vertices, "vertex"),
+                    Point(at)
+                )
+            }
+            NoVolume::OneSided { parts, at } => {
+                write!(
+                    f,
+                    "the mesh has no outside: {}, {}",
+                    Counted(parts, "one-sided part"),
+                    Edge(at)
+                )
+            }
+            NoVolume::MixedWinding { edges, at } => write!(
+                f,
+                "the mesh has no outside: triangles are wound against each other at {}, {}",
+                Counted(edges, "edge"),
+                Edge(at)
+            ),
+            NoVolume::InsideOut { parts, at } => {
+                write!(
+                    f,
+                    "the mesh is inside out: {}, {}",
+                    Counted(parts, "outermost part"),
+                    Point(at)
+                )
+            }
+            NoVolume::Flat { triangle, at } => {
+                write!(
+                    f,
+                    "a part of the mesh, that of triangle {triangle}, has a volume that cannot be \
+                     told from 0, {}",
+                    Point(at)
+                )
+            }
+            NoVolume::Overlapping => f.write_str(
+                "the mesh overlaps itself, so that its volume counts places more than once",
+            ),
+            NoVolume::Indistinct => f.write_str("the mesh's volume cannot be told from 0"),
+            NoVolume::Invalid => f.write_str("the mesh is not a valid one"),
+        }
+    }
+}
+
+/// The place of a defect at an edge.
+struct Edge(EdgePlace);
+
+impl fmt::Display for Edge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let EdgePlace { triangle, from, to } = self.0;
+        write!(f, "as at triangle {triangle} from {from:?} to {to:?}")
+    }
+}
+
+/// The place of a defect at a point.
+struct Point([f32; 3]);
+
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "as at {:?}", self.0)
+    }
+}

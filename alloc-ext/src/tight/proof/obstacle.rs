@@ -1,0 +1,232 @@
+//! The original mesh as the obstacle that a hull may not meet: its triangles, its vertices, and one
+//! witness of each connected component.
+
+use super::clearance::Clearance;
+use super::predicates::{Triangle, in_sunken, meet};
+use super::tetrahedron::Tetrahedron;
+use crate::mesh::Mesh;
+use crate::surface::{Bounds, Frontier, Plane, StaticTree, least_connected, spatial_order};
+use glam::DVec3;
+use meshsweep_core::internal::geom::point_triangle;
+
+/// Any set of triangles, in its own unit, with search trees.
+#[derive(Clone, Debug)]
+pub(crate) struct Obstacle {
+    triangles: Vec<Triangle>,
+    triangle_tree: StaticTree,
+    points: Vec<DVec3>,
+    point_tree: StaticTree,
+    witnesses: Vec<DVec3>,
+    witness_tree: StaticTree,
+    /// Distance within which no face may come; 0 for none.
+    margin: f64,
+}
+
+/// Sine between two edges of a face up to which the face counts as a needle. Rounding turns the
+/// normal of any other face by less than 2^-50 / 1e-6 = 1e-9, which is far below the distance that
+/// the tree adds to its boxes.
+const NEEDLE: f64 = 1e-6;
+
+fn tree_of_points(points: &[DVec3]) -> StaticTree {
+    StaticTree::new(&points.iter().map(|&p| Bounds { low: p, high: p }).collect::<Vec<_>>())
+}
+
+impl Obstacle {
+    /// Of positions that are `f32` numbers. Cost: O(n log n).
+    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        let bounds = |t: &[u32; 3]| Bounds::of(&t.map(|v| positions[v as usize]));
+        let order = spatial_order(&triangles.iter().map(bounds).collect::<Vec<_>>());
+        let witnesses = witnesses(positions, triangles);
+        let triangles: Vec<Triangle> =
+            order.iter().map(|&i| triangles[i as usize].map(|v| positions[v as usize])).collect();
+        let boxes: Vec<Bounds> = triangles.iter().map(|t| Bounds::of(t)).collect();
+        Self {
+            triangle_tree: StaticTree::new(&boxes),
+            triangles,
+            point_tree: tree_of_points(positions),
+            points: positions.to_vec(),
+            witness_tree: tree_of_points(&witnesses),
+            witnesses,
+            margin: 0.0,
+        }
+    }
+
+    /// Of a mesh and its wires.
+    pub fn of(mesh: &Mesh) -> Self {
+        let positions: Vec<DVec3> =
+            mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+        Self::new(&positions, &mesh.all_triangles().collect::<Vec<_>>())
+    }
+
+    /// The same with a margin: a distance within which no face may come.
+    pub fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// See [`with_margin`](Self::with_margin).
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// The bounding box of all triangles.
+    pub fn bounds(&self) -> Bounds {
+        self.triangles.iter().flatten().fold(Bounds::EMPTY, |b, &p| b.with(p))
+    }
+
+    /// All triangles.
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// One vertex of each connected component.
+    pub fn witnesses(&self) -> &[DVec3] {
+        &self.witnesses
+    }
+
+    /// Whether a face has a point in common with any triangle, which is exact; with a margin,
+    /// whether the face is not proved to keep the margin.
+    pub fn meets(&self, face: &Triangle) -> bool {
+        if self.margin > 0.0 { !self.keeps_margin(face) } else { self.touches(face) }
+    }
+
+    fn keeps_margin(&self, face: &Triangle) -> bool {
+        let clearance = Clearance::new(self.margin);
+        let bounds = Bounds::of(face);
+        let [a, b, c] = *face;
+        let normal = (b - a).cross(c - a);
+        self.triangle_tree.visit_kept(
+            &Frontier::whole(),
+            |of| !clearance.separates_box(face, &bounds, normal, of),
+            |i| clearance.separates(face, normal, &self.triangles[i]),
+        )
+    }
+
+    fn touches(&self, face: &Triangle) -> bool {
+        let [a, b, c] = *face;
+        let (ab, ac) = (b - a, c - a);
+        let normal = ab.cross(ac);
+        let length = normal.length();
+        let unit = normal / length;
+        // Both sides of the face's plane, if its normal is known well enough.
+        let planes = [unit, -unit].map(|normal| Plane { normal, offset: normal.dot(a) });
+        let is_needle = length <= NEEDLE * ab.length() * ac.length();
+        let planes = if is_needle { &[] } else { &planes[..] };
+        let visit = |i: usize| !meet(face, &self.triangles[i]);
+        !self.triangle_tree.visit_reached(&Bounds::of(face), planes, visit)
+    }
+
+    /// Whether a witness lies in a tetrahedron that leaves the hull when the corner opposite to
+    /// each base moves to `apex`. Exact.
+    pub fn has_witness_in(&self, bases: &[Triangle], apex: DVec3) -> bool {
+        bases.iter().any(|base| {
+            let bounds = Bounds::of(base).with(apex);
+            !self.witness_tree.visit_meeting(&bounds, |i| !in_sunken(base, apex, self.witnesses[i]))
+        })
+    }
+
+    /// Where queries in these bounds begin: among the vertices, and among the triangles.
+    pub fn frontiers(&self, bounds: &Bounds, [points, triangles]: &mut [Frontier; 2]) {
+        self.point_tree.frontier(bounds, points);
+        self.triangle_tree.frontier(bounds, triangles);
+    }
+
+    /// The highest plane that `raise` makes of the vertices in a tetrahedron. Not exact.
+    #[inline]
+    pub fn highest_point(
+        &self,
+        near: &Frontier,
+        tetrahedron: &Tetrahedron,
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
+        let mut highest = None::<Plane>;
+        let probe = self.point_tree.probe(tetrahedron.bounds(), tetrahedron.planes());
+        self.point_tree.visit_raising(near, probe, |i| {
+            let p = self.points[i];
+            let stands_out = highest.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
+            let raised = if stands_out { raise(p) } else { None };
+            highest = raised.or(highest);
+            raised
+        });
+        highest
+    }
+
+    /// As [`highest_point`](Self::highest_point), of the corners of the parts of triangles that lie
+    /// in the tetrahedron.
+    #[inline]
+    pub fn highest_piece(
+        &self,
+        near: &Frontier,
+        tetrahedron: &Tetrahedron,
+        raise: impl Fn(DVec3) -> Option<Plane>,
+    ) -> Option<Plane> {
+        let mut highest = None::<Plane>;
+        let probe = self.triangle_tree.probe(tetrahedron.bounds(), tetrahedron.planes());
+        self.triangle_tree.visit_raising(near, probe, |i| {
+            let triangle = &self.triangles[i];
+            if highest.is_some_and(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
+                return None;
+            }
+            let mut raised = None;
+            tetrahedron.clip(triangle, |p| raised = raise(p).or(raised));
+            highest = raised.or(highest);
+            raised
+        });
+        highest
+    }
+
+    /// Calls `visit` with the vertices in all boxes that pass `keep`, and perhaps with others.
+    #[inline]
+    pub fn visit_points(
+        &self,
+        near: &Frontier,
+        keep: impl Fn(&Bounds) -> bool,
+        visit: impl Fn(DVec3),
+    ) {
+        self.point_tree.visit_kept(near, keep, |i| {
+            visit(self.points[i]);
+            true
+        });
+    }
+
+    /// As [`visit_points`](Self::visit_points), with the triangles.
+    #[inline]
+    pub fn visit_triangles(
+        &self,
+        near: &Frontier,
+        keep: impl Fn(&Bounds) -> bool,
+        visit: impl Fn(&Triangle),
+    ) {
+        self.triangle_tree.visit_kept(near, keep, |i| {
+            visit(&self.triangles[i]);
+            true
+        });
+    }
+
+    /// The triangle nearest to a point, and bounds of the distance to the mesh.
+    pub fn nearest(&self, p: DVec3) -> Option<(Triangle, [f64; 2])> {
+        let mut lower = f64::INFINITY;
+        let distance_sq = |i: usize| {
+            let [a, b, c] = self.triangles[i];
+            let bounds = point_triangle(p, a, b, c);
+            lower = lower.min(bounds.lower);
+            bounds.upper * bounds.upper
+        };
+        let (found, _) = self.triangle_tree.nearest(p, distance_sq)?;
+        let [a, b, c] = self.triangles[found];
+        let upper = point_triangle(p, a, b, c).upper;
+        // Triangles that the tree passed over are no nearer, but for the rounding of a box's
+        // distance.
+        Some((self.triangles[found], [lower.min(upper * (1.0 - 1e-12)), upper]))
+    }
+}
+
+/// The least vertex of each connected component.
+fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+    let least = least_connected(positions.len(), triangles);
+    let mut used = vec![false; positions.len()];
+    triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    (0..positions.len())
+        .filter(|&v| used[v] && least[v] == v as u32)
+        .map(|v| positions[v])
+        .collect()
+}

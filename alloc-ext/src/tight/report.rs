@@ -1,0 +1,91 @@
+//! What a tight hull is, what it took, and where the work stands.
+
+use super::proof::NoVolume;
+use crate::hausdorff::Farthest;
+use std::time::Duration;
+
+/// The initial hull that a hull was made from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// A level of the mesh's progressive hull, lifted off the mesh.
+    Progressive {
+        /// Faces of the level.
+        faces: usize,
+    },
+    /// The voxel closure: the boundary of all voxels that the mesh meets or cuts off from outside.
+    VoxelClosure {
+        /// Edge of a voxel, in the mesh's unit.
+        edge: f64,
+        /// Voxels along the longest side of the grid.
+        voxels: usize,
+    },
+    /// The mesh's bounding box, with faces split where a split gains most.
+    Box,
+}
+
+/// Why the search for a hull ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The hull reached its goal.
+    Reached,
+    /// More faces than asked for: no edge collapse kept the hull closed, embedded, clear of the
+    /// mesh and of a sound shape.
+    Stuck,
+    /// Even the finest hull that was tried is looser than asked for.
+    TooLoose,
+    /// The time was up.
+    OutOfTime,
+}
+
+/// Measures of a hull and of the work for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Report {
+    /// Number of faces.
+    pub faces: usize,
+    /// Volume, in the mesh's unit.
+    pub volume: f64,
+    /// Volume beyond that of the mesh, as a part of the mesh's volume; or why the mesh has no
+    /// volume.
+    pub void: Result<f64, NoVolume>,
+    /// Whether the mesh crosses or touches itself, which is tested only where a void is asked for.
+    /// Its volume may then count places more than once, and the true void may be larger.
+    pub crosses: bool,
+    /// Bounds of the largest distance from a point of the hull to the mesh, in its unit.
+    pub slack: Farthest,
+    /// The initial hull.
+    pub start: Start,
+    /// Number of closed components that bounded cavities, or lay inside others, and are not in the
+    /// hull.
+    pub filled: usize,
+    /// Why the search ended.
+    pub stop: Outcome,
+    /// Number of stars that were placed: the measure of work.
+    pub stars: u64,
+    /// Number of linear programs solved for the stars.
+    pub programs: u64,
+    /// Elapsed time.
+    pub time: Duration,
+}
+
+/// The state of the work on a hull.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// The stage.
+    pub stage: Stage,
+    /// Steps done.
+    pub done: usize,
+    /// Steps in all.
+    pub of: usize,
+}
+
+/// The stages, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Progressive hull; counts triangles that are gone.
+    Collapsing,
+    /// Collapses against the mesh; counts faces that are gone.
+    Wrapping,
+    /// Polishing; counts stars.
+    Polishing,
+}

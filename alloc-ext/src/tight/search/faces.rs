@@ -1,0 +1,210 @@
+//! The tightest hull of a number of faces.
+//!
+//! | mesh | initial hulls, in this order |
+//! | --- | --- |
+//! | bounds a volume | levels of its own progressive hull; the voxel closures if none is proved |
+//! | any other | the voxel closures, the finest first, until one reaches the number of faces |
+//! | margin that is large beside the mesh | one voxel closure as fine as the margin needs |
+//! | any, few faces | all of them and the grown box compete; each is polished at once |
+//!
+//! With few faces a coarse closure may come to less volume, because it has fewer handles and narrow
+//! places.
+
+use super::candidate::{CandidateHull, keep_better};
+use super::hull_search::HullSearch;
+use crate::collapse::Conditions;
+use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
+use crate::tight::moves::HullEditor;
+use crate::tight::options::WrapError;
+use crate::tight::report::{Outcome, Start};
+use std::time::Instant;
+
+/// Voxels along the longest side of the closures that are tried after the [`finest`]; `None` is the
+/// grown box.
+const COARSER: [Option<usize>; 4] = [Some(40), Some(16), LAST_RESORT, None];
+
+/// A closure that is tried only where all before it got stuck.
+const LAST_RESORT: Option<usize> = Some(6);
+
+/// Faces that the grown box is split to first, and the factor of each further step. If all splits
+/// came at once the first would decide, and no polish undoes them.
+const GROWTH: (f64, f64) = (16.0, 1.2);
+
+/// Voxels along the longest side of the finest closure for a number of faces. A hull never reopens
+/// a gap narrower than a voxel, so that more faces need smaller voxels. Above 160 the grid takes
+/// more time than the hull.
+fn finest(faces: usize) -> usize {
+    let voxels = (40.0 * (faces as f64 / 200.0).sqrt()) as usize;
+    voxels.clamp(40, 160)
+}
+
+/// A margin above this part of the mesh's longest side is a few voxels of the first closure.
+const LARGE_MARGIN: f64 = 0.02;
+
+/// Least and most voxels along the longest side of the closure for a large margin.
+const LARGE_MARGIN_VOXELS: [usize; 2] = [12, 32];
+
+/// Up to this number of faces all initial hulls compete.
+pub(super) const FEW_FACES: usize = 60;
+
+/// Void of a hull that no other initial hull can improve by more.
+const NEXT_TO_NO_VOID: f64 = 1e-4;
+
+/// Largest void that may be due to the steps of the grid.
+const MOST_GRID_VOID: f64 = 1e-2;
+
+/// Half-steps of the grid that keep such a hull off the mesh.
+const HALF_STEPS_OFF: f64 = 12.0;
+
+/// The number of faces that is asked for.
+#[derive(Clone, Copy)]
+pub(super) struct Target {
+    pub faces: usize,
+    /// Whether hulls come down to that number. Otherwise they only come up to it, by splits.
+    pub descends: bool,
+}
+
+impl Target {
+    /// Whether all initial hulls compete, each polished at once, which decides between them.
+    fn is_few(self) -> bool {
+        self.descends && self.faces <= FEW_FACES
+    }
+}
+
+impl<'a> HullSearch<'a, '_> {
+    /// Voxels of the first closure if the margin is so large that the mesh's shape shows little at
+    /// that distance. Voxels of half the margin then show all of it.
+    pub(super) fn large_margin_voxels(&self) -> Option<usize> {
+        let margin = self.obstacle.margin();
+        let longest = self.longest_side();
+        let voxels = (longest + 2.0 * margin) / (0.5 * margin);
+        let [least, most] = LARGE_MARGIN_VOXELS;
+        (margin > LARGE_MARGIN * longest).then(|| (voxels as usize).clamp(least, most))
+    }
+
+    /// The best hull of a number of faces. It is polished if it descends.
+    pub(super) fn of_faces(&mut self, target: Target) -> Result<CandidateHull<'a>, WrapError> {
+        let mut best: Option<CandidateHull<'a>> = None;
+        let large_margin = self.large_margin_voxels();
+        if self.solid.is_some() && large_margin.is_none() {
+            self.try_levels(target, &mut best);
+        }
+        let is_itself = self.is_solid_itself(best.as_ref(), target);
+        let is_enough = best.is_some() || large_margin.is_some();
+        let finest = finest(target.faces);
+        // If the levels of the finest closure meet themselves in narrow places, a slightly coarser
+        // grid may do.
+        let second = Some(finest * 2 / 3).filter(|&voxels| Some(voxels) > COARSER[0]);
+        let coarser = COARSER.into_iter().filter(|&voxels| voxels != Some(finest));
+        let finest = if self.is_hurried { None } else { Some(finest) };
+        let first = [large_margin, finest, second].into_iter().flatten().map(Some);
+        for voxels in first.chain(coarser) {
+            let is_late = self.is_late();
+            if is_late && best.is_none() && voxels.is_some() {
+                self.is_hurried = true;
+                continue;
+            }
+            let is_reached = best.as_ref().is_some_and(|best| best.stop != Outcome::Stuck);
+            let is_settled = is_enough && (!target.is_few() || is_itself) && is_reached;
+            if best.is_some() && (is_settled || is_late) {
+                break;
+            }
+            if is_reached && voxels == LAST_RESORT {
+                continue;
+            }
+            let input = self.initial_input();
+            let initial = match voxels {
+                Some(voxels) => {
+                    closure_hull(&input, voxels, target.faces, Conditions::PAPER, self.on_progress)
+                }
+                None => grown_box(&input),
+            };
+            if let Some(initial) = initial {
+                keep_better(&mut best, self.prepare(initial, target));
+            }
+        }
+        let mut best = best.ok_or_else(|| self.no_room())?;
+        if target.descends && !target.is_few() {
+            self.finish(&mut best);
+        }
+        Ok(best)
+    }
+
+    /// Tries levels of the mesh's own progressive hull, in half of the time: the other half is for
+    /// the other initial hulls.
+    fn try_levels(&mut self, target: Target, best: &mut Option<CandidateHull<'a>>) {
+        let half = self.deadline.map(|deadline| {
+            let now = Instant::now();
+            now + deadline.saturating_duration_since(now) / 2
+        });
+        let input = InitialInput { stored: self.stored, deadline: half, ..self.initial_input() };
+        let levels = lifted_levels(&input, self.mesh, target.faces, self.on_progress);
+        for initial in [levels.ample, levels.exact].into_iter().flatten() {
+            if !self.is_solid_itself(best.as_ref(), target) {
+                keep_better(best, self.prepare(initial, target));
+            }
+        }
+        self.is_hurried |= best.is_none() && half.is_some_and(|half| Instant::now() >= half);
+    }
+
+    /// Whether the mesh has no more faces than asked for, and a hull that reached its goal has next
+    /// to no void. A hull of less volume than the mesh says nothing: components overlap.
+    fn is_solid_itself(&self, hull: Option<&CandidateHull<'a>>, target: Target) -> bool {
+        let Some((hull, volume)) = hull.zip(self.volume()) else { return false };
+        if self.mesh.triangles.len() > target.faces || hull.stop != Outcome::Reached {
+            return false;
+        }
+        let HullEditor { shell, rounding, .. } = &hull.editor;
+        let area = shell.alive().map(|f| {
+            let [a, b, c] = shell.triangle(f);
+            0.5 * (b - a).cross(c - a).length()
+        });
+        let off =
+            HALF_STEPS_OFF * rounding.half_step(self.largest_coordinate()) * area.sum::<f64>();
+        let more = volume * NEXT_TO_NO_VOID + off.min(volume * MOST_GRID_VOID);
+        (volume..=volume + more).contains(&shell.volume())
+    }
+
+    /// Settles an initial hull and brings it to the number of faces.
+    fn prepare(&mut self, initial: InitialHull, target: Target) -> CandidateHull<'a> {
+        let InitialHull { start, filled, .. } = initial;
+        let mut editor = self.editor(initial);
+        for _ in 0..2 {
+            editor.sweep();
+            editor.flip_all();
+        }
+        let stop = if target.descends {
+            self.descend(&mut editor, target.faces)
+        } else {
+            Outcome::Reached
+        };
+        if target.is_few() && start == Start::Box {
+            self.grow(&mut editor, target.faces);
+        }
+        editor.refine(target.faces);
+        editor.relax(self.floor(), 1e-2, 4);
+        let mut hull = CandidateHull { editor, start, filled, stop };
+        if target.is_few() && stop == Outcome::Reached {
+            self.finish(&mut hull);
+        }
+        hull
+    }
+
+    /// Splits in steps, each polished.
+    fn grow(&mut self, editor: &mut HullEditor<'a>, target: usize) {
+        let mut faces = GROWTH.0;
+        while (faces as usize) < target && !editor.is_late() {
+            editor.refine(faces as usize);
+            editor.relax(self.floor(), 1e-2, 4);
+            self.polish(editor);
+            faces *= GROWTH.1;
+        }
+    }
+
+    fn finish(&mut self, hull: &mut CandidateHull<'a>) {
+        let polished = self.polish(&mut hull.editor);
+        if hull.stop == Outcome::Reached {
+            hull.stop = polished;
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The command line, as users call it: one file for each kind of question.
+
+mod arguments;
+mod build;
+mod cull;
+mod distances;
+mod errors;
+mod hull;
+mod overlap;
+mod queries;
+mod support;
+mod tight;
+mod tribox;

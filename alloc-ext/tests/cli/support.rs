@@ -1,0 +1,192 @@
+//! Runs the program, and knows the truth by brute force in f64.
+#![allow(dead_code, reason = "each test file uses a part")]
+
+use meshsweep::mesh;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+pub type Point = [f64; 3];
+pub type Triangle = [Point; 3];
+
+/// The program.
+pub fn meshsweep() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_meshsweep"))
+}
+
+/// Runs the program on arguments.
+pub fn run<S: AsRef<std::ffi::OsStr>>(args: impl IntoIterator<Item = S>) -> Output {
+    meshsweep().args(args).output().expect("the program starts")
+}
+
+/// Runs it and demands success; the standard output.
+pub fn ok<S: AsRef<std::ffi::OsStr>>(args: impl IntoIterator<Item = S>) -> String {
+    let output = run(args);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("the output is UTF-8")
+}
+
+/// Demands the exit status and an error of one line that names `file`; the line.
+pub fn refused(output: &Output, status: i32, file: &str) -> String {
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(status), "{stderr}");
+    assert_eq!(stderr.lines().count(), 1, "one line: {stderr}");
+    assert!(stderr.starts_with("error: ") && stderr.contains(file), "{stderr} should name {file}");
+    stderr
+}
+
+pub fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name)
+}
+
+/// An empty directory of a test's own.
+pub fn scratch(name: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(name);
+    let _ = fs::remove_dir_all(&directory);
+    fs::create_dir_all(&directory).expect("the directory can be made");
+    directory
+}
+
+/// A path as an argument.
+pub fn arg(path: &Path) -> &str {
+    path.to_str().expect("paths of the tests are UTF-8")
+}
+
+/// Builds a blob of a fixture in `directory`.
+pub fn blob(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
+    let mesh = fixture(name);
+    let path = directory.join(mesh.file_name().expect("it has a name")).with_extension("msw");
+    ok([&["build", arg(&mesh), "-o", arg(&path)], options].concat());
+    path
+}
+
+/// The same with the hull hierarchy alone.
+pub fn hull_blob(directory: &Path, name: &str, options: &[&str]) -> PathBuf {
+    blob(directory, name, &[&["--for", "hull"], options].concat())
+}
+
+/// What `info --json` says of a blob.
+pub fn info(path: &Path) -> serde_json::Value {
+    serde_json::from_str(&ok(["info", arg(path), "--json"])).expect("it is JSON")
+}
+
+/// Triangles of a mesh file as it is, coordinates in f64.
+pub fn triangles(path: &Path) -> Vec<Triangle> {
+    let raw = mesh::read(path).expect("the mesh is readable");
+    raw.triangles.iter().map(|t| t.map(|v| raw.positions[v as usize])).collect()
+}
+
+/// `count` queries of `N` numbers, uniform in the box of `triangles` blown up by a half.
+pub fn random_queries<const N: usize>(triangles: &[Triangle], count: usize) -> Vec<[f32; N]> {
+    let corners = || triangles.iter().flatten();
+    let low: [f64; 3] =
+        core::array::from_fn(|k| corners().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+    let high: [f64; 3] =
+        core::array::from_fn(|k| corners().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));
+    let mut state = 0x9E37_79B9_7F4A_7C15u64;
+    let mut uniform = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let coordinate = |i: usize, u: f64| {
+        let k = i % 3;
+        ((low[k] + high[k]) / 2.0 + (u - 0.5) * 1.5 * (high[k] - low[k])) as f32
+    };
+    (0..count).map(|_| core::array::from_fn(|i| coordinate(i, uniform()))).collect()
+}
+
+/// Queries as text, with a header.
+pub fn write_csv<const N: usize>(path: &Path, rows: &[[f32; N]]) {
+    let mut text = String::from("some,header\n");
+    for row in rows {
+        let fields: Vec<String> = row.iter().map(f32::to_string).collect();
+        text += &(fields.join(",") + "\n");
+    }
+    fs::write(path, text).expect("the file can be written");
+}
+
+/// Queries as raw f32.
+pub fn write_raw<const N: usize>(path: &Path, rows: &[[f32; N]]) {
+    let bytes: Vec<u8> = rows.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    fs::write(path, bytes).expect("the file can be written");
+}
+
+/// Fields of a CSV without its header, which must be `header`.
+pub fn parse_csv(text: &str, header: &str) -> Vec<Vec<String>> {
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some(header));
+    let rows: Vec<Vec<String>> =
+        lines.map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>()).collect();
+    assert!(
+        rows.iter().all(|row| row.len() == header.split(',').count()),
+        "every line has all fields"
+    );
+    rows
+}
+
+pub fn number(field: &str) -> f64 {
+    // Through f32, which is what was printed.
+    f64::from(field.parse::<f32>().expect("a number"))
+}
+
+fn sub(a: Point, b: Point) -> Point {
+    core::array::from_fn(|k| a[k] - b[k])
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Distance of a point and a segment.
+fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let (ab, ap) = (sub(b, a), sub(p, a));
+    let t = (dot(ap, ab) / dot(ab, ab)).clamp(0.0, 1.0);
+    let d: Point = core::array::from_fn(|k| ap[k] - t * ab[k]);
+    dot(d, d).sqrt()
+}
+
+/// Distance of a point and a triangle: that to its plane where the foot lies inside, else that to
+/// the nearest side.
+pub fn to_triangle(p: Point, [a, b, c]: Triangle) -> f64 {
+    let n = cross(sub(b, a), sub(c, a));
+    let inside =
+        [(a, b), (b, c), (c, a)].iter().all(|&(u, v)| dot(cross(n, sub(v, u)), sub(p, u)) >= 0.0);
+    let sides = to_segment(p, a, b).min(to_segment(p, b, c)).min(to_segment(p, c, a));
+    let length = dot(n, n).sqrt();
+    if inside && length > 0.0 { (dot(n, sub(p, a)) / length).abs() } else { sides }
+}
+
+/// Distance of a point and a mesh.
+pub fn distance(p: Point, triangles: &[Triangle]) -> f64 {
+    triangles.iter().map(|&t| to_triangle(p, t)).fold(f64::INFINITY, f64::min)
+}
+
+/// Least parameter at which a segment in general position crosses a mesh.
+pub fn first_crossing(a: Point, b: Point, triangles: &[Triangle]) -> Option<f64> {
+    let crossing = |&[p, q, r]: &Triangle| {
+        let d = sub(b, a);
+        let volume = |u: Point, v: Point| dot(d, cross(sub(u, a), sub(v, a)));
+        let sides = [volume(p, q), volume(q, r), volume(r, p)];
+        let n = cross(sub(q, p), sub(r, p));
+        let t = dot(n, sub(p, a)) / dot(n, d);
+        let through = sides.iter().all(|&x| x >= 0.0) || sides.iter().all(|&x| x <= 0.0);
+        (through && (0.0..=1.0).contains(&t)).then_some(t)
+    };
+    triangles.iter().filter_map(crossing).min_by(f64::total_cmp)
+}
+
+/// How much a segment runs along a triangle's normal: negative where it meets the front.
+pub fn ascent(a: Point, b: Point, [p, q, r]: Triangle) -> f64 {
+    dot(sub(b, a), cross(sub(q, p), sub(r, p)))
+}
+
+/// Three f32 as f64.
+pub fn wide(p: &[f32]) -> Point {
+    [f64::from(p[0]), f64::from(p[1]), f64::from(p[2])]
+}

@@ -1,0 +1,260 @@
+//! `meshsweep tribox`: what is printed is true of what is written, and what is written holds the
+//! mesh.
+
+use crate::support::{
+    Point, Triangle, arg, distance, fixture, ok, refused, run, scratch, triangles,
+};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+fn json(mesh: &Path, options: &[&str]) -> Value {
+    let text = ok([&["tribox", arg(mesh), "--json"], options].concat());
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+fn numbers(levels: &Value, key: &str) -> Vec<f64> {
+    let levels = levels["levels"].as_array().expect("there are levels");
+    levels.iter().map(|level| level[key].as_f64().expect("a number")).collect()
+}
+
+fn volume(triangles: &[Triangle]) -> f64 {
+    let of = |&[[a, b, c], [d, e, f], [g, h, i]]: &Triangle| {
+        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
+    };
+    triangles.iter().map(of).sum()
+}
+
+/// Winding number, by solid angles.
+fn winding(p: Point, triangles: &[Triangle]) -> f64 {
+    let dot = |a: Point, b: Point| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let angle = |corners: &Triangle| {
+        let [a, b, c]: Triangle = corners.map(|v| core::array::from_fn(|k| v[k] - p[k]));
+        let cross =
+            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
+        2.0 * dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
+    };
+    triangles.iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
+}
+
+#[test]
+fn levels_double_and_hold_ever_less_void() {
+    for name in ["bracket.stl", "torus.ply", "groove.obj"] {
+        let report = json(&fixture(name), &["--levels", "6"]);
+        assert_eq!(report["is_closed"], true);
+        let solid = report["volume"].as_f64().unwrap();
+        let (counts, volumes) = (numbers(&report, "triboxes"), numbers(&report, "volume"));
+        assert_eq!(counts[..5], [1.0, 2.0, 4.0, 8.0, 16.0], "{name}");
+        assert!(volumes.windows(2).all(|w| w[1] <= w[0] * (1.0 + 1e-5)), "{name}: {volumes:?}");
+        assert!(volumes.iter().all(|&volume| volume >= solid * (1.0 - 1e-9)));
+        for (void, volume) in numbers(&report, "void_ratio").iter().zip(&volumes) {
+            assert!((void - (volume / solid - 1.0)).abs() < 1e-9);
+        }
+        let mesh = report["triangles"].as_f64().unwrap();
+        for (compression, faces) in
+            numbers(&report, "compression").iter().zip(numbers(&report, "faces"))
+        {
+            assert!((compression - mesh / faces).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn what_is_written_holds_the_mesh_and_has_the_volume_that_is_printed() {
+    let directory = scratch("tribox_written");
+    let out = directory.join("proxy.ply");
+    for (name, simplify) in [("bracket.stl", "0"), ("torus.ply", "0.05"), ("groove.obj", "0")] {
+        let mesh = fixture(name);
+        let report = json(&mesh, &["--levels", "4", "--simplify", simplify, "-o", arg(&out)]);
+        let written = triangles(&out);
+        let last = *numbers(&report, "volume").last().unwrap();
+        assert!((volume(&written) / last - 1.0).abs() < 1e-6, "{name}");
+        assert!(fs::read(&out).unwrap().starts_with(b"ply\nformat binary_little_endian 1.0\n"));
+        for corners in triangles(&mesh).iter().step_by(7) {
+            let centre: Point =
+                core::array::from_fn(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0);
+            let is_held = winding(centre, &written) > 0.9 || distance(centre, &written) < 1e-5;
+            assert!(is_held, "{name}: {centre:?}");
+        }
+    }
+}
+
+#[test]
+fn the_largest_distance_is_that_of_the_sampled_boundary() {
+    let directory = scratch("tribox_distance");
+    let out = directory.join("proxy.ply");
+    let mesh = fixture("torus.ply");
+    let report = json(&mesh, &["--levels", "1", "-o", arg(&out)]);
+    let surface = triangles(&mesh);
+    let sampled =
+        triangles(&out).iter().flatten().map(|&p| distance(p, &surface)).fold(0.0, f64::max);
+    let bounds = &report["levels"][0]["distance"];
+    let (lower, upper) = (bounds["lower"].as_f64().unwrap(), bounds["upper"].as_f64().unwrap());
+    assert!(
+        lower <= upper && upper <= 1.06 * lower && sampled <= upper,
+        "{lower} {sampled} {upper}"
+    );
+}
+
+#[test]
+fn the_table_has_a_row_for_each_level() {
+    let text = ok(["tribox", arg(&fixture("torus.ply")), "--levels", "3"]);
+    let rows = || text.lines().filter(|line| line.starts_with(' '));
+    assert_eq!(rows().count(), 3, "{text}");
+    assert!(text.contains("2304 triangles, closed, volume 21.89"), "{text}");
+    assert!(text.contains("triboxes") && text.contains("void %"), "{text}");
+}
+
+#[test]
+fn an_open_mesh_says_so_and_has_no_void() {
+    let directory = scratch("tribox_open");
+    let mesh = directory.join("open.obj");
+    fs::write(&mesh, "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n").unwrap();
+    let text = ok(["tribox", arg(&mesh), "--levels", "3"]);
+    assert!(text.contains("not closed") && text.contains("surface"), "{text}");
+    let report = json(&mesh, &["--levels", "3"]);
+    assert_eq!(report["is_closed"], false);
+    assert!(report["volume"].is_null() && report["levels"][0]["void_ratio"].is_null());
+}
+
+#[test]
+fn splitting_ends_where_it_saves_nothing_and_says_so() {
+    let directory = scratch("tribox_exhausted");
+    let mesh = directory.join("flat.obj");
+    fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").unwrap();
+    let text = ok(["tribox", arg(&mesh)]);
+    assert!(text.contains("no further split saves enough area"), "{text}");
+    let report = json(&mesh, &[]);
+    assert_eq!(
+        (numbers(&report, "triboxes"), &report["is_exhausted"]),
+        (vec![1.0], &Value::Bool(true))
+    );
+}
+
+#[test]
+fn answers_do_not_change() {
+    let directory = scratch("tribox_same");
+    let (one, two) = (directory.join("1.ply"), directory.join("2.ply"));
+    let mesh = fixture("bracket.stl");
+    for out in [&one, &two] {
+        ok(["tribox", arg(&mesh), "--levels", "4", "-o", arg(out)]);
+    }
+    assert!(fs::read(&one).unwrap() == fs::read(&two).unwrap());
+}
+
+#[test]
+fn wrong_usage_is_refused_before_anything_is_written() {
+    let directory = scratch("tribox_usage");
+    let mesh = fixture("torus.ply");
+    let stl = directory.join("proxy.stl");
+    refused(&run(["tribox", arg(&mesh), "-o", arg(&stl)]), 2, "proxy.stl");
+    for wrong in [["--levels", "0"], ["--levels", "13"], ["--simplify", "-1"]] {
+        assert_eq!(
+            run([&["tribox", arg(&mesh)], &wrong[..]].concat()).status.code(),
+            Some(2),
+            "{wrong:?}"
+        );
+    }
+    let copy = directory.join("same.ply");
+    fs::copy(&mesh, &copy).unwrap();
+    refused(&run(["tribox", arg(&copy), "-o", arg(&copy)]), 1, "same.ply");
+    assert!(!stl.exists());
+}
+
+#[test]
+fn coordinates_beyond_what_triboxes_hold_are_refused_by_name() {
+    let directory = scratch("tribox_huge");
+    let mesh = directory.join("huge.obj");
+    fs::write(&mesh, "v 0 0 0\nv 2e37 0 0\nv 0 2e37 0\nf 1 2 3\n").unwrap();
+    let line = refused(&run(["tribox", arg(&mesh)]), 1, "huge.obj");
+    assert!(line.contains("2^120") && line.contains("unit"), "{line}");
+    for scale in ["e-30", "e30"] {
+        let mesh = directory.join(format!("scaled{scale}.obj"));
+        let text = "v 1 1 1\nv 2 1 1\nv 1 2 1\nv 1 1 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+        let text = text.replace("1 1 1\n", "1# 1# 1#\n").replace('#', scale);
+        let text = text.replace("v 2 1 1", &format!("v 2{scale} 1{scale} 1{scale}"));
+        let text = text.replace("v 1 2 1", &format!("v 1{scale} 2{scale} 1{scale}"));
+        let text = text.replace("v 1 1 2", &format!("v 1{scale} 1{scale} 2{scale}"));
+        fs::write(&mesh, text).unwrap();
+        assert_eq!(json(&mesh, &["--levels", "3"])["is_closed"], true);
+    }
+}
+
+fn info(blob: &Path) -> Value {
+    serde_json::from_str(&ok(["info", arg(blob), "--json"])).expect("it is JSON")
+}
+
+#[test]
+fn a_blob_of_triboxes_holds_what_the_command_prints() {
+    let directory = scratch("tribox_blob");
+    let blob = directory.join("torus.msw");
+    let text = ok([
+        "build",
+        arg(&fixture("torus.ply")),
+        "--for",
+        "triboxes",
+        "--triboxes",
+        "16",
+        "-o",
+        arg(&blob),
+    ]);
+    assert!(
+        text.contains("serves triboxes, cut") && text.contains("31 nodes of 16 leaves"),
+        "{text}"
+    );
+    let stored = info(&blob);
+    assert_eq!((&stored["hull"], &stored["tree"]), (&Value::Null, &Value::Null));
+    let stored = &stored["triboxes"];
+    assert_eq!((&stored["is_solid"], &stored["leaves"]), (&Value::Bool(true), &Value::from(16)));
+    assert_eq!(numbers(stored, "triboxes"), [1.0, 2.0, 4.0, 8.0, 16.0]);
+    // On a coarser grid than what the command writes, so a little larger.
+    let printed = json(&fixture("torus.ply"), &["--levels", "5"]);
+    for (there, here) in numbers(stored, "void_ratio").iter().zip(numbers(&printed, "void_ratio")) {
+        assert!((there - here).abs() < 3e-3, "{there} {here}");
+    }
+    for (there, levels) in
+        numbers(stored, "distance").iter().zip(printed["levels"].as_array().unwrap())
+    {
+        let lower = levels["distance"]["lower"].as_f64().unwrap();
+        assert!(*there >= lower && *there < lower * 1.07, "{there} {lower}");
+    }
+}
+
+#[test]
+fn triboxes_are_cut_alone_or_with_the_hull_and_stay_else() {
+    let directory = scratch("tribox_cut");
+    let [blob, cut] = ["all.msw", "cut.msw"].map(|name| directory.join(name));
+    let questions = ["--for", "closest,hull,triboxes", "--triboxes", "8", "--base", "60"];
+    ok([&["build", arg(&fixture("groove.obj")), "-o", arg(&blob)], questions.as_slice()].concat());
+    let whole = info(&blob);
+    let leaves = |blob: &Value| blob["triboxes"]["leaves"].as_u64().expect("there are some");
+    let count = leaves(&whole);
+    assert!(count > 2 && whole["tree"].is_object());
+    let text = ok(["cut", arg(&blob), "--triboxes", "2", "-o", arg(&cut)]);
+    assert!(text.contains("2 triboxes"), "{text}");
+    let left = info(&cut);
+    assert_eq!((leaves(&left), &left["tree"], &left["hull"]), (2, &whole["tree"], &whole["hull"]));
+    ok(["cut", arg(&blob), "--level", "0", "-o", arg(&cut)]);
+    assert_eq!((leaves(&info(&cut)), &info(&cut)["tree"]), (count, &Value::Null));
+    ok(["cut", arg(&blob), "--level", "0", "--triboxes", "1", "-o", arg(&cut)]);
+    assert_eq!(leaves(&info(&cut)), 1);
+    assert_eq!(
+        run(["cut", arg(&blob), "-o", arg(&cut)]).status.code(),
+        Some(2),
+        "nothing to cut is named"
+    );
+    let plain = directory.join("plain.msw");
+    ok(["build", arg(&fixture("groove.obj")), "-o", arg(&plain)]);
+    refused(&run(["cut", arg(&plain), "--triboxes", "2", "-o", arg(&cut)]), 1, "--for triboxes");
+    let mesh = fixture("groove.obj");
+    let stray = ["build", arg(&mesh), "--triboxes", "2", "-o", arg(&plain)];
+    refused(&run(stray), 2, "add triboxes to --for");
+    for (option, wanted) in
+        [("--levels", "a whole number from 1 to 12"), ("--simplify", "a number from 0")]
+    {
+        let output = run(["tribox", arg(&mesh), option, "-1"]);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && text.contains(wanted), "{text}");
+    }
+}

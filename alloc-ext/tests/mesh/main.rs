@@ -1,0 +1,4 @@
+//! Mesh files: reading and repair.
+
+mod read;
+mod repair;

@@ -1,0 +1,154 @@
+//! All triangles within a distance.
+
+use super::closest_point::closest_point;
+use super::descent::{LeafVisit, LeafVisitor, descend};
+use super::leaf_distance::nearest_triangle;
+use super::neighbors::{Candidate, Heap, Neighbor, first_triangles};
+use super::point_query::PointQuery;
+use super::triangle_bounds::{each_triangle, limit_within, lower_of};
+use crate::bvh::format::Bvh;
+use crate::num::sqrt_approx;
+use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+
+/// How a search for all triangles within a distance went. They are in the caller's slice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AllWithin {
+    /// Triangles in the slice.
+    pub stored: usize,
+    /// The first so many are certainly within the distance (`upper ≤ distance`). The stored surface
+    /// and rounding leave the others open (`lower ≤ distance < upper`).
+    pub certain: usize,
+    /// Triangles, certain or not, that did not fit. The slice keeps the nearest.
+    pub dropped: u32,
+    /// The work of the search.
+    pub work: Work,
+    /// [`Ended::Exact`]: every triangle that is neither stored nor counted as dropped is certainly
+    /// farther. Else some may be missing.
+    pub ended: Ended,
+}
+
+impl Bvh<'_> {
+    /// All triangles of the input mesh that are, or may be, at most `distance` from `point` (both
+    /// in input units), into `out`, by rising distance.
+    ///
+    /// Order, ties, triangles without area and far points as for [`nearest`](Bvh::nearest). An
+    /// empty `out` counts. After an error its contents are undefined. `scratch` as for
+    /// [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters.
+    ///
+    /// Cost: linear in everything within the distance, dropped triangles too; log n for each
+    /// triangle stored.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Neighbor, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let mut out = [Neighbor::EMPTY; 16];
+    /// let tip = [3.0, 0.0, 4.0];
+    /// let found = part.all_within(tip, 5.0, &mut out, Budget::EXACT, &mut scratch)?;
+    /// assert!(out[..found.certain].iter().all(|near| near.distance().upper <= 5.0));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`within`](Bvh::within).
+    pub fn all_within(
+        &self,
+        point: [f32; 3],
+        distance: f32,
+        out: &mut [Neighbor],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<AllWithin, QueryError> {
+        let tree = self;
+        budget.check()?;
+        if !(distance >= 0.0 && distance.is_finite()) {
+            return Err(QueryError::Tolerance);
+        }
+        if scratch.is_empty() {
+            return Err(QueryError::NoScratch);
+        }
+        let query = PointQuery::new(tree, point)?;
+        if query.far {
+            let closest = closest_point(tree, point, &Budget::EXACT, scratch)?;
+            return from_afar(tree, &query, &closest, distance, out);
+        }
+        let mut work = Work::default();
+        let limit = limit_within(&query, distance);
+        let heap = Heap::new(&mut *out);
+        let mut visitor = Collect { tree, query: &query, distance, limit, heap, dropped: 0 };
+        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let dropped = visitor.dropped;
+        let stored = visitor.heap.finish(tree, &query)?;
+        let is_certain = |near: &&Neighbor| near.distance().upper <= distance;
+        let certain = out.iter().take(stored).take_while(is_certain).count();
+        Ok(AllWithin { stored, certain, dropped, work, ended: descent.ended() })
+    }
+}
+
+#[cold]
+fn from_afar(
+    tree: &Bvh<'_>,
+    query: &PointQuery,
+    closest: &ClosestPoint,
+    distance: f32,
+    out: &mut [Neighbor],
+) -> Result<AllWithin, QueryError> {
+    let (of_box, work, ended) = (closest.distance, closest.work, Ended::Exact);
+    if of_box.lower > distance {
+        return Ok(AllWithin { stored: 0, certain: 0, dropped: 0, work, ended });
+    }
+    let stored = first_triangles(tree, query, of_box, out)?;
+    let certain = if of_box.upper <= distance { stored } else { 0 };
+    let dropped = tree.header().triangles.saturating_sub(stored as u32);
+    Ok(AllWithin { stored, certain, dropped, work, ended })
+}
+
+struct Collect<'a> {
+    tree: &'a Bvh<'a>,
+    query: &'a PointQuery,
+    /// Input units.
+    distance: f32,
+    limit: f32,
+    heap: Heap<'a>,
+    dropped: u32,
+}
+
+impl LeafVisitor for Collect<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
+        if near.lower_bound_sq <= self.limit {
+            self.collect(visit)?;
+        }
+        Some(true)
+    }
+}
+
+impl Collect<'_> {
+    #[inline(never)]
+    fn collect(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
+        let first = self.tree.links(visit.node)?.triangle(visit.lane);
+        each_triangle(self.query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit {
+                return;
+            }
+            let lower = || lower_of(&visit.leaf, lane, self.query.p, distance_sq, lower_bound_sq);
+            let within = self.query.upper(sqrt_approx(distance_sq)) <= self.distance
+                || self.query.lower(lower()) <= self.distance;
+            if within
+                && self
+                    .heap
+                    .offer(Candidate::new(visit, first, lane, distance_sq, lower_bound_sq))
+                    .is_some()
+            {
+                self.dropped = self.dropped.saturating_add(1);
+            }
+        });
+        Some(())
+    }
+}

@@ -1,0 +1,95 @@
+//! Whether a segment meets the surface.
+
+use super::descent::{Descent, descend};
+use super::segment_leaf::{Collect, Facing, SegmentVisitor, prepare};
+use crate::bvh::format::Bvh;
+use crate::geom::fan::Crossing;
+use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
+
+/// Whether a segment meets the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AnyHit {
+    /// `Yes`: the segment meets the input mesh. `No`: no point of the segment lies on a triangle of
+    /// the wanted facing. Undecided for [`Resolution`](Undecided::Resolution): the segment passes
+    /// so near an edge, or ends so near the surface, that rounding and the surface error leave it
+    /// open.
+    pub verdict: Verdict,
+    /// The work of the search.
+    pub work: Work,
+}
+
+impl Bvh<'_> {
+    /// Whether the closed segment `a b` (input units) meets the surface. It ends at the first
+    /// proof.
+    ///
+    /// Arguments, errors and degenerate cases as for [`first_hit`](Bvh::first_hit). Cost: less than
+    /// that of [`first_hit`](Bvh::first_hit).
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Facing, Scratch, Verdict};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let (a, b) = ([0.0, 0.0, 400.0], [0.0, 0.0, 300.0]);
+    /// let found = part.any_hit(a, b, Facing::Both, Budget::EXACT, &mut scratch)?;
+    /// assert_eq!(found.verdict, Verdict::No);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`first_hit`](Bvh::first_hit).
+    #[inline]
+    pub fn any_hit(
+        &self,
+        a: [f32; 3],
+        b: [f32; 3],
+        facing: Facing,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<AnyHit, QueryError> {
+        let mut work = Work::default();
+        let Some(query) = prepare(self, a, b, scratch)? else {
+            return Ok(AnyHit { verdict: Verdict::No, work });
+        };
+        let collect = Any { end: query.ray.end(), open: false, certain: false };
+        let mut visitor = SegmentVisitor { query: &query, facing, collect };
+        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let verdict = match descent {
+            _ if visitor.collect.certain => Verdict::Yes,
+            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
+            _ if visitor.collect.open => Verdict::Undecided(Undecided::Resolution),
+            _ => Verdict::No,
+        };
+        Ok(AnyHit { verdict, work })
+    }
+}
+
+struct Any {
+    end: f32,
+    open: bool,
+    certain: bool,
+}
+
+impl Collect for Any {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.end
+    }
+
+    #[inline(always)]
+    fn meet(&mut self, _: &Crossing, _: u32, _: u32, _: u32) -> Option<()> {
+        self.open = true;
+        Some(())
+    }
+
+    #[inline(always)]
+    fn certain(&mut self, _: f32) {
+        self.certain = true;
+    }
+
+    #[inline(always)]
+    fn is_answered(&self) -> bool {
+        self.certain
+    }
+
+    const COVERS: bool = true;
+}

@@ -1,0 +1,386 @@
+//! Closest point on the box tree.
+
+use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
+use super::leaf_distance::{Lanes, nearest_within};
+use super::leaf_distance::{NearestOf, nearest_triangle};
+use super::point_query::{PointQuery, at_least, at_most, bounds};
+use super::triangle_bounds::{distance_of_box, nearness, refine_sliver, seen_from};
+use crate::bvh::format::{Bvh, FanLeaf};
+use crate::geom::fan::lower_bound;
+use crate::num::sqrt_approx;
+use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
+use crate::query::Interval;
+use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+use glam::Vec3;
+
+/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe. A
+/// bad one costs a leaf.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hint(u32);
+
+impl Hint {
+    /// No hint.
+    pub const NONE: Hint = Hint(u32::MAX);
+}
+
+impl Bvh<'_> {
+    /// Closest point of the surface to `point`, with an interval that contains the distance to the
+    /// input mesh.
+    ///
+    /// `scratch`: [`scratch_entries`](Bvh::scratch_entries) make overflow impossible. With fewer
+    /// the interval still holds, and [`Ended::Scratch`] says so. Lengths and coordinates are in
+    /// input units, in the mesh's frame.
+    ///
+    /// Of equidistant triangles the answer is the least in blob order. A point on the surface has a
+    /// lower bound of 0. Farther than a million model sizes the model's box gives the interval.
+    ///
+    /// Cost: five to fifteen nodes and three to twelve leaves on scanned parts, all in f32. The
+    /// worst case is the whole tree, at the centre of a sphere. Where time is bounded, set
+    /// [`Budget::with_steps`].
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let part = Bvh::open(bytes)?;
+    /// let mut scratch = Scratch::<64>::new();
+    /// let near = part.closest_point([3.0, 0.0, 4.0], Budget::EXACT, &mut scratch)?;
+    /// assert!(near.distance.lower <= near.distance.upper);
+    /// assert!(near.triangle.is_some());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`];
+    /// [`QueryError::NotServed`] if the blob was not built for distances.
+    #[inline]
+    pub fn closest_point(
+        &self,
+        point: [f32; 3],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        closest_point(self, point, &budget, scratch)
+    }
+
+    /// [`closest_point`](Bvh::closest_point) that looks at the leaf of `hint` first and leaves its
+    /// own there. An exact answer has the same bits whatever the hint.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Hint, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch, mut hint) = (Bvh::open(bytes)?, Scratch::<64>::new(), Hint::NONE);
+    /// for step in 0..10 {
+    ///     let tip = [3.0, 0.1 * step as f32, 4.0];
+    ///     part.closest_point_from(tip, &mut hint, Budget::EXACT, &mut scratch)?;
+    /// }
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`closest_point`](Bvh::closest_point).
+    #[inline]
+    pub fn closest_point_from(
+        &self,
+        point: [f32; 3],
+        hint: &mut Hint,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        closest_point_from(self, point, hint, &budget, scratch)
+    }
+}
+
+/// Without a hint: one function for all callers.
+#[inline(never)]
+pub(crate) fn closest_point(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<ClosestPoint, QueryError> {
+    closest_point_from(tree, point, &mut Hint::NONE.clone(), budget, scratch)
+}
+
+#[inline(always)]
+pub(crate) fn closest_point_from(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    hint: &mut Hint,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<ClosestPoint, QueryError> {
+    budget.check()?;
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
+    }
+    let query = PointQuery::new(tree, point)?;
+    if query.far {
+        return from_afar(tree, point, &query);
+    }
+    let mut work = Work::default();
+    let mut visitor = Closest::new(tree, point, &query, budget);
+    if *hint != Hint::NONE
+        && let Some(leaf) = tree.leaf(hint.0 >> 3, hint.0 & 7)
+    {
+        visitor.bound_by(&leaf).ok_or(QueryError::Unchecked)?;
+    }
+    let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+    visitor.answer(descent, work, hint)
+}
+
+/// The best leaf so far.
+#[derive(Clone, Copy)]
+struct Best {
+    distance_sq: f32,
+    node: u32,
+    child: u32,
+    lanes: Lanes,
+}
+
+struct Closest<'a> {
+    tree: &'a Bvh<'a>,
+    /// The query's point, input units.
+    point: [f32; 3],
+    query: &'a PointQuery,
+    budget: &'a Budget,
+    /// Squared bound above which nothing matters.
+    limit: f32,
+    /// The same without the tolerance: no triangle beyond this square can improve the answer.
+    beyond: f32,
+    best: Best,
+    /// A triangle whose squared lower bound is below this is refined as a sliver.
+    refine_below: f32,
+    /// Least squared lower bound of the refined triangles.
+    certified: f32,
+    tolerant: bool,
+}
+
+impl<'a> Closest<'a> {
+    #[inline(always)]
+    fn new(tree: &'a Bvh<'a>, point: [f32; 3], query: &'a PointQuery, budget: &'a Budget) -> Self {
+        Closest {
+            tree,
+            point,
+            query,
+            budget,
+            limit: EVERYTHING_SQ,
+            beyond: EVERYTHING_SQ,
+            best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
+            refine_below: f32::NEG_INFINITY,
+            certified: f32::INFINITY,
+            tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
+        }
+    }
+
+    /// Lowers the limit by a leaf that the descent reaches again.
+    #[inline(always)]
+    fn bound_by(&mut self, leaf: &FanLeaf<'_>) -> Option<()> {
+        let near = nearest_triangle(leaf, self.query.p)?;
+        self.beyond = self.query.limit(near.distance_sq);
+        self.limit = self.beyond;
+        // Leaves beyond the limit never change the result. Scalar targets skip them before the
+        // kernel, vector targets after it.
+        self.best.distance_sq = near.distance_sq;
+        self.refine_below = self.query.refine_below(near.distance_sq);
+        Some(())
+    }
+
+    /// With a tolerance, only triangles that are nearer by the tolerance are wanted.
+    #[cold]
+    fn tolerant_limit(&self, distance_sq: f32) -> f32 {
+        let distance = sqrt_approx(distance_sq);
+        let absolute = self.query.units.inward(self.budget.absolute);
+        let wanted = (distance / (1.0 + self.budget.relative)).min(distance - absolute);
+        if wanted > 0.0 { wanted * wanted } else { 0.0 }
+    }
+
+    #[inline(always)]
+    fn improve(&mut self, near: &NearestOf, visit: &LeafVisit<'_>) {
+        let distance_sq = near.distance_sq;
+        let known = self.best.node != u32::MAX;
+        if distance_sq == self.best.distance_sq && known && self.comes_later(visit) {
+            return;
+        }
+        self.best = Best { distance_sq, node: visit.node, child: visit.lane, lanes: near.lanes };
+        self.refine_below = self.query.refine_below(distance_sq);
+        let beyond = self.query.limit(distance_sq);
+        if beyond < self.beyond {
+            self.beyond = beyond;
+        }
+        self.limit = if self.tolerant { self.tolerant_limit(distance_sq) } else { self.beyond };
+    }
+
+    /// Whether the leaf's triangles have greater numbers than the best one's.
+    #[cold]
+    fn comes_later(&self, visit: &LeafVisit<'_>) -> bool {
+        let first = |node, child| Some(self.tree.links(node)?.triangle(child));
+        first(visit.node, visit.lane) > first(self.best.node, self.best.child)
+    }
+
+    /// Refines triangles whose lower bound falls short of the best distance by more than rounding:
+    /// slivers, and triangles next to the point. A triangle that falls short of the final best
+    /// falls short of every best before it. So the order of visits does not change the result.
+    #[cold]
+    #[inline(never)]
+    fn certify(&mut self, visit: &LeafVisit<'_>) {
+        let query = self.query;
+        let box_sq = square(distance_of_box(query, visit.key));
+        for lane in 0..visit.leaf.shape().triangles() {
+            let seen = seen_from(&visit.leaf, lane, query.p);
+            let near = nearness(&seen);
+            if near.lower_bound_sq >= self.refine_below {
+                continue;
+            }
+            let better = refine_sliver(query, &seen, near);
+            let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
+            let here = visit.node == self.best.node && visit.lane == self.best.child;
+            let first = !here || lane < lanes.at(best_sq).0;
+            let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
+            if better.distance_sq < near.distance_sq && nearer {
+                let lanes = Lanes::one(lane, &better);
+                let near = NearestOf {
+                    distance_sq: better.distance_sq,
+                    lower_bound_sq: near.lower_bound_sq,
+                    lanes,
+                };
+                self.improve(&near, visit);
+            }
+            let [s, e, g] = seen;
+            let lower = lower_bound(s, e, g);
+            let lower_sq = square(lower);
+            let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
+            // Not less than its bound beside a farther best, of which it does not fall short.
+            let lower_sq =
+                if lower_sq > near.lower_bound_sq { lower_sq } else { near.lower_bound_sq };
+            if lower_sq < self.certified {
+                self.certified = lower_sq;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn answer(
+        &self,
+        descent: Descent,
+        work: Work,
+        hint: &mut Hint,
+    ) -> Result<ClosestPoint, QueryError> {
+        let Best { distance_sq, node, child, lanes } = self.best;
+        // All other triangles have at least this part of the best square as lower bound.
+        let mut least_sq = match self.refine_below {
+            below if below > 0.0 => below,
+            // No leaf was looked at.
+            f32::NEG_INFINITY => f32::MAX,
+            _ => 0.0,
+        };
+        if self.certified < least_sq {
+            least_sq = self.certified;
+        }
+        let mut ended = Ended::Exact;
+        if let Descent::Truncated { least, ended: why } = descent {
+            ended = why;
+            least_sq = least_sq.min(square(distance_of_box(self.query, least)));
+        }
+        if node == u32::MAX {
+            let mut answer = from_afar(self.tree, self.point, self.query)?;
+            let Interval { lower, upper } = answer.distance;
+            let least = self.query.lower(sqrt_approx(least_sq));
+            answer.distance.lower = lower.max(least).min(upper);
+            return Ok(ClosestPoint { work, ended, ..answer });
+        }
+        *hint = Hint(node << 3 | child);
+        let distance = sqrt_approx(distance_sq);
+        let mut least = sqrt_approx(least_sq);
+        if self.tolerant {
+            let absolute = self.query.units.inward(self.budget.absolute);
+            let wanted =
+                (distance / (1.0 + self.budget.relative)).min(distance - absolute).max(0.0);
+            least = least.min(distance_of_box(self.query, wanted * wanted));
+            ended = if ended == Ended::Exact { Ended::Tolerance } else { ended };
+        }
+        let (lane, v, w) = lanes.at(distance_sq);
+        let first = self.tree.links(node).ok_or(QueryError::Unchecked)?.triangle(child);
+        let leaf = self.tree.leaf(node, child).ok_or(QueryError::Unchecked)?;
+        Ok(ClosestPoint {
+            distance: Interval::new(self.query.lower(least), self.query.upper(distance)),
+            point: self.query.units.point(leaf.point(lane, v, w)),
+            triangle: self.tree.source(first.wrapping_add(lane as u32)),
+            work,
+            ended,
+        })
+    }
+}
+
+impl LeafVisitor for Closest<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let near = nearest_within(&visit.leaf, self.query.p, self.beyond)?;
+        if near.distance_sq <= self.best.distance_sq {
+            self.improve(&near, visit);
+        }
+        if near.lower_bound_sq < self.refine_below {
+            self.certify(visit);
+        }
+        Some(true)
+    }
+}
+
+/// The interval of the model's box, and a point of the surface. From far enough away every point is
+/// the closest, up to a rounding of f32. Computed in input units, scaled by a power of two so that
+/// no square leaves f32's range.
+#[cold]
+#[inline(never)]
+fn from_afar(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    query: &PointQuery,
+) -> Result<ClosestPoint, QueryError> {
+    let (low, high) = bounds(tree);
+    let point = Vec3::from_array(point);
+    let corners = [low, high].map(|corner| Vec3::from_array(query.units.point(corner)).abs());
+    let size = point.abs().max(corners[0]).max(corners[1]).max_element();
+    let (up, down) = match size {
+        size if size > POWER_40 => (1.0 / POWER_70, POWER_70),
+        size if size < 1.0 / POWER_40 => (POWER_70, 1.0 / POWER_70),
+        _ => (1.0, 1.0),
+    };
+    let scaled = |x: f32| query.units.outward(x, up);
+    let [low, high] =
+        [low, high].map(|corner| Vec3::new(scaled(corner.x), scaled(corner.y), scaled(corner.z)));
+    let p = point * up;
+    let outside = (low - p).max(p - high).max(Vec3::ZERO);
+    let farthest = (low - p).abs().max((p - high).abs());
+    let (near, far) = (sqrt_approx(outside.dot(outside)), sqrt_approx(farthest.dot(farthest)));
+    let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.margin());
+    let mut node = 0;
+    let (links, leaf) = loop {
+        let links = tree.links(node).ok_or(QueryError::Unchecked)?;
+        let child = links.child(0);
+        if child.is_leaf() {
+            break (links, tree.leaf_at(child.at, child.shape).ok_or(QueryError::Unchecked)?);
+        }
+        node = child.at;
+    };
+    Ok(ClosestPoint {
+        distance: Interval::new(
+            at_least((near - margin(near)) * down),
+            at_most((far + margin(far)) * down),
+        ),
+        point: query.units.point(leaf.centre(0)),
+        triangle: tree.source(links.triangle(0)),
+        work: Work::default(),
+        ended: Ended::Exact,
+    })
+}
+
+fn square(x: f32) -> f32 {
+    x * x
+}
+
+const POWER_40: f32 = (1u64 << 40) as f32;
+const POWER_70: f32 = (1u128 << 70) as f32;

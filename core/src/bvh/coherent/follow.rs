@@ -1,0 +1,362 @@
+//! One query of a session: the front is brought up to date as far as the answer depends on it.
+
+use super::front::{Child, Known, TraversalFront};
+use super::leaf_shape::is_sound;
+use super::planes::{Looked, Planes, middle};
+use crate::bvh::format::{Bvh, FanLeaf};
+use crate::bvh::leaf_distance::seen;
+use crate::bvh::node::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
+use crate::bvh::point_query::PointQuery;
+use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
+use crate::num::sqrt_approx;
+use crate::num::tolerance::{FAN_DISTANCE, ROOT_AND_PRODUCTS, SHORTFALL, U32};
+use crate::query::Work;
+use glam::Vec3;
+
+/// The nearest triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    pub(crate) distance_sq: f32,
+    /// Its leaf.
+    pub(crate) child: Child,
+    /// Its place in the leaf, and the closest point on it.
+    pub(crate) lane: usize,
+    pub(crate) v: f32,
+    pub(crate) w: f32,
+    /// Where the front holds the leaf.
+    at: usize,
+}
+
+impl Nearest {
+    const NONE: Nearest = Nearest {
+        distance_sq: f32::INFINITY,
+        child: Child::NONE,
+        lane: 0,
+        v: 0.0,
+        w: 0.0,
+        at: usize::MAX,
+    };
+}
+
+/// Why a front has no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Gap {
+    /// A sliver decides the interval, or the step budget is used up: that is the plain query's
+    /// affair.
+    Undecided,
+    /// The front does not reach so far, or the search takes too long.
+    Lost,
+    /// The tree is not one that was opened.
+    Model,
+}
+
+/// A query on its way.
+pub(crate) struct Follow<'a, 't> {
+    pub(crate) tree: &'a Bvh<'t>,
+    pub(crate) query: &'a PointQuery,
+    pub(crate) front: TraversalFront<'a>,
+    planes: &'a mut Planes,
+    /// To the query from where planes are measured from.
+    way: Vec3,
+    pub(crate) work: Work,
+    /// How far beyond the answer entries stay active: a few steps.
+    ahead: f32,
+    best: Nearest,
+    /// Keys above it are of no interest.
+    bound: f32,
+    /// Certified squares below this are weak.
+    refine_below: f32,
+    /// Least certified square of a triangle whose own distance says too little.
+    certified: f32,
+    /// What a box's bound may be off by.
+    pub(crate) off: f32,
+    /// What a triangle's may, beside [`SHORTFALL`] of itself.
+    shortfall: f32,
+    /// What was done, in half leaves.
+    pub(crate) looks: u32,
+    /// Nodes that may be opened.
+    steps: u32,
+}
+
+impl<'a, 't> Follow<'a, 't> {
+    #[inline(always)]
+    pub(crate) fn new(
+        tree: &'a Bvh<'t>,
+        query: &'a PointQuery,
+        front: TraversalFront<'a>,
+        planes: &'a mut Planes,
+        ahead: f32,
+        steps: u32,
+    ) -> Self {
+        let off = query.box_error();
+        let shortfall = tree.header().star_radius * (SHORTFALL + FAN_DISTANCE * U32);
+        Follow {
+            tree,
+            query,
+            front,
+            planes,
+            way: query.p - middle(tree),
+            work: Work::default(),
+            ahead,
+            best: Nearest::NONE,
+            bound: f32::INFINITY,
+            refine_below: f32::NEG_INFINITY,
+            certified: f32::INFINITY,
+            off,
+            shortfall,
+            looks: 0,
+            steps,
+        }
+    }
+
+    /// The nearest triangle, from the root. There is one within `reach`, as far as an answer's
+    /// interval can tell.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn begin(&mut self, reach: f32, budget: u32) -> Result<Nearest, Gap> {
+        self.front.clear();
+        let reach = reach * (1.0 + 1.0 / 1024.0) + self.off;
+        let bound = self.horizon(reach * reach);
+        self.bound = bound;
+        self.open(0, None)?;
+        let nearest = self.nearest(false, budget)?;
+        // What was passed over lies beyond the first bound.
+        if self.bound <= bound { Ok(nearest) } else { Err(Gap::Lost) }
+    }
+
+    /// The nearest triangle, first of all among those of the first entry if `first`. At most
+    /// `budget` nodes and leaves.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    pub(crate) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, Gap> {
+        let mut next = 0;
+        if first && let Some((_, child)) = self.front.get(0) {
+            self.look(0, child)?;
+            next = 1;
+        }
+        loop {
+            while next < self.front.extent.active {
+                let Some((key, child)) = self.front.get(next) else { break };
+                if key <= self.bound {
+                    self.visit(next, child)?;
+                    if self.looks > budget {
+                        return Err(Gap::Lost);
+                    }
+                } else if key > self.bound + self.ahead {
+                    self.front.deactivate(next, key);
+                    continue;
+                }
+                next += 1;
+            }
+            if self.bound < self.front.extent.rest || !self.front.is_waiting() {
+                break;
+            }
+            self.front.activate(self.bound + self.ahead);
+            self.looks += self.front.extent.count as u32 / 24;
+        }
+        if self.bound >= self.front.extent.dropped || self.best.at == usize::MAX {
+            return Err(Gap::Lost);
+        }
+        if self.certified < self.refine_below {
+            return Err(Gap::Undecided);
+        }
+        self.front.swap(0, self.best.at);
+        Ok(self.best)
+    }
+
+    /// Brings entry `i` up to date until it is of no more interest.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    fn visit(&mut self, i: usize, mut child: Child) -> Result<(), Gap> {
+        loop {
+            match child.known() {
+                Known::Triangles => {
+                    let key = self.front.key(self.planes.bound(child, self.way) - self.off);
+                    if key > self.bound {
+                        self.front.set(i, key, child);
+                        return Ok(());
+                    }
+                    return self.look(i, child);
+                }
+                Known::Sliver => {
+                    let key = self.box_key(child)?;
+                    self.front.set(i, key, child);
+                    return if key <= self.bound { self.look(i, child) } else { Ok(()) };
+                }
+                Known::Nothing => {}
+            }
+            let found = self.tree.child(child.node(), child.lane()).ok_or(Gap::Model)?;
+            if found.is_leaf() {
+                let leaf = self.tree.leaf_at(found.at, found.shape).ok_or(Gap::Model)?;
+                self.looks += 1;
+                let known = if is_sound(&leaf).ok_or(Gap::Model)? {
+                    Known::Triangles
+                } else {
+                    Known::Sliver
+                };
+                return self.look(i, child.with(known));
+            }
+            self.open(found.at, Some(i))?;
+            let Some((key, nearest)) = self.front.get(i) else { return Ok(()) };
+            if key > self.bound {
+                return Ok(());
+            }
+            child = nearest;
+        }
+    }
+
+    /// Replaces an entry by the nearest child of its node and adds the others.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    fn open(&mut self, node: u32, entry: Option<usize>) -> Result<(), Gap> {
+        if self.work.splits >= self.steps {
+            return Err(Gap::Undecided);
+        }
+        let links = self.tree.links(node).ok_or(Gap::Model)?;
+        let record = self.tree.frame(node).ok_or(Gap::Model)?;
+        let keys = box_distances(record, &NodeFrame::of(record, self.query.p), links.count, 0.0);
+        self.work.splits += 1;
+        self.work.nodes += links.count;
+        self.looks += 3;
+        let nearest = nearest_lane(&keys);
+        let horizon = self.bound + self.ahead;
+        if !self.front.has_room(WIDTH) {
+            self.front.evict(entry.map_or(0, |i| i + 1), horizon);
+            self.looks += self.front.extent.count as u32 / 12;
+        }
+        if let Some(i) = entry {
+            let lane = nearest.to_bits() & LANE_MASK;
+            self.front.set(i, self.key_of_box(nearest), Child::new(node, lane));
+        }
+        for (lane, key) in (0..links.count).zip(keys) {
+            if entry.is_none() || key != nearest {
+                let key = self.key_of_box(key);
+                self.front.insert(key, Child::new(node, lane), horizon);
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn key_of_box(&self, key: f32) -> f32 {
+        self.front.key(sqrt_approx(key) * (1.0 - ROOT_AND_PRODUCTS) - self.off)
+    }
+
+    /// What a leaf's box says now.
+    #[cold]
+    fn box_key(&mut self, child: Child) -> Result<f32, Gap> {
+        let record = self.tree.frame(child.node()).ok_or(Gap::Model)?;
+        let count = child.lane() + 1;
+        let keys = box_distances(record, &NodeFrame::of(record, self.query.p), count, 0.0);
+        self.work.nodes += count;
+        let key = keys.get(child.lane() as usize).copied().ok_or(Gap::Model)?;
+        Ok(self.key_of_box(key))
+    }
+
+    /// Looks at the triangles of a leaf.
+    #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
+    #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
+    fn look(&mut self, i: usize, child: Child) -> Result<(), Gap> {
+        let leaf = self.tree.leaf(child.node(), child.lane()).ok_or(Gap::Model)?;
+        let (near, edges) = seen(&leaf, self.query.p).ok_or(Gap::Model)?;
+        self.work.triangles += leaf.shape().triangles() as u32;
+        self.looks += 2;
+        let distance_sq = near.distance_sq;
+        if distance_sq < self.best.distance_sq
+            || (distance_sq == self.best.distance_sq && self.comes_first(child))
+        {
+            let (lane, v, w) = near.lane();
+            self.best = Nearest { distance_sq, child, lane, v, w, at: i };
+            self.bound = self.horizon(distance_sq);
+            self.refine_below = self.query.refine_below(distance_sq);
+        }
+        // The plain query looks at slivers again, and may find them nearer.
+        if near.lower_bound_sq < self.refine_below {
+            self.certified = least(self.certified, near.lower_bound_sq);
+        }
+        if child.known() == Known::Triangles {
+            let key = self.key_of_triangles(near.lower_bound_sq);
+            self.front.set(i, key, child);
+            if key > self.bound {
+                self.looks += 1;
+                let looked = Looked { fans: &leaf, p: self.query.p, edges: edges.as_ref() };
+                self.planes.put(child, &looked, self.way, near.lane(), self.shortfall + self.off);
+            }
+        } else if let Some((key, _)) = self.front.get(i) {
+            self.front.set(i, key, child);
+        }
+        Ok(())
+    }
+
+    /// Ties go to the least number in the tree; the leaf that is the best already counts as coming
+    /// first.
+    #[cold]
+    fn comes_first(&self, child: Child) -> bool {
+        let first = |child: Child| Some(self.tree.links(child.node())?.triangle(child.lane()));
+        first(child) <= first(self.best.child)
+    }
+
+    #[inline(always)]
+    fn each(&mut self, leaf: &FanLeaf<'_>, mut then: impl FnMut(&mut Self, usize, Nearness)) {
+        let (p, shape) = (self.query.p, leaf.shape());
+        let s = [p - leaf.centre(0), p - leaf.centre(shape.centres() - 1)];
+        point_leaf(
+            shape.triangles(),
+            shape.turn(),
+            s,
+            |i, which| leaf.spoke(i, which),
+            |lane, near| then(self, lane, near),
+        );
+    }
+
+    /// The key below which nothing can be as near as this.
+    #[inline(always)]
+    pub(crate) fn horizon(&self, distance_sq: f32) -> f32 {
+        self.front.horizon(
+            sqrt_approx(self.query.limit(distance_sq)) * (1.0 + ROOT_AND_PRODUCTS) + self.off,
+        )
+    }
+
+    /// Key of a leaf without slivers whose triangles' squared distances are not below this.
+    #[inline(always)]
+    fn key_of_triangles(&self, lower_bound_sq: f32) -> f32 {
+        let certified = if lower_bound_sq > 0.0 { sqrt_approx(lower_bound_sq) } else { 0.0 };
+        self.front.key(certified * (1.0 - SHORTFALL) - self.shortfall)
+    }
+
+    /// No triangle but the best, the first entry's, has a key below this.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn second(&mut self, best: &Nearest, others: f32) -> f32 {
+        let Some(leaf) = self.tree.leaf(best.child.node(), best.child.lane()) else { return 0.0 };
+        let mut lower_bound_sq = f32::MAX;
+        self.each(&leaf, |_, lane, near| {
+            if lane != best.lane {
+                lower_bound_sq = least(lower_bound_sq, near.lower_bound_sq);
+            }
+        });
+        self.work.triangles += leaf.shape().triangles() as u32;
+        least(others, self.key_of_triangles(lower_bound_sq))
+    }
+
+    /// The triangle `lane` of the first entry's leaf, if it is certain that nothing with a key from
+    /// `second` on comes as near.
+    #[inline(always)]
+    pub(crate) fn same(&mut self, lane: usize, second: f32) -> Option<Nearest> {
+        let (_, child) = self.front.get(0)?;
+        let leaf = self.tree.leaf(child.node(), child.lane())?;
+        let which = usize::from(lane >= leaf.shape().turn());
+        let fan = PointFan::new(self.query.p - leaf.centre(which));
+        let (e, g) = (fan.spoke(leaf.spoke(lane, which)), fan.spoke(leaf.spoke(lane + 1, which)));
+        let Nearness { distance_sq, lower_bound_sq, v, w } = fan.triangle(&e, &g);
+        self.work.triangles += 1;
+        let certain = self.horizon(distance_sq) < second
+            && lower_bound_sq >= self.query.refine_below(distance_sq);
+        if certain { Some(Nearest { distance_sq, child, lane, v, w, at: 0 }) } else { None }
+    }
+}
+
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}

@@ -1,0 +1,247 @@
+//! The front of a session: lower bounds of everything that the tree holds, kept from query to
+//! query.
+//!
+//! An entry's key is its bound plus the path length at the time when it was found. A query that has
+//! moved on since can have come nearer by no more than the path that it has travelled since, so
+//! that *key − path* stays a lower bound and nothing needs to be touched or sorted (Guéziec 2000,
+//! 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the
+//! others the least key is known, so that most queries never look at them.
+
+use crate::num::tolerance::PATH_SUM;
+
+/// A child of a node, and what is known of it, in 32 bits: 24 of node (a blob has no more), 5 of
+/// which two say what is known, 3 of lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Child(u32);
+
+/// What a session knows of a child.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Known {
+    /// Only its box.
+    Nothing,
+    /// A leaf: its key is that of its triangles, not that of its box.
+    Triangles,
+    /// A leaf with a sliver, so that its key has to be that of its box.
+    Sliver,
+}
+
+impl Child {
+    pub(crate) const NONE: Child = Child(0);
+
+    #[inline(always)]
+    pub(crate) fn new(node: u32, lane: u32) -> Child {
+        Child(node << 8 | lane & 7)
+    }
+
+    #[inline(always)]
+    pub(crate) fn node(self) -> u32 {
+        self.0 >> 8
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane(self) -> u32 {
+        self.0 & 7
+    }
+
+    /// Which child it is, without what is known of it.
+    #[inline(always)]
+    pub(crate) fn leaf(self) -> u32 {
+        self.0 & 0xFFFF_FF07
+    }
+
+    #[inline(always)]
+    pub(crate) fn known(self) -> Known {
+        match self.0 >> 3 & 3 {
+            0 => Known::Nothing,
+            1 => Known::Triangles,
+            _ => Known::Sliver,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn with(self, known: Known) -> Child {
+        Child(self.0 & !(3 << 3) | (known as u32) << 3)
+    }
+}
+
+/// What a front holds, beside its entries.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// Entries.
+    pub(crate) count: usize,
+    /// Entries that were of interest lately; they stand first.
+    pub(crate) active: usize,
+    /// No other entry has a lesser key.
+    pub(crate) rest: f32,
+    /// What was dropped for want of room has no lesser key.
+    pub(crate) dropped: f32,
+    /// Path length since the front was begun, grid units, rounded up.
+    pub(crate) path: f32,
+}
+
+impl Extent {
+    pub(crate) const EMPTY: Extent =
+        Extent { count: 0, active: 0, rest: f32::INFINITY, dropped: f32::INFINITY, path: 0.0 };
+}
+
+/// Entries in the caller's memory.
+pub(crate) struct TraversalFront<'a> {
+    pub(crate) keys: &'a mut [f32],
+    pub(crate) children: &'a mut [Child],
+    pub(crate) extent: &'a mut Extent,
+}
+
+impl TraversalFront<'_> {
+    /// Holds nothing.
+    pub(crate) fn clear(&mut self) {
+        *self.extent = Extent::EMPTY;
+    }
+
+    /// The query has moved by `step`.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, step: f32) {
+        self.extent.path = (self.extent.path + step) * (1.0 + PATH_SUM);
+    }
+
+    /// Counts the path from here on: it has become so long that the rounding of keys would show.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn rebase(&mut self) {
+        let Extent { count, rest, dropped, path, .. } = *self.extent;
+        let less = |key: f32| if key > path { (key - path) * (1.0 - PATH_SUM) } else { 0.0 };
+        self.keys.iter_mut().take(count).for_each(|key| *key = less(*key));
+        (self.extent.rest, self.extent.dropped, self.extent.path) =
+            (less(rest), less(dropped), 0.0);
+    }
+
+    /// Key of a bound at the present place; a negative one counts as 0.
+    #[inline(always)]
+    pub(crate) fn key(&self, bound: f32) -> f32 {
+        let bound = if bound > 0.0 { bound } else { 0.0 };
+        (bound + self.extent.path) * (1.0 - PATH_SUM)
+    }
+
+    /// An entry with a lesser key may hold something nearer than `reach`.
+    #[inline(always)]
+    pub(crate) fn horizon(&self, reach: f32) -> f32 {
+        (reach + self.extent.path) * (1.0 + PATH_SUM)
+    }
+
+    #[inline(always)]
+    pub(crate) fn get(&self, i: usize) -> Option<(f32, Child)> {
+        Some((*self.keys.get(i)?, *self.children.get(i)?))
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, i: usize, key: f32, child: Child) {
+        if let (Some(slot), Some(of)) = (self.keys.get_mut(i), self.children.get_mut(i)) {
+            (*slot, *of) = (key, child);
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn swap(&mut self, i: usize, j: usize) {
+        if let (Some((key, child)), Some((other_key, other))) = (self.get(i), self.get(j)) {
+            self.set(i, other_key, other);
+            self.set(j, key, child);
+        }
+    }
+
+    /// Whether so many entries more would fit.
+    #[inline(always)]
+    pub(crate) fn has_room(&self, more: usize) -> bool {
+        self.extent.count + more <= self.keys.len().min(self.children.len())
+    }
+
+    /// Adds an entry, to the active ones if its key is within `horizon`. What does not fit is
+    /// dropped.
+    #[inline(always)]
+    pub(crate) fn insert(&mut self, key: f32, child: Child, horizon: f32) {
+        let last = self.extent.count;
+        if !self.has_room(1) {
+            self.extent.dropped = least(self.extent.dropped, key);
+            return;
+        }
+        self.set(last, key, child);
+        self.extent.count = last + 1;
+        if key <= horizon {
+            self.swap(last, self.extent.active);
+            self.extent.active += 1;
+        } else {
+            self.extent.rest = least(self.extent.rest, key);
+        }
+    }
+
+    /// Entry `i` is of no interest for the time being: another active one takes its place.
+    #[inline(always)]
+    pub(crate) fn deactivate(&mut self, i: usize, key: f32) {
+        let last = self.extent.active.saturating_sub(1);
+        self.swap(i, last);
+        self.extent.active = last;
+        self.extent.rest = least(self.extent.rest, key);
+    }
+
+    /// Whether there are entries that are not active.
+    #[inline(always)]
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.extent.active < self.extent.count
+    }
+
+    /// Makes those of the rest active that are within `horizon`.
+    pub(crate) fn activate(&mut self, horizon: f32) {
+        let (mut active, mut rest) = (self.extent.active, f32::INFINITY);
+        let waiting = active..self.extent.count;
+        for i in waiting {
+            let Some(&key) = self.keys.get(i) else { break };
+            if key <= horizon {
+                self.swap(i, active);
+                active += 1;
+            } else {
+                rest = least(rest, key);
+            }
+        }
+        (self.extent.active, self.extent.rest) = (active, rest);
+    }
+
+    /// Makes room: of what is not active, or from entry `from` on beyond `horizon`, drops what is
+    /// beyond the mean of the keys.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn evict(&mut self, from: usize, horizon: f32) {
+        let mut i = from;
+        while i < self.extent.active {
+            match self.keys.get(i) {
+                Some(&key) if key > horizon => self.deactivate(i, key),
+                _ => i += 1,
+            }
+        }
+        let Extent { count, active, .. } = *self.extent;
+        let keys = self.keys.get(active..count).unwrap_or(&[]);
+        let mean = keys.iter().sum::<f32>() / keys.len().max(1) as f32;
+        let (mut kept, mut dropped) = (active, self.extent.dropped);
+        for i in active..count {
+            let Some((key, child)) = self.get(i) else { break };
+            if key < mean {
+                self.set(kept, key, child);
+                kept += 1;
+            } else {
+                dropped = least(dropped, key);
+            }
+        }
+        (self.extent.count, self.extent.dropped) = (kept, dropped);
+    }
+
+    /// No entry but the first, and nothing that was dropped, has a lesser key.
+    #[inline(always)]
+    pub(crate) fn second(&self) -> f32 {
+        let active = self.keys.get(1..self.extent.active).unwrap_or(&[]);
+        active
+            .iter()
+            .fold(least(self.extent.rest, self.extent.dropped), |second, &key| least(second, key))
+    }
+}
+
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}

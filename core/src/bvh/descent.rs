@@ -1,0 +1,208 @@
+//! The descent that all questions about one point or one segment share: nearest child first, the
+//! others on the caller's stack, unsorted.
+//!
+//! Sorted children, or a heap, visit fewer nodes and take longer: mispredicted branches decide. So
+//! every lane is stored, and the stack's end moves on if the lane is wanted. The nearest child is
+//! followed at once. Keys never fall from parent to child. So the set of leaves that a question
+//! depends on does not depend on the order of visits.
+
+use super::node::{LANE_MASK, WIDE, nearest_lane};
+use crate::bvh::format::{Bvh, FanLeaf};
+use crate::geom::fan::WIDTH;
+use crate::query::{Ended, QueryError, ScratchEntry, Work};
+
+/// A point or a segment that is prepared for the descent.
+pub(crate) trait NodeQuery {
+    /// Refuses a tree without the boxes that the query needs.
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;
+
+    /// Keys of the children of a node: lower bounds, not below `bound`, with the lane in the low
+    /// bits. Children beyond the visitor's limit may have any greater key. `None` says that the
+    /// tree is unchecked.
+    fn keys(
+        &self,
+        tree: &Bvh<'_>,
+        node: u32,
+        count: u32,
+        bound: f32,
+        visitor: &impl LeafVisitor,
+    ) -> Option<[f32; WIDTH]>;
+}
+
+/// A leaf that a descent has reached.
+pub(crate) struct LeafVisit<'a> {
+    pub(crate) leaf: FanLeaf<'a>,
+    /// Lower bound of everything in it.
+    pub(crate) key: f32,
+    pub(crate) node: u32,
+    pub(crate) lane: u32,
+}
+
+/// What a question does with leaves.
+pub(crate) trait LeafVisitor {
+    /// Bound above which nothing is wanted.
+    fn limit(&self) -> f32;
+
+    /// Looks at a leaf. `Some(false)` ends the descent. `None` says that the tree is unchecked.
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool>;
+}
+
+/// How a descent ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Descent {
+    /// Nothing within the limit is left.
+    Done,
+    /// The question was answered early.
+    Answered,
+    /// The steps were used up, or the stack was too short. Nothing below this bound was missed.
+    Truncated { least: f32, ended: Ended },
+}
+
+impl Descent {
+    /// Why a search with an interval ended.
+    #[inline(always)]
+    pub(crate) fn ended(self) -> Ended {
+        match self {
+            Descent::Truncated { ended, .. } => ended,
+            _ => Ended::Exact,
+        }
+    }
+}
+
+/// The caller's memory as a stack.
+struct Stack<'a> {
+    entries: &'a mut [ScratchEntry],
+    /// Entries in use.
+    waiting: usize,
+    /// Least key that did not fit.
+    dropped: f32,
+}
+
+impl Stack<'_> {
+    /// Pushes the children of `node` within the limit, but for the nearest.
+    #[inline(always)]
+    fn push_children(
+        &mut self,
+        node: u32,
+        keys: &[f32; WIDTH],
+        count: u32,
+        nearest: f32,
+        limit: f32,
+    ) {
+        let room = self.entries.get_mut(self.waiting..);
+        if WIDE && let Some(slots) = room.and_then(|rest| rest.first_chunk_mut::<WIDTH>()) {
+            let mut next = 0usize;
+            for &key in keys {
+                slots[next & (WIDTH - 1)] = ScratchEntry::new(key, node);
+                next += usize::from((key <= limit) & (key != nearest));
+            }
+            self.waiting += next;
+            return;
+        }
+        // Bits of numbers that are not negative compare as the numbers do.
+        let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
+        for &key in keys.iter().take(count as usize) {
+            if key.to_bits() <= limit && key.to_bits() != nearest {
+                match self.entries.get_mut(self.waiting) {
+                    Some(slot) => {
+                        *slot = ScratchEntry::new(key, node);
+                        self.waiting += 1;
+                    }
+                    None => self.dropped = if key < self.dropped { key } else { self.dropped },
+                }
+            }
+        }
+    }
+
+    /// Least key of everything that is left, or that did not fit.
+    #[cold]
+    fn least(&self) -> f32 {
+        let left = self.entries.iter().take(self.waiting);
+        left.fold(self.dropped, |least, entry| least.min(entry.key()))
+    }
+}
+
+/// Visits every leaf within the visitor's limit. At most `steps` nodes are opened, those that
+/// `work` counts already included.
+#[inline(always)]
+pub(crate) fn descend<Q: NodeQuery>(
+    tree: &Bvh<'_>,
+    query: &Q,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    visitor: &mut impl LeafVisitor,
+    work: &mut Work,
+) -> Result<Descent, QueryError> {
+    Q::check_served(tree)?;
+    walk(tree, query, steps, scratch, visitor, work).ok_or(QueryError::Unchecked)
+}
+
+/// The descent. It has one error, so that the loop carries no error values.
+#[inline(always)]
+fn walk(
+    tree: &Bvh<'_>,
+    query: &impl NodeQuery,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    visitor: &mut impl LeafVisitor,
+    work: &mut Work,
+) -> Option<Descent> {
+    let mut stack = Stack { entries: scratch, waiting: 0, dropped: f32::INFINITY };
+    let mut node = 0u32;
+    let mut bound = 0f32;
+    loop {
+        if work.splits >= steps {
+            return Some(Descent::Truncated {
+                least: bound.min(stack.least()),
+                ended: Ended::Steps,
+            });
+        }
+        let links = tree.links(node)?;
+        let keys = query.keys(tree, node, links.count, bound, visitor)?;
+        work.splits += 1;
+        work.nodes += links.count;
+        let nearest = nearest_lane(&keys);
+        let limit = visitor.limit();
+        let mut found = nearest <= limit;
+        if found {
+            stack.push_children(node, &keys, links.count, nearest, limit);
+        }
+        // The nearest child's links are at hand. An entry off the stack has to look its parent's
+        // up.
+        let mut child = links.child(nearest.to_bits() & LANE_MASK);
+        let mut entry = ScratchEntry::new(nearest, node);
+        loop {
+            if found {
+                bound = f32::from_bits(entry.key().to_bits() & !LANE_MASK);
+                if !child.is_leaf() {
+                    node = child.at;
+                    break;
+                }
+                work.triangles += child.shape.triangles() as u32;
+                let leaf = tree.leaf_at(child.at, child.shape)?;
+                let lane = entry.key().to_bits() & LANE_MASK;
+                let visit = LeafVisit { leaf, key: bound, node: entry.node(), lane };
+                if !visitor.leaf(&visit)? {
+                    return Some(Descent::Answered);
+                }
+            }
+            found = true;
+            loop {
+                let Some(top) = stack.waiting.checked_sub(1) else {
+                    return Some(if stack.dropped <= visitor.limit() {
+                        Descent::Truncated { least: stack.dropped, ended: Ended::Scratch }
+                    } else {
+                        Descent::Done
+                    });
+                };
+                stack.waiting = top;
+                entry = stack.entries.get(top).copied()?;
+                if entry.key() <= visitor.limit() {
+                    break;
+                }
+            }
+            let lane = entry.key().to_bits() & LANE_MASK;
+            child = tree.child(entry.node(), lane)?;
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The first common point of a segment and the surface.
+
+use super::descent::{Descent, descend};
+use super::segment_leaf::{Collect, Facing, Place, SegmentVisitor, prepare};
+use super::segment_query::SegmentQuery;
+use crate::bvh::format::Bvh;
+use crate::geom::fan::Crossing;
+use crate::query::{Budget, Ended, FirstHit, Interval, QueryError, ScratchEntry, Work};
+
+impl Bvh<'_> {
+    /// First common point of the closed segment `a b` (input units) and the surface.
+    ///
+    /// It never says "clear" wrongly: if [`FirstHit::is_clear`], no point of the segment lies on
+    /// the input mesh. With [`Ended::Exact`] and a hit the segment is proved to meet the input
+    /// mesh, and the first common parameter lies in `t`, whatever the grid did to the vertices.
+    /// With [`Ended::Resolution`] the segment passes an outer edge of a fan, or ends, so near the
+    /// surface that rounding and the surface error leave open whether they meet.
+    ///
+    /// `hit` is the first triangle of the *stored* surface that is met, in f32, without a gap along
+    /// edges and at vertices. The input's surface may only come near it, or `hit` may be missing
+    /// with [`Ended::Resolution`]. Of equal parameters the answer is the least triangle in blob
+    /// order. A segment in a triangle's plane hits, as computed, where it enters the triangle. So
+    /// does a segment of no length, and a triangle without area. None of these is proved.
+    ///
+    /// `scratch` as for [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters.
+    ///
+    /// Cost: two nodes and half a leaf on scanned parts. A segment that runs along the surface
+    /// visits all boxes that it touches.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Facing, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let (a, b) = ([0.0, 0.0, 400.0], [0.0, 0.0, 300.0]);
+    /// let hit = part.first_hit(a, b, Facing::Both, Budget::EXACT, &mut scratch)?;
+    /// assert!(hit.is_clear());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::NoScratch`], [`QueryError::NotServed`];
+    /// [`QueryError::OutOfDomain`] if an end is farther than 2^38 grid units away: a million model
+    /// sizes or more, unless the model lies as far from its own origin. Far starts are clipped
+    /// without loss.
+    #[inline]
+    pub fn first_hit(
+        &self,
+        a: [f32; 3],
+        b: [f32; 3],
+        facing: Facing,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<FirstHit, QueryError> {
+        let Some(query) = prepare(self, a, b, scratch)? else { return Ok(FirstHit::CLEAR) };
+        let mut work = Work::default();
+        let collect = First {
+            limit: query.ray.end(),
+            lower: f32::INFINITY,
+            best: Place { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
+            certain: false,
+            tree: self,
+        };
+        let mut visitor = SegmentVisitor { query: &query, facing, collect };
+        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        visitor.collect.answer(&query, descent, work)
+    }
+}
+
+struct First<'a> {
+    tree: &'a Bvh<'a>,
+    /// The input's surface is met no later, if `certain`; else the segment's end.
+    limit: f32,
+    /// It is not met earlier.
+    lower: f32,
+    best: Place,
+    certain: bool,
+}
+
+impl First<'_> {
+    #[cold]
+    fn number(&self, place: &Place) -> Option<u32> {
+        Some(self.tree.links(place.node)?.triangle(place.child).wrapping_add(place.lane))
+    }
+
+    #[inline(always)]
+    fn answer(
+        &self,
+        query: &SegmentQuery,
+        descent: Descent,
+        work: Work,
+    ) -> Result<FirstHit, QueryError> {
+        let (mut lower, mut ended) = (self.lower, Ended::Exact);
+        if let Descent::Truncated { least, ended: why } = descent {
+            lower = if least < lower { least } else { lower };
+            ended = why;
+        } else if !(self.certain || lower == f32::INFINITY) {
+            ended = Ended::Resolution;
+        }
+        let mut hit = None;
+        if self.best.t < f32::INFINITY {
+            let number = self.number(&self.best).ok_or(QueryError::Unchecked)?;
+            hit = Some(query.hit(self.best.t, self.tree.source(number)));
+        }
+        let upper = match (self.certain, hit) {
+            (true, _) => query.upper(self.limit),
+            (false, Some(_)) => 1.0,
+            (false, None) => f32::INFINITY,
+        };
+        Ok(FirstHit { t: Interval::new(query.lower(lower), upper), hit, work, ended })
+    }
+}
+
+impl Collect for First<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()> {
+        if crossing.lower < self.lower {
+            self.lower = crossing.lower;
+        }
+        if crossing.stored && crossing.t <= self.best.t {
+            let place = Place { t: crossing.t, node, child, lane };
+            if crossing.t < self.best.t || self.number(&place) < self.number(&self.best) {
+                self.best = place;
+            }
+        }
+        Some(())
+    }
+
+    #[inline(always)]
+    fn certain(&mut self, upper: f32) {
+        self.certain = true;
+        if upper < self.limit {
+            self.limit = upper;
+        }
+    }
+
+    #[inline(always)]
+    fn is_answered(&self) -> bool {
+        false
+    }
+
+    const COVERS: bool = true;
+}

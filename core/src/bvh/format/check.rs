@@ -1,0 +1,328 @@
+//! Opening the box tree of a blob, and its check.
+
+use super::header::BvhHeader;
+use super::layout::{
+    BVH_BYTES, FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes,
+};
+use super::leaf::{FanLeaf, LeafShape};
+use super::view::{Bvh, GridScale};
+use crate::format::layout::SectionKind;
+use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::geom::fan::WIDTH;
+use crate::num::tolerance::U32;
+
+/// Nodes on the longest path from the root: eight-fold branching needs fewer than ten, degenerate
+/// input a few more.
+const MAX_TREE_DEPTH: usize = 64;
+
+/// Largest coordinate on a grid.
+const MAX_GRID: f32 = (1u32 << 25) as f32;
+/// Largest entry of a frame's matrix: a box coordinate's step is never finer than 2^-37 grid units.
+const MAX_ROW: f32 = (1u64 << 37) as f32;
+/// Largest square of a step.
+const MAX_WEIGHT: f32 = (1u64 << 40) as f32;
+
+/// Siblings that a walk has begun.
+#[derive(Clone, Copy)]
+struct Family {
+    next: u32,
+    end: u32,
+    /// Entries on the stack above them.
+    waiting: u32,
+}
+
+impl<'a> Bvh<'a> {
+    /// Opens the box tree of a blob where it lies and checks all of it: CRCs, every link, every
+    /// coordinate. Any bytes are safe to open. It does not look at other sections, so that their
+    /// checks are not linked.
+    ///
+    /// Cost: linear in the tree, no allocation; once per start. Alignment of `bytes` does not
+    /// matter.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a tree.
+    pub fn open(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
+        let tree = Bvh::place(bytes, true)?;
+        tree.check()?;
+        Ok(tree)
+    }
+
+    /// The tree of bytes that were opened before.
+    pub(crate) fn view(bytes: &'a [u8]) -> Result<Bvh<'a>, OpenError> {
+        Bvh::place(bytes, false)
+    }
+
+    fn place(bytes: &'a [u8], check: bool) -> Result<Bvh<'a>, OpenError> {
+        let header = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
+        let mut head: &[u8] = &[];
+        let mut tree = Bvh {
+            header: BvhHeader::EMPTY,
+            scale_exponent: header.scale_exponent,
+            input_triangles: header.input_triangles,
+            scale: GridScale::of(&BvhHeader::EMPTY, 0),
+            links: &[],
+            frames: &[],
+            boxes: &[],
+            fans: &[],
+            source: Bytes(&[]),
+            cones: &[],
+        };
+        let wants = |kind: SectionKind| kind.is_bvh();
+        place_sections(&header, Bytes(bytes), check, wants, |index, kind, data| {
+            let rest: &[u8];
+            match kind {
+                SectionKind::Bvh => (head, rest) = (data, &[]),
+                SectionKind::TreeLinks => (tree.links, rest) = data.as_chunks(),
+                SectionKind::TreeFrames => (tree.frames, rest) = data.as_chunks(),
+                SectionKind::TreeBoxes => (tree.boxes, rest) = data.as_chunks(),
+                SectionKind::TreeFans => (tree.fans, rest) = (data, &[]),
+                SectionKind::TreeSource => (tree.source, rest) = (Bytes(data), &[]),
+                SectionKind::TreeCones => (tree.cones, rest) = data.as_chunks(),
+                _ => rest = &[],
+            }
+            if rest.is_empty() { Ok(()) } else { Err(OpenError::Section { index }) }
+        })?;
+        if head.len() != BVH_BYTES {
+            return Err(OpenError::MissingSection { section: SectionKind::Bvh });
+        }
+        tree.header = BvhHeader::read(Bytes(head))?;
+        tree.scale = GridScale::of(&tree.header, tree.scale_exponent);
+        Ok(tree)
+    }
+
+    fn check(&self) -> Result<(), OpenError> {
+        self.check_counts()?;
+        self.check_nodes()?;
+        self.check_boxes()?;
+        self.check_source()
+    }
+
+    fn check_counts(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        if h.nodes == 0 || h.leaves == 0 || h.triangles == 0 {
+            return wrong("an empty tree");
+        }
+        if h.nodes > 0xFF_FFFF || h.vertices.max(h.triangles) > u32::MAX / 64 {
+            return wrong("more tree records than a blob can address");
+        }
+        if !(-180..=180).contains(&self.scale_exponent) || !(-60..=0).contains(&h.grid_exponent) {
+            return wrong("tree grid out of range");
+        }
+        let limit = 1 << 24;
+        if !h.grid_origin.iter().all(|&o| o >= -limit && o <= limit - 0xFFFF) {
+            return wrong("tree grid out of range");
+        }
+        if !(h.surface_error >= 0.0
+            && h.surface_error.is_finite()
+            && h.star_radius >= 0.0
+            && h.star_radius <= 1e7)
+        {
+            return wrong("negative or infinite error bound of the tree");
+        }
+        if h.low.iter().zip(&h.high).any(|(low, high)| low > high) {
+            return wrong("the tree's box is inverted");
+        }
+        let nodes = h.nodes as usize;
+        if h.stack_entries < WIDTH as u32
+            || h.stack_entries as usize > nodes.saturating_mul(WIDTH) + WIDTH
+        {
+            return wrong("stack entries of the tree");
+        }
+        let missing = |section| Err(OpenError::MissingSection { section });
+        if self.links.len() != nodes {
+            return missing(SectionKind::TreeLinks);
+        }
+        if self.frames.len() != nodes && (!self.frames.is_empty() || self.boxes.is_empty()) {
+            return missing(SectionKind::TreeFrames);
+        }
+        if !self.boxes.is_empty() && self.boxes.len() != nodes {
+            return missing(SectionKind::TreeBoxes);
+        }
+        if !self.cones.is_empty() && self.cones.len() != h.leaves as usize {
+            return missing(SectionKind::TreeCones);
+        }
+        let padding = FAN_PADDING / 6 * h.vertex_bytes();
+        let zero = |bytes: Option<&[u8]>| bytes.is_some_and(|b| b.iter().all(|&b| b == 0));
+        let used = h.vertices as usize * h.vertex_bytes();
+        if self.fans.len() != used + padding || !zero(self.fans.get(used..)) {
+            return missing(SectionKind::TreeFans);
+        }
+        Ok(())
+    }
+
+    /// Leaves stand in the order of their nodes, without gaps.
+    fn check_nodes(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let (mut leaves, mut vertices, mut triangles) = (0u32, 0u32, 0u32);
+        for index in 0..h.nodes {
+            let bad = OpenError::Record { section: SectionKind::TreeLinks, index };
+            let links = self.links(index).ok_or(bad)?;
+            let sound = (1..=WIDTH as u32).contains(&links.count) && links.inner <= links.count;
+            if !sound {
+                return Err(bad);
+            }
+            if (0..links.inner).any(|lane| links.shape(lane) != LeafShape(0)) {
+                return Err(bad);
+            }
+            if links.count > links.inner
+                && (links.first_vertex, links.first_triangle) != (vertices, triangles)
+            {
+                return Err(bad);
+            }
+            for lane in links.inner..links.count {
+                let shape = links.shape(lane);
+                if !shape.is_sound() {
+                    return Err(bad);
+                }
+                let leaf = self.leaf_at(vertices, shape).ok_or(bad)?;
+                vertices += shape.vertices() as u32;
+                triangles += shape.triangles() as u32;
+                leaves += 1;
+                if vertices > h.vertices {
+                    return Err(bad);
+                }
+                self.check_leaf(&leaf, leaves - 1)?;
+            }
+            if (links.count..WIDTH as u32).any(|lane| links.shape(lane) != LeafShape(0)) {
+                return Err(bad);
+            }
+        }
+        if (leaves, vertices, triangles) != (h.leaves, h.vertices, h.triangles) {
+            return Err(OpenError::Counts { what: "leaves of the tree" });
+        }
+        self.check_families()
+    }
+
+    /// Families of siblings stand in the order of a depth-first walk. So one walk proves that every
+    /// node but the root is the child of exactly one node, which comes before it. It also counts
+    /// the entries that a descent may leave on the stack.
+    fn check_families(&self) -> Result<(), OpenError> {
+        let mut open = [Family { next: 0, end: 1, waiting: 0 }; MAX_TREE_DEPTH];
+        let (mut depth, mut fresh, mut most) = (0usize, 1u32, 0u32);
+        while let Some(family) = open.get_mut(depth) {
+            if family.next == family.end {
+                let Some(up) = depth.checked_sub(1) else { break };
+                depth = up;
+                continue;
+            }
+            let (index, waiting) = (family.next, family.waiting);
+            family.next += 1;
+            let bad = OpenError::Record { section: SectionKind::TreeLinks, index };
+            let links = self.links(index).ok_or(bad)?;
+            let waiting = waiting + links.count.saturating_sub(1);
+            most = most.max(waiting);
+            if links.inner > 0 {
+                if links.first_node != fresh || links.inner > self.header.nodes - fresh {
+                    return Err(bad);
+                }
+                fresh += links.inner;
+                depth += 1;
+                *open
+                    .get_mut(depth)
+                    .ok_or(OpenError::Counts { what: "a tree deeper than 64 nodes" })? =
+                    Family { next: links.first_node, end: fresh, waiting };
+            }
+        }
+        if fresh != self.header.nodes {
+            return Err(OpenError::Counts { what: "a tree node without a parent" });
+        }
+        // The descent stores all eight lanes, then keeps the wanted ones.
+        if self.header.stack_entries < most + WIDTH as u32 {
+            return Err(OpenError::Counts { what: "stack entries of the tree" });
+        }
+        Ok(())
+    }
+
+    /// The numbers of every frame are finite and within the limits of the rounding margins.
+    fn check_boxes(&self) -> Result<(), OpenError> {
+        let origin = |x: f32| x.abs() <= MAX_GRID;
+        for (index, record) in (0u32..).zip(self.frames) {
+            let (words, _) = record.as_chunks::<4>();
+            let sound = words.iter().skip(boxes::FRAME_ROWS / 4).enumerate().all(|(at, word)| {
+                let x = f32::from_le_bytes(*word);
+                match at {
+                    0..9 => x.abs() <= MAX_ROW,
+                    9..12 => origin(x),
+                    _ => (0.0..=MAX_WEIGHT).contains(&x),
+                }
+            });
+            // A step counts for no more than its length. So squares of distances stay in f32's
+            // range.
+            let mut f = [0f32; 15];
+            f.iter_mut()
+                .zip(words.iter().skip(boxes::FRAME_ROWS / 4))
+                .for_each(|(x, word)| *x = f32::from_le_bytes(*word));
+            let [a, b, c, d, e, g, h, i, j, _, _, _, u, v, w] = f;
+            let short = |x: f32, y: f32, z: f32, weight: f32| {
+                (x * x) * weight + (y * y) * weight + (z * z) * weight <= 1.0 + 16.0 * U32
+            };
+            if !(sound && short(a, b, c, u) && short(d, e, g, v) && short(h, i, j, w)) {
+                return Err(OpenError::Record { section: SectionKind::TreeFrames, index });
+            }
+        }
+        for (index, record) in (0u32..).zip(self.boxes) {
+            let (words, _) = record.as_chunks::<4>();
+            let sound = words.iter().skip(boxes::ORIGIN / 4).enumerate().all(|(at, word)| {
+                let x = f32::from_le_bytes(*word);
+                if at < 3 { origin(x) } else { (0.0..=MAX_GRID).contains(&x) }
+            });
+            if !sound {
+                return Err(OpenError::Record { section: SectionKind::TreeBoxes, index });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_leaf(&self, leaf: &FanLeaf<'_>, index: u32) -> Result<(), OpenError> {
+        let h = &self.header;
+        let bad = OpenError::Record { section: SectionKind::TreeFans, index };
+        let inside = |p: glam::Vec3| {
+            (0..3).all(|axis| {
+                let (x, o) = (p.to_array()[axis], h.grid_origin[axis]);
+                // Exact: sums of u16 and the origin fit f32.
+                x >= (o + i32::from(h.low[axis])) as f32
+                    && x <= (o + i32::from(h.high[axis])) as f32
+            })
+        };
+        let shape = leaf.shape();
+        let sound = (0..shape.centres()).all(|which| inside(leaf.centre(which)))
+            && (0..=shape.triangles()).all(|i| inside(leaf.ring(i)))
+            && (0..shape.triangles()).all(|i| {
+                let which = usize::from(i >= shape.turn());
+                let norm = |v: glam::Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+                // Exact on the grid. With f32 vertices it is off by a few roundings, for which the
+                // bounds with `star_radius` have room.
+                norm(leaf.spoke(i, which)) + norm(leaf.spoke(i + 1, which))
+                    <= h.star_radius * (1.0 + 8.0 * U32)
+            });
+        if sound { Ok(()) } else { Err(bad) }
+    }
+
+    fn check_source(&self) -> Result<(), OpenError> {
+        let missing = OpenError::MissingSection { section: SectionKind::TreeSource };
+        let triangles = self.header.triangles as usize;
+        let directory = triangles.div_ceil(SOURCE_BLOCK) * SOURCE_ENTRY_BYTES;
+        let mut end = directory;
+        for block in 0..triangles.div_ceil(SOURCE_BLOCK) {
+            let word = self.source.u32(block * SOURCE_ENTRY_BYTES + 4).ok_or(missing)?;
+            let entries = (triangles - block * SOURCE_BLOCK).min(SOURCE_BLOCK);
+            if (word >> 5) as usize != end {
+                return Err(OpenError::Record {
+                    section: SectionKind::TreeSource,
+                    index: block as u32,
+                });
+            }
+            end += (entries * (word & 31) as usize).div_ceil(8);
+        }
+        if self.source.len() != end + SOURCE_PADDING {
+            return Err(missing);
+        }
+        for index in 0..self.header.triangles {
+            if self.source(index).is_none_or(|s| s >= self.input_triangles) {
+                return Err(OpenError::Record { section: SectionKind::TreeSource, index });
+            }
+        }
+        Ok(())
+    }
+}

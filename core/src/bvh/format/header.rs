@@ -1,0 +1,142 @@
+//! The box tree's own header: counts, grid, error bound.
+
+use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, field};
+use crate::format::layout::SectionKind;
+use crate::format::{Bytes, OpenError};
+
+/// The box tree's header.
+///
+/// *Grid units* are units of the tree's grid: local frame divided by `2^grid_exponent`. A
+/// coordinate on the grid is a u16 plus `grid_origin`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BvhHeader {
+    /// [`BVH_CLOSED`] and [`BVH_F32`].
+    pub flags: u8,
+    /// Local coordinate = grid coordinate × 2^this.
+    pub grid_exponent: i32,
+    /// Added to the stored integers.
+    pub grid_origin: [i32; 3],
+    /// Nodes; node 0 is the root.
+    pub nodes: u32,
+    /// Leaves, each of one or two fans.
+    pub leaves: u32,
+    /// Vertices that the leaves store.
+    pub vertices: u32,
+    /// Triangles.
+    pub triangles: u32,
+    /// Scratch entries with which no query can overflow.
+    pub stack_entries: u32,
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round. Local frame.
+    pub surface_error: f32,
+    /// The largest sum of the 1-norms of the two spokes of a triangle, grid units, rounded up.
+    pub star_radius: f32,
+    /// Box of the leaves' vertices, as u16 on the grid, rounded outward.
+    pub low: [u16; 3],
+    /// See [`low`](Self::low).
+    pub high: [u16; 3],
+}
+
+impl BvhHeader {
+    /// The header before it is read.
+    pub(crate) const EMPTY: BvhHeader = BvhHeader {
+        flags: 0,
+        grid_exponent: 0,
+        grid_origin: [0; 3],
+        nodes: 0,
+        leaves: 0,
+        vertices: 0,
+        triangles: 0,
+        stack_entries: 0,
+        surface_error: 0.0,
+        star_radius: 0.0,
+        low: [0; 3],
+        high: [0; 3],
+    };
+
+    /// Whether the sign of a distance is defined.
+    pub fn is_closed(&self) -> bool {
+        self.flags & BVH_CLOSED != 0
+    }
+
+    /// Whether leaf vertices are f32.
+    pub fn is_f32(&self) -> bool {
+        self.flags & BVH_F32 != 0
+    }
+
+    /// Bytes of one leaf vertex.
+    pub fn vertex_bytes(&self) -> usize {
+        if self.is_f32() { 12 } else { 6 }
+    }
+
+    pub(crate) fn read(bytes: Bytes<'_>) -> Result<BvhHeader, OpenError> {
+        let short = OpenError::Record { section: SectionKind::Bvh, index: 0 };
+        let word = |at: usize| bytes.u32(at).ok_or(short);
+        let short3 = |at: usize| {
+            Ok([
+                bytes.u16(at).ok_or(short)?,
+                bytes.u16(at + 2).ok_or(short)?,
+                bytes.u16(at + 4).ok_or(short)?,
+            ])
+        };
+        let flags = bytes.u8(field::FLAGS).ok_or(short)?;
+        let reserved = bytes.u8(field::RESERVED) == Some(0)
+            && bytes.u16(field::RESERVED_BESIDE_FLAGS) == Some(0)
+            && word(field::RESERVED_AT_END)? == 0;
+        if !reserved || flags & !(BVH_CLOSED | BVH_F32) != 0 {
+            return Err(OpenError::Reserved);
+        }
+        Ok(BvhHeader {
+            flags,
+            grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
+            grid_origin: [
+                word(field::GRID_ORIGIN)?.cast_signed(),
+                word(field::GRID_ORIGIN + 4)?.cast_signed(),
+                word(field::GRID_ORIGIN + 8)?.cast_signed(),
+            ],
+            nodes: word(field::NODES)?,
+            leaves: word(field::LEAVES)?,
+            vertices: word(field::VERTICES)?,
+            triangles: word(field::TRIANGLES)?,
+            stack_entries: word(field::STACK_ENTRIES)?,
+            surface_error: f32::from_bits(word(field::SURFACE_ERROR)?),
+            star_radius: f32::from_bits(word(field::STAR_RADIUS)?),
+            low: short3(field::LOW)?,
+            high: short3(field::HIGH)?,
+        })
+    }
+
+    /// Writes the header.
+    pub fn write(&self) -> [u8; BVH_BYTES] {
+        let mut out = [0u8; BVH_BYTES];
+        let mut put = |at: usize, bytes: &[u8]| {
+            for (slot, byte) in out.iter_mut().skip(at).zip(bytes) {
+                *slot = *byte;
+            }
+        };
+        put(field::FLAGS, &[self.flags]);
+        let [x, y, z] = self.grid_origin.map(i32::cast_unsigned);
+        let words = [
+            (field::GRID_EXPONENT, self.grid_exponent.cast_unsigned()),
+            (field::GRID_ORIGIN, x),
+            (field::GRID_ORIGIN + 4, y),
+            (field::GRID_ORIGIN + 8, z),
+            (field::NODES, self.nodes),
+            (field::LEAVES, self.leaves),
+            (field::VERTICES, self.vertices),
+            (field::TRIANGLES, self.triangles),
+            (field::STACK_ENTRIES, self.stack_entries),
+            (field::SURFACE_ERROR, self.surface_error.to_bits()),
+            (field::STAR_RADIUS, self.star_radius.to_bits()),
+        ];
+        for (at, word) in words {
+            put(at, &word.to_le_bytes());
+        }
+        for (at, corner) in [(field::LOW, self.low), (field::HIGH, self.high)] {
+            for (axis, short) in corner.into_iter().enumerate() {
+                put(at + 2 * axis, &short.to_le_bytes());
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,87 @@
+//! Sizes and offsets in the sections of the box tree.
+
+/// Bytes of the box tree's header.
+pub const BVH_BYTES: usize = 64;
+/// Bytes of a node's links.
+pub const LINK_BYTES: usize = 20;
+/// Bytes of a node's boxes in a shared frame.
+pub const FRAME_BYTES: usize = 108;
+/// Bytes of a node's axis-aligned boxes.
+pub const BOXES_BYTES: usize = 72;
+/// Bytes of zeros after the last leaf, so that every leaf can be read at full width. Twice as many
+/// for f32 vertices.
+pub const FAN_PADDING: usize = 48;
+/// Triangles of a block of source numbers.
+pub const SOURCE_BLOCK: usize = 64;
+/// Bytes of a block's entry in the directory of source numbers.
+pub const SOURCE_ENTRY_BYTES: usize = 8;
+/// Bytes of zeros after the last source number.
+pub const SOURCE_PADDING: usize = 8;
+/// Bytes of a leaf's normal cone.
+pub const CONE_BYTES: usize = 4;
+/// Tree flag: every edge belongs to two triangles that run through it in opposite directions, so
+/// that the sign of a distance is defined.
+pub const BVH_CLOSED: u8 = 1;
+/// Tree flag: leaf vertices are f32 in grid units instead of u16 on the grid.
+pub const BVH_F32: u8 = 2;
+
+/// Offsets in the box tree's header.
+pub mod field {
+    /// A zero.
+    pub const RESERVED: usize = 0;
+    /// u8.
+    pub const FLAGS: usize = 1;
+    /// Two zeros.
+    pub const RESERVED_BESIDE_FLAGS: usize = 2;
+    /// i32.
+    pub const GRID_EXPONENT: usize = 4;
+    /// Three i32.
+    pub const GRID_ORIGIN: usize = 8;
+    /// u32.
+    pub const NODES: usize = 20;
+    /// u32.
+    pub const LEAVES: usize = 24;
+    /// u32.
+    pub const VERTICES: usize = 28;
+    /// u32.
+    pub const TRIANGLES: usize = 32;
+    /// u32.
+    pub const STACK_ENTRIES: usize = 36;
+    /// f32.
+    pub const SURFACE_ERROR: usize = 40;
+    /// f32.
+    pub const STAR_RADIUS: usize = 44;
+    /// Three u16.
+    pub const LOW: usize = 48;
+    /// Three u16.
+    pub const HIGH: usize = 54;
+    /// Four zeros.
+    pub const RESERVED_AT_END: usize = 60;
+}
+
+/// Offsets in a node's links.
+pub mod links {
+    /// u32: first inner child in 24 bits, inner children in 4, all children in 4.
+    pub const CHILDREN: usize = 0;
+    /// u32: first vertex of the first leaf.
+    pub const FIRST_VERTEX: usize = 4;
+    /// u32: first triangle of the first leaf.
+    pub const FIRST_TRIANGLE: usize = 8;
+    /// Eight u8: shapes of the leaves, 0 for a node.
+    pub const SHAPES: usize = 12;
+}
+
+/// Offsets in a node's boxes. Both kinds begin with six rows of eight u8: low and high planes of
+/// the first axis, of the second, of the third.
+pub mod boxes {
+    /// Shared frame: nine f32, the rows of the matrix.
+    pub const FRAME_ROWS: usize = 48;
+    /// Shared frame: three f32.
+    pub const FRAME_ORIGIN: usize = 84;
+    /// Shared frame: three f32, the square of one step of each axis.
+    pub const FRAME_WEIGHTS: usize = 96;
+    /// Axis-aligned: three f32, where byte 128 lies.
+    pub const ORIGIN: usize = 48;
+    /// Axis-aligned: three f32, one step of each axis.
+    pub const STEPS: usize = 60;
+}

@@ -1,0 +1,408 @@
+//! Leaves of the box tree: one or two triangle fans, read where they lie.
+//!
+//! A leaf of an opened tree lies within the fans' section. No read can panic all the same.
+
+use crate::geom::fan::{Edges8, LANES_BELOW, Ring8, WIDTH};
+use glam::Vec3;
+
+/// Shape of a leaf in one byte: number of vertices, first triangle of the second fan, whether the
+/// second fan's winding is opposite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LeafShape(pub u8);
+
+impl LeafShape {
+    /// The shape of a leaf of `triangles` with the second fan beginning at triangle `turn` (0: one
+    /// fan).
+    pub fn new(triangles: usize, turn: usize, reversed: bool) -> Self {
+        let vertices = triangles + 2 + usize::from(turn > 0);
+        LeafShape(vertices as u8 & 0x0F | (turn as u8 & 7) << 4 | u8::from(reversed) << 7)
+    }
+
+    /// Vertices stored.
+    #[inline(always)]
+    pub fn vertices(self) -> usize {
+        usize::from(self.0 & 0x0F)
+    }
+
+    /// First triangle of the second fan; 8 if there is none.
+    #[inline(always)]
+    pub fn turn(self) -> usize {
+        match usize::from(self.0 >> 4 & 7) {
+            0 => WIDTH,
+            turn => turn,
+        }
+    }
+
+    /// Centres stored.
+    #[inline(always)]
+    pub fn centres(self) -> usize {
+        1 + usize::from(self.0 & 0x70 != 0)
+    }
+
+    /// Triangles.
+    #[inline(always)]
+    pub fn triangles(self) -> usize {
+        self.vertices().wrapping_sub(1 + self.centres())
+    }
+
+    /// Whether the triangles of the second fan run the other way round than those of the first.
+    pub fn second_reversed(self) -> bool {
+        self.0 & 0x80 != 0
+    }
+
+    /// Whether a leaf can have this shape.
+    pub(crate) fn is_sound(self) -> bool {
+        let triangles = self.vertices().checked_sub(1 + self.centres());
+        let turns = self.turn() == WIDTH || triangles.is_some_and(|count| self.turn() < count);
+        triangles.is_some_and(|count| (1..=WIDTH).contains(&count))
+            && turns
+            && (self.centres() == 2 || !self.second_reversed())
+    }
+}
+
+/// A leaf: one or two fans.
+#[derive(Clone, Copy, Debug)]
+pub struct FanLeaf<'a> {
+    pub(crate) bytes: &'a [u8],
+    pub(crate) shape: LeafShape,
+    pub(crate) is_f32: bool,
+    pub(crate) origin: [i32; 3],
+}
+
+/// Stored integers of a leaf on the grid, without the grid's origin.
+#[derive(Clone, Copy, Debug)]
+pub struct GridRing<'a> {
+    /// The grid's origin.
+    pub origin: [i32; 3],
+    /// First and second centre. The second has no meaning if there is one fan.
+    pub centres: [[i32; 3]; 2],
+    /// First coordinates of the ring.
+    pub x: &'a [[u8; 2]],
+    /// Second coordinates.
+    pub y: &'a [[u8; 2]],
+    /// Third coordinates.
+    pub z: &'a [[u8; 2]],
+}
+
+/// Vertices of the largest leaf: two centres and nine ring vertices.
+pub const CORNERS: usize = 11;
+
+/// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
+const GRID_WINDOW: usize = 66;
+
+#[inline(always)]
+fn short(bytes: &[u8], at: usize) -> i32 {
+    match bytes.get(at..).and_then(|b| b.first_chunk::<2>()) {
+        Some(&pair) => i32::from(u16::from_le_bytes(pair)),
+        None => 0,
+    }
+}
+
+#[inline(always)]
+fn f32_at(bytes: &[u8], at: usize) -> f32 {
+    match bytes.get(at..).and_then(|b| b.first_chunk::<4>()) {
+        Some(&word) => f32::from_le_bytes(word),
+        None => 0.0,
+    }
+}
+
+/// Eight u16 at a byte offset, as f32. No ring begins beyond byte 48 of a window.
+#[inline(always)]
+fn eight(window: &[u8; GRID_WINDOW], at: usize) -> [f32; WIDTH] {
+    let at = at.min(GRID_WINDOW - 16);
+    let mut out = [0f32; WIDTH];
+    if let Some(chunk) = window.get(at..at + 16).and_then(|b| b.first_chunk::<16>()) {
+        for i in 0..WIDTH {
+            out[i] = f32::from(u16::from_le_bytes([chunk[2 * i], chunk[2 * i + 1]]));
+        }
+    }
+    out
+}
+
+type Lanes8 = [f32; WIDTH];
+
+/// First spokes, second spokes and way to the point along one axis.
+#[inline(always)]
+fn grid_axis(
+    window: &[u8; GRID_WINDOW],
+    at: usize,
+    turn: &[u32; WIDTH],
+    [c, d]: [i32; 2],
+    origin: i32,
+    p: f32,
+) -> (Lanes8, Lanes8, Lanes8) {
+    let (here, next) = (eight(window, at), eight(window, at + 2));
+    let (first, second, origin) = (c as f32, d as f32, origin as f32);
+    let (mut e, mut g, mut s) = ([0f32; WIDTH], [0f32; WIDTH], [0f32; WIDTH]);
+    for i in 0..WIDTH {
+        let centre = blend(turn[i], first, second);
+        e[i] = here[i] - centre;
+        g[i] = next[i] - centre;
+        // The sum is exact, so this is the point less the centre, rounded once.
+        s[i] = p - (centre + origin);
+    }
+    (e, g, s)
+}
+
+/// `first` where the mask is ones, `second` where it is zeros.
+#[inline(always)]
+fn blend(mask: u32, first: f32, second: f32) -> f32 {
+    f32::from_bits(first.to_bits() & mask | second.to_bits() & !mask)
+}
+
+/// Three u16 at a byte offset that the compiler knows.
+#[inline(always)]
+fn three(window: &[u8; GRID_WINDOW], at: usize) -> [i32; 3] {
+    match window.get(at..).and_then(|b| b.first_chunk::<6>()) {
+        Some(&[a, b, c, d, e, f]) => {
+            [[a, b], [c, d], [e, f]].map(|pair| i32::from(u16::from_le_bytes(pair)))
+        }
+        None => [0; 3],
+    }
+}
+
+impl<'a> FanLeaf<'a> {
+    /// Its shape.
+    #[inline(always)]
+    pub fn shape(&self) -> LeafShape {
+        self.shape
+    }
+
+    /// Centre 0 or 1, grid units, exactly. Here and below, an index past the leaf's centres, ring
+    /// or triangles gives some number.
+    #[inline(always)]
+    pub fn centre(&self, which: usize) -> Vec3 {
+        if self.is_f32 {
+            let at = 12 * which;
+            return Vec3::new(
+                f32_at(self.bytes, at),
+                f32_at(self.bytes, at + 4),
+                f32_at(self.bytes, at + 8),
+            );
+        }
+        let [x, y, z] = self.stored(6 * which, 2);
+        let [ox, oy, oz] = self.origin;
+        Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
+    }
+
+    /// All vertices without the grid's origin, as stored, exactly: both centres, alike if there is
+    /// one fan, then nine of the ring. Vertices past the last triangle have no meaning but are
+    /// finite. `[axis][vertex]`.
+    #[inline(always)]
+    pub fn stored_vertices(&self) -> [[f32; CORNERS]; 3] {
+        let mut out = [[0f32; CORNERS]; 3];
+        if self.is_f32 {
+            self.f32_vertices(&mut out);
+            return out;
+        }
+        let Some(window) = self.bytes.first_chunk::<GRID_WINDOW>() else { return out };
+        let second = 6 * (self.shape.centres() - 1);
+        let step = 2 * (self.shape.triangles() + 1);
+        for (axis, out) in out.iter_mut().enumerate() {
+            let ring = (6 + second + step * axis).min(GRID_WINDOW - 18);
+            let [first, next, rest @ ..] = out;
+            *first = short(window, 2 * axis) as f32;
+            *next = short(window, second + 2 * axis) as f32;
+            if let Some(chunk) = window.get(ring..).and_then(|b| b.first_chunk::<18>()) {
+                for (x, pair) in rest.iter_mut().zip(chunk.as_chunks::<2>().0) {
+                    *x = f32::from(u16::from_le_bytes(*pair));
+                }
+            }
+        }
+        out
+    }
+
+    #[inline(never)]
+    fn f32_vertices(&self, out: &mut [[f32; CORNERS]; 3]) {
+        let second = self.shape.centres() - 1;
+        let used = self.shape.triangles() + 3;
+        for slot in 0..CORNERS {
+            let vertex = match slot {
+                0 => self.centre(0),
+                1 => self.centre(second),
+                _ if slot < used => self.ring(slot - 2),
+                _ => self.centre(0),
+            };
+            for (axis, x) in out.iter_mut().zip(vertex.to_array()) {
+                if let Some(place) = axis.get_mut(slot) {
+                    *place = x;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn stored(&self, at: usize, step: usize) -> [i32; 3] {
+        [short(self.bytes, at), short(self.bytes, at + step), short(self.bytes, at + 2 * step)]
+    }
+
+    /// Ring vertex `i ≤ triangles`, grid units, exactly.
+    #[inline(always)]
+    pub fn ring(&self, i: usize) -> Vec3 {
+        let entries = self.shape.triangles() + 1;
+        if self.is_f32 {
+            let at = 12 * self.shape.centres() + 4 * i;
+            let step = 4 * entries;
+            return Vec3::new(
+                f32_at(self.bytes, at),
+                f32_at(self.bytes, at + step),
+                f32_at(self.bytes, at + 2 * step),
+            );
+        }
+        let [x, y, z] = self.stored(6 * self.shape.centres() + 2 * i, 2 * entries);
+        let [ox, oy, oz] = self.origin;
+        Vec3::new(x.wrapping_add(ox) as f32, y.wrapping_add(oy) as f32, z.wrapping_add(oz) as f32)
+    }
+
+    /// Ring vertex `i` less centre `which`: exact on the grid, rounded once with f32 vertices.
+    #[inline(always)]
+    pub fn spoke(&self, i: usize, which: usize) -> Vec3 {
+        if self.is_f32 {
+            return self.ring(i) - self.centre(which);
+        }
+        let step = 2 * (self.shape.triangles() + 1);
+        let [cx, cy, cz] = self.stored(6 * which, 2);
+        let [x, y, z] = self.stored(6 * self.shape.centres() + 2 * i, step);
+        Vec3::new(x.wrapping_sub(cx) as f32, y.wrapping_sub(cy) as f32, z.wrapping_sub(cz) as f32)
+    }
+
+    /// The stored integers of a leaf on the grid.
+    #[inline(always)]
+    pub fn grid_ring(&self) -> Option<GridRing<'a>> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let entries = self.shape.triangles() + 1;
+        let ring = self.bytes.get(6 * self.shape.centres()..)?;
+        let (x, rest) = ring.split_at_checked(2 * entries)?;
+        let (y, rest) = rest.split_at_checked(2 * entries)?;
+        let z = rest.get(..2 * entries)?;
+        let (x, y, z) = (x.as_chunks().0, y.as_chunks().0, z.as_chunks().0);
+        Some(GridRing {
+            origin: self.origin,
+            centres: [three(window, 0), three(window, 6)],
+            x,
+            y,
+            z,
+        })
+    }
+
+    /// The point `centre + v·e + w·g` of triangle `lane`, grid units.
+    #[inline(always)]
+    pub fn point(&self, lane: usize, v: f32, w: f32) -> Vec3 {
+        let [centre, e, g] = self.spokes(lane);
+        centre + e * v + g * w
+    }
+
+    /// Centre and both spokes of triangle `lane`. A call, for questions with few triangles: reading
+    /// them is much code.
+    #[inline(never)]
+    pub fn spokes(&self, lane: usize) -> [Vec3; 3] {
+        let which = usize::from(lane >= self.shape.turn());
+        [self.centre(which), self.spoke(lane, which), self.spoke(lane + 1, which)]
+    }
+
+    /// Corners of triangle `lane`, grid units, in the input's winding.
+    pub fn corners(&self, lane: usize) -> [Vec3; 3] {
+        let second = lane >= self.shape.turn();
+        let centre = self.centre(usize::from(second));
+        let (a, b) = (self.ring(lane), self.ring(lane + 1));
+        if second && self.shape.second_reversed() { [centre, b, a] } else { [centre, a, b] }
+    }
+
+    /// Whether vertices are f32. Then use [`f32_edges8`](Self::f32_edges8).
+    #[inline(always)]
+    pub fn is_f32(&self) -> bool {
+        self.is_f32
+    }
+
+    /// All triangles as seen from `p` (grid units), for the wide kernel: vertices on the grid.
+    #[inline(always)]
+    pub fn grid_edges8(&self, p: Vec3) -> Option<Edges8> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let two = self.shape.centres() == 2;
+        let ring = if two { 12 } else { 6 };
+        let step = 2 * (self.shape.triangles() + 1);
+        let turn = LANES_BELOW.get(self.shape.turn())?;
+        let (c, d) = (three(window, 0), three(window, 6));
+        let [ox, oy, oz] = self.origin;
+        let (ex, gx, sx) = grid_axis(window, ring, turn, [c[0], d[0]], ox, p.x);
+        let (ey, gy, sy) = grid_axis(window, ring + step, turn, [c[1], d[1]], oy, p.y);
+        let (ez, gz, sz) = grid_axis(window, ring + step + step, turn, [c[2], d[2]], oz, p.z);
+        Some(Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] })
+    }
+
+    /// All triangles as seen from `p` (grid units), for the wide kernel: f32 vertices.
+    #[inline(always)]
+    pub fn f32_edges8(&self, p: Vec3) -> Option<Edges8> {
+        let turn = self.shape.turn();
+        let (first, second) = (self.centre(0), self.centre(self.shape.centres() - 1));
+        let (first_s, second_s) = ((p - first).to_array(), (p - second).to_array());
+        let (first, second) = (first.to_array(), second.to_array());
+        let mut edges = Edges8 { e: [[0.0; WIDTH]; 3], g: [[0.0; WIDTH]; 3], s: [[0.0; WIDTH]; 3] };
+        let entries = self.shape.triangles() + 1;
+        for axis in 0..3 {
+            let at = 12 * self.shape.centres() + 4 * entries * axis;
+            let chunk = self.bytes.get(at..)?.first_chunk::<36>()?;
+            for i in 0..WIDTH {
+                let centre = if i < turn { first[axis] } else { second[axis] };
+                let word = |k: usize| {
+                    f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]])
+                };
+                edges.e[axis][i] = word(4 * i) - centre;
+                edges.g[axis][i] = word(4 * i + 4) - centre;
+                edges.s[axis][i] = if i < turn { first_s[axis] } else { second_s[axis] };
+            }
+        }
+        Some(edges)
+    }
+
+    /// Ring and centres in the order of `axes`, grid units, exactly, for the wide segment kernel.
+    #[inline(always)]
+    pub fn ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        if self.is_f32 { self.f32_ring8(axes) } else { self.grid_ring8(axes) }
+    }
+
+    #[inline(always)]
+    fn grid_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let second = 6 * (self.shape.centres() - 1);
+        let step = 2 * (self.shape.triangles() + 1);
+        let axis = |axis: usize| {
+            let at = 6 + second + step * axis;
+            let origin = self.origin.get(axis).copied().unwrap_or(0) as f32;
+            let mut lanes = (eight(window, at), eight(window, at + 2));
+            for i in 0..WIDTH {
+                lanes.0[i] += origin;
+                lanes.1[i] += origin;
+            }
+            let centre = |at: usize| short(window, at + 2 * axis) as f32 + origin;
+            (lanes.0, lanes.1, centre(0), centre(second))
+        };
+        let [u, v, w] = axes;
+        let ((hx, nx, cx, dx), (hy, ny, cy, dy), (hz, nz, cz, dz)) = (axis(u), axis(v), axis(w));
+        Some(Ring8 {
+            here: [hx, hy, hz],
+            next: [nx, ny, nz],
+            centres: [[cx, cy, cz], [dx, dy, dz]],
+        })
+    }
+
+    #[inline(never)]
+    fn f32_ring8(&self, axes: [usize; 3]) -> Option<Ring8> {
+        let second = 12 * (self.shape.centres() - 1);
+        let step = 4 * (self.shape.triangles() + 1);
+        let mut ring =
+            Ring8 { here: [[0.0; WIDTH]; 3], next: [[0.0; WIDTH]; 3], centres: [[0.0; 3]; 2] };
+        for (k, axis) in axes.into_iter().enumerate() {
+            let chunk = self.bytes.get(12 + second + step * axis..)?.first_chunk::<36>()?;
+            let word =
+                |k: usize| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]);
+            for i in 0..WIDTH {
+                ring.here[k][i] = word(4 * i);
+                ring.next[k][i] = word(4 * i + 4);
+            }
+            ring.centres[0][k] = f32_at(self.bytes, 4 * axis);
+            ring.centres[1][k] = f32_at(self.bytes, second + 4 * axis);
+        }
+        Some(ring)
+    }
+}

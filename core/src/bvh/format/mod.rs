@@ -1,0 +1,21 @@
+//! The bytes of the box tree.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `layout` | sizes and limits of the sections |
+//! | `header` | the tree's own header |
+//! | `view` | [`Bvh`]: nodes, links, boxes and source numbers where they lie |
+//! | `leaf` | [`FanLeaf`]: one or two fans where they lie |
+//! | `cone` | the bytes of a leaf's normal cone |
+//! | `check` | what `Bvh::open` makes sure of |
+
+mod check;
+mod cone;
+mod header;
+pub mod layout;
+mod leaf;
+mod view;
+
+pub use header::BvhHeader;
+pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape};
+pub use view::{Bvh, BvhChild, Links};

@@ -1,0 +1,331 @@
+//! Checked views of the box tree.
+//!
+//! If [`Bvh::open`] returned `Ok`, then every node below the root is a child of exactly one node
+//! with a lesser number, every leaf lies within the fans, and every coordinate is finite and within
+//! the tree's box. Accessors return `Option` all the same. No path can panic.
+
+use super::header::BvhHeader;
+use super::layout::{
+    BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
+};
+use super::leaf::{FanLeaf, LeafShape};
+use crate::format::Bytes;
+use glam::Vec3;
+
+/// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows
+/// the bytes and holds the header.
+#[derive(Clone, Copy, Debug)]
+pub struct Bvh<'a> {
+    pub(crate) header: BvhHeader,
+    pub(crate) scale_exponent: i32,
+    pub(crate) input_triangles: u32,
+    pub(crate) scale: GridScale,
+    pub(crate) links: &'a [[u8; LINK_BYTES]],
+    pub(crate) frames: &'a [[u8; FRAME_BYTES]],
+    pub(crate) boxes: &'a [[u8; BOXES_BYTES]],
+    pub(crate) fans: &'a [u8],
+    pub(crate) source: Bytes<'a>,
+    pub(crate) cones: &'a [[u8; CONE_BYTES]],
+}
+
+/// Numbers that every query needs of the header, computed once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GridScale {
+    /// Grid units of an input unit: a power of two, in two factors within f32's range.
+    pub(crate) inward: [f32; 2],
+    /// The inverse.
+    pub(crate) outward: [f32; 2],
+    /// Surface error, grid units.
+    pub(crate) surface_error: f32,
+    /// Corners of the tree's box, grid units.
+    pub(crate) low: Vec3,
+    /// See [`low`](Self::low).
+    pub(crate) high: Vec3,
+}
+
+/// `2^exponent`, exactly, within f32's range.
+fn power(exponent: i32) -> f32 {
+    f32::from_bits(((127 + exponent.clamp(-126, 127)).cast_unsigned()) << 23)
+}
+
+impl GridScale {
+    pub(crate) fn of(header: &BvhHeader, scale_exponent: i32) -> GridScale {
+        let exponent = scale_exponent.wrapping_add(header.grid_exponent);
+        let half = exponent / 2;
+        let rest = exponent.wrapping_sub(half);
+        let [ox, oy, oz] = header.grid_origin;
+        let corner = |[x, y, z]: [u16; 3]| {
+            let sum = |stored: u16, origin: i32| i32::from(stored).wrapping_add(origin) as f32;
+            Vec3::new(sum(x, ox), sum(y, oy), sum(z, oz))
+        };
+        GridScale {
+            inward: [power(half.wrapping_neg()), power(rest.wrapping_neg())],
+            outward: [power(half), power(rest)],
+            surface_error: header.surface_error * power(header.grid_exponent.wrapping_neg()),
+            low: corner(header.low),
+            high: corner(header.high),
+        }
+    }
+}
+
+/// Links to the children of a node: inner nodes first, then leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct Links {
+    /// Number of the first inner child; the others follow it.
+    pub first_node: u32,
+    /// Children that are nodes.
+    pub inner: u32,
+    /// All children, 1 to 8.
+    pub count: u32,
+    /// First vertex of the first leaf; the others follow it.
+    pub first_vertex: u32,
+    /// First triangle of the first leaf.
+    pub first_triangle: u32,
+    /// Shapes of the leaves, a byte for each child; 0 for a node. Two words: a Cortex-M has no
+    /// 64-bit shifts.
+    shapes: [u32; 2],
+}
+
+/// A child of a node: another node, or a leaf. Plain numbers and no enum of views: the descent
+/// decides by the shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BvhChild {
+    /// Number of the node, or first vertex of the leaf.
+    pub at: u32,
+    /// Shape of the leaf; 0 for a node.
+    pub shape: LeafShape,
+}
+
+impl BvhChild {
+    /// Whether it is a leaf.
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.shape.0 != 0
+    }
+}
+
+/// Sum of the low nibbles of four shapes.
+#[inline(always)]
+fn nibbles(shapes: u32) -> u32 {
+    (shapes & 0x0F0F_0F0F).wrapping_mul(0x0101_0101) >> 24
+}
+
+/// The shapes of the children before `lane`.
+#[inline(always)]
+fn before(shapes: [u32; 2], lane: u32) -> [u32; 2] {
+    let below = !(u32::MAX << (8 * (lane & 3)));
+    let [low, high] = shapes;
+    if lane < 4 { [low & below, 0] } else { [low, high & below] }
+}
+
+impl Links {
+    #[inline(always)]
+    fn read(bytes: &[u8; LINK_BYTES]) -> Option<Self> {
+        let (words, _) = bytes.as_chunks::<4>();
+        let [node, vertex, triangle, low, high] = words.first_chunk::<5>()?.map(u32::from_le_bytes);
+        Some(Links {
+            first_node: node & 0xFF_FFFF,
+            inner: node >> 24 & 0xF,
+            count: node >> 28,
+            first_vertex: vertex,
+            first_triangle: triangle,
+            shapes: [low, high],
+        })
+    }
+
+    /// The record's bytes.
+    pub fn write(
+        first_node: u32,
+        inner: usize,
+        first_vertex: u32,
+        first_triangle: u32,
+        shapes: &[LeafShape],
+    ) -> [u8; LINK_BYTES] {
+        let mut out = [0u8; LINK_BYTES];
+        let count = inner + shapes.len();
+        let node = first_node & 0xFF_FFFF | (inner as u32 & 0xF) << 24 | (count as u32) << 28;
+        let words = [node, first_vertex, first_triangle].into_iter().flat_map(u32::to_le_bytes);
+        let shapes = core::iter::repeat_n(0, inner).chain(shapes.iter().map(|shape| shape.0));
+        out.iter_mut().zip(words.chain(shapes)).for_each(|(slot, byte)| *slot = byte);
+        out
+    }
+
+    /// Shape of child `lane`; 0 for a node.
+    #[inline(always)]
+    pub fn shape(&self, lane: u32) -> LeafShape {
+        let [low, high] = self.shapes;
+        let word = if lane < 4 { low } else { high };
+        LeafShape((word >> (8 * (lane & 3))) as u8)
+    }
+
+    /// Child `lane`.
+    #[inline(always)]
+    pub fn child(&self, lane: u32) -> BvhChild {
+        let (node, vertex) = (self.first_node.wrapping_add(lane), self.vertex(lane));
+        BvhChild { at: if lane < self.inner { node } else { vertex }, shape: self.shape(lane) }
+    }
+
+    /// First triangle of leaf `lane`.
+    pub fn triangle(&self, lane: u32) -> u32 {
+        // Vertices less two for each leaf and less one for each second fan.
+        let [low, high] = before(self.shapes, lane);
+        let turns = |shapes: u32| {
+            ((shapes >> 4 | shapes >> 5 | shapes >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101)
+                >> 24
+        };
+        let leaves = lane.saturating_sub(self.inner);
+        let less = 2 * leaves + turns(low) + turns(high);
+        self.first_triangle.wrapping_add(nibbles(low) + nibbles(high)).wrapping_sub(less)
+    }
+
+    /// First vertex of leaf `lane`.
+    #[inline(always)]
+    pub fn vertex(&self, lane: u32) -> u32 {
+        let [low, high] = before(self.shapes, lane);
+        self.first_vertex.wrapping_add(nibbles(low) + nibbles(high))
+    }
+}
+
+impl Bvh<'_> {
+    /// Scratch entries with which no question about one point or one segment can end for want of
+    /// memory.
+    #[inline]
+    pub fn scratch_entries(&self) -> usize {
+        self.header.stack_entries as usize
+    }
+
+    /// Least and greatest corner of the box of the stored vertices, input units, rounded to f32.
+    pub fn bounds(&self) -> [[f32; 3]; 2] {
+        let [first, second] = self.scale.outward;
+        [self.scale.low, self.scale.high]
+            .map(|corner| corner.to_array().map(|x| x * first * second))
+    }
+
+    /// Triangles of the tree.
+    pub fn triangle_count(&self) -> u32 {
+        self.header.triangles
+    }
+
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round. Input units, rounded up.
+    pub fn surface_error(&self) -> f32 {
+        let [first, second] = self.scale.outward;
+        let error = self.scale.surface_error * first * second;
+        // Below f32's normal range the product may have been rounded down.
+        if self.scale.surface_error > 0.0 && error < f32::MIN_POSITIVE {
+            f32::MIN_POSITIVE
+        } else {
+            error
+        }
+    }
+
+    /// Whether every edge belongs to two triangles that run through it in opposite directions, so
+    /// that the sign of a distance is defined.
+    pub fn is_closed(&self) -> bool {
+        self.header.is_closed()
+    }
+
+    /// Triangles of the input file.
+    pub fn input_triangles(&self) -> u32 {
+        self.input_triangles
+    }
+
+    /// Whether the tree was built for distances.
+    pub fn serves_distances(&self) -> bool {
+        !self.frames.is_empty()
+    }
+
+    /// Whether the tree was built for segments and overlaps.
+    pub fn serves_segments(&self) -> bool {
+        !self.boxes.is_empty()
+    }
+
+    /// Whether the tree was built for [`front_facing`](Bvh::front_facing).
+    pub fn serves_culling(&self) -> bool {
+        !self.cones.is_empty()
+    }
+}
+
+/// The records, for the builder and the checker.
+#[doc(hidden)]
+impl<'a> Bvh<'a> {
+    /// The tree's header.
+    pub fn header(&self) -> &BvhHeader {
+        &self.header
+    }
+
+    /// Input coordinate = local coordinate × 2^this.
+    pub fn scale_exponent(&self) -> i32 {
+        self.scale_exponent
+    }
+
+    /// Units and box, for queries.
+    #[inline(always)]
+    pub(crate) fn scale(&self) -> &GridScale {
+        &self.scale
+    }
+
+    /// Links of a node.
+    #[inline(always)]
+    pub fn links(&self, node: u32) -> Option<Links> {
+        Links::read(self.links.get(node as usize)?)
+    }
+
+    /// Boxes of a node's children in the frame that they share, for distances.
+    #[inline(always)]
+    pub fn frame(&self, node: u32) -> Option<&'a [u8; FRAME_BYTES]> {
+        self.frames.get(node as usize)
+    }
+
+    /// Axis-aligned boxes of a node's children.
+    #[inline(always)]
+    pub fn boxes(&self, node: u32) -> Option<&'a [u8; BOXES_BYTES]> {
+        self.boxes.get(node as usize)
+    }
+
+    /// Normal cone of a leaf, leaves counted in the order of nodes.
+    pub fn cone(&self, leaf: u32) -> Option<[u8; CONE_BYTES]> {
+        self.cones.get(leaf as usize).copied()
+    }
+
+    /// Child `lane` of `node`.
+    #[inline(always)]
+    pub fn child(&self, node: u32, lane: u32) -> Option<BvhChild> {
+        Some(self.links(node)?.child(lane))
+    }
+
+    /// Child `lane` of `node` if it is a leaf.
+    #[inline(always)]
+    pub fn leaf(&self, node: u32, lane: u32) -> Option<FanLeaf<'a>> {
+        let child = self.child(node, lane)?;
+        if child.is_leaf() { self.leaf_at(child.at, child.shape) } else { None }
+    }
+
+    /// The leaf whose vertices begin at `vertex`.
+    #[inline(always)]
+    pub fn leaf_at(&self, vertex: u32, shape: LeafShape) -> Option<FanLeaf<'a>> {
+        let is_f32 = self.header.is_f32();
+        let at = (vertex as usize).wrapping_mul(if is_f32 { 12 } else { 6 });
+        Some(FanLeaf {
+            bytes: self.fans.get(at..)?,
+            shape,
+            is_f32,
+            origin: self.header.grid_origin,
+        })
+    }
+
+    /// Number in the input file of a triangle of the tree.
+    pub fn source(&self, triangle: u32) -> Option<u32> {
+        if triangle >= self.header.triangles {
+            return None;
+        }
+        let (block, place) = (triangle as usize / SOURCE_BLOCK, triangle as usize % SOURCE_BLOCK);
+        let least = self.source.u32(block * SOURCE_ENTRY_BYTES)?;
+        let word = self.source.u32(block * SOURCE_ENTRY_BYTES + 4)?;
+        let (start, width) = ((word >> 5) as usize, (word & 31) as usize);
+        let bit = place * width;
+        let chunk = u64::from_le_bytes(self.source.array::<8>(start.checked_add(bit / 8)?)?);
+        let value = (chunk >> (bit % 8)) & !(u64::MAX << width);
+        least.checked_add(value as u32)
+    }
+}

@@ -1,0 +1,235 @@
+//! The nearest triangle of a leaf: eight triangles at once on targets with vectors, else one after
+//! the other. Both give the same bits.
+
+use crate::bvh::format::FanLeaf;
+use crate::geom::fan::Edges8;
+use glam::Vec3;
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) use narrow::{Lanes, nearest_within, seen};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) use wide::{Lanes, nearest_within, seen};
+
+/// The nearest triangle of a leaf, without a limit.
+#[inline(always)]
+pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<NearestOf> {
+    nearest_within(leaf, p, f32::INFINITY)
+}
+
+/// The nearest triangle of a leaf, and its triangles as seen from the query where all are read at
+/// once.
+pub(crate) type Seen = (NearestOf, Option<Edges8>);
+
+/// The nearest triangle of a leaf. Triangles proved to be beyond a squared limit may be left out.
+#[derive(Clone, Copy)]
+pub(crate) struct NearestOf {
+    /// Its squared distance.
+    pub(crate) distance_sq: f32,
+    /// Least squared lower bound of all triangles of the leaf.
+    pub(crate) lower_bound_sq: f32,
+    /// Which triangle it is.
+    pub(crate) lanes: Lanes,
+}
+
+impl NearestOf {
+    /// The least lane at this distance, and the closest point on its triangle (see
+    /// [`FanLeaf::point`]).
+    #[inline(always)]
+    pub(crate) fn lane(&self) -> (usize, f32, f32) {
+        self.lanes.at(self.distance_sq)
+    }
+}
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod wide {
+    use super::{Edges8, FanLeaf, NearestOf, Seen, Vec3};
+    use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_leaf8};
+
+    /// All lanes of a leaf. The nearest lane is found once at the end: no branch predictor can
+    /// guess it.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Lanes(Nearness8);
+
+    impl Lanes {
+        pub(crate) const NONE: Lanes = Lanes(Nearness8 {
+            distance_sq: [0.0; WIDTH],
+            lower_bound_sq: [0.0; WIDTH],
+            v: [0.0; WIDTH],
+            w: [0.0; WIDTH],
+        });
+
+        /// One triangle alone.
+        pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
+            let mut lanes = Lanes::NONE;
+            for i in 0..WIDTH {
+                lanes.0.distance_sq[i] = if i == lane { near.distance_sq } else { f32::INFINITY };
+                lanes.0.v[i] = near.v;
+                lanes.0.w[i] = near.w;
+            }
+            lanes
+        }
+
+        #[inline(always)]
+        pub(crate) fn at(&self, distance_sq: f32) -> (usize, f32, f32) {
+            let mut lane = WIDTH - 1;
+            for i in (0..WIDTH).rev() {
+                lane = if self.0.distance_sq[i] == distance_sq { i } else { lane };
+            }
+            (lane, self.0.v[lane % WIDTH], self.0.w[lane % WIDTH])
+        }
+    }
+
+    /// `limit` is for the scalar kernel. Here a lane that is left out saves nothing.
+    #[inline(always)]
+    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<NearestOf> {
+        let near = if leaf.is_f32() {
+            f32_nearness(leaf, p)?
+        } else {
+            point_leaf8(&leaf.grid_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?)
+        };
+        Some(nearest_of(near))
+    }
+
+    #[inline(always)]
+    pub(crate) fn seen(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
+        let edges = if leaf.is_f32() { f32_edges(leaf, p)? } else { leaf.grid_edges8(p)? };
+        let near = point_leaf8(&edges, LANES_BELOW.get(leaf.shape().triangles())?);
+        Some((nearest_of(near), Some(edges)))
+    }
+
+    #[inline(always)]
+    fn nearest_of(near: Nearness8) -> NearestOf {
+        let (distance_sq, lower_bound_sq) =
+            (least_of(&near.distance_sq), least_of(&near.lower_bound_sq));
+        NearestOf { distance_sq, lower_bound_sq, lanes: Lanes(near) }
+    }
+
+    #[inline(never)]
+    fn f32_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Edges8> {
+        leaf.f32_edges8(p)
+    }
+
+    /// A call of its own, so that the two ways to read a leaf share no memory.
+    #[inline(never)]
+    fn f32_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
+        Some(point_leaf8(&leaf.f32_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?))
+    }
+
+    #[inline(always)]
+    fn least_of(values: &[f32; WIDTH]) -> f32 {
+        let less = |a: f32, b: f32| if b < a { b } else { a };
+        let [a, b, c, d, e, f, g, h] = *values;
+        less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
+    }
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod narrow {
+    use super::{FanLeaf, NearestOf, Seen, Vec3};
+    use crate::geom::fan::{Nearness, PointFan, SpokeTerms, point_leaf};
+
+    /// The nearest triangle of a leaf.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Lanes {
+        lane: usize,
+        v: f32,
+        w: f32,
+    }
+
+    impl Lanes {
+        pub(crate) const NONE: Lanes = Lanes { lane: 0, v: 0.0, w: 0.0 };
+
+        /// One triangle alone.
+        pub(crate) fn one(lane: usize, near: &Nearness) -> Lanes {
+            Lanes { lane, v: near.v, w: near.w }
+        }
+
+        #[inline(always)]
+        pub(crate) fn at(&self, _: f32) -> (usize, f32, f32) {
+            (self.lane, self.v, self.w)
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, limit: f32) -> Option<NearestOf> {
+        let mut nearest = NearestOf {
+            distance_sq: f32::INFINITY,
+            lower_bound_sq: f32::INFINITY,
+            lanes: Lanes::NONE,
+        };
+        if leaf.is_f32() {
+            single(leaf, p, &mut nearest);
+        } else {
+            on_grid(leaf, p, limit, &mut nearest)?;
+        }
+        Some(nearest)
+    }
+
+    #[inline(always)]
+    pub(crate) fn seen(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
+        Some((nearest_within(leaf, p, f32::INFINITY)?, None))
+    }
+
+    impl NearestOf {
+        #[inline(always)]
+        fn take(&mut self, lane: usize, near: &Nearness) {
+            if near.distance_sq < self.distance_sq {
+                self.distance_sq = near.distance_sq;
+                self.lanes = Lanes { lane, v: near.v, w: near.w };
+            }
+            if near.lower_bound_sq < self.lower_bound_sq {
+                self.lower_bound_sq = near.lower_bound_sq;
+            }
+        }
+    }
+
+    /// Every stored number is read once: differences of integers, then one conversion.
+    #[inline(always)]
+    fn on_grid(leaf: &FanLeaf<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
+        let ring = leaf.grid_ring()?;
+        let turn = leaf.shape().turn();
+        let mut centre = ring.centres[0];
+        let mut fan = PointFan::new(p - leaf.centre(0));
+        let less = |[x, y, z]: [i32; 3], [cx, cy, cz]: [i32; 3]| {
+            Vec3::new(
+                x.wrapping_sub(cx) as f32,
+                y.wrapping_sub(cy) as f32,
+                z.wrapping_sub(cz) as f32,
+            )
+        };
+        let mut before = [0i32; 3];
+        let mut a: Option<SpokeTerms> = None;
+        for (i, ((x, y), z)) in ring.x.iter().zip(ring.y).zip(ring.z).enumerate() {
+            let here = [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair)));
+            if let Some(mut first) = a {
+                if i == turn + 1 {
+                    centre = ring.centres[1];
+                    fan = PointFan::new(p - leaf.centre(1));
+                    first = fan.spoke(less(before, centre));
+                }
+                let second = fan.spoke(less(here, centre));
+                if !fan.is_beyond(&first, &second, limit) {
+                    nearest.take(i - 1, &fan.triangle(&first, &second));
+                }
+                a = Some(second);
+            } else {
+                a = Some(fan.spoke(less(here, centre)));
+            }
+            before = here;
+        }
+        Some(())
+    }
+
+    #[inline(never)]
+    fn single(leaf: &FanLeaf<'_>, p: Vec3, nearest: &mut NearestOf) {
+        let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
+        let s = [p - leaf.centre(0), p - leaf.centre(leaf.shape().centres() - 1)];
+        point_leaf(
+            count,
+            turn,
+            s,
+            |i, which| leaf.spoke(i, which),
+            |lane, near| nearest.take(lane, &near),
+        );
+    }
+}

@@ -1,0 +1,58 @@
+//! The box tree: an index of triangles that answers distances, segments and overlaps.
+//!
+//! | where | what lies there |
+//! | --- | --- |
+//! | `format/` | the bytes: header, nodes, leaves, the check of [`Bvh::open`] |
+//! | `node/` | the node kernels: eight boxes at a time |
+//! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
+//! | `descent` | the descent of all questions about one point or one segment |
+//! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
+//! | `segment_leaf` | a segment and the triangles of a leaf |
+//! | `closest_point`, `closest_points` | one closest point, many of them |
+//! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
+//! | `neighbors` | the heap of nearest triangles in the caller's slice |
+//! | `signed_distance`, `side_search`, `pseudonormal` | the side of a closed mesh |
+//! | `first_hit`, `any_hit`, `all_hits` | segments |
+//! | `front_facing` | triangles that may face an eye |
+//! | `overlap/` | two trees, one of them moved |
+//! | `coherent/` | a query that moves |
+//!
+//! A new question is a file here: an `impl Bvh` with its method, its answer type, and a
+//! [`LeafVisitor`](descent::LeafVisitor) for the descent.
+
+mod all_hits;
+mod all_within;
+mod any_hit;
+mod closest_point;
+mod closest_points;
+mod coherent;
+mod descent;
+mod first_hit;
+pub mod format;
+mod front_facing;
+mod leaf_distance;
+mod nearest;
+mod neighbors;
+pub mod node;
+mod overlap;
+mod point_query;
+mod pseudonormal;
+mod segment_leaf;
+mod segment_query;
+mod side_search;
+mod signed_distance;
+mod triangle_bounds;
+mod within;
+
+pub use all_within::AllWithin;
+pub use any_hit::AnyHit;
+pub use closest_point::Hint;
+pub use coherent::{CoherentClosest, CoherentQuery};
+pub use format::Bvh;
+pub use front_facing::{Eye, FrontFacing};
+pub use nearest::KNearest;
+pub use neighbors::Neighbor;
+pub use overlap::{Overlap, Overlaps, TrianglePair};
+pub use segment_leaf::Facing;
+pub use signed_distance::SignedDistance;
+pub use within::Within;

@@ -1,0 +1,150 @@
+//! The nearest triangles.
+
+use super::closest_point::closest_point;
+use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
+use super::leaf_distance::nearest_triangle;
+use super::neighbors::{Candidate, Heap, Neighbor, first_triangles};
+use super::point_query::PointQuery;
+use super::triangle_bounds::{each_triangle, lower_of_box};
+use crate::bvh::format::Bvh;
+use crate::num::sqrt_approx;
+use crate::num::tolerance::EVERYTHING_SQ;
+use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
+
+/// How a search for the nearest triangles went. They are in the caller's slice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KNearest {
+    /// Triangles in the slice.
+    pub stored: usize,
+    /// No other triangle of the input mesh is nearer than this, input units. Infinite if there is
+    /// no other.
+    pub rest_lower: f32,
+    /// The work of the search.
+    pub work: Work,
+    /// [`Ended::Exact`] if every leaf that matters was looked at. Else those stored may not be the
+    /// nearest; `rest_lower` still holds.
+    pub ended: Ended,
+}
+
+impl Bvh<'_> {
+    /// The `out.len()` triangles nearest to `point` (input units), by rising distance, into `out`.
+    ///
+    /// Distances are compared as computed. Equal ones go by number in the blob. So two triangles
+    /// that f32 or the stored surface cannot tell apart may stand in either order, always the same
+    /// one; each has its own interval. Triangles without area count like others.
+    ///
+    /// If `out` is longer than the mesh, all triangles are stored. If it is empty, nothing is
+    /// looked at. After an error its contents are undefined. `scratch` as for
+    /// [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters. Farther than a
+    /// million model sizes all triangles are alike: the first of the blob, each with the interval
+    /// of the model's box.
+    ///
+    /// Cost: for few triangles that of the closest point, and a scalar kernel for each leaf near
+    /// the end. `out` is a heap: log n for each triangle that enters.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Neighbor, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let mut out = [Neighbor::EMPTY; 4];
+    /// let found = part.nearest([3.0, 0.0, 4.0], &mut out, Budget::EXACT, &mut scratch)?;
+    /// assert_eq!(found.stored, 4);
+    /// assert!(out[0].distance().upper <= out[3].distance().upper);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`],
+    /// [`QueryError::NotServed`].
+    pub fn nearest(
+        &self,
+        point: [f32; 3],
+        out: &mut [Neighbor],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<KNearest, QueryError> {
+        let tree = self;
+        budget.check()?;
+        if scratch.is_empty() {
+            return Err(QueryError::NoScratch);
+        }
+        let query = PointQuery::new(tree, point)?;
+        let mut work = Work::default();
+        if out.is_empty() {
+            return Ok(KNearest { stored: 0, rest_lower: 0.0, work, ended: Ended::Exact });
+        }
+        let all = tree.header().triangles as usize;
+        if query.far {
+            let of_box = closest_point(tree, point, &Budget::EXACT, scratch)?.distance;
+            let stored = first_triangles(tree, &query, of_box, out)?;
+            let rest_lower = if stored == all { f32::INFINITY } else { of_box.lower };
+            return Ok(KNearest { stored, rest_lower, work, ended: Ended::Exact });
+        }
+        let heap = Heap::new(out);
+        let mut visitor =
+            Nearest { tree, query: &query, heap, limit: EVERYTHING_SQ, rest: f32::INFINITY };
+        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let mut rest_lower = f32::INFINITY;
+        if visitor.heap.stored() < all {
+            // Everything that was not looked at is farther than the last one stored.
+            let last = visitor.heap.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
+            let rest = if last < visitor.rest { last } else { visitor.rest };
+            rest_lower = query.lower(rest);
+        }
+        if let Descent::Truncated { least, .. } = descent {
+            let missed = lower_of_box(&query, least);
+            rest_lower = if missed < rest_lower { missed } else { rest_lower };
+        }
+        let stored = visitor.heap.finish(tree, &query)?;
+        Ok(KNearest { stored, rest_lower, work, ended: descent.ended() })
+    }
+}
+
+struct Nearest<'a> {
+    tree: &'a Bvh<'a>,
+    query: &'a PointQuery,
+    heap: Heap<'a>,
+    limit: f32,
+    /// Lower bound of every triangle that was looked at and is not stored, grid units.
+    rest: f32,
+}
+
+impl LeafVisitor for Nearest<'_> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
+        if near.lower_bound_sq <= self.limit {
+            self.rank(visit)?;
+        }
+        Some(true)
+    }
+}
+
+impl Nearest<'_> {
+    #[inline(never)]
+    fn rank(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
+        let first = self.tree.links(visit.node)?.triangle(visit.lane);
+        each_triangle(self.query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit {
+                return;
+            }
+            let candidate = Candidate::new(visit, first, lane, distance_sq, lower_bound_sq);
+            if let Some(out) = self.heap.offer(candidate) {
+                let lower = out.lower(self.tree, self.query).unwrap_or(0.0);
+                if lower < self.rest {
+                    self.rest = lower;
+                }
+            }
+            if let Some(farthest_sq) = self.heap.farthest_sq() {
+                let limit = self.query.limit(farthest_sq);
+                self.limit = if limit < self.limit { limit } else { self.limit };
+            }
+        });
+        Some(())
+    }
+}

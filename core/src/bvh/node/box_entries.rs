@@ -1,0 +1,148 @@
+//! A segment against eight axis-aligned boxes in 8 bits.
+//!
+//! A box plane of byte `v` lies at `origin + (v − 128)·step`, so the segment's line meets it at the
+//! parameter `v·m + c` with two numbers for each node and axis. The near row of bytes depends on
+//! the direction. It is chosen once for each segment.
+
+use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
+use crate::bvh::format::layout::{BOXES_BYTES, boxes};
+use crate::geom::fan::{LANES_BELOW, WIDTH};
+
+/// A segment as the boxes see it, grid units. See `core/docs/rounding.md` §9.
+#[derive(Clone, Copy, Debug)]
+pub struct Slabs {
+    origin: [f32; 3],
+    inverse: [f32; 3],
+    /// Parameter by which a box begins earlier and ends later than its planes.
+    grow: [f32; 3],
+    /// Row of the near planes, the far ones are the row's neighbour.
+    near: [usize; 3],
+}
+
+impl Slabs {
+    /// The line through `origin` with `inverse`, by axis the reciprocals of its direction; boxes
+    /// are enlarged by `margin` on each side. The products of all numbers with the model's size
+    /// must stay finite.
+    #[inline(always)]
+    pub fn new(origin: [f32; 3], inverse: [f32; 3], margin: [f32; 3]) -> Self {
+        let [ix, iy, iz] = inverse;
+        let [mx, my, mz] = margin;
+        let row = |x: f32, axis: usize| 2 * axis + (x.to_bits() >> 31) as usize;
+        Slabs {
+            origin,
+            inverse,
+            grow: [mx * ix.abs(), my * iy.abs(), mz * iz.abs()],
+            near: [row(ix, 0), row(iy, 1), row(iz, 2)],
+        }
+    }
+
+    /// Parameter of byte 0 on the near and on the far side, and of one step.
+    #[inline(always)]
+    fn axis(&self, axis: usize, origin: f32, step: f32) -> (f32, f32, f32) {
+        let from = (origin - self.origin[axis]) - 128.0 * step;
+        let start = from * self.inverse[axis];
+        (start - self.grow[axis], start + self.grow[axis], step * self.inverse[axis])
+    }
+}
+
+/// Keys of a node's children: the parameter at which the segment enters their boxes, not below
+/// `from`, rounded down in the low three bits, which hold the lane. Boxes that it does not enter up
+/// to `limit`, and lanes from `count` on, have [`NO_CHILD`] or more.
+#[inline(always)]
+pub fn box_entries(
+    record: &[u8; BOXES_BYTES],
+    slabs: &Slabs,
+    count: u32,
+    from: f32,
+    limit: f32,
+) -> [f32; WIDTH] {
+    let Some(sides) = Sides::of(record, slabs) else { return [NO_CHILD; WIDTH] };
+    if WIDE { wide(&sides, count, from, limit) } else { narrow(&sides, count, from, limit) }
+}
+
+/// Planes of the boxes along one axis, in the order in which the segment meets them.
+struct Axis<'a> {
+    near: &'a [u8; WIDTH],
+    far: &'a [u8; WIDTH],
+    /// Parameters of byte 0, and of a step.
+    enter: f32,
+    leave: f32,
+    step: f32,
+}
+
+pub(crate) struct Sides<'a>([Axis<'a>; 3]);
+
+impl<'a> Sides<'a> {
+    #[inline(always)]
+    pub(crate) fn of(record: &'a [u8; BOXES_BYTES], slabs: &Slabs) -> Option<Self> {
+        let rows = record.as_chunks::<WIDTH>().0.first_chunk::<8>()?;
+        let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
+        let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
+        let side = |axis: usize, origin: f32, unit: f32| {
+            let (enter, leave, step) = slabs.axis(axis, origin, unit);
+            let row = slabs.near[axis];
+            Axis { near: &rows[row & 7], far: &rows[(row ^ 1) & 7], enter, leave, step }
+        };
+        Some(Sides([side(0, ox, ux), side(1, oy, uy), side(2, oz, uz)]))
+    }
+}
+
+#[inline(always)]
+pub(crate) fn wide(
+    Sides([x, y, z]): &Sides<'_>,
+    count: u32,
+    from: f32,
+    limit: f32,
+) -> [f32; WIDTH] {
+    let mut keys = [NO_CHILD; WIDTH];
+    let Some(present) = LANES_BELOW.get(count as usize) else { return keys };
+    let at = |v: u8, step: f32, start: f32| f32::from(v) * step + start;
+    for i in 0..WIDTH {
+        let enter_x = at(x.near[i], x.step, x.enter);
+        let enter_y = at(y.near[i], y.step, y.enter);
+        let enter_z = at(z.near[i], z.step, z.enter);
+        let leave_x = at(x.far[i], x.step, x.leave);
+        let leave_y = at(y.far[i], y.step, y.leave);
+        let leave_z = at(z.far[i], z.step, z.leave);
+        let enter = greater(greater(enter_x, enter_y), greater(enter_z, from));
+        let leave = less(less(leave_x, leave_y), less(leave_z, limit));
+        let key = if enter <= leave { enter } else { NO_CHILD };
+        // An absent lane may hold any box: its key is overwritten.
+        let bits = key.to_bits() & !LANE_MASK & present[i] | NO_CHILD.to_bits() & !present[i];
+        keys[i] = f32::from_bits(bits | i as u32);
+    }
+    in_memory(keys)
+}
+
+/// The entry only grows and the exit only falls. So the first axis without an overlap decides, with
+/// the same keys.
+#[inline(always)]
+pub(crate) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
+    let mut keys = [NO_CHILD; WIDTH];
+    for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
+        let (mut enter, mut leave) = (from, limit);
+        let overlaps = axes.iter().all(|axis| {
+            // Lanes are below 8, but LLVM does not see it on all targets.
+            let (Some(&near), Some(&far)) = (axis.near.get(lane), axis.far.get(lane)) else {
+                return false;
+            };
+            enter = greater(f32::from(near) * axis.step + axis.enter, enter);
+            leave = less(f32::from(far) * axis.step + axis.leave, leave);
+            enter <= leave
+        });
+        if overlaps {
+            *key = f32::from_bits(enter.to_bits() & !LANE_MASK | lane as u32);
+        }
+    }
+    keys
+}
+
+#[inline(always)]
+fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn less(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}

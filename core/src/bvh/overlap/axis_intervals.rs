@@ -1,0 +1,214 @@
+//! Boxes of a node as intervals along six directions: the axes of the one tree's boxes, and of the
+//! other's.
+//!
+//! All boxes of a tree have the same axes, so these are the face normals of every pair of boxes.
+//! The nine products of edges, which would make the test exact, part few boxes more (van den
+//! Bergen, *Efficient Collision Detection of Complex Deformable Models using AABB Trees*, 1997).
+
+use super::relative_pose::{DIRECTIONS, Side};
+use crate::bvh::format::layout::{BOXES_BYTES, boxes};
+use crate::bvh::node::{WIDE, in_memory};
+use crate::geom::fan::WIDTH;
+
+/// `[direction][child]`, common units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AxisIntervals {
+    low: [[f32; WIDTH]; DIRECTIONS],
+    high: [[f32; WIDTH]; DIRECTIONS],
+}
+
+/// Twice the middles and twice the half lengths of boxes along an axis, in steps from byte 0.
+type Boxes = ([f32; WIDTH], [f32; WIDTH]);
+
+impl AxisIntervals {
+    /// Intervals of a node's first `count` children.
+    #[inline(always)]
+    pub(crate) fn of(side: &Side, record: &[u8; BOXES_BYTES], count: u32) -> Option<AxisIntervals> {
+        let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>()?;
+        let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
+        let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
+        let [lx, hx, ly, hy, lz, hz] = rows;
+        let boxes = [both(lx, hx), both(ly, hy), both(lz, hz)];
+        let [x, y, z] = side.origin;
+        let start = [(ox - x) - 128.0 * ux, (oy - y) - 128.0 * uy, (oz - z) - 128.0 * uz];
+        let mut spans =
+            AxisIntervals { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
+        let out = spans.low.iter_mut().zip(&mut spans.high);
+        let directions = side.rows.iter().zip(side.shift).zip(side.grow);
+        for ((low, high), ((row, shift), grow)) in out.zip(directions) {
+            along(row, start, [ux, uy, uz], &boxes, [shift, grow], count, low, high);
+        }
+        Some(spans)
+    }
+}
+
+#[inline(always)]
+fn both(low: &[u8; WIDTH], high: &[u8; WIDTH]) -> Boxes {
+    let (mut sum, mut difference) = ([0f32; WIDTH], [0f32; WIDTH]);
+    for i in 0..WIDTH {
+        let (low, high) = (f32::from(low[i]), f32::from(high[i]));
+        sum[i] = high + low;
+        difference[i] = high - low;
+    }
+    (sum, difference)
+}
+
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "one direction's numbers, inlined")]
+fn along(
+    &[a, b, c]: &[f32; 3],
+    [x, y, z]: [f32; 3],
+    [ux, uy, uz]: [f32; 3],
+    [bx, by, bz]: &[Boxes; 3],
+    [shift, grow]: [f32; 2],
+    count: u32,
+    low: &mut [f32; WIDTH],
+    high: &mut [f32; WIDTH],
+) {
+    let from = (a * x + b * y) + (c * z + shift);
+    let (nx, ny, nz) = ((a * ux) * 0.5, (b * uy) * 0.5, (c * uz) * 0.5);
+    let (wx, wy, wz) = (nx.abs(), ny.abs(), nz.abs());
+    let lane = |i: usize| {
+        let middle = (nx * bx.0[i] + ny * by.0[i]) + (nz * bz.0[i] + from);
+        let half = (wx * bx.1[i] + wy * by.1[i]) + (wz * bz.1[i] + grow);
+        (middle - half, middle + half)
+    };
+    if WIDE {
+        for i in 0..WIDTH {
+            (low[i], high[i]) = lane(i);
+        }
+    } else {
+        let count = (count as usize).min(WIDTH);
+        for (i, (low, high)) in low.iter_mut().zip(high).enumerate().take(count) {
+            if i < WIDTH {
+                (*low, *high) = lane(i);
+            }
+        }
+    }
+}
+
+/// Pairs of children whose intervals meet along every direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pairs {
+    /// A byte for each of the first node's, a bit in it for each of the second's.
+    pub(crate) bits: [u32; 2],
+    /// The pair that overlaps most along the direction of its least overlap: where a search for
+    /// contact should begin.
+    pub(crate) deepest: [u32; 2],
+}
+
+/// All pairs of the first node's `rows` and the second's `lanes`, as bits.
+#[inline(always)]
+pub(crate) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, lanes: u32) -> Pairs {
+    let mut pairs = Pairs { bits: [0; 2], deepest: [0; 2] };
+    let mut depth = -1.0;
+    let mut left = rows;
+    while left != 0 {
+        let i = left.trailing_zeros();
+        left &= left - 1;
+        let depths = if WIDE { wide(a, b, i as usize) } else { narrow(a, b, i as usize, lanes) };
+        let (mut met, mut bit) = (0u32, 1u32);
+        for (j, &deep) in (0u32..).zip(&depths) {
+            if deep >= 0.0 && lanes & bit != 0 {
+                met |= bit;
+                if deep > depth {
+                    depth = deep;
+                    pairs.deepest = [i, j];
+                }
+            }
+            bit <<= 1;
+        }
+        let [low, high] = &mut pairs.bits;
+        *(if i < 4 { low } else { high }) |= met << (8 * (i & 3));
+    }
+    pairs
+}
+
+/// By how much child `i` of the first overlaps each child of the second, along the direction where
+/// that is least; negative if it is apart.
+#[inline(always)]
+pub(crate) fn wide(a: &AxisIntervals, b: &AxisIntervals, i: usize) -> [f32; WIDTH] {
+    let i = i & (WIDTH - 1);
+    let mut depths = [f32::MAX; WIDTH];
+    for d in 0..DIRECTIONS {
+        let (from, to) = (a.low[d][i], a.high[d][i]);
+        for (depth, (low, high)) in depths.iter_mut().zip(b.low[d].iter().zip(&b.high[d])) {
+            *depth = less(*depth, less(high - from, to - low));
+        }
+    }
+    in_memory(depths)
+}
+
+/// The same, the wanted alone, and no further than they are apart.
+#[inline(always)]
+pub(crate) fn narrow(a: &AxisIntervals, b: &AxisIntervals, i: usize, lanes: u32) -> [f32; WIDTH] {
+    let mut depths = [-1f32; WIDTH];
+    for (j, depth) in depths.iter_mut().enumerate() {
+        if lanes >> j & 1 != 0 {
+            let mut least = f32::MAX;
+            let directions = a.low.iter().zip(&a.high).zip(b.low.iter().zip(&b.high));
+            for ((from, to), (low, high)) in directions {
+                let (Some(from), Some(to), Some(low), Some(high)) =
+                    (from.get(i), to.get(i), low.get(j), high.get(j))
+                else {
+                    break;
+                };
+                least = less(least, less(high - from, to - low));
+                if least < 0.0 {
+                    break;
+                }
+            }
+            *depth = least;
+        }
+    }
+    depths
+}
+
+#[inline(always)]
+fn less(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AxisIntervals, DIRECTIONS, WIDTH, narrow, wide};
+
+    #[test]
+    fn both_kernels_find_the_same_pairs_and_depths() {
+        let mut state = 0x1234_5678u32;
+        let mut random = move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / 65_536.0 - 128.0
+        };
+        let mut met = 0;
+        for round in 0..500 {
+            let mut spans = || {
+                let mut spans = AxisIntervals {
+                    low: [[0.0; WIDTH]; DIRECTIONS],
+                    high: [[0.0; WIDTH]; DIRECTIONS],
+                };
+                for (low, high) in
+                    spans.low.iter_mut().flatten().zip(spans.high.iter_mut().flatten())
+                {
+                    *low = random();
+                    *high = *low + if round % 5 == 0 { 0.0 } else { random().abs() * 2.0 };
+                }
+                spans
+            };
+            let (a, b) = (spans(), spans());
+            let b = if round % 7 == 0 { a } else { b };
+            for i in 0..WIDTH {
+                let (first, second) = (wide(&a, &b, i), narrow(&a, &b, i, 0b1011_0111));
+                for j in 0..WIDTH {
+                    if 0b1011_0111 >> j & 1 == 0 || first[j] < 0.0 {
+                        assert!(second[j] < 0.0);
+                    } else {
+                        assert_eq!(first[j].to_bits(), second[j].to_bits());
+                        met += 1;
+                    }
+                }
+            }
+        }
+        assert!(met > 1_000, "{met}");
+    }
+}

@@ -1,0 +1,208 @@
+//! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet
+//! leaves.
+//!
+//! A pair of nodes is settled at once for all pairs of their children, as 64 bits. An entry of the
+//! stack is two scratch entries: the two nodes, and with each 32 of the bits. The bits are a byte
+//! for each child of the first node, a bit in it for each child of the second.
+
+use super::axis_intervals::{AxisIntervals, Pairs, pairs};
+use super::leaf_pair::LeafPair;
+use super::relative_pose::RelativePose;
+use crate::bvh::format::layout::boxes;
+use crate::bvh::format::{Bvh, BvhChild};
+use crate::geom::{Contact, Pose};
+use crate::query::{Ended, QueryError, ScratchEntry, Work};
+
+/// Where two triangles are: node, child and lane in each tree.
+pub(crate) type Place = [[u32; 3]; 2];
+
+/// What a question does with pairs of triangles that meet or may meet.
+pub(crate) trait Collect {
+    /// Whether to go on; `None` if a tree is not one that was opened.
+    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool>;
+}
+
+/// Sum of the steps of a node's boxes, grid units: half of its size, or all of it.
+#[inline(always)]
+fn size(tree: &Bvh<'_>, node: u32) -> Option<f32> {
+    let words = tree.boxes(node)?.as_chunks::<4>().0.get(boxes::STEPS / 4..)?.first_chunk::<3>()?;
+    let [x, y, z] = words.map(f32::from_le_bytes);
+    Some(x + y + z)
+}
+
+/// How many times larger a node has to be to be opened alone.
+const LARGER: f32 = 4.0;
+
+/// Visits every pair of leaves whose boxes meet; says why it missed some, if it did.
+#[inline(always)]
+pub(crate) fn descend(
+    [a, b]: [&Bvh<'_>; 2],
+    pose: &Pose,
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+    collect: &mut impl Collect,
+) -> Result<(Option<Ended>, Work), QueryError> {
+    let mut work = Work::default();
+    if !(a.serves_segments() && b.serves_segments()) {
+        return Err(QueryError::NO_SEGMENTS);
+    }
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
+    }
+    let (stack, _) = scratch.as_chunks_mut::<2>();
+    let Some(place) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
+    let units = [place.sides[0].unit, place.sides[1].unit];
+    let mut missed = None;
+    let mut waiting = 0usize;
+    let mut nodes = [0u32; 2];
+    let mut wanted = [u32::MAX; 2];
+    loop {
+        if work.splits >= steps {
+            return Ok((Some(Ended::Steps), work));
+        }
+        work.splits += 1;
+        let pairs = open(a, b, &place, nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
+        let mut next = None;
+        if pairs.bits != [0; 2] {
+            // Surfaces that meet mostly do so where boxes overlap most.
+            next = Some((nodes, pairs.deepest));
+            let left = without(pairs.bits, pairs.deepest);
+            if left != [0; 2] {
+                match stack.get_mut(waiting) {
+                    Some(slot) => {
+                        *slot = entry(nodes, left);
+                        waiting += 1;
+                    }
+                    None => missed = Some(Ended::Scratch),
+                }
+            }
+        }
+        // The next pair of which one can be opened; pairs of leaves are looked at on the way.
+        loop {
+            let Some((parents, lanes)) = next.take().or_else(|| take(stack, &mut waiting)) else {
+                return Ok((missed, work));
+            };
+            let child = |tree: &Bvh<'_>, which: usize| tree.child(parents[which], lanes[which]);
+            let children = [
+                child(a, 0).ok_or(QueryError::Unchecked)?,
+                child(b, 1).ok_or(QueryError::Unchecked)?,
+            ];
+            let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Unchecked)?;
+            if opens_a || opens_b {
+                let down = |opens: bool, which: usize| {
+                    if opens {
+                        (children[which].at, u32::MAX)
+                    } else {
+                        (parents[which], 1 << lanes[which])
+                    }
+                };
+                let ((first, rows), (second, columns)) = (down(opens_a, 0), down(opens_b, 1));
+                nodes = [first, second];
+                wanted = [rows, columns];
+                break;
+            }
+            let go_on = leaves(a, b, &place, parents, lanes, children, collect, &mut work);
+            if !go_on.ok_or(QueryError::Unchecked)? {
+                return Ok((missed, work));
+            }
+        }
+    }
+}
+
+/// An entry of the stack. Node numbers are below 2^24.
+#[inline(always)]
+fn entry([a, b]: [u32; 2], [low, high]: [u32; 2]) -> [ScratchEntry; 2] {
+    [[a, low], [b, high]].map(ScratchEntry::of_words)
+}
+
+/// Takes the next pair off the stack: its parents, and which children.
+#[inline(always)]
+fn take(stack: &mut [[ScratchEntry; 2]], waiting: &mut usize) -> Option<([u32; 2], [u32; 2])> {
+    let top = waiting.checked_sub(1)?;
+    let slot = stack.get_mut(top)?;
+    let [[a, low], [b, high]] = slot.map(ScratchEntry::words);
+    let (word, base) = if low != 0 { (low, 0) } else { (high, 4) };
+    let bit = word.trailing_zeros() & 31;
+    let lanes = [base + (bit >> 3), bit & 7];
+    let rest = without([low, high], lanes);
+    *slot = entry([a, b], rest);
+    if rest == [0; 2] {
+        *waiting = top;
+    }
+    Some(([a, b], lanes))
+}
+
+#[inline(always)]
+fn without([low, high]: [u32; 2], [i, j]: [u32; 2]) -> [u32; 2] {
+    let bit = 1 << (8 * (i & 3) + (j & 7));
+    if i < 4 { [low & !bit, high] } else { [low, high & !bit] }
+}
+
+/// Which of two children to open: both, unless one is a leaf or much the smaller.
+#[inline(always)]
+fn opened(
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
+    children: &[BvhChild; 2],
+    units: [f32; 2],
+) -> Option<[bool; 2]> {
+    let [first, second] = children;
+    Some(match (first.is_leaf(), second.is_leaf()) {
+        (false, false) => {
+            let (x, y) = (size(a, first.at)? * units[0], size(b, second.at)? * units[1]);
+            [x * LARGER >= y, y * LARGER >= x]
+        }
+        (a, b) => [!a, !b],
+    })
+}
+
+/// Pairs of children of two nodes, `wanted` of each, whose boxes meet.
+#[inline(always)]
+fn open(
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
+    place: &RelativePose,
+    nodes: [u32; 2],
+    wanted: [u32; 2],
+    work: &mut Work,
+) -> Option<Pairs> {
+    let side = |tree: &Bvh<'_>, which: usize| {
+        let count = tree.links(nodes[which])?.count;
+        let spans = AxisIntervals::of(&place.sides[which], tree.boxes(nodes[which])?, count)?;
+        Some((spans, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
+    };
+    let ((first, rows), (second, lanes)) = (side(a, 0)?, side(b, 1)?);
+    work.nodes = work.nodes.saturating_add(rows.count_ones() * lanes.count_ones());
+    Some(pairs(&first, &second, rows, lanes))
+}
+
+/// Looks at a pair of leaves; whether to go on.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "the descent's state, inlined")]
+fn leaves(
+    a: &Bvh<'_>,
+    b: &Bvh<'_>,
+    place: &RelativePose,
+    nodes: [u32; 2],
+    lanes: [u32; 2],
+    [first, second]: [BvhChild; 2],
+    collect: &mut impl Collect,
+    work: &mut Work,
+) -> Option<bool> {
+    let (p, q) = (a.leaf_at(first.at, first.shape)?, b.leaf_at(second.at, second.shape)?);
+    let mut pair = LeafPair::new(place, &p, &q);
+    for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
+        while bits != 0 {
+            let j = bits.trailing_zeros();
+            bits &= bits - 1;
+            let contact = pair.settle(i, j as usize, work);
+            if contact != Contact::Apart {
+                let place = [[nodes[0], lanes[0], i as u32], [nodes[1], lanes[1], j]];
+                if !collect.pair(place, contact)? {
+                    return Some(false);
+                }
+            }
+        }
+    }
+    Some(true)
+}

@@ -1,0 +1,396 @@
+//! Two leaves: which of their triangles may meet, then each such pair, in f32, and where that
+//! leaves it open in f64.
+
+use super::relative_pose::RelativePose;
+use crate::bvh::format::FanLeaf;
+use crate::bvh::node::WIDE;
+use crate::geom::fan::{LANES_BELOW, WIDTH};
+use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
+use crate::query::Work;
+
+/// Places for a leaf's vertices: two centres and the ring, and some to spare so that eight are
+/// read at shift 1.
+pub(crate) const SLOTS: usize = 12;
+
+/// Slot of the first ring vertex.
+const RING: usize = 2;
+
+/// Vertices of a leaf: both centres, alike if there is one fan, then the ring, then the first
+/// centre again.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corners {
+    at: [[f32; SLOTS]; 3],
+    /// Vertices in use.
+    used: usize,
+    triangles: usize,
+    turn: usize,
+}
+
+impl Corners {
+    /// As stored: grid units from the grid's origin.
+    #[inline(always)]
+    fn stored(leaf: &FanLeaf<'_>) -> Corners {
+        let shape = leaf.shape();
+        let triangles = shape.triangles().min(WIDTH);
+        let mut at = [[0.0; SLOTS]; 3];
+        let used = (RING + triangles + 1).min(SLOTS);
+        for (at, stored) in at.iter_mut().zip(leaf.stored_vertices()) {
+            // What is not in use may not count as far away.
+            *at = [stored[0]; SLOTS];
+            at.iter_mut().zip(stored).take(used).for_each(|(x, stored)| *x = stored);
+        }
+        Corners { at, used, triangles, turn: shape.turn() }
+    }
+
+    #[inline(always)]
+    fn corner(&self, slot: usize) -> [f32; 3] {
+        self.at.map(|axis| axis.get(slot).copied().unwrap_or(0.0))
+    }
+
+    #[inline(always)]
+    fn slots(&self, triangle: usize) -> [usize; 3] {
+        [usize::from(triangle >= self.turn), RING + triangle, RING + 1 + triangle]
+    }
+
+    /// The box of all.
+    #[inline(always)]
+    fn extent(&self) -> Extent {
+        let low = self.at.map(|axis| axis.into_iter().fold(f32::MAX, less));
+        let high = self.at.map(|axis| axis.into_iter().fold(f32::MIN, greater));
+        Extent { low, high }
+    }
+
+    /// Largest 1-norm.
+    #[inline(always)]
+    fn reach(&self) -> f32 {
+        let [x, y, z] = &self.at;
+        let mut far = [0f32; SLOTS];
+        for i in 0..SLOTS {
+            far[i] = x[i].abs() + y[i].abs() + z[i].abs();
+        }
+        far.iter().fold(0.0, |most, &far| if far > most { far } else { most })
+    }
+}
+
+/// Planes of a leaf's triangles.
+struct Facets {
+    normal: [[f32; WIDTH]; 3],
+    height: [f32; WIDTH],
+    margin: [f32; WIDTH],
+}
+
+impl Facets {
+    /// Of the triangles `wanted`; others may mean nothing. `far` is the largest 1-norm of a vertex
+    /// of either leaf, `shift` what a difference of two may be off by.
+    #[inline(always)]
+    fn of(corners: &Corners, wanted: u32, far: f32, shift: f32) -> Option<Facets> {
+        let first = LANES_BELOW.get(corners.turn)?;
+        let [x, y, z] = &corners.at;
+        let mut facets =
+            Facets { normal: [[0.0; WIDTH]; 3], height: [0.0; WIDTH], margin: [0.0; WIDTH] };
+        for i in 0..WIDTH {
+            if !WIDE && wanted >> i & 1 == 0 {
+                continue;
+            }
+            let [cx, cy, cz] = [blend(first[i], x), blend(first[i], y), blend(first[i], z)];
+            let (ex, ey, ez) = (x[RING + i] - cx, y[RING + i] - cy, z[RING + i] - cz);
+            let (gx, gy, gz) = (x[RING + 1 + i] - cx, y[RING + 1 + i] - cy, z[RING + 1 + i] - cz);
+            let (nx, ny, nz) = (ey * gz - ez * gy, ez * gx - ex * gz, ex * gy - ey * gx);
+            facets.normal[0][i] = nx;
+            facets.normal[1][i] = ny;
+            facets.normal[2][i] = nz;
+            facets.height[i] = nx * cx + ny * cy + nz * cz;
+            let (e, g) = (ex.abs() + ey.abs() + ez.abs(), gx.abs() + gy.abs() + gz.abs());
+            facets.margin[i] = determinant_margin(e, g, far + far, shift);
+        }
+        Some(facets)
+    }
+
+    /// On which sides of these planes, those `wanted`, the other leaf's vertices certainly lie;
+    /// nothing of other planes.
+    #[inline(always)]
+    fn sides(&self, wanted: u32, other: &Corners) -> Sides {
+        let [nx, ny, nz] = &self.normal;
+        let [x, y, z] = &other.at;
+        let mut sides = Sides { above: [0; SLOTS], below: [0; SLOTS] };
+        let vertices = x.iter().zip(y).zip(z).zip(sides.above.iter_mut().zip(&mut sides.below));
+        for (((&x, &y), &z), (above, below)) in vertices.take(other.used) {
+            let height = |i: usize| nx[i] * x + ny[i] * y + nz[i] * z - self.height[i];
+            if WIDE {
+                let mut heights = [0f32; WIDTH];
+                for (i, out) in heights.iter_mut().enumerate() {
+                    *out = height(i);
+                }
+                for (i, (height, margin)) in heights.iter().zip(&self.margin).enumerate() {
+                    *above |= if height > margin { 1 << i } else { 0 };
+                    *below |= if *height < -margin { 1 << i } else { 0 };
+                }
+                *above &= wanted;
+                *below &= wanted;
+                continue;
+            }
+            for i in 0..WIDTH {
+                if wanted >> i & 1 != 0 {
+                    let (height, margin) = (height(i), self.margin[i]);
+                    *above |= u32::from(height > margin) << i;
+                    *below |= u32::from(height < -margin) << i;
+                }
+            }
+        }
+        sides
+    }
+}
+
+/// For each vertex of a leaf the planes of the other one's triangles that it is above of, and those
+/// that it is below.
+struct Sides {
+    above: [u32; SLOTS],
+    below: [u32; SLOTS],
+}
+
+impl Sides {
+    /// The planes that have all vertices of a triangle on one side.
+    #[inline(always)]
+    fn parting(&self, slots: [usize; 3]) -> u32 {
+        let all = |bits: &[u32; SLOTS]| {
+            slots.iter().fold(u32::MAX, |all, &slot| all & bits.get(slot).copied().unwrap_or(0))
+        };
+        all(&self.above) | all(&self.below)
+    }
+
+    /// The sides of a triangle's vertices, 0 where it is not certain.
+    #[inline(always)]
+    fn of(&self, slots: [usize; 3], plane: usize) -> [i8; 3] {
+        let at = |bits: &[u32; SLOTS], slot: usize| {
+            (bits.get(slot).copied().unwrap_or(0) >> (plane & 7) & 1) as i8
+        };
+        slots.map(|slot| at(&self.above, slot) - at(&self.below, slot))
+    }
+}
+
+/// Boxes of a leaf's triangles.
+struct Boxes {
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+}
+
+/// One box.
+struct Extent {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Boxes {
+    #[inline(always)]
+    fn of(corners: &Corners) -> Option<Boxes> {
+        let first = LANES_BELOW.get(corners.turn)?;
+        let mut boxes = Boxes { low: [[0.0; WIDTH]; 3], high: [[0.0; WIDTH]; 3] };
+        for ((x, low), high) in corners.at.iter().zip(&mut boxes.low).zip(&mut boxes.high) {
+            for i in 0..WIDTH {
+                let (c, e, g) = (blend(first[i], x), x[RING + i], x[RING + 1 + i]);
+                low[i] = less(c, less(e, g));
+                high[i] = greater(c, greater(e, g));
+            }
+        }
+        Some(boxes)
+    }
+
+    #[inline(always)]
+    fn one(&self, i: usize) -> Extent {
+        let at = |axes: &[[f32; WIDTH]; 3]| axes.map(|axis| axis.get(i).copied().unwrap_or(0.0));
+        Extent { low: at(&self.low), high: at(&self.high) }
+    }
+}
+
+impl Extent {
+    /// Whether two boxes are farther than `doubt` from each other along an axis.
+    #[inline(always)]
+    fn is_beyond(&self, other: &Extent, doubt: f32) -> bool {
+        let axes = self.low.iter().zip(&self.high).zip(other.low.iter().zip(&other.high));
+        axes.into_iter().any(|((from, to), (low, high))| greater(low - to, from - high) > doubt)
+    }
+
+    /// Which of the first `count` boxes, of those `wanted`, are not farther than `doubt` along any
+    /// axis.
+    #[inline(always)]
+    fn near(&self, boxes: &Boxes, count: usize, wanted: u32, doubt: f32) -> u32 {
+        let mut bits = wanted & u32::MAX >> (32 - count.clamp(1, WIDTH));
+        let axes = self.low.iter().zip(&self.high).zip(boxes.low.iter().zip(&boxes.high));
+        if WIDE {
+            let mut gaps = [f32::MIN; WIDTH];
+            for ((from, to), (low, high)) in axes {
+                for (gap, (low, high)) in gaps.iter_mut().zip(low.iter().zip(high)) {
+                    *gap = greater(*gap, greater(low - to, from - high));
+                }
+            }
+            for (j, &gap) in gaps.iter().enumerate() {
+                bits &= if gap <= doubt { u32::MAX } else { !(1 << j) };
+            }
+            return bits;
+        }
+        for ((from, to), (low, high)) in axes {
+            for (j, (low, high)) in low.iter().zip(high).enumerate() {
+                if bits >> j & 1 != 0 && greater(low - to, from - high) > doubt {
+                    bits &= !(1 << j);
+                }
+            }
+        }
+        bits
+    }
+}
+
+#[inline(always)]
+fn less(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}
+
+#[inline(always)]
+fn greater(a: f32, b: f32) -> f32 {
+    if b > a { b } else { a }
+}
+
+/// The first or the second centre.
+#[inline(always)]
+fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
+    f32::from_bits(axis[0].to_bits() & mask | axis[1].to_bits() & !mask)
+}
+
+/// A leaf of the first tree, and one of the second, in common units from a vertex of the first.
+pub(crate) struct LeafPair<'a> {
+    place: &'a RelativePose,
+    leaves: [FanLeaf<'a>; 2],
+    a: Corners,
+    b: Corners,
+    /// Where the first leaf's vertices lie to the second's planes, and the other way.
+    sides: [Sides; 2],
+}
+
+impl<'a> LeafPair<'a> {
+    #[inline(always)]
+    pub(crate) fn new(place: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
+        let (mut first, mut second) = (Corners::stored(a), Corners::stored(b));
+        let [side, _] = &place.sides;
+        let unit = side.unit;
+        let base = first.corner(0).map(|x| x * unit);
+        for (axis, base) in first.at.iter_mut().zip(base) {
+            for x in axis {
+                *x = *x * unit - base;
+            }
+        }
+        let [x, y, z] = second.at;
+        let rows = place.matrix.iter().zip(place.shift).zip(base);
+        for (axis, ((row, shift), base)) in second.at.iter_mut().zip(rows) {
+            let [a, b, c] = *row;
+            for i in 0..SLOTS {
+                axis[i] = ((a * x[i] + b * y[i]) + (c * z[i] + shift)) - base;
+            }
+        }
+        let none = || Sides { above: [0; SLOTS], below: [0; SLOTS] };
+        LeafPair { place, leaves: [*a, *b], a: first, b: second, sides: [none(), none()] }
+    }
+
+    /// Pairs that neither a coordinate nor the plane of a triangle parts: for each triangle of the
+    /// first leaf the other's.
+    #[inline(always)]
+    pub(crate) fn candidates(&mut self) -> Option<[u32; WIDTH]> {
+        let near = self.side_by_side()?;
+        if near.iter().all(|&bits| bits == 0) {
+            return Some([0; WIDTH]);
+        }
+        let (far_a, far_b) = (self.a.reach(), self.b.reach());
+        let far = if far_a > far_b { far_a } else { far_b };
+        let shift = self.place.doubt + self.place.doubt;
+        let (mut rows, mut lanes) = (0u32, 0u32);
+        for (i, &bits) in near.iter().enumerate() {
+            rows |= u32::from(bits != 0) << i;
+            lanes |= bits;
+        }
+        let to_first = Facets::of(&self.a, rows, far, shift)?.sides(rows, &self.b);
+        let to_second = Facets::of(&self.b, lanes, far, shift)?.sides(lanes, &self.a);
+        let mut candidates = near;
+        for (i, bits) in candidates.iter_mut().enumerate().take(self.a.triangles) {
+            *bits &= !to_second.parting(self.a.slots(i));
+        }
+        for j in 0..self.b.triangles {
+            let parting = to_first.parting(self.b.slots(j));
+            for (i, bits) in candidates.iter_mut().enumerate() {
+                *bits &= !((parting >> i & 1) << j);
+            }
+        }
+        self.sides = [to_second, to_first];
+        Some(candidates)
+    }
+
+    /// Pairs whose boxes along the axes meet.
+    #[inline(always)]
+    fn side_by_side(&self) -> Option<[u32; WIDTH]> {
+        // As each vertex may be off; differences are compared, not sums, so that no rounding comes
+        // in but their own, which is less than the excess of `doubt`.
+        let doubt = self.place.doubt + self.place.doubt;
+        let (whole, other) = (self.a.extent(), self.b.extent());
+        let mut near = [0u32; WIDTH];
+        if whole.is_beyond(&other, doubt) {
+            return Some(near);
+        }
+        let (first, second) = (Boxes::of(&self.a)?, Boxes::of(&self.b)?);
+        let rows = other.near(&first, self.a.triangles, u32::MAX, doubt);
+        let lanes = whole.near(&second, self.b.triangles, u32::MAX, doubt);
+        if rows == 0 || lanes == 0 {
+            return Some(near);
+        }
+        for (i, near) in near.iter_mut().enumerate() {
+            if rows >> i & 1 != 0 {
+                *near = first.one(i).near(&second, self.b.triangles, lanes, doubt);
+            }
+        }
+        Some(near)
+    }
+
+    /// What is known of triangle `i` of the first leaf and `j` of the second.
+    #[inline(never)]
+    pub(crate) fn settle(&self, i: usize, j: usize, work: &mut Work) -> Contact {
+        work.triangles = work.triangles.saturating_add(1);
+        let a = self.a.slots(i).map(|slot| self.a.corner(slot));
+        let b = self.b.slots(j).map(|slot| self.b.corner(slot));
+        let [to_second, to_first] = &self.sides;
+        let (a_sides, b_sides) =
+            (to_second.of(self.a.slots(i), j), to_first.of(self.b.slots(j), i));
+        let doubt = self.place.doubt;
+        let contact = if a_sides.iter().chain(&b_sides).all(|&side| side != 0) {
+            straddling_triangles_meet(a, b, [a_sides, b_sides], doubt + doubt)
+        } else {
+            triangles_meet(a, b, doubt)
+        };
+        if contact != Contact::Open {
+            return contact;
+        }
+        work.exact = work.exact.saturating_add(1);
+        self.settle_exactly(i, j)
+    }
+
+    /// The same in f64.
+    #[cold]
+    #[inline(never)]
+    fn settle_exactly(&self, i: usize, j: usize) -> Contact {
+        let RelativePose { matrix, shift_exact, doubt_exact, .. } = *self.place;
+        let [first, second] = &self.leaves;
+        let unit = f64::from(self.place.sides[0].unit);
+        let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
+            let stored = leaf.stored_vertices();
+            slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))
+        };
+        let a = wide(first, self.a.slots(i));
+        let [[cx, cy, cz], ..] = a;
+        let b = wide(second, self.b.slots(j)).map(|[x, y, z]| {
+            let along = |[a, b, c]: [f32; 3], shift: f64, centre: f64| {
+                let [a, b, c] = [a, b, c].map(f64::from);
+                ((a * x + b * y) + (c * z + shift)) - centre * unit
+            };
+            let [r, s, t] = matrix;
+            let [u, v, w] = shift_exact;
+            [along(r, u, cx), along(s, v, cy), along(t, w, cz)]
+        });
+        let a = a.map(|[x, y, z]| [(x - cx) * unit, (y - cy) * unit, (z - cz) * unit]);
+        triangles_meet(a, b, doubt_exact)
+    }
+}

@@ -1,0 +1,196 @@
+//! Two box trees, one of them moved: whether their surfaces meet, and where.
+
+use super::descent::{Collect, Place, descend};
+use crate::bvh::format::Bvh;
+use crate::geom::{Contact, Pose};
+use crate::query::{Budget, Ended, QueryError, ScratchEntry, Undecided, Verdict, Work};
+
+/// Whether two surfaces meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Overlap {
+    /// `Yes`: the surfaces of the input meshes meet. `No`: they have no common point. Undecided for
+    /// [`Resolution`](Undecided::Resolution): they come too near to each other for what is stored.
+    pub verdict: Verdict,
+    /// With `Yes` two triangles that meet, the first mesh's first. With an undecided
+    /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input
+    /// files.
+    pub triangles: Option<[u32; 2]>,
+    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles as `triangles` (in
+    /// f32) and `exact` (in f64), pairs of nodes opened as `splits`.
+    pub work: Work,
+}
+
+/// Two triangles that meet or may meet: their numbers in the input files, the first mesh's first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TrianglePair {
+    /// The triangles.
+    pub triangles: [u32; 2],
+    /// Whether it is proved that they meet.
+    pub is_certain: bool,
+}
+
+impl TrianglePair {
+    /// Any value, for filling arrays.
+    pub const EMPTY: TrianglePair = TrianglePair { triangles: [u32::MAX; 2], is_certain: false };
+}
+
+/// How a search for all pairs went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Overlaps {
+    /// Pairs in the slice.
+    pub stored: usize,
+    /// Pairs that did not fit. The slice keeps the first ones that were found.
+    pub dropped: u32,
+    /// The work of the search, as in [`Overlap::work`].
+    pub work: Work,
+    /// [`Ended::Exact`]: these are all of the input's pairs. [`Ended::Resolution`]: pairs that are
+    /// not certain may not meet; no other pair does. [`Ended::Scratch`]: some pairs did not fit the
+    /// slice or the scratch memory. [`Ended::Steps`]: more pairs may exist.
+    pub ended: Ended,
+}
+
+impl Bvh<'_> {
+    /// Scratch entries with which no overlap can end for want of memory. Every pair of entries is
+    /// deeper in one of the trees, and no tree has more than 64 levels.
+    pub const OVERLAP_ENTRIES: usize = 256;
+
+    /// Whether the surface of `other`, moved by `pose` from its frame to this tree's (both in input
+    /// units), meets the surface of this tree.
+    ///
+    /// Both verdicts are proved, of the input meshes as they were after repair, whatever grids did
+    /// to vertices. The numbers of the pose are taken as they are, in real arithmetic. Surfaces
+    /// that touch without passing through each other are undecided, and so are surfaces within
+    /// rounding and the surface errors of it. Two triangles without area are never proved
+    /// to meet. Surfaces alone count: of closed meshes one may lie inside the other, which
+    /// [`signed_distance`](Bvh::signed_distance) of a vertex decides.
+    ///
+    /// It ends at the first pair that is proved to meet. Which pair that is does not depend on the
+    /// target. `scratch`: [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter
+    /// one may leave the question undecided. Of the budget only `steps` matters: pairs of nodes.
+    ///
+    /// Cost: everything near the other surface. On scanned parts some dozens of pairs of nodes.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Pose, Scratch, Verdict};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::OVERLAP_ENTRIES }>::new());
+    /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
+    /// let found = part.overlap(&part, pose, Budget::EXACT, &mut scratch)?;
+    /// assert_eq!(found.verdict, Verdict::No);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
+    /// beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30
+    /// grid units; [`QueryError::NotServed`] unless both trees have boxes for segments;
+    /// [`QueryError::NoScratch`].
+    pub fn overlap(
+        &self,
+        other: &Bvh<'_>,
+        pose: Pose,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Overlap, QueryError> {
+        let mut first = First::default();
+        let (missed, work) = descend([self, other], &pose, budget.steps, scratch, &mut first)?;
+        let (verdict, place) = match (first.met, missed, first.open) {
+            (Some(place), _, _) => (Verdict::Yes, Some(place)),
+            (None, Some(why), _) => (Verdict::Undecided(why.undecided()), None),
+            (None, None, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
+            (None, None, None) => (Verdict::No, None),
+        };
+        let numbers = |place| numbers(self, other, &place).ok_or(QueryError::Unchecked);
+        let triangles = place.map(numbers).transpose()?;
+        Ok(Overlap { verdict, triangles, work })
+    }
+
+    /// All pairs of triangles of this tree and of `other`, moved by `pose`, that meet or that may
+    /// meet, into `pairs`.
+    ///
+    /// Arguments, errors and degenerate cases as for [`overlap`](Bvh::overlap). Every pair is found
+    /// once. The order is that of the search and the same on every target. Cost: everything along
+    /// the curves where the surfaces meet.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Pose, Scratch, TrianglePair};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<{ Bvh::OVERLAP_ENTRIES }>::new());
+    /// let pose = Pose { translation: [300.0, 0.0, 0.0], ..Pose::IDENTITY };
+    /// let mut pairs = [TrianglePair::EMPTY; 8];
+    /// let found = part.overlaps(&part, pose, &mut pairs, Budget::EXACT, &mut scratch)?;
+    /// assert_eq!((found.stored, found.dropped), (0, 0));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`overlap`](Bvh::overlap).
+    pub fn overlaps(
+        &self,
+        other: &Bvh<'_>,
+        pose: Pose,
+        pairs: &mut [TrianglePair],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Overlaps, QueryError> {
+        let mut all = All { a: self, b: other, pairs, stored: 0, dropped: 0, is_open: false };
+        let (missed, work) = descend([self, other], &pose, budget.steps, scratch, &mut all)?;
+        let ended = match missed {
+            Some(why) => why,
+            None if all.dropped > 0 => Ended::Scratch,
+            None if all.is_open => Ended::Resolution,
+            None => Ended::Exact,
+        };
+        Ok(Overlaps { stored: all.stored, dropped: all.dropped, work, ended })
+    }
+}
+
+/// Their numbers in the input files.
+fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &Place) -> Option<[u32; 2]> {
+    let number = |tree: &Bvh<'_>, &[node, child, lane]: &[u32; 3]| {
+        tree.source(tree.links(node)?.triangle(child).wrapping_add(lane))
+    };
+    Some([number(a, first)?, number(b, second)?])
+}
+
+#[derive(Default)]
+struct First {
+    met: Option<Place>,
+    open: Option<Place>,
+}
+
+impl Collect for First {
+    #[inline(always)]
+    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool> {
+        if contact == Contact::Meets {
+            self.met = Some(place);
+            return Some(false);
+        }
+        self.open = self.open.or(Some(place));
+        Some(true)
+    }
+}
+
+struct All<'a> {
+    a: &'a Bvh<'a>,
+    b: &'a Bvh<'a>,
+    pairs: &'a mut [TrianglePair],
+    stored: usize,
+    dropped: u32,
+    is_open: bool,
+}
+
+impl Collect for All<'_> {
+    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool> {
+        let is_certain = contact == Contact::Meets;
+        self.is_open |= !is_certain;
+        match self.pairs.get_mut(self.stored) {
+            Some(slot) => {
+                *slot = TrianglePair { triangles: numbers(self.a, self.b, &place)?, is_certain };
+                self.stored += 1;
+            }
+            None => self.dropped = self.dropped.saturating_add(1),
+        }
+        Some(true)
+    }
+}

@@ -1,0 +1,188 @@
+//! Two trees in one frame: how the second one lies to the first.
+//!
+//! Lengths are in *common units*: the larger one's grid units, so that nothing grows when numbers
+//! are brought there. The frame is the first one's, its origin that of the first one's grid, so
+//! that a mesh far from its own origin costs no precision. See `core/docs/rounding.md` §11.
+
+use crate::bvh::format::Bvh;
+use crate::geom::Pose;
+use crate::num::exp2;
+use crate::num::tolerance::{
+    OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
+};
+use crate::query::QueryError;
+
+/// Directions along which boxes are compared: the axes of both trees' boxes.
+pub(crate) const DIRECTIONS: usize = 6;
+
+/// Largest ratio of the trees' grid units, 2^40: then the smaller model is a point for all that the
+/// larger one can tell.
+const RATIO: i32 = 40;
+
+/// A tree as the directions see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side {
+    /// A place `q` of this tree, in its grid units from `origin`, is at `rows[d]·q + shift[d]`
+    /// along direction d.
+    pub(crate) rows: [[f32; 3]; DIRECTIONS],
+    pub(crate) shift: [f32; DIRECTIONS],
+    /// Origin of the tree's grid.
+    pub(crate) origin: [f32; 3],
+    /// By how much intervals are made longer on both ends.
+    pub(crate) grow: [f32; DIRECTIONS],
+    /// Common units of a grid unit.
+    pub(crate) unit: f32,
+}
+
+/// Where both trees are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RelativePose {
+    pub(crate) sides: [Side; 2],
+    /// A place `q` of the second tree is at `matrix·q + shift`.
+    pub(crate) matrix: [[f32; 3]; 3],
+    pub(crate) shift: [f32; 3],
+    pub(crate) shift_exact: [f64; 3],
+    /// What a vertex is off by at most as computed, surface errors included: in f32, and in f64.
+    pub(crate) doubt: f32,
+    pub(crate) doubt_exact: f64,
+}
+
+/// The origin of a tree's vertices: f32 vertices have none.
+fn origin(tree: &Bvh<'_>) -> [f64; 3] {
+    if tree.header().is_f32() { [0.0; 3] } else { tree.header().grid_origin.map(f64::from) }
+}
+
+/// How far a tree's box reaches from its origin along each axis, grid units, and one more for boxes
+/// without extent.
+fn reach(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let (low, high) = (tree.scale().low, tree.scale().high);
+    let along = |low: f32, high: f32, origin: f64| {
+        let (low, high) = ((f64::from(low) - origin).abs(), (f64::from(high) - origin).abs());
+        1.0 + if low > high { low } else { high }
+    };
+    [along(low.x, high.x, x), along(low.y, high.y, y), along(low.z, high.z, z)]
+}
+
+fn dot([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
+    (a * x + b * y) + c * z
+}
+
+/// The greatest that `row·q` can be for `|q| ≤ reach`, axis by axis.
+fn most([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
+    (a.abs() * x + b.abs() * y) + c.abs() * z
+}
+
+fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, x| if x > most { x } else { most })
+}
+
+impl RelativePose {
+    /// `None`: the trees are so far from each other that nothing has to be looked at.
+    pub(crate) fn new(
+        a: &Bvh<'_>,
+        b: &Bvh<'_>,
+        pose: &Pose,
+    ) -> Result<Option<RelativePose>, QueryError> {
+        let entries = || pose.rotation.iter().flatten();
+        if !entries().chain(&pose.translation).all(|x| x.is_finite()) {
+            return Err(QueryError::NotFinite);
+        }
+        if entries().any(|x| x.abs() > 2.0) {
+            return Err(QueryError::PoseOutOfDomain);
+        }
+        let exponent =
+            |tree: &Bvh<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
+        let (ea, eb) = (exponent(a), exponent(b));
+        let common = if ea > eb { ea } else { eb };
+        if ea - eb > RATIO || eb - ea > RATIO {
+            return Err(QueryError::PoseOutOfDomain);
+        }
+        let units = [exp2(ea - common), exp2(eb - common)];
+        let [unit_a, unit_b] = units;
+        let rotation = pose.rotation.map(|row| row.map(f64::from));
+        let [r0, r1, r2] = rotation;
+        // Products of f32 are exact in f64; the sum of seven terms is rounded six times.
+        let (from, into) = (origin(b), origin(a));
+        let scale = exp2(common.wrapping_neg());
+        let [t0, t1, t2] = pose.translation.map(|x| f64::from(x) * scale);
+        let [p0, p1, p2] = into;
+        let shift_exact = [
+            (dot(r0, from) * unit_b - p0 * unit_a) + t0,
+            (dot(r1, from) * unit_b - p1 * unit_a) + t1,
+            (dot(r2, from) * unit_b - p2 * unit_a) + t2,
+        ];
+        let (reach_a, reach_b) =
+            (reach(a, into).map(|x| x * unit_a), reach(b, from).map(|x| x * unit_b));
+        let error_a = f64::from(a.scale().surface_error) * unit_a;
+        let error_b = f64::from(b.scale().surface_error) * (unit_b * stretch(&rotation));
+        let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
+        let [c0, c1, c2] = columns;
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let directions = [x, y, z, c0, c1, c2];
+        let back = directions.map(|d| columns.map(|column| dot(column, d)));
+        let away = directions.map(|d| dot(d, shift_exact));
+        // What a moved vertex, or the way to it, comes to along an axis.
+        let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
+            most(row, reach_b)
+                + reach_a.get(axis).copied().unwrap_or(0.0)
+                + shift_exact.get(axis).map_or(0.0, |x| x.abs())
+        });
+        let near = greatest(along);
+        // Before they cancelled.
+        let far = near
+            + greatest([r0, r1, r2].map(|row| most(row, from.map(|x| x * unit_b))))
+            + greatest(into.map(f64::abs)) * unit_a;
+        let errors = error_a + error_b;
+        let rounded = OVERLAP_VERTEX * U64 * far;
+        let mut grow = [0f32; DIRECTIONS];
+        for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
+            let both = most(d, reach_a) + most(row, reach_b);
+            let error = (errors + rounded) * libm::sqrt(dot(d, d)) + OVERLAP_UNDERFLOW;
+            if away.abs() * (1.0 - 64.0 * U64) > both + error {
+                return Ok(None);
+            }
+            *grow = ((both + away.abs()) * (OVERLAP_INTERVAL * f64::from(U32)) + error) as f32
+                * (1.0 + 2.0 * U32);
+        }
+        // What is not a number is not in range either.
+        let is_in_range = far + errors <= OVERLAP_FARTHEST;
+        if !is_in_range {
+            return Err(QueryError::PoseOutOfDomain);
+        }
+        let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+        let first = Side {
+            rows: directions.map(|d| narrow(d.map(|x| x * unit_a))),
+            shift: [0.0; DIRECTIONS],
+            origin: narrow(into),
+            grow,
+            unit: unit_a as f32,
+        };
+        let second = Side {
+            rows: back.map(|row| narrow(row.map(|x| x * unit_b))),
+            shift: away.map(|x| x as f32),
+            origin: narrow(from),
+            grow: [0.0; DIRECTIONS],
+            unit: unit_b as f32,
+        };
+        let larger = if error_a > error_b { error_a } else { error_b };
+        Ok(Some(RelativePose {
+            sides: [first, second],
+            matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
+            shift: narrow(shift_exact),
+            shift_exact,
+            doubt: (larger + OVERLAP_VERTEX * f64::from(U32) * near) as f32 * (1.0 + 2.0 * U32),
+            doubt_exact: larger + rounded,
+        }))
+    }
+}
+
+/// By how much a matrix makes lengths longer at most: the square of its 2-norm is that of its
+/// product with its transpose, which is at most the largest sum of a row of that; of a rotation 1.
+fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
+    let mut most = 0f64;
+    for a in rows {
+        let sum = rows.iter().fold(0.0, |sum, b| sum + dot(*a, *b).abs());
+        most = if sum > most { sum } else { most };
+    }
+    libm::sqrt(most) * (1.0 + 16.0 * U64)
+}

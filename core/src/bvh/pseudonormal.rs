@@ -1,0 +1,335 @@
+//! Angle-weighted pseudonormals without stored mesh connectivity. A descent finds the triangles of
+//! a feature by equal coordinates.
+//!
+//! The sum of [`signed_distance`](super::signed_distance) is taken about a vertex (or edge) that
+//! all possibly closest triangles share. It is nearly the closest feature, not certainly. Let u be
+//! the direction from the feature to the query, and let no triangle about the feature reach a
+//! direction x with x·u > η. Then the winding number is the same, w₀, wherever x·u > η. The rest of
+//! the sum, over 0 < x·u ≤ η, is 2·∫x·u ≤ 2πη² about a vertex. By the same argument in the plane
+//! across an edge it is η² about an edge. Nothing crosses the way from the feature to the query.
+//! Triangles about the feature do not contain the direction u. Any other triangle there would be
+//! nearer than the feature, and so among the possibly closest. So a product with u that exceeds
+//! this rest and rounding has the right sign.
+
+use super::descent::{LeafVisit, LeafVisitor};
+use super::point_query::PointQuery;
+use super::side_search::{OPEN, Search};
+use super::triangle_bounds::{each_triangle, limit_of, lower_of};
+use crate::bvh::format::FanLeaf;
+use crate::num::sqrt_approx;
+use crate::num::tolerance::{
+    EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
+};
+use crate::query::{QueryError, Side};
+use glam::Vec3;
+
+/// Which side of a triangle is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Facing {
+    Front = 0,
+    Back = 1,
+    /// Rounding leaves it open.
+    Unclear = 2,
+    /// It has no area, certainly.
+    Flat = 3,
+}
+
+#[inline(always)]
+fn norm_1(v: Vec3) -> f32 {
+    let v = v.abs();
+    v.x + v.y + v.z
+}
+
+/// Normal of two spokes, and for each component the sum of the absolute values of its products.
+#[inline(always)]
+fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
+    let (a, b) = (e.abs(), g.abs());
+    (e.cross(g), Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x))
+}
+
+/// How triangle `lane` faces `p`.
+#[inline]
+pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
+    let second = lane >= leaf.shape().turn();
+    let which = usize::from(second);
+    let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
+    let (normal, size) = cross(e, g);
+    if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
+        return Facing::Flat;
+    }
+    let s = p - leaf.centre(which);
+    let volume = normal.dot(s);
+    // Underflow adds some hundred times less than the last term.
+    let rounding =
+        SIGN_TRIPLE_PRODUCT * U32 * size.dot(s.abs()) + f32::MIN_POSITIVE * (1.0 + norm_1(s));
+    let volume = if second && leaf.shape().second_reversed() { -volume } else { volume };
+    if volume > rounding {
+        Facing::Front
+    } else if volume < -rounding {
+        Facing::Back
+    } else {
+        Facing::Unclear
+    }
+}
+
+/// Whether a triangle with a computed normal of zero has no area: a repeated corner, or integers so
+/// small that the normal is exact.
+#[cold]
+fn is_flat(leaf: &FanLeaf<'_>, lane: usize, size: f32) -> bool {
+    let [a, b, c] = leaf.corners(lane);
+    let integral = |v: Vec3| v.floor() == v && v.abs().max_element() < EXACT_INTEGERS;
+    a == b
+        || b == c
+        || c == a
+        || (size < EXACT_INTEGERS && integral(a) && integral(b) && integral(c))
+}
+
+/// The triangles that may be the closest one.
+pub(crate) struct Candidates<'p> {
+    query: &'p PointQuery,
+    /// Lower bound, grid units, up to which a triangle is a candidate: more than twice the need of
+    /// rounding.
+    pub(crate) band: f32,
+    /// Distance, grid units, up to which all triangles nearer than a feature are candidates.
+    reach: f32,
+}
+
+impl<'p> Candidates<'p> {
+    /// `margin` is the part of rounding that does not grow with the distance.
+    #[inline]
+    pub(crate) fn new(query: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
+        let distance = sqrt_approx(distance_sq);
+        let band = distance * (1.0 + 128.0 * U32) + 8.0 * margin;
+        let reach = distance * (1.0 + 64.0 * U32) + 4.0 * margin;
+        Candidates { query, band, reach }
+    }
+}
+
+/// The side by the feature that all candidates share; `corners` are those of one of them.
+pub(crate) fn side_of_shared_feature(
+    search: &mut Search<'_, '_>,
+    candidates: &Candidates<'_>,
+    corners: [Vec3; 3],
+) -> Result<Side, QueryError> {
+    let limit = limit_of(candidates.query, candidates.band);
+    let mut shared = Shared { candidates, limit, corners, kept: [true; 3] };
+    if !search.descend(candidates.query, &mut shared)? {
+        return Ok(OPEN);
+    }
+    let ([a, b, c], p) = (corners, candidates.query.p);
+    match shared.kept {
+        [true, false, false] => about_vertex(search, candidates, limit, a, p),
+        [false, true, false] => about_vertex(search, candidates, limit, b, p),
+        [false, false, true] => about_vertex(search, candidates, limit, c, p),
+        [true, true, false] => about_edge(search, candidates, limit, [a, b], p),
+        [false, true, true] => about_edge(search, candidates, limit, [b, c], p),
+        [true, false, true] => about_edge(search, candidates, limit, [c, a], p),
+        _ => Ok(OPEN),
+    }
+}
+
+/// Which corners do all candidates share?
+struct Shared<'a> {
+    candidates: &'a Candidates<'a>,
+    limit: f32,
+    corners: [Vec3; 3],
+    kept: [bool; 3],
+}
+
+impl LeafVisitor for Shared<'_> {
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let (leaf, p) = (&visit.leaf, self.candidates.query.p);
+        each_triangle(self.candidates.query, leaf, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > self.limit
+                || lower_of(leaf, lane, p, distance_sq, lower_bound_sq) > self.candidates.band
+                || facing(leaf, lane, p) == Facing::Flat
+            {
+                return;
+            }
+            let corners = leaf.corners(lane);
+            for (kept, corner) in self.kept.iter_mut().zip(&self.corners) {
+                *kept &= corners.contains(corner);
+            }
+        });
+        Some(self.kept != [false; 3])
+    }
+}
+
+/// A sum of weighted unit normals, and its rounding.
+#[derive(Default)]
+struct Sum {
+    normal: Vec3,
+    /// Weights times the excess of a normal's rounding over that of a well-shaped triangle.
+    unsure: f32,
+    weight: f32,
+    count: f32,
+    /// No triangle reaches a direction whose cosine to the query is greater.
+    eta: f32,
+    /// Some triangle has no trusted normal or directions.
+    broken: bool,
+}
+
+impl Sum {
+    fn add(&mut self, normal: Vec3, size: Vec3, weight: f32, eta: f32) {
+        let largest = normal.abs().max_element();
+        let scaled = normal * (1.0 / largest);
+        let length = sqrt_approx(scaled.dot(scaled));
+        self.normal += scaled * (weight / length);
+        self.unsure += weight * (norm_1(size) / (largest * length));
+        self.weight += weight;
+        self.count += 1.0;
+        self.eta = if eta > self.eta { eta } else { self.eta };
+    }
+
+    /// The side by the product with `to_query`. `open`: the error of the product, in units of η²,
+    /// for a feature that is not exactly the closest. `inexact`: the sum of absolute values whose
+    /// roundings `to_query` carries.
+    fn side(&self, to_query: Vec3, open: f32, inexact: f32) -> Side {
+        let product = self.normal.dot(to_query);
+        let count = self.count;
+        let roundings = 16.0 * self.unsure + (32.0 + 2.0 * count) * self.weight + 64.0 * count;
+        let margin = U32 * (norm_1(to_query) * roundings + 16.0 * self.weight * inexact)
+            + open * self.eta * self.eta * norm_1(to_query);
+        if self.broken || self.count == 0.0 || margin.is_nan() {
+            OPEN
+        } else if product > margin {
+            Side::Outside
+        } else if product < -margin {
+            Side::Inside
+        } else {
+            OPEN
+        }
+    }
+}
+
+/// Visits all triangles of a feature.
+struct Star<F> {
+    limit: f32,
+    each: F,
+}
+
+impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        for lane in 0..visit.leaf.shape().triangles() {
+            (self.each)(&visit.leaf, lane);
+        }
+        Some(true)
+    }
+}
+
+/// Whether a normal's components are numbers, and so large that the underflow of products does not
+/// count.
+fn is_sound(normal: Vec3, size: Vec3) -> bool {
+    norm_1(size) > TRUSTED_DIRECTION_SQ && normal.abs().max_element() > 64.0 * U32 * norm_1(size)
+}
+
+fn about_vertex(
+    search: &mut Search<'_, '_>,
+    candidates: &Candidates<'_>,
+    limit: f32,
+    vertex: Vec3,
+    p: Vec3,
+) -> Result<Side, QueryError> {
+    let s = p - vertex;
+    let far = sqrt_approx(s.dot(s));
+    if !(far > 0.0 && far <= candidates.reach) {
+        return Ok(OPEN);
+    }
+    let u = s * (1.0 / far);
+    let mut sum = Sum::default();
+    let each = |leaf: &FanLeaf<'_>, lane: usize| {
+        let (e, g) = match leaf.corners(lane) {
+            [a, b, c] if a == vertex => (b - a, c - a),
+            [a, b, c] if b == vertex => (c - b, a - b),
+            [a, b, c] if c == vertex => (a - c, b - c),
+            _ => return,
+        };
+        let (normal, size) = cross(e, g);
+        if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
+            return;
+        }
+        if !is_sound(normal, size) {
+            sum.broken = true;
+            return;
+        }
+        let largest = normal.abs().max_element();
+        let scaled = normal * (1.0 / largest);
+        let angle = libm::atan2f(largest * sqrt_approx(scaled.dot(scaled)), e.dot(g));
+        let unit = |v: Vec3| v * (1.0 / sqrt_approx(v.dot(v)));
+        let (e, g) = (unit(e), unit(g));
+        let reached = e.dot(u).max(g.dot(u));
+        // Directions between the two: (λe + μg) / |λe + μg|, whose length is at least (λ +
+        // μ)·cos(α/2).
+        let eta = if reached <= -SIGN_COSINE * U32 {
+            0.0
+        } else {
+            let half = 0.5 * (1.0 + e.dot(g)) - SIGN_COSINE * U32;
+            if half > 0.0 {
+                (reached + SIGN_COSINE * U32) / sqrt_approx(half)
+            } else {
+                f32::INFINITY
+            }
+        };
+        sum.add(normal, size, angle, eta);
+    };
+    if !search.descend(candidates.query, &mut Star { limit, each })? {
+        return Ok(OPEN);
+    }
+    Ok(if sum.eta < 0.25 { sum.side(s, 6.5, 0.0) } else { OPEN })
+}
+
+fn about_edge(
+    search: &mut Search<'_, '_>,
+    candidates: &Candidates<'_>,
+    limit: f32,
+    [a, b]: [Vec3; 2],
+    p: Vec3,
+) -> Result<Side, QueryError> {
+    let (edge, s) = (b - a, p - a);
+    let (along, length_sq) = (s.dot(edge), edge.dot(edge));
+    let rounding = SIGN_COSINE * U32 * norm_1(s) * norm_1(edge);
+    let across = s - edge * (along / length_sq);
+    let far = sqrt_approx(across.dot(across));
+    // The foot must lie within the edge, and clear of its ends.
+    if !(along > rounding && length_sq - along > rounding && far > 0.0)
+        || far + SIGN_COSINE * U32 * norm_1(s) > candidates.reach
+    {
+        return Ok(OPEN);
+    }
+    let u = across * (1.0 / far);
+    let mut sum = Sum::default();
+    let each = |leaf: &FanLeaf<'_>, lane: usize| {
+        let corners = leaf.corners(lane);
+        if !corners.contains(&a) || !corners.contains(&b) {
+            return;
+        }
+        let [x, y, z] = corners;
+        let (normal, size) = cross(y - x, z - x);
+        if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
+            return;
+        }
+        let Some(third) = corners.into_iter().find(|&c| c != a && c != b) else { return };
+        let leg = third - a;
+        let inward = leg - edge * (leg.dot(edge) / length_sq);
+        let height = sqrt_approx(inward.dot(inward));
+        if !is_sound(normal, size) || height == 0.0 {
+            sum.broken = true;
+            return;
+        }
+        let noise = SIGN_COSINE * U32 * (norm_1(leg) / height + norm_1(s) / far);
+        let reached = inward.dot(u) / height + noise;
+        sum.add(normal, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
+    };
+    if !search.descend(candidates.query, &mut Star { limit, each })? {
+        return Ok(OPEN);
+    }
+    Ok(if sum.eta < 0.25 { sum.side(across, 1.2, norm_1(s)) } else { OPEN })
+}

@@ -1,0 +1,196 @@
+//! A segment and the triangles of a leaf.
+//!
+//! A segment visits two nodes and less than one leaf on scanned parts, so the work once for each
+//! segment decides. The fan kernels flag the triangles that may be met. Only flagged triangles are
+//! looked at one by one, with the interval of parameters in which the *input's* triangle can be
+//! met.
+
+use super::descent::{LeafVisit, LeafVisitor, NodeQuery};
+use super::node::WIDE;
+use super::segment_query::SegmentQuery;
+use crate::bvh::format::{Bvh, FanLeaf};
+use crate::geom::fan::{Crossing, FanRay, LANES_BELOW, WIDTH, ray_leaf, ray_leaf8};
+use crate::query::{QueryError, ScratchEntry};
+
+/// Which sides of triangles a segment meets. The front is where corners run counter-clockwise, in
+/// the input's winding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Facing {
+    /// Both.
+    #[default]
+    Both,
+    /// Fronts only: back faces are culled.
+    Front,
+    /// Backs only.
+    Back,
+}
+
+/// Prepares a segment for the descent. `None` if the segment is far from the model.
+#[inline(always)]
+pub(crate) fn prepare(
+    tree: &Bvh<'_>,
+    a: [f32; 3],
+    b: [f32; 3],
+    scratch: &[ScratchEntry],
+) -> Result<Option<SegmentQuery>, QueryError> {
+    SegmentQuery::check_served(tree)?;
+    if scratch.is_empty() {
+        return Err(QueryError::NoScratch);
+    }
+    SegmentQuery::new(tree, a, b)
+}
+
+/// A stored triangle that is met.
+#[derive(Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) t: f32,
+    pub(crate) node: u32,
+    pub(crate) child: u32,
+    pub(crate) lane: u32,
+}
+
+/// The part of a question that handles triangles that may be met, in any order.
+pub(crate) trait Collect {
+    /// Nothing that begins later matters.
+    fn limit(&self) -> f32;
+    /// A triangle of the wanted facing. `None` says that the tree is unchecked.
+    fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;
+    /// The input's surface is met, not later than this.
+    fn certain(&mut self, upper: f32);
+    /// Whether the question is answered.
+    fn is_answered(&self) -> bool;
+    /// Whether it matters that one of several open triangles is met for certain.
+    const COVERS: bool;
+}
+
+/// The visitor of all segment questions.
+pub(crate) struct SegmentVisitor<'a, C> {
+    pub(crate) query: &'a SegmentQuery,
+    pub(crate) facing: Facing,
+    pub(crate) collect: C,
+}
+
+impl<C: Collect> LeafVisitor for SegmentVisitor<'_, C> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.collect.limit()
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let lanes = flagged(&visit.leaf, self.query)?;
+        if lanes == 0 {
+            return Some(true);
+        }
+        self.settle(visit, lanes)?;
+        Some(!self.collect.is_answered())
+    }
+}
+
+/// Triangles of a leaf that the line may meet.
+#[inline(always)]
+fn flagged(leaf: &FanLeaf<'_>, query: &SegmentQuery) -> Option<u32> {
+    let shape = leaf.shape();
+    if WIDE {
+        let (first, used) = (LANES_BELOW.get(shape.turn())?, LANES_BELOW.get(shape.triangles())?);
+        return Some(ray_leaf8(&query.ray, &leaf.ring8(query.ray.axes())?, first, used));
+    }
+    if leaf.is_f32() {
+        return Some(flagged_f32(leaf, &query.ray));
+    }
+    let ray = &query.ray;
+    let ring = leaf.grid_ring()?;
+    let origin = ray.in_order(ring.origin);
+    let shadow = |vertex: [i32; 3]| {
+        let mut at = [0f32; 3];
+        for (at, (x, origin)) in at.iter_mut().zip(vertex.into_iter().zip(origin)) {
+            *at = x.wrapping_add(origin) as f32;
+        }
+        ray.shadow_in_order(at)
+    };
+    let centres = ring.centres.map(|centre| shadow(ray.in_order(centre)));
+    let [x, y, z] = ray.in_order([ring.x, ring.y, ring.z]);
+    let vertices = x.iter().zip(y).zip(z);
+    let vertices =
+        vertices.map(|((x, y), z)| [x, y, z].map(|pair| i32::from(u16::from_le_bytes(*pair))));
+    Some(ray_leaf(ray, shape.turn(), centres, vertices.map(shadow)))
+}
+
+#[inline(never)]
+fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
+    let shape = leaf.shape();
+    let centres = [0, shape.centres() - 1].map(|which| ray.shadow(leaf.centre(which)));
+    ray_leaf(ray, shape.turn(), centres, (0..=shape.triangles()).map(|i| ray.shadow(leaf.ring(i))))
+}
+
+impl<C: Collect> SegmentVisitor<'_, C> {
+    /// Decides about the flagged triangles of a leaf.
+    #[inline(never)]
+    fn settle(&mut self, visit: &LeafVisit<'_>, flagged: u32) -> Option<()> {
+        let (leaf, bound) = (&visit.leaf, visit.key);
+        let shape = leaf.shape();
+        let ray = &self.query.ray;
+        let sign = match self.facing {
+            Facing::Both => 0.0,
+            Facing::Front => ray.front(),
+            Facing::Back => -ray.front(),
+        };
+        let wanted = |second: bool| if second && shape.second_reversed() { -sign } else { sign };
+        let mut is_met = false;
+        let (mut open, mut upper) = ([0u32; 2], [0f32; 2]);
+        let mut within = [true; 2];
+        let mut left = flagged;
+        while left != 0 {
+            let lane = left.trailing_zeros();
+            left &= left - 1;
+            let second = lane as usize >= shape.turn();
+            let fan = usize::from(second);
+            let corners =
+                [leaf.centre(fan), leaf.ring(lane as usize), leaf.ring(lane as usize + 1)];
+            let found = ray.crossing(corners.map(|v| ray.shadow(v)), wanted(second));
+            let Some(mut crossing) = found else { continue };
+            // All of the leaf lies in its box. So the answer does not depend on which leaves beyond
+            // it were looked at.
+            if crossing.lower < bound {
+                crossing.lower = bound;
+            }
+            if crossing.t < bound {
+                crossing.t = bound;
+            }
+            // Only in a tree whose boxes do not hold their triangles, which `open` cannot see: the
+            // interval stays one.
+            if crossing.upper < bound {
+                crossing.upper = bound;
+            }
+            self.collect.meet(&crossing, visit.node, visit.lane, lane)?;
+            if crossing.certain {
+                is_met = true;
+                self.collect.certain(crossing.upper);
+            } else {
+                open[fan & 1] |= 1 << lane;
+                within[fan & 1] &= crossing.within;
+                if crossing.upper > upper[fan & 1] {
+                    upper[fan & 1] = crossing.upper;
+                }
+            }
+        }
+        if is_met || !C::COVERS {
+            return Some(());
+        }
+        for fan in 0..2 {
+            if open[fan] != 0 && within[fan] {
+                let (from, to) = if fan == 0 { (0, shape.turn()) } else { (shape.turn(), WIDTH) };
+                let to = if to < shape.triangles() { to } else { shape.triangles() };
+                let centre = ray.shadow(leaf.centre(fan));
+                let turns = ray.cover(centre, |i| ray.shadow(leaf.ring(i)), open[fan], from, to);
+                let met =
+                    turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
+                if met {
+                    self.collect.certain(upper[fan]);
+                }
+            }
+        }
+        Some(())
+    }
+}

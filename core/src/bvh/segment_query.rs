@@ -1,0 +1,236 @@
+//! A segment in the tree's grid units, ready for boxes and fans, and its rounding.
+
+use super::descent::{LeafVisitor, NodeQuery};
+use super::node::box_entries;
+use super::point_query::{Units, bounds};
+use crate::bvh::format::Bvh;
+use crate::bvh::node::Slabs;
+use crate::geom::fan::FanRay;
+use crate::geom::fan::WIDTH;
+use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
+use crate::num::two_sum;
+use crate::query::{Hit, QueryError};
+use glam::Vec3;
+
+/// A segment, and the conversion of its parameters to the caller's.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SegmentQuery {
+    pub(crate) ray: FanRay,
+    pub(crate) slabs: Slabs,
+    units: Units,
+    /// The line's origin and direction, grid units.
+    origin: Vec3,
+    direction: Vec3,
+    /// The caller's parameter of `origin`.
+    start: f32,
+    /// Of no length: all parameters are the same point.
+    still: bool,
+}
+
+impl SegmentQuery {
+    /// Prepares a segment. `None`: it is proved clear of the model.
+    #[inline(always)]
+    pub(crate) fn new(
+        tree: &Bvh<'_>,
+        a: [f32; 3],
+        b: [f32; 3],
+    ) -> Result<Option<SegmentQuery>, QueryError> {
+        let finite = |[x, y, z]: [f32; 3]| x.is_finite() & y.is_finite() & z.is_finite();
+        if !(finite(a) & finite(b)) {
+            return Err(QueryError::NotFinite);
+        }
+        let units = Units::of(tree);
+        let inward =
+            |[x, y, z]: [f32; 3]| Vec3::new(units.inward(x), units.inward(y), units.inward(z));
+        let (a, b) = (inward(a), inward(b));
+        let (low, high) = bounds(tree);
+        let far = farthest(a, low, high);
+        let size = norm_1(far);
+        let far_b = farthest(b, low, high);
+        if !((size <= BVH_FAR) & (norm_1(far_b) <= BVH_FAR)) {
+            return Err(QueryError::OutOfDomain);
+        }
+        let size_b = norm_1(far_b);
+        if misses([a, b], [low, high], units.surface_error, size + size_b) {
+            return Ok(None);
+        }
+        if size > NEAR_START * norm_1(high - low) {
+            return Ok(approach(units, [a, b], [low, high], size));
+        }
+        Ok(Some(SegmentQuery::at(units, a, b - a, far, 0.0, 0.0)))
+    }
+
+    /// The line from `origin`. `far`: the way to the farthest corner. `off`: the distance of the
+    /// origin from the segment.
+    #[inline(always)]
+    fn at(
+        units: Units,
+        origin: Vec3,
+        direction: Vec3,
+        far: Vec3,
+        start: f32,
+        off: f32,
+    ) -> SegmentQuery {
+        let surface = units.surface_error + off;
+        let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
+        let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
+        // The way and one unit more: the origin of a node that is flat, or thinner than a grid
+        // unit, is an integer.
+        let margin = |far: f32| surface + (BOX_ENTRY * U32 * far + BOX_ENTRY * U32);
+        let margin = [margin(far.x), margin(far.y), margin(far.z)];
+        let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
+        let (from, along) = (origin.to_array(), direction.to_array());
+        SegmentQuery {
+            ray: FanRay::new(from, along, inverse, end, surface, norm_1(far)),
+            slabs: Slabs::new(from, inverse, margin),
+            units,
+            origin,
+            direction,
+            start,
+            still: direction.abs().max_element() <= STILL,
+        }
+    }
+
+    /// A lower bound of the caller's parameter for `t`.
+    #[inline(always)]
+    pub(crate) fn lower(&self, t: f32) -> f32 {
+        if t == f32::INFINITY {
+            t
+        } else if self.still {
+            0.0
+        } else if self.start > 0.0 {
+            (self.start + t) * (1.0 - 4.0 * U32)
+        } else {
+            t
+        }
+    }
+
+    /// An upper bound of the caller's parameter for `t`.
+    #[inline(always)]
+    pub(crate) fn upper(&self, t: f32) -> f32 {
+        let up = if self.start > 0.0 { (self.start + t) * (1.0 + 4.0 * U32) } else { t };
+        if up < 1.0 { up } else { 1.0 }
+    }
+
+    /// The caller's hit for a triangle that is met at `t`.
+    #[inline(always)]
+    pub(crate) fn hit(&self, t: f32, triangle: Option<u32>) -> Hit {
+        let point = self.units.point(self.origin + self.direction * t);
+        let whole = self.start + t;
+        let whole = if whole < 1.0 { whole } else { 1.0 };
+        Hit { t: if self.still { 0.0 } else { whole }, point, triangle }
+    }
+}
+
+impl NodeQuery for SegmentQuery {
+    #[inline(always)]
+    fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError> {
+        if tree.serves_segments() { Ok(()) } else { Err(QueryError::NO_SEGMENTS) }
+    }
+
+    #[inline(always)]
+    fn keys(
+        &self,
+        tree: &Bvh<'_>,
+        node: u32,
+        count: u32,
+        bound: f32,
+        visitor: &impl LeafVisitor,
+    ) -> Option<[f32; WIDTH]> {
+        let record = tree.boxes(node)?;
+        Some(box_entries(record, &self.slabs, count, bound, visitor.limit()))
+    }
+}
+
+#[inline(always)]
+fn norm_1(v: Vec3) -> f32 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// By axis, the way to the farthest corner of a box.
+#[inline(always)]
+fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
+    let (l, h) = ((p - low).abs(), (p - high).abs());
+    let far = |a: f32, b: f32| if a > b { a } else { b };
+    Vec3::new(far(l.x, h.x), far(l.y, h.y), far(l.z, h.z))
+}
+
+/// Whether a segment is proved clear of the model's box, by their six separating axes, all lengths
+/// doubled (Ericson, *Real-Time Collision Detection*, 2005, 5.3.3). Most segments that miss the
+/// model end here, without a division. `size`: the distance of both ends' farthest corners. The
+/// margin is in `core/docs/rounding.md` §9.
+#[inline(always)]
+fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f32) -> bool {
+    let margin = 2.0 * surface_error + size * (32.0 * U32) + LEAST_DENOMINATOR;
+    let (d, m) = (b - a, (a - low) + (b - high));
+    let (half, d_abs) = ((high - low) + Vec3::splat(margin), d.abs());
+    let along = |m: f32, half: f32, d: f32| m.abs() > half + d;
+    if along(m.x, half.x, d_abs.x) | along(m.y, half.y, d_abs.y) | along(m.z, half.z, d_abs.z) {
+        return true;
+    }
+    let across = |[m, n]: [f32; 2], [d, e]: [f32; 2], [h, k]: [f32; 2]| {
+        (m * e - n * d).abs() > (h * e.abs() + k * d.abs()) + LEAST_DENOMINATOR
+    };
+    across([m.x, m.y], [d.x, d.y], [half.x, half.y])
+        | across([m.y, m.z], [d.y, d.z], [half.y, half.z])
+        | across([m.z, m.x], [d.z, d.x], [half.z, half.x])
+}
+
+/// Moves a far start along the segment to where it enters the model's box, generously enlarged,
+/// with twice f32's precision. So the strip along edges in which nothing is decided stays as narrow
+/// as the model allows. See `core/docs/rounding.md` §9.
+#[cold]
+#[inline(never)]
+fn approach(
+    units: Units,
+    [a, b]: [Vec3; 2],
+    [low, high]: [Vec3; 2],
+    size: f32,
+) -> Option<SegmentQuery> {
+    let direction = b - a;
+    // Eight times the error of the slab test below.
+    let pad =
+        norm_1(high - low) + 2.0 * units.surface_error + size * (256.0 * U32) + LEAST_DENOMINATOR;
+    let (mut enter, mut leave) = (0f32, 1f32);
+    for axis in 0..3 {
+        let (a, d) = (a.to_array()[axis], direction.to_array()[axis]);
+        // In this order only the way is rounded, wherever the model lies.
+        let (low, high) = (low.to_array()[axis] - a - pad, high.to_array()[axis] - a + pad);
+        if d.abs() > STILL {
+            let (low, high) = (low / d, high / d);
+            let (near, far) = if low < high { (low, high) } else { (high, low) };
+            enter = if near > enter { near } else { enter };
+            leave = if far < leave { far } else { leave };
+        } else if low > 0.0 || high < 0.0 {
+            return None;
+        }
+    }
+    if enter > leave {
+        return None;
+    }
+    let start = enter * (1.0 - 16.0 * U32);
+    let origin = Vec3::new(along(a.x, b.x, start), along(a.y, b.y, start), along(a.z, b.z, start));
+    let far = farthest(origin, low, high);
+    let off = 2.0 * U32 * norm_1(origin) + (64.0 * U32 * U32) * (size + norm_1(direction));
+    Some(SegmentQuery::at(units, origin, direction, far, start, off))
+}
+
+/// `a + t·(b − a)`, computed with twice f32's precision and rounded once (Dekker 1971; Knuth, TAOCP
+/// 4.2.2).
+fn along(a: f32, b: f32, t: f32) -> f32 {
+    let (d, d_rest) = two_sum(b, -a);
+    let (p, p_rest) = two_product(t, d);
+    let (s, s_rest) = two_sum(a, p);
+    s + (s_rest + (p_rest + t * d_rest))
+}
+
+fn two_product(a: f32, b: f32) -> (f32, f32) {
+    let halves = |x: f32| {
+        let c = 4097.0 * x;
+        let high = c - (c - x);
+        (high, x - high)
+    };
+    let product = a * b;
+    let ((ah, al), (bh, bl)) = (halves(a), halves(b));
+    (product, ((ah * bh - product) + ah * bl + al * bh) + al * bl)
+}

@@ -1,0 +1,103 @@
+//! Bounds of single triangles of a leaf, for questions about more than the nearest triangle.
+
+use super::point_query::PointQuery;
+use crate::bvh::format::FanLeaf;
+use crate::geom::fan::{Nearness, PointFan, lone_triangle, lower_bound, refined};
+use crate::num::sqrt_approx;
+use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
+use glam::Vec3;
+
+/// The distance of a triangle as computed; or refined, if its lower bound falls far short. The
+/// result depends on the triangle alone, so that all questions agree.
+#[inline(always)]
+pub(crate) fn refine_sliver(query: &PointQuery, seen: &[Vec3; 3], near: Nearness) -> Nearness {
+    if near.lower_bound_sq >= query.refine_below(near.distance_sq) {
+        return near;
+    }
+    let better = refined(seen, &near);
+    if near.lower_bound_sq < query.refine_below(better.distance_sq) { better } else { near }
+}
+
+/// Triangle `lane` from `p`: the way from its centre, and its spokes.
+#[inline(always)]
+pub(crate) fn seen_from(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> [Vec3; 3] {
+    let [centre, e, g] = leaf.spokes(lane);
+    [p - centre, e, g]
+}
+
+#[inline(always)]
+pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
+    let &[s, e, g] = seen;
+    let fan = PointFan::new(s);
+    lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
+}
+
+/// All triangles of a leaf, in order: lane, squared distance and its supporting plane's bound.
+#[inline]
+pub(crate) fn each_triangle(
+    query: &PointQuery,
+    leaf: &FanLeaf<'_>,
+    mut each: impl FnMut(usize, f32, f32),
+) {
+    for lane in 0..leaf.shape().triangles() {
+        let seen = seen_from(leaf, lane, query.p);
+        let near = refine_sliver(query, &seen, nearness(&seen));
+        each(lane, near.distance_sq, near.lower_bound_sq);
+    }
+}
+
+/// The closest point of one triangle, grid units.
+pub(crate) fn witness(query: &PointQuery, leaf: &FanLeaf<'_>, lane: usize) -> Vec3 {
+    let seen = seen_from(leaf, lane, query.p);
+    let near = refine_sliver(query, &seen, nearness(&seen));
+    leaf.point(lane, near.v, near.w)
+}
+
+/// Lower bound of a triangle's distance, grid units, before [`PointQuery::lower`] takes off the
+/// rounding.
+#[inline]
+pub(crate) fn lower_of(
+    leaf: &FanLeaf<'_>,
+    lane: usize,
+    p: Vec3,
+    distance_sq: f32,
+    lower_bound_sq: f32,
+) -> f32 {
+    if lower_bound_sq >= distance_sq * CERTIFIED_PART {
+        sqrt_approx(lower_bound_sq)
+    } else {
+        certified(leaf, lane, p)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn certified(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> f32 {
+    let [s, e, g] = seen_from(leaf, lane, p);
+    lower_bound(s, e, g)
+}
+
+/// Squared bound above which nothing is within `distance` (input units) of the input mesh.
+pub(crate) fn limit_within(query: &PointQuery, distance: f32) -> f32 {
+    // The roundings here are less than the addition of `limit`.
+    limit_of(query, query.units.inward(distance) + query.units.surface_error)
+}
+
+/// Squared bound above which nothing is within `distance` (grid units) of the stored surface.
+pub(crate) fn limit_of(query: &PointQuery, distance: f32) -> f32 {
+    let distance = if distance > LEAST_LIMIT { distance } else { LEAST_LIMIT };
+    let limit = query.limit(distance * distance);
+    if limit < EVERYTHING_SQ { limit } else { EVERYTHING_SQ }
+}
+
+/// Distance for a box's squared bound, grid units, before [`PointQuery::lower`] takes off the
+/// rounding of triangles. The rounding of boxes is taken off here.
+pub(crate) fn distance_of_box(query: &PointQuery, key: f32) -> f32 {
+    let distance = sqrt_approx(key) - query.box_error();
+    if distance > 0.0 { distance } else { 0.0 }
+}
+
+/// Lower bound of the distance to the input mesh for a box's squared bound, input units.
+pub(crate) fn lower_of_box(query: &PointQuery, key: f32) -> f32 {
+    query.lower(distance_of_box(query, key))
+}

@@ -1,0 +1,20 @@
+//! Kernels over triangle fans (Galin & Akkouche 2005, sections 3 and 4), scalar and eight lanes
+//! wide. Both give the same bits.
+//!
+//! One leaf of the box tree holds up to [`WIDTH`] triangles in one fan, or in two fans that share a
+//! ring vertex. Triangle `i` of a leaf is `(centre, ring[i], ring[i + 1])`. Triangles below `turn`
+//! have the first centre, triangles from `turn` on have the second.
+
+mod cone;
+mod lanes;
+mod point;
+mod point8;
+mod ray;
+mod ray8;
+
+pub use cone::NormalCone;
+pub use lanes::{LANES_BELOW, WIDTH};
+pub use point::{Nearness, PointFan, SpokeTerms, lone_triangle, lower_bound, point_leaf, refined};
+pub use point8::{Edges8, Nearness8, point_leaf8};
+pub use ray::{Crossing, FanRay, Shadow, ray_leaf};
+pub use ray8::{Ring8, ray_leaf8};

@@ -1,0 +1,246 @@
+//! Point and fan, one triangle after the other, for targets without vectors.
+//!
+//! The terms of a spoke serve the two triangles beside it (Galin & Akkouche 2005, 4.1). Two slips
+//! of the paper: in 4.3, where `s = p − p₀`, a triangle is skipped if both products are *negative*,
+//! and `r_a` is `a²`. Regions after Ericson, *Real-Time Collision Detection* (2005), 5.1.5, in the
+//! order in which the wide kernel overrides them.
+
+use super::lanes::WIDTH;
+use crate::num::sqrt_approx;
+use crate::num::tolerance::LEAST_DENOMINATOR;
+use glam::Vec3;
+
+/// The distance of a point and a triangle, as computed (`core/docs/rounding.md` §8).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearness {
+    /// Squared length of the residual `s − v·e − w·g`.
+    pub distance_sq: f32,
+    /// Bound of a supporting plane: the squared distance is not below this, up to rounding.
+    pub lower_bound_sq: f32,
+    /// The closest point is `centre + v·e + w·g`.
+    pub v: f32,
+    /// See [`v`](Self::v).
+    pub w: f32,
+}
+
+/// Terms of a spoke for the triangles on both of its sides.
+#[derive(Clone, Copy, Debug)]
+pub struct SpokeTerms {
+    /// From the centre to the ring vertex.
+    pub edge: Vec3,
+    /// `s · edge`.
+    along: f32,
+    /// `edge · edge`.
+    length_sq: f32,
+}
+
+/// A fan seen from a point.
+#[derive(Clone, Copy, Debug)]
+pub struct PointFan {
+    /// From the centre to the point.
+    s: Vec3,
+    /// `s · s`.
+    centre_sq: f32,
+}
+
+#[inline(always)]
+fn dot(a: Vec3, b: Vec3) -> f32 {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
+impl PointFan {
+    /// `s` is the point less the centre.
+    #[inline(always)]
+    pub fn new(s: Vec3) -> Self {
+        PointFan { s, centre_sq: dot(s, s) }
+    }
+
+    /// Terms of the spoke `edge` (ring vertex less centre).
+    #[inline(always)]
+    pub fn spoke(&self, edge: Vec3) -> SpokeTerms {
+        SpokeTerms { edge, along: dot(edge, self.s), length_sq: dot(edge, edge) }
+    }
+
+    /// Whether the triangle between two spokes lies beyond a squared limit, by the supporting plane
+    /// across the way to its centre. Three products. The limit must allow for rounding already.
+    #[inline(always)]
+    pub fn is_beyond(&self, a: &SpokeTerms, b: &SpokeTerms, limit: f32) -> bool {
+        let least = self.centre_sq - above(above(0.0, a.along), b.along);
+        least > 0.0 && least * least > limit * self.centre_sq
+    }
+
+    /// The triangle between two spokes. On degenerate triangles it finds a point of the remaining
+    /// segment or point, and the lower bound is lower where that point may not be the closest.
+    #[inline(always)]
+    pub fn triangle(&self, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
+        let s = self.s;
+        let (d1, d2) = (a.along, b.along);
+        if d1 <= 0.0 && d2 <= 0.0 {
+            let distance_sq = self.centre_sq;
+            return Nearness { distance_sq, lower_bound_sq: distance_sq, v: 0.0, w: 0.0 };
+        }
+        let (aa, cc) = (a.length_sq, b.length_sq);
+        let bb = dot(a.edge, b.edge);
+        let (d3, d4, d5, d6) = (d1 - aa, d2 - bb, d1 - bb, d2 - cc);
+        let (nv, nw, den);
+        if d3 >= 0.0 && d4 <= d3 {
+            (nv, nw, den) = (1.0, 0.0, 1.0);
+        } else if d6 >= 0.0 && d5 <= d6 {
+            (nv, nw, den) = (0.0, 1.0, 1.0);
+        } else {
+            let vc = d1 * d4 - d3 * d2;
+            let vb = d5 * d2 - d1 * d6;
+            let least;
+            if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+                (nv, nw, least) = (d1, 0.0, aa);
+            } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+                (nv, nw, least) = (0.0, d2, cc);
+            } else {
+                let va = d3 * d6 - d5 * d4;
+                let (e, g) = (d4 - d3, d5 - d6);
+                if va <= 0.0 && e >= 0.0 && g >= 0.0 {
+                    (nv, nw, least) = (g, e, e + g);
+                } else {
+                    // A coordinate that rounding made negative counts as 0: the point must lie on
+                    // the triangle.
+                    let (pa, pb, pc) = (above(0.0, va), above(0.0, vb), above(0.0, vc));
+                    (nv, nw, least) = (pb, pc, pa + pb + pc);
+                }
+            }
+            // A part of a triangle that f32 cannot tell from a point. The dividend is smaller
+            // still.
+            den = above(LEAST_DENOMINATOR, least);
+        }
+        let inverse = 1.0 / den;
+        let (v, w) = (nv * inverse, nw * inverse);
+        let r = residual(s, a.edge, b.edge, v, w);
+        let distance_sq = dot(r, r);
+        let (ra, rb) = (dot(r, a.edge), dot(r, b.edge));
+        let support = above(above(0.0, ra), rb);
+        let slack = support - (v * ra + w * rb);
+        Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }
+    }
+}
+
+/// [`PointFan::triangle`] as a call, for questions with few triangles: no second copy of the
+/// kernel.
+#[inline(never)]
+pub fn lone_triangle(fan: &PointFan, a: &SpokeTerms, b: &SpokeTerms) -> Nearness {
+    fan.triangle(a, b)
+}
+
+/// A sliver again, whose lower bound falls far short of its distance. There the kernel's weights
+/// are differences of nearly equal numbers. The projection into the plane starts from the residual,
+/// so that its rounding is the rounding of a short way. The edges, each by itself, are always
+/// well-conditioned. The result is the nearest of these points. `lower_bound_sq` stays.
+#[inline(never)]
+pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
+    let mut best = *near;
+    let mut offer = |v: f32, w: f32| {
+        let r = residual(s, e, g, v, w);
+        let distance_sq = dot(r, r);
+        if distance_sq < best.distance_sq {
+            (best.distance_sq, best.v, best.w) = (distance_sq, v, w);
+        }
+    };
+    let normal = cross(e, g);
+    let area_sq = dot(normal, normal);
+    if area_sq > LEAST_DENOMINATOR {
+        let r = residual(s, e, g, near.v, near.w);
+        let v = near.v + dot(cross(r, g), normal) / area_sq;
+        let w = near.w + dot(cross(e, r), normal) / area_sq;
+        if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
+            offer(v, w);
+        }
+    }
+    let share = |along: f32, length_sq: f32| {
+        let share = above(0.0, along) / above(LEAST_DENOMINATOR, length_sq);
+        if share < 1.0 { share } else { 1.0 }
+    };
+    offer(share(dot(s, e), dot(e, e)), 0.0);
+    offer(0.0, share(dot(s, g), dot(g, g)));
+    let rim = g - e;
+    let w = share(dot(s - e, rim), dot(rim, rim));
+    offer(1.0 - w, w);
+    best
+}
+
+#[inline(always)]
+fn residual(s: Vec3, e: Vec3, g: Vec3, v: f32, w: f32) -> Vec3 {
+    Vec3::new(s.x - v * e.x - w * g.x, s.y - v * e.y - w * g.y, s.z - v * e.z - w * g.z)
+}
+
+#[inline(always)]
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+}
+
+/// The greater of two numbers. The rules of `f32::max` for NaN cost instructions.
+#[inline(always)]
+fn above(a: f32, b: f32) -> f32 {
+    if b > a { b } else { a }
+}
+
+/// All triangles of a leaf, in order. `s` gives the point less the first or the second centre,
+/// `spoke(i)` ring vertex `i` less the centre of triangle `i` (or of the triangle before, for the
+/// last), `turn` is where the second fan begins (`count` or more: nowhere).
+#[inline(always)]
+pub fn point_leaf(
+    count: usize,
+    turn: usize,
+    s: [Vec3; 2],
+    spoke: impl Fn(usize, usize) -> Vec3,
+    mut each: impl FnMut(usize, Nearness),
+) {
+    let [first, second] = s;
+    let mut fan = PointFan::new(first);
+    let mut centre = 0;
+    let mut a = fan.spoke(spoke(0, 0));
+    for i in 0..count.min(WIDTH) {
+        if i == turn {
+            fan = PointFan::new(second);
+            centre = 1;
+            a = fan.spoke(spoke(i, 1));
+        }
+        let b = fan.spoke(spoke(i + 1, centre));
+        each(i, lone_triangle(&fan, &a, &b));
+        a = b;
+    }
+}
+
+/// A lower bound of the distance of a triangle, tight on slivers and next to the surface: the best
+/// of its plane and of supporting planes along the residual and along the residual made orthogonal
+/// to each edge. `s` is the point less the centre, `e` and `g` are the spokes.
+///
+/// It holds for any triangle up to the rounding that `FAN_DISTANCE` covers. Cost: five roots.
+#[inline]
+pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
+    let fan = PointFan::new(s);
+    let near = lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g));
+    let near = refined(&[s, e, g], &near);
+    let r = residual(s, e, g, near.v, near.w);
+    let orthogonal = |edge: Vec3| {
+        let length_sq = dot(edge, edge);
+        if length_sq > LEAST_DENOMINATOR { r - edge * (dot(r, edge) / length_sq) } else { r }
+    };
+    let normal = cross(e, g);
+    let side = if dot(normal, s) < 0.0 { -normal } else { normal };
+    // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
+    let seen = [s, e, g];
+    let best = above(0.0, above(supported(s, &seen), supported(r, &seen)));
+    let best = above(best, above(supported(orthogonal(e), &seen), supported(orthogonal(g), &seen)));
+    above(best, above(supported(orthogonal(g - e), &seen), supported(side, &seen)))
+}
+
+/// Distance of the supporting plane across `direction`; 0 if `direction` has no length.
+#[inline(never)]
+fn supported(direction: Vec3, &[s, e, g]: &[Vec3; 3]) -> f32 {
+    let largest = above(above(direction.x.abs(), direction.y.abs()), direction.z.abs());
+    if largest > LEAST_DENOMINATOR {
+        // Of length about 1, so that no square leaves f32's range.
+        let d = direction * (1.0 / largest);
+        (dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g))) / sqrt_approx(dot(d, d))
+    } else {
+        0.0
+    }
+}

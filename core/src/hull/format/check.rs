@@ -1,0 +1,356 @@
+//! What `open` makes sure of in the contents of the sections, so that queries need not.
+
+use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
+use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING};
+use super::view::{Children, Hull, Vertices, Widths};
+use crate::format::layout::{MAX_LEVELS, SectionKind, VertexFormat};
+use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::geom::Aabb;
+
+impl<'a> Hull<'a> {
+    /// Opens the hull hierarchy of a blob where it lies and checks all of it: CRCs, every index,
+    /// every coordinate, every order that the queries rely on. Any bytes are safe to open. Other
+    /// sections are not looked at, so that the code that checks them is not linked.
+    ///
+    /// Cost: linear in the hierarchy, no allocation; once per start. Alignment of `bytes` does not
+    /// matter.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a hull.
+    pub fn open(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
+        let hull = Hull::place(bytes, true)?;
+        if !hull.has_hull() {
+            return Err(OpenError::MissingSection { section: SectionKind::Cover });
+        }
+        hull.check()?;
+        Ok(hull)
+    }
+
+    /// The sections where they lie, of the right lengths, their CRCs checked if `check`. A blob
+    /// without a hull hierarchy has none of them.
+    pub(crate) fn place(bytes: &'a [u8], check: bool) -> Result<Hull<'a>, OpenError> {
+        let all = Bytes(bytes);
+        let header = if check { read_header(bytes)? } else { Header::read(all)? };
+        let mut hull = Hull {
+            header,
+            widths: Widths::of(&header),
+            vertices: Vertices::new(header.vertex_format, &[]),
+            base: Bytes(&[]),
+            groups: Bytes(&[]),
+            splits: Bytes(&[]),
+            rings: Bytes(&[]),
+            radii: Bytes(&[]),
+            splits_with: Bytes(&[]),
+            cover: Bytes(&[]),
+            surface: Bytes(&[]),
+            source: Bytes(&[]),
+            levels: Bytes(&[]),
+        };
+        let wants = SectionKind::is_hull;
+        let seen = place_sections(&header, all, check, wants, |index, kind, data| {
+            if Some(data.len()) != hull.section_len(kind) {
+                return Err(OpenError::Section { index });
+            }
+            hull.place_section(kind, data);
+            Ok(())
+        })?;
+        let has = |kind: SectionKind| seen.checked_shr(kind as u32).unwrap_or(0) & 1 != 0;
+        let missing = SectionKind::ALL
+            .into_iter()
+            .filter(|kind| kind.is_hull())
+            .find(|&kind| !has(kind) && hull.section_len(kind) != Some(0));
+        match missing {
+            Some(section) => Err(OpenError::MissingSection { section }),
+            None => Ok(hull),
+        }
+    }
+
+    fn place_section(&mut self, kind: SectionKind, data: &'a [u8]) {
+        let slot = match kind {
+            SectionKind::Vertices => {
+                self.vertices = Vertices::new(self.header.vertex_format, data);
+                return;
+            }
+            SectionKind::BaseTriangles => &mut self.base,
+            SectionKind::BaseGroups => &mut self.groups,
+            SectionKind::Splits => &mut self.splits,
+            SectionKind::Rings => &mut self.rings,
+            SectionKind::Radii => &mut self.radii,
+            SectionKind::SplitsWith => &mut self.splits_with,
+            SectionKind::Cover => &mut self.cover,
+            SectionKind::Surface => &mut self.surface,
+            SectionKind::Source => &mut self.source,
+            SectionKind::Levels => &mut self.levels,
+            _ => return,
+        };
+        *slot = Bytes(data);
+    }
+}
+
+impl Hull<'_> {
+    /// Bytes that a section must have, by the header's counts; `None` if they overflow.
+    pub(crate) fn section_len(&self, kind: SectionKind) -> Option<usize> {
+        let h = &self.header;
+        let (records, each) = match kind {
+            SectionKind::Vertices => (h.vertices as usize, h.vertex_format.vertex_bytes()),
+            SectionKind::BaseTriangles => (h.base_triangles as usize, 3 * self.widths.vertex),
+            SectionKind::BaseGroups => {
+                (h.base_triangles.div_ceil(BASE_GROUP) as usize, h.group_bytes())
+            }
+            SectionKind::Splits => (h.splits as usize, h.split_bytes()),
+            SectionKind::Rings => (h.rings as usize, self.widths.vertex),
+            SectionKind::Radii => {
+                let fine = (h.splits as usize).checked_mul(2)?.checked_add(h.rings as usize)?;
+                (fine.checked_add(h.base_triangles as usize)?, 1)
+            }
+            SectionKind::SplitsWith => (h.vertices as usize, self.widths.split),
+            SectionKind::Cover => (h.nodes as usize, h.node_bytes()),
+            SectionKind::Surface => (h.surface_triangles as usize, 3 * self.widths.vertex),
+            SectionKind::Source => (h.surface_triangles as usize, self.widths.source),
+            SectionKind::Levels => (h.levels as usize, LEVEL_BYTES),
+            _ => (0, 0),
+        };
+        records.checked_mul(each)
+    }
+
+    /// All contents, once the sections are in place.
+    pub(crate) fn check(&self) -> Result<(), OpenError> {
+        self.check_counts()?;
+        self.check_vertices()?;
+        self.check_corners()?;
+        self.check_splits()?;
+        self.check_levels()?;
+        self.check_cover()
+    }
+
+    /// A blob without a hull hierarchy says nothing of one.
+    pub(crate) fn check_absent(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let counts = [
+            h.vertices,
+            h.base_vertices,
+            h.base_triangles,
+            h.splits,
+            h.rings,
+            h.surface_triangles,
+            h.levels,
+        ];
+        let rest = [h.flags, h.queue_capacity, h.dependency_depth];
+        if counts.iter().chain(&rest).any(|&count| count != 0) {
+            return Err(OpenError::Counts { what: "parts of a hull hierarchy without its cover" });
+        }
+        self.check_frame()
+    }
+
+    fn check_counts(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        if u64::from(h.vertices) != u64::from(h.base_vertices) + 2 * u64::from(h.splits) {
+            return wrong("vertices are not base vertices and two for each split");
+        }
+        if h.levels > MAX_LEVELS {
+            return wrong("too many levels");
+        }
+        if h.nodes == 0 || h.base_triangles == 0 || h.levels == 0 {
+            return wrong("an empty model");
+        }
+        if self.is_cut() != (h.surface_triangles == 0) {
+            return wrong("a cut model has no surface triangles, any other has");
+        }
+        if h.vertices.max(h.rings).max(h.nodes).max(h.surface_triangles) > u32::MAX / 16 {
+            return wrong("more records than a blob can address");
+        }
+        self.check_frame()?;
+        if h.queue_capacity == 0 || h.queue_capacity > h.nodes {
+            return wrong("queue capacity");
+        }
+        Ok(())
+    }
+
+    /// Scale, error bound, boxes and grid.
+    fn check_frame(&self) -> Result<(), OpenError> {
+        let h = &self.header;
+        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        if !(h.scale_exponent >= -200 && h.scale_exponent <= 200) {
+            return wrong("scale out of range");
+        }
+        if h.surface_error.is_sign_negative() {
+            return wrong("negative surface error");
+        }
+        let ordered = |[low, high]: [[f32; 3]; 2]| {
+            low.iter()
+                .zip(&high)
+                .all(|(low, high)| low <= high && low.abs().max(high.abs()) <= 16.0)
+        };
+        if !ordered(h.hull_box) || !ordered(h.surface_box) {
+            return wrong("a box is inverted or far outside the local frame");
+        }
+        let grid = h.vertex_format != VertexFormat::F32;
+        // Every sum of a stored integer and the origin is exact in f32.
+        let range = if h.vertex_format == VertexFormat::Grid16 { 0xFFFF } else { 0xFF_FFFF };
+        let limit = 1 << 24;
+        let origin_fits = h.grid_origin.iter().all(|&o| o >= -limit && o <= limit - range);
+        if grid && !(origin_fits && (-60..=0).contains(&h.grid_exponent)) {
+            return wrong("grid out of range");
+        }
+        Ok(())
+    }
+
+    /// Every vertex lies in the hull's box: which makes it finite, and the rounding margins of
+    /// queries true.
+    fn check_vertices(&self) -> Result<(), OpenError> {
+        let bounds = Aabb::of(self.header.hull_box);
+        for index in 0..self.header.vertices {
+            let inside = self
+                .position(VertIdx(index))
+                .is_some_and(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all());
+            if !inside {
+                return Err(OpenError::Record { section: SectionKind::Vertices, index });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_corners(&self) -> Result<(), OpenError> {
+        let limit = |corners: [VertIdx; 3], count: u32| corners.iter().all(|v| v.0 < count);
+        for index in 0..self.header.base_triangles {
+            if !self.base_triangle(index).is_some_and(|t| limit(t, self.header.base_vertices)) {
+                return Err(OpenError::Record { section: SectionKind::BaseTriangles, index });
+            }
+        }
+        for index in 0..self.header.base_triangles.div_ceil(BASE_GROUP) {
+            let sound = self.base_group(index).is_some_and(|(corners, radius)| {
+                limit(corners, self.header.base_vertices) && radius >= 0.0
+            });
+            if !sound {
+                return Err(OpenError::Record { section: SectionKind::BaseGroups, index });
+            }
+        }
+        let bounds = Aabb::of(self.header.surface_box);
+        for index in 0..self.header.surface_triangles {
+            let inside = self
+                .surface_triangle(TriIdx(index))
+                .and_then(|corners| self.positions(corners))
+                .is_some_and(|ps| {
+                    ps.iter().all(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all())
+                });
+            if !inside {
+                return Err(OpenError::Record { section: SectionKind::Surface, index });
+            }
+            if self.source(TriIdx(index)).is_none_or(|s| s >= self.header.input_triangles) {
+                return Err(OpenError::Record { section: SectionKind::Source, index });
+            }
+        }
+        Ok(())
+    }
+
+    /// Everything a split names exists before it, and "splits with" is its inverse: so dependencies
+    /// have no cycle.
+    fn check_splits(&self) -> Result<(), OpenError> {
+        for index in 0..self.header.splits {
+            let bad = OpenError::Record { section: SectionKind::Splits, index };
+            let split = self.split(SplitIdx(index)).ok_or(bad)?;
+            let k = split.ring_len();
+            if !(2..=MAX_RING).contains(&k)
+                || split.right == 0
+                || split.right >= k
+                || split.vertex >= split.origin
+            {
+                return Err(bad);
+            }
+            if self.split_of(split.vertex) != Some(SplitIdx(index)) {
+                return Err(OpenError::Record {
+                    section: SectionKind::SplitsWith,
+                    index: split.vertex.0,
+                });
+            }
+            if (0..k).any(|i| split.ring(i).is_none_or(|v| v >= split.origin)) {
+                return Err(OpenError::Record { section: SectionKind::Rings, index });
+            }
+        }
+        for index in 0..self.header.vertices {
+            let consistent = self
+                .split_of(VertIdx(index))
+                .is_none_or(|split| self.split(split).is_some_and(|s| s.vertex == VertIdx(index)));
+            if !consistent {
+                return Err(OpenError::Record { section: SectionKind::SplitsWith, index });
+            }
+        }
+        Ok(())
+    }
+
+    /// Children come after their parent and belong to it alone: so a descent ends, in time linear
+    /// in the tree.
+    ///
+    /// No memory is at hand to mark nodes as seen. The format makes up for it: within each level
+    /// child groups stand in the order of their parents, so that one pass for each level sees
+    /// every group begin where the one before it ended.
+    fn check_cover(&self) -> Result<(), OpenError> {
+        let node = |index: u32| {
+            self.node(NodeIdx(index))
+                .ok_or(OpenError::Record { section: SectionKind::Cover, index })
+        };
+        let mut next_triangle = 0u32;
+        for index in 0..self.header.nodes {
+            let bad = OpenError::Record { section: SectionKind::Cover, index };
+            let node = node(index)?;
+            let in_range = node.corners.iter().all(|v| v.0 < self.header.vertices);
+            if !in_range || node.radius.is_nan() || node.radius.is_sign_negative() {
+                return Err(bad);
+            }
+            match node.children {
+                Children::Nodes { first, count } if first > index && count > 0 => {}
+                Children::Triangles { first, count } if first == next_triangle && count > 0 => {
+                    next_triangle += count
+                }
+                Children::Cut if self.is_cut() => {}
+                _ => return Err(bad),
+            }
+        }
+        let mut begin = 1u32;
+        for level in self.levels() {
+            let mut next = begin;
+            for index in 0..level.nodes {
+                if let Children::Nodes { first, count } = node(index)?.children
+                    && first >= begin
+                    && first < level.nodes
+                {
+                    if first != next {
+                        return Err(OpenError::Record { section: SectionKind::Cover, index });
+                    }
+                    next += count;
+                }
+            }
+            if next != level.nodes {
+                return Err(OpenError::Counts { what: "a cover node without a parent" });
+            }
+            begin = level.nodes;
+        }
+        if next_triangle != self.header.surface_triangles {
+            return Err(OpenError::Counts { what: "a surface triangle without a parent" });
+        }
+        Ok(())
+    }
+
+    fn check_levels(&self) -> Result<(), OpenError> {
+        let mut before = (0, 1);
+        for index in 0..self.header.levels {
+            let bad = OpenError::Record { section: SectionKind::Levels, index };
+            let level = self.level(index).ok_or(bad)?;
+            let lengths = [level.hull_to_surface, level.surface_to_hull];
+            if lengths.iter().any(|x| x.is_nan() || x.is_sign_negative())
+                || level.splits > self.header.splits
+                || level.nodes > self.header.nodes
+                || level.splits < before.0
+                || level.nodes < before.1
+            {
+                return Err(bad);
+            }
+            before = (level.splits, level.nodes);
+        }
+        if before.0 != self.header.splits || before.1 != self.header.nodes {
+            return Err(OpenError::Counts { what: "the last level is not the whole model" });
+        }
+        Ok(())
+    }
+}

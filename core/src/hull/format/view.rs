@@ -1,0 +1,452 @@
+//! Checked views of an opened blob.
+//!
+//! If [`Hull::open`] returned `Ok`, then every index that the blob stores is in range, every ring
+//! vertex exists before its split, every child of a cover node comes after it, and every coordinate
+//! is finite. The accessors still return `Option`: an index past the end gives `None` (or, where
+//! its byte offset wraps on a 32-bit target, some record), and no path can panic.
+
+use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
+use super::layout::{LEAF_FLAG, LEVEL_BYTES, level};
+use crate::format::layout::{FLAG_CUT, VertexFormat, none};
+use crate::format::{Bytes, Header};
+use crate::geom::Aabb;
+use crate::num::{Radius8, Radius16, exp2, up_to_f32};
+use glam::Vec3;
+
+/// The hull hierarchy of a blob: nested outer hulls under split tables, and the cover tree over the
+/// surface. Copies are cheap: it borrows the bytes and holds the header.
+#[derive(Clone, Copy, Debug)]
+pub struct Hull<'a> {
+    pub(crate) header: Header,
+    pub(crate) widths: Widths,
+    pub(crate) vertices: Vertices<'a>,
+    pub(crate) base: Bytes<'a>,
+    pub(crate) groups: Bytes<'a>,
+    pub(crate) splits: Bytes<'a>,
+    pub(crate) rings: Bytes<'a>,
+    pub(crate) radii: Bytes<'a>,
+    pub(crate) splits_with: Bytes<'a>,
+    pub(crate) cover: Bytes<'a>,
+    pub(crate) surface: Bytes<'a>,
+    pub(crate) source: Bytes<'a>,
+    pub(crate) levels: Bytes<'a>,
+}
+
+/// Records of the vertex section.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Vertices<'a> {
+    F32(&'a [[u8; 12]]),
+    Grid16(&'a [[u8; 6]]),
+    Grid24(&'a [[u8; 9]]),
+}
+
+impl<'a> Vertices<'a> {
+    /// The section's bytes as records; what is left over past the last one is not reached.
+    pub(crate) fn new(format: VertexFormat, bytes: &'a [u8]) -> Self {
+        match format {
+            VertexFormat::F32 => Vertices::F32(bytes.as_chunks().0),
+            VertexFormat::Grid16 => Vertices::Grid16(bytes.as_chunks().0),
+            VertexFormat::Grid24 => Vertices::Grid24(bytes.as_chunks().0),
+        }
+    }
+}
+
+/// Widths and scales that the header implies, worked out once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Widths {
+    pub(crate) vertex: usize,
+    pub(crate) split: usize,
+    pub(crate) ring: usize,
+    pub(crate) child: usize,
+    pub(crate) source: usize,
+    /// Bytes of a cover node.
+    pub(crate) node: usize,
+    pub(crate) grid_step: f32,
+}
+
+impl Widths {
+    pub(crate) fn of(header: &Header) -> Self {
+        Widths {
+            vertex: header.vertex_index_bytes(),
+            split: header.split_index_bytes(),
+            ring: header.ring_index_bytes(),
+            child: header.child_index_bytes(),
+            source: header.source_index_bytes(),
+            node: header.node_bytes(),
+            grid_step: exp2(header.grid_exponent) as f32,
+        }
+    }
+}
+
+/// One vertex split: the inverse of an edge collapse (Guéziec 2000, 4.2; Platis & Theoharis 2003,
+/// 3.2.1).
+///
+/// With ring `r[0..k]` counter-clockwise and right wing `m`, the star `(v, r[i], r[i+1])` of
+/// `vertex` becomes `(o, r[i], r[i+1])` for `i < m`, `(d, r[i], r[i+1])` for `i ≥ m`, `(o, r[m],
+/// d)` and `(o, d, r[0])`.
+#[derive(Clone, Copy, Debug)]
+pub struct Split<'a> {
+    /// The vertex that is replaced.
+    pub vertex: VertIdx,
+    /// First of the two new vertices; the other is the next.
+    pub origin: VertIdx,
+    /// Position of the right wing in the ring; the left wing is at 0.
+    pub right: usize,
+    /// No point of the fine triangles is farther than this from `vertex`, local frame.
+    pub reach: f32,
+    /// Number of the split's first triangle, for [`Hull::radius`].
+    pub first_triangle: u32,
+    ring: Bytes<'a>,
+    width: usize,
+    len: usize,
+}
+
+impl Split<'_> {
+    /// Vertices of the ring.
+    #[inline(always)]
+    pub fn ring_len(&self) -> usize {
+        self.len
+    }
+
+    /// Ring vertex `i`, `i ≤ ring_len`, the last standing for the first.
+    #[inline(always)]
+    pub fn ring(&self, i: usize) -> Option<VertIdx> {
+        let i = if i == self.len { 0 } else { i };
+        self.ring.index(i.wrapping_mul(self.width), self.width).map(VertIdx)
+    }
+
+    /// Second of the two new vertices.
+    #[inline(always)]
+    pub fn destination(&self) -> VertIdx {
+        VertIdx(self.origin.0.wrapping_add(1))
+    }
+
+    /// Triangles that the split brings: `ring_len + 2`.
+    #[inline(always)]
+    pub fn fine_len(&self) -> usize {
+        self.len + 2
+    }
+
+    /// Corners of fine triangle `slot < fine_len`.
+    #[inline(always)]
+    pub fn fine(&self, slot: usize) -> Option<[VertIdx; 3]> {
+        if slot < self.len {
+            let apex = if slot < self.right { self.origin } else { self.destination() };
+            Some([apex, self.ring(slot)?, self.ring(slot + 1)?])
+        } else if slot == self.len {
+            Some([self.origin, self.ring(self.right)?, self.destination()])
+        } else if slot == self.len + 1 {
+            Some([self.origin, self.destination(), self.ring(0)?])
+        } else {
+            None
+        }
+    }
+}
+
+/// A node of the cover tree: its triangle, swept by `radius`, contains every triangle of the
+/// surface below it.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// Corners of the triangle.
+    pub corners: [VertIdx; 3],
+    /// Radius of the sphere that sweeps it, local frame.
+    pub radius: f32,
+    /// What is below.
+    pub children: Children,
+}
+
+/// Children of a cover node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Children {
+    /// Nodes `first .. first + count`.
+    Nodes {
+        /// First node.
+        first: u32,
+        /// How many.
+        count: u32,
+    },
+    /// Triangles of the surface `first .. first + count`.
+    Triangles {
+        /// First triangle.
+        first: u32,
+        /// How many.
+        count: u32,
+    },
+    /// Cut off with the finer levels: the swept triangle is all that is known.
+    Cut,
+}
+
+/// One level of the hierarchy: the hull after the first `splits` splits. Lengths in the local
+/// frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Triangles of the hull.
+    pub faces: u32,
+    /// Splits that make it out of the base hull.
+    pub splits: u32,
+    /// Cover nodes that a blob cut after this level keeps.
+    pub nodes: u32,
+    /// No point of a cut cover's triangles is farther than this from the surface.
+    pub hull_to_surface: f32,
+    /// No point of the surface is farther than this from the triangle that covers it.
+    pub surface_to_hull: f32,
+    /// Volume between hull and surface over the surface's volume.
+    pub void_ratio: f32,
+}
+
+/// Three f32.
+#[inline(always)]
+fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
+    Vec3::new(
+        f32::from_le_bytes([a, b, c, d]),
+        f32::from_le_bytes([e, f, g, h]),
+        f32::from_le_bytes([i, j, k, l]),
+    )
+}
+
+impl Hull<'_> {
+    /// Scratch entries with which no question on the cover tree can end for want of memory.
+    pub fn scratch_entries(&self) -> usize {
+        self.header.queue_capacity as usize
+    }
+
+    /// Words of each of the two bit sets of a [`RefinedHull`](crate::RefinedHull) with which every
+    /// split can be performed.
+    pub fn refined_words(&self) -> usize {
+        (self.header.splits as usize).div_ceil(32)
+    }
+
+    /// Least and greatest corner of the surface's box, input units, rounded to f32.
+    pub fn bounds(&self) -> [[f32; 3]; 2] {
+        self.header.surface_box.map(|corner| corner.map(|x| (f64::from(x) * self.scale()) as f32))
+    }
+
+    /// Triangles of the surface. 0 of a cut blob.
+    pub fn triangle_count(&self) -> u32 {
+        self.header.surface_triangles
+    }
+
+    /// No point of the input surface is farther than this from the stored surface, nor the other
+    /// way round. Input units, rounded up.
+    pub fn surface_error(&self) -> f32 {
+        up_to_f32(f64::from(self.header.surface_error) * self.scale())
+    }
+
+    /// Whether finer levels were cut off. Then answers are intervals as wide as the level's error.
+    pub fn is_cut(&self) -> bool {
+        self.header.flags & FLAG_CUT != 0
+    }
+
+    /// A level, 0 being the base hull and the last the finest that the blob holds.
+    pub fn level(&self, index: u32) -> Option<Level> {
+        let at = (index as usize).checked_mul(LEVEL_BYTES)?;
+        Some(Level {
+            faces: self.levels.u32(at + level::FACES)?,
+            splits: self.levels.u32(at + level::SPLITS)?,
+            nodes: self.levels.u32(at + level::NODES)?,
+            hull_to_surface: self.levels.f32(at + level::HULL_TO_SURFACE)?,
+            surface_to_hull: self.levels.f32(at + level::SURFACE_TO_HULL)?,
+            void_ratio: self.levels.f32(at + level::VOID_RATIO)?,
+        })
+    }
+
+    /// Levels, coarse to fine.
+    pub fn levels(&self) -> impl Iterator<Item = Level> + '_ {
+        (0..self.header.levels).map_while(|index| self.level(index))
+    }
+
+    /// Coordinates of a vertex, input units, rounded to f32.
+    pub fn vertex(&self, vertex: VertIdx) -> Option<[f32; 3]> {
+        let position = self.position(vertex)?;
+        Some((position.as_dvec3() * self.scale()).to_array().map(|x| x as f32))
+    }
+}
+
+/// The records, for the builder and the checker.
+#[doc(hidden)]
+impl<'a> Hull<'a> {
+    /// The header.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Coordinates of a vertex, local frame.
+    #[inline(always)]
+    pub fn position(&self, vertex: VertIdx) -> Option<Vec3> {
+        match self.vertices {
+            Vertices::F32(records) => records.get(vertex.usize()).map(single),
+            Vertices::Grid16(records) => {
+                self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 2)?)
+            }
+            Vertices::Grid24(records) => {
+                self.on_grid(Bytes(records.get(vertex.usize())?).index3(0, 3)?)
+            }
+        }
+    }
+
+    /// Exact: `open` made sure that every sum fits in 24 bits.
+    #[inline(always)]
+    fn on_grid(&self, stored: [u32; 3]) -> Option<Vec3> {
+        let [x, y, z] = stored;
+        let [ox, oy, oz] = self.header.grid_origin;
+        let coordinate =
+            |s: u32, o: i32| s.cast_signed().wrapping_add(o) as f32 * self.widths.grid_step;
+        Some(Vec3::new(coordinate(x, ox), coordinate(y, oy), coordinate(z, oz)))
+    }
+
+    /// Coordinates of three vertices.
+    #[inline(always)]
+    pub fn positions(&self, [a, b, c]: [VertIdx; 3]) -> Option<[Vec3; 3]> {
+        if let Vertices::F32(records) = self.vertices {
+            // One look at the format for three corners: this is the innermost loop of every query.
+            return Some([
+                single(records.get(a.usize())?),
+                single(records.get(b.usize())?),
+                single(records.get(c.usize())?),
+            ]);
+        }
+        Some([self.position(a)?, self.position(b)?, self.position(c)?])
+    }
+
+    /// Corners of a triangle of the base hull.
+    #[inline(always)]
+    pub fn base_triangle(&self, index: u32) -> Option<[VertIdx; 3]> {
+        let at = (index as usize).wrapping_mul(3 * self.widths.vertex);
+        self.base.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
+    }
+
+    /// Swept triangle that contains base triangles `16·index .. 16·(index + 1)`: corners and
+    /// radius.
+    #[inline]
+    pub fn base_group(&self, index: u32) -> Option<([VertIdx; 3], f32)> {
+        let width = self.widths.vertex;
+        let at = (index as usize).checked_mul(3 * width + 2)?;
+        let corners = self.groups.index3(at, width)?.map(VertIdx);
+        Some((corners, Radius16(self.groups.u16(at + 3 * width)?).get()))
+    }
+
+    /// Corners of a triangle of the surface.
+    #[inline(always)]
+    pub fn surface_triangle(&self, triangle: TriIdx) -> Option<[VertIdx; 3]> {
+        let at = triangle.usize().wrapping_mul(3 * self.widths.vertex);
+        self.surface.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
+    }
+
+    /// Number of a surface triangle in the input file.
+    #[inline(always)]
+    pub fn source(&self, triangle: TriIdx) -> Option<u32> {
+        self.source.index(triangle.usize().checked_mul(self.widths.source)?, self.widths.source)
+    }
+
+    /// A vertex split ("splits with" gives its number).
+    #[inline(always)]
+    pub fn split(&self, split: SplitIdx) -> Option<Split<'a>> {
+        let i = split.usize();
+        let Widths { vertex: wv, ring: wr, .. } = self.widths;
+        let bytes = wv + wr + 2;
+        let at = i.wrapping_mul(bytes);
+        let vertex = VertIdx(self.splits.index(at, wv)?);
+        let start = self.splits.index(at + wv, wr)?;
+        let right = usize::from(self.splits.u8(at + wv + wr)?);
+        let reach = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
+        let end = if split.0.checked_add(1)? < self.header.splits {
+            self.splits.index(at + bytes + wv, wr)?
+        } else {
+            self.header.rings
+        };
+        let len = end.checked_sub(start)? as usize;
+        let ring = self.rings.slice((start as usize).wrapping_mul(wv), len.wrapping_mul(wv))?;
+        Some(Split {
+            vertex,
+            origin: VertIdx(self.header.base_vertices.checked_add(split.0.checked_mul(2)?)?),
+            right,
+            reach,
+            first_triangle: self
+                .header
+                .base_triangles
+                .checked_add(start)?
+                .checked_add(split.0.checked_mul(2)?)?,
+            ring: Bytes(ring),
+            width: wv,
+            len,
+        })
+    }
+
+    /// The split that replaces a vertex ("splits with"), `None` for a vertex of the surface and
+    /// beyond a cut.
+    #[inline(always)]
+    pub fn split_of(&self, vertex: VertIdx) -> Option<SplitIdx> {
+        let width = self.widths.split;
+        let stored = self.splits_with.index(vertex.usize().wrapping_mul(width), width)?;
+        if stored == none(width) { None } else { Some(SplitIdx(stored)) }
+    }
+
+    /// The split that brings a vertex ("split before", as a vertex of a ring), `None` for the base
+    /// hull's.
+    #[inline(always)]
+    pub fn made_by(&self, vertex: VertIdx) -> Option<SplitIdx> {
+        vertex.0.checked_sub(self.header.base_vertices).map(|past_base| SplitIdx(past_base / 2))
+    }
+
+    /// Certified radius of a triangle of any level, local frame: base triangles first, then those
+    /// of each split ([`Split::first_triangle`]). The triangle swept by it contains the surface
+    /// that it stands for; infinite where it stands for none.
+    #[inline(always)]
+    pub fn radius(&self, triangle: u32) -> Option<f32> {
+        self.radii.u8(triangle as usize).map(|code| Radius8(code).get())
+    }
+
+    /// Swept triangle of a cover node: corners and radius.
+    #[inline(always)]
+    pub fn bound(&self, node: NodeIdx) -> Option<([VertIdx; 3], f32)> {
+        // No product of an index that the blob stores and a record's size overflows: `open` bounds
+        // the counts.
+        let at = node.usize().wrapping_mul(self.widths.node);
+        if self.widths.vertex == 2 {
+            // Three corners and the radius in one load: most parts have fewer than 65,536 vertices.
+            let word = u64::from_le_bytes(self.cover.array::<8>(at)?);
+            let corners = [word & 0xFFFF, word >> 16 & 0xFFFF, word >> 32 & 0xFFFF];
+            return Some((corners.map(|v| VertIdx(v as u32)), Radius16((word >> 48) as u16).get()));
+        }
+        let wv = self.widths.vertex;
+        let record = Bytes(self.cover.slice(at, 3 * wv + 2)?);
+        Some((record.index3(0, wv)?.map(VertIdx), Radius16(record.u16(3 * wv)?).get()))
+    }
+
+    /// A node of the cover tree.
+    #[inline(always)]
+    pub fn node(&self, node: NodeIdx) -> Option<Node> {
+        let Widths { vertex: wv, child: wc, .. } = self.widths;
+        let at = node.usize().wrapping_mul(self.widths.node);
+        let (corners, radius) = self.bound(node)?;
+        let first = self.cover.index(at + 3 * wv + 2, wc)?;
+        let tag = self.cover.u8(at + 3 * wv + 2 + wc)?;
+        let count = u32::from(tag & !LEAF_FLAG);
+        let limit =
+            if tag & LEAF_FLAG != 0 { self.header.surface_triangles } else { self.header.nodes };
+        let children = if first.checked_add(count)? > limit {
+            Children::Cut
+        } else if tag & LEAF_FLAG != 0 {
+            Children::Triangles { first, count }
+        } else {
+            Children::Nodes { first, count }
+        };
+        Some(Node { corners, radius, children })
+    }
+
+    /// Box of every vertex of every level, local frame.
+    pub(crate) fn hull_box(&self) -> Aabb {
+        Aabb::of(self.header.hull_box)
+    }
+
+    /// Whether there is a hull hierarchy. Always, of a view that [`Hull::open`] returned.
+    pub fn has_hull(&self) -> bool {
+        self.header.nodes != 0
+    }
+
+    /// Input units of one unit of the local frame: a power of two.
+    #[inline]
+    pub fn scale(&self) -> f64 {
+        exp2(self.header.scale_exponent)
+    }
+}

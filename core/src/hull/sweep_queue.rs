@@ -1,0 +1,249 @@
+//! The priority queue of the sweeping process (Guéziec 2000, 3.2), in a slice of the caller's.
+//!
+//! Best first while there is room: a binary heap grows from the left. Where the heap could leave
+//! too little room for a descent, the search goes depth first on a stack that grows from the right,
+//! and comes back to the heap when that is empty. So `Hull::scratch_entries`, the depth-first worst
+//! case that the builder counted, are enough for an exact answer, and every entry more buys tighter
+//! intervals for a query that is stopped early.
+
+use crate::query::ScratchEntry;
+
+/// Total order by key, then node, so that the order of visits does not depend on the heap's
+/// history.
+pub(crate) fn before(a: &ScratchEntry, b: &ScratchEntry) -> bool {
+    a.key() < b.key() || (a.key() == b.key() && a.node() < b.node())
+}
+
+/// An entry that left the queue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Taken {
+    pub(crate) entry: ScratchEntry,
+    /// No entry that still waits has a smaller key.
+    pub(crate) least: bool,
+}
+
+pub(crate) struct SweepQueue<'a> {
+    slots: &'a mut [ScratchEntry],
+    heap: usize,
+    stack: usize,
+    /// Free slots that a depth-first descent may need.
+    reserve: usize,
+    /// Least key of what did not fit.
+    dropped: f32,
+    depth_first: bool,
+    /// Children pushed on the stack since `begin_children`.
+    siblings: usize,
+}
+
+impl<'a> SweepQueue<'a> {
+    pub(crate) fn new(slots: &'a mut [ScratchEntry], reserve: usize) -> Self {
+        SweepQueue {
+            slots,
+            heap: 0,
+            stack: 0,
+            reserve,
+            dropped: f32::INFINITY,
+            depth_first: false,
+            siblings: 0,
+        }
+    }
+
+    /// To be called before the children of a popped node are pushed: decides where they go.
+    pub(crate) fn begin_children(&mut self, count: u32) {
+        self.siblings = 0;
+        let room = self.slots.len() - self.heap.min(self.slots.len());
+        self.depth_first = self.stack > 0 || room < (count as usize).saturating_add(self.reserve);
+    }
+
+    pub(crate) fn push(&mut self, entry: ScratchEntry) {
+        if self.heap + self.stack >= self.slots.len() {
+            self.dropped = self.dropped.min(entry.key());
+        } else if self.depth_first {
+            self.push_stack(entry);
+        } else {
+            self.push_heap(entry);
+        }
+    }
+
+    /// The entry to open next: `nearest`, the nearest child of the node opened last, if it comes
+    /// first anyway or if `dive` says to go down whatever waits; else the best that waits,
+    /// `nearest` joining the queue.
+    #[inline]
+    pub(crate) fn take(&mut self, nearest: Option<ScratchEntry>, dive: bool) -> Option<Taken> {
+        let Some(nearest) = nearest else { return self.pop() };
+        // In a descent the nearest child would lie on top of the stack.
+        if dive || self.stack > 0 || self.depth_first {
+            return Some(Taken { entry: nearest, least: false });
+        }
+        if self.heap == 0 || self.slots.first().is_none_or(|top| before(&nearest, top)) {
+            return Some(Taken { entry: nearest, least: true });
+        }
+        self.push(nearest);
+        self.pop()
+    }
+
+    /// Top of the stack during a descent, else of the heap.
+    pub(crate) fn pop(&mut self) -> Option<Taken> {
+        if self.stack > 0 {
+            let top = self.slots.get(self.slots.len() - self.stack).copied();
+            self.stack -= 1;
+            return top.map(|entry| Taken { entry, least: false });
+        }
+        self.pop_heap().map(|entry| Taken { entry, least: true })
+    }
+
+    /// Least key of all that waits or was dropped; infinity if there is none.
+    pub(crate) fn lower(&self) -> f32 {
+        let heap = if self.heap > 0 {
+            self.slots.first().map_or(f32::INFINITY, |e| e.key())
+        } else {
+            f32::INFINITY
+        };
+        let stack =
+            self.slots.iter().rev().take(self.stack).fold(f32::INFINITY, |low, e| low.min(e.key()));
+        heap.min(stack).min(self.dropped)
+    }
+
+    pub(crate) fn dropped(&self) -> f32 {
+        self.dropped
+    }
+
+    /// Pushes among the siblings since `begin_children`, nearest on top; what lies below them stays
+    /// where it is, or a descent could need more room than the builder counted.
+    fn push_stack(&mut self, entry: ScratchEntry) {
+        self.stack += 1;
+        let mut at = self.slots.len() - self.stack;
+        let bottom = at + self.siblings;
+        self.siblings += 1;
+        while at < bottom {
+            let Some(below) = self.slots.get(at + 1).copied().filter(|below| before(below, &entry))
+            else {
+                break;
+            };
+            self.set(at, below);
+            at += 1;
+        }
+        self.set(at, entry);
+    }
+
+    fn set(&mut self, at: usize, entry: ScratchEntry) {
+        if let Some(slot) = self.slots.get_mut(at) {
+            *slot = entry;
+        }
+    }
+
+    fn push_heap(&mut self, entry: ScratchEntry) {
+        let mut at = self.heap;
+        self.heap += 1;
+        while at > 0 {
+            let up = (at - 1) / 2;
+            let Some(parent) = self.slots.get(up).copied() else { break };
+            if !before(&entry, &parent) {
+                break;
+            }
+            self.set(at, parent);
+            at = up;
+        }
+        self.set(at, entry);
+    }
+
+    fn pop_heap(&mut self) -> Option<ScratchEntry> {
+        if self.heap == 0 {
+            return None;
+        }
+        let top = self.slots.first().copied()?;
+        self.heap -= 1;
+        let last = self.slots.get(self.heap).copied()?;
+        let mut at = 0;
+        loop {
+            let left = 2 * at + 1;
+            if left >= self.heap {
+                break;
+            }
+            let mut child = left;
+            let mut best = self.slots.get(left).copied()?;
+            if left + 1 < self.heap {
+                let right = self.slots.get(left + 1).copied()?;
+                if before(&right, &best) {
+                    best = right;
+                    child = left + 1;
+                }
+            }
+            if !before(&best, &last) {
+                break;
+            }
+            self.set(at, best);
+            at = child;
+        }
+        self.set(at, last);
+        Some(top)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entries(keys: &[f32]) -> impl Iterator<Item = ScratchEntry> + '_ {
+        keys.iter().enumerate().map(|(node, &key)| ScratchEntry::new(key, node as u32))
+    }
+
+    #[test]
+    fn heap_pops_in_order() {
+        let mut slots = [ScratchEntry::EMPTY; 16];
+        let mut frontier = SweepQueue::new(&mut slots, 2);
+        let keys = [5.0, 1.0, 4.0, 1.0, 3.0, 0.5];
+        frontier.begin_children(keys.len() as u32);
+        entries(&keys).for_each(|e| frontier.push(e));
+        let mut last = ScratchEntry::new(-1.0, 0);
+        for _ in 0..keys.len() {
+            let taken = frontier.pop().expect("six were pushed");
+            assert!(before(&last, &taken.entry) && taken.least);
+            last = taken.entry;
+        }
+        assert!(frontier.pop().is_none());
+    }
+
+    #[test]
+    fn short_memory_descends_and_sorts_siblings_only() {
+        let mut slots = [ScratchEntry::EMPTY; 4];
+        let mut frontier = SweepQueue::new(&mut slots, 4);
+        frontier.begin_children(2);
+        entries(&[7.0, 6.0]).for_each(|e| frontier.push(e));
+        assert_eq!(frontier.pop().map(|t| t.entry.key()), Some(6.0));
+        frontier.begin_children(2);
+        entries(&[9.0, 8.0]).for_each(|e| frontier.push(e));
+        assert_eq!(frontier.lower(), 7.0);
+        let order: [Option<f32>; 4] =
+            core::array::from_fn(|_| frontier.pop().map(|t| t.entry.key()));
+        assert_eq!(order, [Some(8.0), Some(9.0), Some(7.0), None]);
+    }
+
+    #[test]
+    fn the_last_of_a_descent_is_not_taken_for_the_least() {
+        let mut slots = [ScratchEntry::EMPTY; 5];
+        let mut frontier = SweepQueue::new(&mut slots, 3);
+        frontier.begin_children(2);
+        entries(&[1.0, 2.0]).for_each(|e| frontier.push(e));
+        assert_eq!(frontier.pop().map(|t| (t.entry.key(), t.least)), Some((1.0, true)));
+        frontier.begin_children(2);
+        frontier.push(ScratchEntry::new(9.0, 7));
+        let nearest = ScratchEntry::new(8.0, 8);
+        assert_eq!(
+            frontier.take(Some(nearest), false),
+            Some(Taken { entry: nearest, least: false })
+        );
+        assert_eq!(frontier.pop().map(|t| (t.entry.key(), t.least)), Some((9.0, false)));
+        assert_eq!(frontier.pop().map(|t| (t.entry.key(), t.least)), Some((2.0, true)));
+    }
+
+    #[test]
+    fn what_does_not_fit_lowers_the_bound() {
+        let mut slots = [ScratchEntry::EMPTY; 2];
+        let mut frontier = SweepQueue::new(&mut slots, 8);
+        frontier.begin_children(3);
+        entries(&[3.0, 2.0, 1.0]).for_each(|e| frontier.push(e));
+        assert_eq!(frontier.dropped(), 1.0);
+        assert_eq!(frontier.lower(), 1.0);
+    }
+}

@@ -1,0 +1,89 @@
+//! Why a query was refused.
+
+use crate::format::layout::BuildFor;
+
+/// Why a query was refused. Nothing was computed. Twelve bytes, so that answers cost no more by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum QueryError {
+    /// A coordinate of the query is NaN or infinite.
+    NotFinite,
+    /// A coordinate of one query of a batch is NaN or infinite.
+    PointNotFinite {
+        /// The first such query.
+        index: u32,
+    },
+    /// There are not as many places for answers as queries.
+    AnswerCount {
+        /// Queries.
+        points: u32,
+        /// Places for answers.
+        answers: u32,
+    },
+    /// A tolerance or a distance is negative, NaN or infinite.
+    Tolerance,
+    /// A point or an end of a segment is too far away: on the hull farther than 2^40 times the
+    /// model's size from its origin, on the box tree 2^38 grid units from the model's farthest
+    /// corner, of triboxes beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN). Clip segments first.
+    OutOfDomain,
+    /// An entry of a pose's matrix is beyond 2; or, of triboxes, its translation is beyond
+    /// [`Tribox::DOMAIN`](crate::Tribox::DOMAIN); or one grid is 2^40 times as coarse as the other,
+    /// so that the smaller model is a point beside the larger; or a surface error is far larger
+    /// than its model.
+    PoseOutOfDomain,
+    /// The scratch memory has no entries. One entry is enough for an interval.
+    NoScratch,
+    /// The blob was built without the sections that this question needs.
+    NotServed {
+        /// The value of `meshsweep build --for` that writes them.
+        build_for: BuildFor,
+    },
+    /// The view does not fit its bytes. No view that an `open` of this crate returned does that.
+    Unchecked,
+}
+
+impl QueryError {
+    pub(crate) const NO_DISTANCES: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Closest };
+    pub(crate) const NO_SEGMENTS: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Segment };
+    pub(crate) const NO_CONES: QueryError = QueryError::NotServed { build_for: BuildFor::Cull };
+    pub(crate) const NO_HULL: QueryError = QueryError::NotServed { build_for: BuildFor::Hull };
+    pub(crate) const NO_TRIBOXES: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Triboxes };
+    pub(crate) const NO_TIGHT_HULLS: QueryError =
+        QueryError::NotServed { build_for: BuildFor::Tight };
+}
+
+impl core::fmt::Display for QueryError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            QueryError::NotFinite => "a coordinate of the query is NaN or infinite",
+            QueryError::PointNotFinite { index } => {
+                return write!(f, "query {index}: a coordinate of the query is NaN or infinite");
+            }
+            QueryError::AnswerCount { points, answers } => {
+                return write!(f, "{points} queries, but {answers} answers");
+            }
+            QueryError::Tolerance => "a tolerance is negative, NaN or infinite",
+            QueryError::OutOfDomain => {
+                "a point or a segment's end is too far from the model: clip segments first"
+            }
+            QueryError::PoseOutOfDomain => {
+                "an entry of the matrix is beyond 2, the translation too large, or one model 2^40 \
+                 times as large as the other"
+            }
+            QueryError::NoScratch => "the scratch memory has no entries",
+            QueryError::NotServed { build_for } => {
+                return write!(
+                    f,
+                    "the blob was built without the sections that this question needs: build it \
+                     with --for {build_for}"
+                );
+            }
+            QueryError::Unchecked => "the model was not opened",
+        })
+    }
+}
+
+impl core::error::Error for QueryError {}

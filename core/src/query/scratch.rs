@@ -1,0 +1,85 @@
+//! The caller's memory that a query works in.
+
+use core::ops::{Deref, DerefMut};
+
+/// Eight bytes of working memory. Its contents mean nothing between queries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScratchEntry {
+    /// A bound, with a lane in its low bits; or the bits of a number below 2^24.
+    key: f32,
+    /// The node that the key belongs to; or any word.
+    node: u32,
+}
+
+impl ScratchEntry {
+    /// Any value, for filling arrays.
+    pub const EMPTY: ScratchEntry = ScratchEntry { key: 0.0, node: 0 };
+
+    #[inline(always)]
+    pub(crate) const fn new(key: f32, node: u32) -> ScratchEntry {
+        ScratchEntry { key, node }
+    }
+
+    /// Two words, the first below 2^24: as an f32 it is a number, whose bits every target keeps.
+    #[inline(always)]
+    pub(crate) const fn of_words([small, any]: [u32; 2]) -> ScratchEntry {
+        ScratchEntry { key: f32::from_bits(small), node: any }
+    }
+
+    #[inline(always)]
+    pub(crate) const fn key(self) -> f32 {
+        self.key
+    }
+
+    #[inline(always)]
+    pub(crate) const fn node(self) -> u32 {
+        self.node
+    }
+
+    #[inline(always)]
+    pub(crate) const fn words(self) -> [u32; 2] {
+        [self.key.to_bits(), self.node]
+    }
+}
+
+/// Working memory of `N` entries of eight bytes each.
+///
+/// Every question takes `&mut [ScratchEntry]`: a `&mut Scratch<N>`, an array, a part of a longer
+/// slice. Each view says how many entries make overflow impossible (`scratch_entries`). With fewer
+/// an answer still holds, and it says when memory cut it short.
+///
+/// ```
+/// use meshsweep_core::Scratch;
+/// let mut scratch = Scratch::<64>::new();
+/// assert_eq!(scratch.len(), 64);
+/// assert_eq!(size_of_val(&*scratch), 512);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Scratch<const N: usize>([ScratchEntry; N]);
+
+impl<const N: usize> Scratch<N> {
+    /// Memory that no query has used. May initialise a `static`.
+    pub const fn new() -> Self {
+        Scratch([ScratchEntry::EMPTY; N])
+    }
+}
+
+impl<const N: usize> Default for Scratch<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const N: usize> Deref for Scratch<N> {
+    type Target = [ScratchEntry];
+
+    fn deref(&self) -> &[ScratchEntry] {
+        &self.0
+    }
+}
+
+impl<const N: usize> DerefMut for Scratch<N> {
+    fn deref_mut(&mut self) -> &mut [ScratchEntry] {
+        &mut self.0
+    }
+}

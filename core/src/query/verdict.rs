@@ -1,0 +1,55 @@
+//! Answers of yes or no, and why there is none.
+
+/// Why a question is undecided. For collision avoidance, treat an undecided answer as a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Undecided {
+    /// The steps of the budget were used up.
+    Steps,
+    /// The scratch memory was too short.
+    Scratch,
+    /// The stored precision decides: vertices were moved to a grid, the blob was cut after a
+    /// coarser level, a tight hull stands for the mesh, or rounding leaves it open.
+    Resolution,
+    /// The side is not defined: the mesh is not closed, or its winding is inconsistent.
+    OpenMesh,
+    /// The point is so near to the surface that no side is certain.
+    OnSurface,
+    /// The closest features disagree about the side, or have no certain normal.
+    Feature,
+}
+
+impl core::fmt::Display for Undecided {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Undecided::Steps => "the steps were used up",
+            Undecided::Scratch => "the scratch memory was too short",
+            Undecided::Resolution => "the stored precision leaves it open",
+            Undecided::OpenMesh => "the mesh is not closed and consistently wound",
+            Undecided::OnSurface => "the point is too near to the surface",
+            Undecided::Feature => "the closest features have no certain side",
+        })
+    }
+}
+
+/// An answer about the input mesh in real arithmetic. `Yes` and `No` are proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Proved.
+    Yes,
+    /// Proved not to be so.
+    No,
+    /// Neither is proved.
+    Undecided(Undecided),
+}
+
+/// On which side of a closed surface a point lies. `Inside` and `Outside` are proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The nearest surface has its back to the point.
+    Inside,
+    /// The nearest surface has its front to the point.
+    Outside,
+    /// Neither is proved.
+    Undecided(Undecided),
+}

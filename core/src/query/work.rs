@@ -1,0 +1,39 @@
+//! Counters of the work of a query.
+
+/// The work of a query: the price of its accuracy, the same number on every target.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Work {
+    /// Cover nodes or boxes tested.
+    pub nodes: u32,
+    /// Triangles of surface or hull tested in f32.
+    pub triangles: u32,
+    /// Triangles evaluated in f64.
+    pub exact: u32,
+    /// Nodes opened, or vertex splits performed.
+    pub splits: u32,
+}
+
+impl Work {
+    /// No work.
+    pub const NONE: Work = Work { nodes: 0, triangles: 0, exact: 0, splits: 0 };
+
+    /// The work of this and another search together.
+    #[must_use]
+    pub fn and(self, other: Work) -> Work {
+        Work {
+            nodes: self.nodes.saturating_add(other.nodes),
+            triangles: self.triangles.saturating_add(other.triangles),
+            exact: self.exact.saturating_add(other.exact),
+            splits: self.splits.saturating_add(other.splits),
+        }
+    }
+
+    /// One number for a column: everything tested and opened.
+    pub fn total(&self) -> u32 {
+        self.nodes
+            .saturating_add(self.triangles)
+            .saturating_add(self.exact)
+            .saturating_add(self.splits)
+    }
+}

@@ -1,0 +1,93 @@
+//! Opening the tight hulls of a blob, and what is made sure of.
+
+use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED, field};
+use super::view::{TightHulls, read};
+use crate::bvh::format::Bvh;
+use crate::format::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind};
+use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::num::Radius16;
+
+impl<'a> TightHulls<'a> {
+    /// Opens the tight hulls of a blob where they lie, and checks all of them: CRCs, each tree,
+    /// each distance. Any bytes are safe to open. Other sections are not looked at, so that the
+    /// code that checks them is not linked.
+    ///
+    /// Cost: linear in the hulls; no allocation; once per start. Alignment of `bytes` does not
+    /// matter.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without tight hulls.
+    pub fn open(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
+        let hulls = TightHulls::place(bytes, true)?;
+        hulls.check()?;
+        Ok(hulls)
+    }
+
+    /// The hulls of bytes that were opened before.
+    pub(crate) fn view(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
+        TightHulls::place(bytes, false)
+    }
+
+    fn place(bytes: &'a [u8], check: bool) -> Result<TightHulls<'a>, OpenError> {
+        let blob = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
+        let mut section: Option<(u32, &[u8])> = None;
+        let wants = |kind: SectionKind| kind == SectionKind::TightHulls;
+        place_sections(&blob, Bytes(bytes), check, wants, |index, _, data| {
+            section = Some((index, data));
+            Ok(())
+        })?;
+        let missing = OpenError::MissingSection { section: SectionKind::TightHulls };
+        let (index, data) = section.ok_or(missing)?;
+        let malformed = OpenError::Section { index };
+        let (head, rest) = data.split_at_checked(TIGHT_BYTES).ok_or(malformed)?;
+        let head = Bytes(head);
+        let (count, flags) =
+            (head.u32(field::COUNT).ok_or(malformed)?, head.u32(field::FLAGS).ok_or(malformed)?);
+        if flags & !TIGHT_NESTED != 0 {
+            return Err(OpenError::Reserved);
+        }
+        if !(1..=MAX_LEVELS).contains(&count) {
+            return Err(OpenError::Counts { what: "number of tight hulls" });
+        }
+        let table = rest.get(..count as usize * TIGHT_HULL_BYTES).ok_or(malformed)?;
+        Ok(TightHulls { flags, records: table.as_chunks().0, data: Bytes(data) })
+    }
+
+    fn check(&self) -> Result<(), OpenError> {
+        let mut end = TIGHT_BYTES + self.records.len() * TIGHT_HULL_BYTES;
+        let mut faces_before = 0;
+        for (index, bytes) in (0u32..).zip(self.records) {
+            let bad = OpenError::Record { section: SectionKind::TightHulls, index };
+            let (place, record) = read(bytes).ok_or(bad)?;
+            // Hulls follow each other; what is between them is shorter than the alignment, and
+            // zero.
+            let start = end.next_multiple_of(SECTION_ALIGNMENT);
+            let gap = self.data.slice(end, start - end).ok_or(bad)?;
+            if place.offset as usize != start || gap.iter().any(|&byte| byte != 0) {
+                return Err(bad);
+            }
+            let length = |x: f32| x >= 0.0 && x.is_finite();
+            if record.faces <= faces_before
+                || !(length(record.slack) && length(record.depth) && record.void_ratio.is_finite())
+            {
+                return Err(bad);
+            }
+            let (blob, slacks) = self.parts(place, record.faces).ok_or(bad)?;
+            let tree = Bvh::open(blob)?;
+            let whole =
+                tree.header().triangles == record.faces && tree.input_triangles() == record.faces;
+            let sound = |bytes: &[u8; 2]| length(Radius16(u16::from_le_bytes(*bytes)).get());
+            if !whole || slacks.len() != record.faces as usize || !slacks.iter().all(sound) {
+                return Err(bad);
+            }
+            faces_before = record.faces;
+            // In range: the parts are slices of the section.
+            end = start + blob.len() + slacks.len() * 2;
+        }
+        if end == self.data.len() {
+            Ok(())
+        } else {
+            Err(OpenError::Counts { what: "bytes after the last tight hull" })
+        }
+    }
+}

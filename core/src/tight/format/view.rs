@@ -1,0 +1,147 @@
+//! Checked views of tight hulls: outer hulls of few faces, each with a box tree of its own and a
+//! certified distance from each face to the mesh.
+//!
+//! If [`TightHulls::open`] returned `Ok`, then every hull's tree is one that [`Bvh::open`]
+//! accepts, has as many triangles as the hull has faces, and every distance is finite and at least
+//! 0. Accessors still return `Option`, and no path can panic.
+
+use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED, record};
+use crate::bvh::format::Bvh;
+use crate::format::Bytes;
+use crate::num::Radius16;
+
+/// What the table says of a tight hull. Lengths are in input units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TightRecord {
+    /// Faces.
+    pub faces: u32,
+    /// No point of the hull is farther than this from the mesh.
+    pub slack: f32,
+    /// No point of the mesh is farther than this from the hull.
+    pub depth: f32,
+    /// Volume beyond that of the mesh as a part of it; 0 if the mesh bounds no volume.
+    pub void_ratio: f32,
+}
+
+/// The tight hulls of a blob, coarse to fine. Copies are cheap: it borrows the bytes.
+#[derive(Clone, Copy, Debug)]
+pub struct TightHulls<'a> {
+    pub(crate) flags: u32,
+    pub(crate) records: &'a [[u8; TIGHT_HULL_BYTES]],
+    /// The section.
+    pub(crate) data: Bytes<'a>,
+}
+
+/// A tight hull: a closed surface of few triangles that encloses the mesh, and bounds of how far
+/// the mesh is from it.
+///
+/// Its [box tree](Self::bvh) answers every question about the hull itself: whether two hulls
+/// [overlap](Bvh::overlap), where a segment [enters](Bvh::first_hit). Its own methods answer about
+/// the mesh inside. Copies are cheap.
+#[derive(Clone, Copy, Debug)]
+pub struct TightHull<'a> {
+    pub(crate) bvh: Bvh<'a>,
+    pub(crate) record: TightRecord,
+    pub(crate) slacks: &'a [[u8; 2]],
+    pub(crate) bytes: &'a [u8],
+}
+
+/// Where the parts of a hull lie in the section.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) offset: u32,
+    pub(crate) bytes: u32,
+}
+
+/// A record of the table.
+pub(crate) fn read(record: &[u8; TIGHT_HULL_BYTES]) -> Option<(Place, TightRecord)> {
+    let bytes = Bytes(record);
+    let place = Place { offset: bytes.u32(record::OFFSET)?, bytes: bytes.u32(record::BYTES)? };
+    let of = TightRecord {
+        faces: bytes.u32(record::FACES)?,
+        slack: bytes.f32(record::SLACK)?,
+        depth: bytes.f32(record::DEPTH)?,
+        void_ratio: bytes.f32(record::VOID_RATIO)?,
+    };
+    Some((place, of))
+}
+
+impl TightRecord {
+    /// The record's bytes; the hull's blob lies at `offset` in the section and has so many `bytes`.
+    pub fn write(&self, offset: u32, bytes: u32) -> [u8; TIGHT_HULL_BYTES] {
+        let lengths = [self.slack, self.depth, self.void_ratio].map(f32::to_bits);
+        let words = [offset, bytes, self.faces].into_iter().chain(lengths);
+        let mut out = [0u8; TIGHT_HULL_BYTES];
+        out.iter_mut().zip(words.flat_map(u32::to_le_bytes)).for_each(|(slot, byte)| *slot = byte);
+        out
+    }
+}
+
+impl<'a> TightHulls<'a> {
+    /// Number of hulls, at least one.
+    pub fn count(&self) -> u32 {
+        self.records.len() as u32
+    }
+
+    /// Whether each hull encloses all finer ones.
+    pub fn is_nested(&self) -> bool {
+        self.flags & TIGHT_NESTED != 0
+    }
+
+    /// What the table says, coarse to fine.
+    pub fn records(&self) -> impl Iterator<Item = TightRecord> + 'a {
+        self.records.iter().filter_map(|record| read(record).map(|(_, record)| record))
+    }
+
+    /// Hull `index`, 0 being the coarsest. Cost: some thousand instructions; keep the hull, not its
+    /// number.
+    pub fn get(&self, index: u32) -> Option<TightHull<'a>> {
+        let (place, record) = read(self.records.get(index as usize)?)?;
+        let (bytes, slacks) = self.parts(place, record.faces)?;
+        Some(TightHull { bvh: Bvh::view(bytes).ok()?, record, slacks, bytes })
+    }
+
+    /// The finest hull: the tightest.
+    pub fn finest(&self) -> Option<TightHull<'a>> {
+        self.get(self.count().wrapping_sub(1))
+    }
+
+    /// A hull's blob, and the distances of its faces.
+    pub(crate) fn parts(&self, place: Place, faces: u32) -> Option<(&'a [u8], &'a [[u8; 2]])> {
+        let bytes = self.data.slice(place.offset as usize, place.bytes as usize)?;
+        let after = (place.offset as usize).checked_add(place.bytes as usize)?;
+        let slacks = self.data.slice(after, (faces as usize).checked_mul(2)?)?;
+        Some((bytes, slacks.as_chunks().0))
+    }
+}
+
+impl<'a> TightHull<'a> {
+    /// The hull's own box tree. Source numbers are those of its faces.
+    pub fn bvh(&self) -> &Bvh<'a> {
+        &self.bvh
+    }
+
+    /// Scratch entries with which no question about one point can end for want of memory.
+    pub fn scratch_entries(&self) -> usize {
+        self.bvh.scratch_entries()
+    }
+
+    /// The hull as a blob of its own: a box tree, without what is known of the mesh.
+    pub fn bytes(&self) -> &'a [u8] {
+        self.bytes
+    }
+
+    /// What the table says of it.
+    pub fn record(&self) -> &TightRecord {
+        &self.record
+    }
+
+    /// No point of a face is farther than this from the mesh, input units. Not above the
+    /// [record's](TightRecord::slack).
+    #[inline]
+    pub fn slack(&self, face: u32) -> Option<f32> {
+        let stored = Radius16(u16::from_le_bytes(*self.slacks.get(face as usize)?)).get();
+        // The code of a distance may be rounded up beyond the largest.
+        Some(if stored < self.record.slack { stored } else { self.record.slack })
+    }
+}

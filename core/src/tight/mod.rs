@@ -1,0 +1,25 @@
+//! Tight hulls: hulls of few triangles that stand in for a mesh.
+//!
+//! | where | what lies there |
+//! | --- | --- |
+//! | `format/` | the bytes: the table of hulls, the distances of faces, the check of [`TightHulls::open`] |
+//! | `closest_point` | the distance of the mesh by its hull |
+//! | `within` | whether the mesh is within a distance |
+//! | `side` | whether a point is certainly outside a hull |
+//!
+//! *The interval.* Let H be the hull, P the mesh, p the point. If p is outside H, every way from p
+//! to P crosses H: |p P| ≥ |p H|. Wherever p is, a way to P may be continued to H: |p P| ≥ |p H| −
+//! depth. With q the point of face f that is closest to p, |p P| ≤ |p q| + |q P| ≤ |p H| + slack of
+//! f. All three take the box tree's interval of |p H|, which holds for the hull as it was proved to
+//! enclose the mesh, and round outward (`core/docs/rounding.md` §12).
+//!
+//! *The side.* A point outside the box of the hull's tree is outside if it is farther from the hull
+//! than storing moved it. Elsewhere [`Bvh::signed_distance`](crate::Bvh::signed_distance) decides.
+//! An undecided side counts as inside.
+
+mod closest_point;
+pub mod format;
+mod side;
+mod within;
+
+pub use format::{TightHull, TightHulls, TightRecord};

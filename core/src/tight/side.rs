@@ -1,0 +1,35 @@
+//! How far a point is from a hull, and whether it is certainly outside.
+
+use crate::bvh::format::Bvh;
+use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Side};
+
+/// Whether a point, given in input units, is outside of the box of all stored vertices. Exact but
+/// for points that f32 cannot tell from the box's planes in grid units: those are too near for a
+/// distance above 0.
+pub(crate) fn is_outside_box(tree: &Bvh<'_>, point: [f32; 3]) -> bool {
+    let scale = tree.scale();
+    let [inward, rest] = scale.inward;
+    let (low, high) = (scale.low.to_array(), scale.high.to_array());
+    point.into_iter().zip(low.into_iter().zip(high)).any(|(x, (low, high))| {
+        let x = x * inward * rest;
+        x < low || x > high
+    })
+}
+
+/// The hull's distance as `steps` and `scratch` allow, and whether the point is certainly outside.
+pub(crate) fn seen_from(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+) -> Result<(ClosestPoint, bool), QueryError> {
+    let budget = Budget::EXACT.with_steps(steps);
+    if is_outside_box(tree, point) {
+        let near = tree.closest_point(point, budget, scratch)?;
+        // What was moved to be stored is no farther from where it was than a distance of 0 allows
+        // for.
+        return Ok((near, near.distance.lower > 0.0));
+    }
+    let signed = tree.signed_distance(point, budget, scratch)?;
+    Ok((signed.closest, signed.side == Side::Outside))
+}

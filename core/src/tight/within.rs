@@ -1,0 +1,67 @@
+//! Whether a part is within a distance, by its hull.
+
+use super::closest_point::upper_end;
+use super::side::is_outside_box;
+use crate::bvh::Within;
+use crate::query::{Budget, Ended, QueryError, ScratchEntry, Side, Undecided, Verdict};
+use crate::tight::format::TightHull;
+
+impl TightHull<'_> {
+    /// Whether the part inside the hull is at most `distance` from `point`, both in input units.
+    ///
+    /// `No` is said outside the hull only, so that it holds for a solid part with its inside.
+    /// Within the hull, and as far from it as its slack, the answer is `Yes` or undecided. For
+    /// collision avoidance, treat undecided as `Yes`. There is no triangle. `budget` and `scratch`
+    /// as for [`Bvh::within`](crate::Bvh::within).
+    ///
+    /// Cost: where the hull is farther, that of its tree's `within`, and inside its box that of its
+    /// signed distance; else that of its tree's closest point too.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Scratch, TightHulls};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/hulls.msw"));
+    /// let (hulls, mut scratch) = (TightHulls::open(bytes)?, Scratch::<64>::new());
+    /// let hull = hulls.finest().expect("a blob has at least one hull");
+    /// let near = hull.within([300.0, 0.0, 0.0], 5.0, Budget::EXACT, &mut scratch)?;
+    /// assert!(near.is_clear());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
+    /// NaN or infinite; [`QueryError::NoScratch`]; [`QueryError::NotServed`].
+    pub fn within(
+        &self,
+        point: [f32; 3],
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Within, QueryError> {
+        let tree = self.bvh();
+        let near = tree.within(point, distance, budget, scratch)?;
+        let answer = |verdict, work| Ok(Within { verdict, triangle: None, work });
+        if near.is_clear() && is_outside_box(tree, point) {
+            return answer(Verdict::No, near.work);
+        }
+        // A side needs the closest point itself.
+        let budget = Budget::EXACT.with_steps(budget.steps);
+        let (closest, is_outside) = if near.is_clear() {
+            let signed = tree.signed_distance(point, budget, scratch)?;
+            (signed.closest, signed.side == Side::Outside)
+        } else {
+            (tree.closest_point(point, budget, scratch)?, false)
+        };
+        let work = near.work.and(closest.work);
+        if is_outside {
+            return answer(Verdict::No, work);
+        }
+        if upper_end(self, &closest) <= distance {
+            return answer(Verdict::Yes, work);
+        }
+        let why = match closest.ended {
+            ended @ (Ended::Steps | Ended::Scratch) => ended.undecided(),
+            _ => Undecided::Resolution,
+        };
+        answer(Verdict::Undecided(why), work)
+    }
+}

@@ -1,0 +1,13 @@
+//! The bytes of the tribox hierarchy.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `layout` | sizes and limits of the section |
+//! | `view` | the hierarchy where it lies |
+//! | `check` | what `Triboxes::open` makes sure of |
+
+mod check;
+pub mod layout;
+mod view;
+
+pub use view::{TriboxLevel, Triboxes, TriboxesHeader};

@@ -1,0 +1,23 @@
+//! The size of an image that opens a blob's tree and asks for the first hit of a segment and
+//! nothing else.
+#![no_std]
+#![no_main]
+
+#[path = "../bare.rs"]
+mod bare;
+#[path = "../tree.rs"]
+mod tree;
+
+use bare::Input;
+use meshsweep_core::FirstHit;
+use tree::BoxTree;
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_open(input: &Input<'static>, tree: &mut Option<BoxTree>) {
+    *tree = BoxTree::open(input.blob).ok();
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_first_hit(input: &Input<'_>, tree: &mut BoxTree, hit: &mut Option<FirstHit>) {
+    *hit = tree.first_hit(input.a, input.b);
+}

@@ -1,0 +1,124 @@
+//! Convex bounds of a mesh: how tight each is, and how many meetings it reports that are none.
+//!
+//! ```text
+//! convex_hull ──────┬─ dop (slabs; `clip` makes them solids) ─┐
+//!                   ├─ workload::sphere ──────────────────────┼─ sizes (volume, area)
+//!                   └─ oriented_box ──────────────────────────┴─ contenders (each with its rig: the same in f32)
+//!                                                                    │
+//! pose (a moved copy) ─ workload::contact (whether the meshes meet) ───┴─ false_positives ─ cost
+//! ```
+//! The tribox (Crosnier & Rossignac 1999) is the 18-DOP of the axes and the edges' diagonals. All
+//! but what is timed is in f64, of the f32 mesh.
+
+pub mod clip;
+pub mod contact;
+mod contenders;
+pub mod convex_hull;
+pub mod cost;
+pub mod dop;
+mod false_positives;
+pub mod oriented_box;
+pub mod pose;
+mod rig;
+
+use glam::DVec3;
+use meshsweep_host_tests::workload::Subject;
+use meshsweep_host_tests::workload::sphere::Sphere;
+use meshsweep_xtask::table::{Cell, Table, fixed, row};
+
+use clip::Solid;
+use convex_hull::ConvexHull;
+use cost::Cost;
+use dop::{Dop, Slabs};
+use false_positives::{Cases, Tally};
+use oriented_box::OrientedBox;
+
+/// Every bound of one mesh.
+struct Bounds {
+    hull: ConvexHull,
+    slabs: Vec<(Slabs, Dop, Solid)>,
+    sphere: Sphere,
+    boxes: [(&'static str, OrientedBox); 2],
+}
+
+impl Bounds {
+    fn new(subject: &Subject) -> Result<Self, String> {
+        let points: Vec<DVec3> =
+            subject.mesh.positions.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
+        let hull = ConvexHull::new(&points)
+            .ok_or("the mesh is flat: it has no convex hull with a volume")?;
+        let sphere = Sphere::enclosing(&hull.points);
+        let slabs = Slabs::all()
+            .into_iter()
+            .map(|slabs| {
+                let dop = Dop::of(&slabs, hull.points.iter().copied());
+                let solid = dop.solid(&slabs, sphere.centre, sphere.radius);
+                (slabs, dop, solid)
+            })
+            .collect();
+        let boxes = [
+            ("oriented box, principal axes", OrientedBox::principal(subject, &hull.points)),
+            ("oriented box, least on a hull's face", OrientedBox::on_a_face(&hull)),
+        ];
+        Ok(Self { hull, slabs, sphere, boxes })
+    }
+}
+
+/// The tables; `counts` are the instructions that [`cost::counted`] had counted.
+///
+/// # Errors
+/// The mesh is flat, or parry3d refuses it, or f32 cannot hold its squares.
+pub fn tables(subject: &Subject, counts: Option<&[Cost]>) -> Result<Vec<Table>, String> {
+    let bounds = Bounds::new(subject)?;
+    let mut contenders = contenders::contenders(&bounds)?;
+    let cases = Cases::new(subject, &bounds);
+    let tallies: Vec<Tally> =
+        contenders.iter().map(|contender| Tally::of(&cases, contender)).collect();
+    let mut tables = vec![sizes(&bounds), false_positives::table(&cases, &contenders, &tallies)];
+    tables.extend(cost::tables(&cases, &mut contenders, &tallies, counts));
+    Ok(tables)
+}
+
+fn sizes(bounds: &Bounds) -> Table {
+    let columns =
+        ["bound", "faces", "vertices", "volume", "of the hull's", "area", "of the hull's area"];
+    let mut table = Table::new("bounds", "Convex bounds: volume and area, input units", &columns);
+    let hull = [bounds.hull.volume(), bounds.hull.area()];
+    let mut push = |name: &str, counts: Option<[usize; 2]>, [volume, area]: [f64; 2]| {
+        table.push(row![
+            name,
+            counts.map(|[faces, _]| faces),
+            counts.map(|[_, vertices]| vertices),
+            four_digits(volume),
+            fixed(volume / hull[0], 3),
+            four_digits(area),
+            fixed(area / hull[1], 3),
+        ]);
+    };
+    for (slabs, _, solid) in &bounds.slabs {
+        push(
+            slabs.name,
+            Some([solid.faces.len(), solid.vertices.len()]),
+            [solid.volume(), solid.area()],
+        );
+    }
+    push("smallest enclosing sphere", None, [bounds.sphere.volume(), bounds.sphere.area()]);
+    for (name, oriented) in &bounds.boxes {
+        push(name, Some([6, 8]), [oriented.volume(), oriented.area()]);
+    }
+    push("convex hull", Some([bounds.hull.triangles.len(), bounds.hull.points.len()]), hull);
+    table.note(
+        "faces and vertices: those left of the solid, merged at 1e-9 of its size; of the hull: triangles",
+    );
+    table.note(
+        "axes: x, y, z; edges: x±y, y±z, z±x; corners: x±y±z; a direction is a slab, so two planes",
+    );
+    table.note("principal axes: parry3d's obb, of all vertices; on a face: least volume with a side on a face of the hull");
+    table
+}
+
+/// A number of any magnitude, comparable with its neighbours: four digits unless it is tiny.
+fn four_digits(value: f64) -> Cell {
+    let before = value.log10().floor();
+    fixed(value, if before.is_finite() { (3.0 - before).clamp(0.0, 12.0) as usize } else { 0 })
+}

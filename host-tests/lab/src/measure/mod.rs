@@ -1,0 +1,143 @@
+//! What the library costs and yields, measured on a mesh: the numbers of the README and of
+//! `DESIGN.md`.
+//!
+//! ```text
+//! subject (mesh, builds) ─┬─ hulls    (paper 000, Tables 1 and 2)
+//! workload (queries) ─────┼─ segments (paper 000, Table 3) ─┐
+//! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
+//! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
+//!                         ├─ storage  (bytes, levels) ──────┤
+//!                         ├─ tree     (all of the box tree) ┤
+//!                         ├─ overlap  (mesh against mesh) ──┤
+//!                         ├─ triboxes (their hierarchies) ──┤
+//!                         ├─ tight    (tight hulls, drawn) ─┤
+//!                         └─ bounds   (paper 001: triboxes) ┴─ plot (those that are a trade, SVG)
+//! ```
+//! Times are the processor's, of one thread, the fastest of three runs; on a busy machine even so
+//! only ratios within one run mean something. Counts are exact.
+
+pub mod bounds;
+pub(crate) mod brute;
+mod closest;
+mod hulls;
+mod overlap;
+mod paper;
+pub mod plot;
+pub mod rival;
+mod segments;
+pub(crate) mod stopwatch;
+mod storage;
+pub mod tight;
+mod trade;
+mod tree;
+pub mod triboxes;
+
+use std::path::Path;
+
+use meshsweep::collapse::Priority;
+use meshsweep_core::Hull;
+use meshsweep_host_tests::workload::Subject;
+use meshsweep_xtask::table::{Table, fixed, row};
+
+use bounds::cost::Cost;
+
+/// Faces of the base hull that most tables are about: the builder's default.
+const BASE_FACES: usize = 200;
+
+/// Measures the box tree of one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or an answer is wrong.
+pub fn measure_tree(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject_table(&subject)];
+    tables.extend(tree::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures convex bounds of one mesh file, which need not be closed; `counts` as
+/// [`bounds::tables`] takes them.
+///
+/// # Errors
+/// The file is no mesh, or a flat one.
+pub fn measure_bounds(file: &Path, counts: Option<&[Cost]>) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject_table(&subject)];
+    tables.extend(bounds::tables(&subject, counts)?);
+    Ok(tables)
+}
+
+/// Measures the overlap of one mesh file, which need not be closed, with itself under random
+/// motions.
+///
+/// # Errors
+/// The file is no mesh, or an answer is wrong.
+pub fn measure_overlap(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject_table(&subject)];
+    tables.extend(overlap::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures the stored triboxes of one mesh file, which need not be closed.
+///
+/// # Errors
+/// The file is no mesh, or triboxes deny that meshes meet.
+pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject_table(&subject)];
+    tables.extend(triboxes::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures tight hulls of one mesh file, which need not be closed, and proves each; the tables,
+/// and pictures of hulls.
+///
+/// # Errors
+/// The file is no mesh, or a hull is missing or not proved.
+pub fn measure_tight(file: &Path) -> Result<(Vec<Table>, tight::picture::Gallery), String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject_table(&subject)];
+    let (measured, hulls) = tight::tables(&subject)?;
+    tables.extend(measured);
+    Ok((tables, tight::picture::Gallery::new(&subject.name, &subject.mesh, &hulls)))
+}
+
+/// Measures the hull hierarchy and the box tree of one mesh file; the tables in the order in which
+/// they should be read.
+///
+/// # Errors
+/// The file is no closed manifold mesh, or an answer is missing that must be there.
+pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
+    let subject = Subject::load(file)?;
+    let built = subject.build(BASE_FACES, Priority::Program)?;
+    let model = open(&built.bytes)?;
+    let mut tables =
+        vec![subject_table(&subject), hulls::table(&subject), storage::build_times(&built)];
+    tables.extend([storage::sections(&model), storage::limits(&model), storage::levels(&model)]);
+    tables.push(segments::work(&subject)?);
+    tables.push(segments::engines(&subject, &model)?);
+    tables.extend(closest::tables(&subject, &model)?);
+    tables.extend([trade::tolerances(&subject, &model)?, trade::steps(&subject, &model)?]);
+    tables.push(trade::cuts(&subject, &model)?);
+    tables.push(storage::proofs(&built.bytes)?);
+    tables.extend(tree::tables(&subject)?);
+    Ok(tables)
+}
+
+/// What is measured.
+fn subject_table(subject: &Subject) -> Table {
+    let columns = ["vertices", "triangles", "diagonal"];
+    let mut table = Table::new("mesh", format!("== {} ==", subject.name), &columns);
+    table.push(row![
+        subject.mesh.positions.len(),
+        subject.mesh.triangles.len(),
+        fixed(subject.diagonal(), 4)
+    ]);
+    table
+}
+
+/// Opens a blob that was built.
+fn open(bytes: &[u8]) -> Result<Hull<'_>, String> {
+    Hull::open(bytes).map_err(|error| error.to_string())
+}

@@ -1,0 +1,50 @@
+//! The same questions to parry3d, the Rust library that a user without a microcontroller would
+//! take: an AABB tree in f32.
+
+use meshsweep_host_tests::workload::Subject;
+use parry3d::math::Vector;
+use parry3d::query::{PointQuery, Ray, RayCast};
+use parry3d::shape::TriMesh;
+
+/// A mesh in parry3d.
+pub struct Rival(TriMesh);
+
+impl Rival {
+    /// Takes over the mesh.
+    ///
+    /// # Errors
+    /// parry3d's refusal.
+    pub fn new(subject: &Subject) -> Result<Self, String> {
+        let vertices =
+            subject.mesh.positions.iter().map(|&[x, y, z]| Vector::new(x, y, z)).collect();
+        TriMesh::new(vertices, subject.mesh.triangles.clone())
+            .map(Self)
+            .map_err(|error| error.to_string())
+    }
+
+    /// parry3d's shape of the mesh.
+    #[must_use]
+    pub const fn shape(&self) -> &TriMesh {
+        &self.0
+    }
+
+    /// Bytes that it keeps, the mesh included.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.0.total_memory_size()
+    }
+
+    /// Closest point of the surface.
+    #[must_use]
+    pub fn closest(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
+        let point = self.0.project_local_point(Vector::new(x, y, z), false).point;
+        [point.x, point.y, point.z]
+    }
+
+    /// Parameter of the first hit of a segment.
+    #[must_use]
+    pub fn first_hit(&self, [a, b]: [[f32; 3]; 2]) -> Option<f32> {
+        let direction = Vector::new(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+        self.0.cast_local_ray(&Ray::new(Vector::new(a[0], a[1], a[2]), direction), 1.0, false)
+    }
+}

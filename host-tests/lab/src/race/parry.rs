@@ -1,0 +1,47 @@
+//! parry3d: a binary tree of boxes in f32.
+
+use meshsweep_host_tests::workload::Subject;
+
+use super::engine::{Answer, Engine, each};
+use super::{Scope, Workload};
+use crate::measure::rival::Rival;
+
+struct Parry(Rival);
+
+/// On every mesh.
+///
+/// # Errors
+/// parry3d's refusal.
+pub fn build<'a>(
+    subject: &Subject,
+    _: &Scope,
+    _: &'a mut Vec<u8>,
+) -> Result<Option<Box<dyn Engine + 'a>>, String> {
+    Ok(Some(Box::new(Parry(Rival::new(subject)?))))
+}
+
+impl Engine for Parry {
+    fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+
+    fn limit(&self, _: Workload) -> usize {
+        usize::MAX
+    }
+
+    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
+        each(points, answers, |point| Answer::Point(self.0.closest(point)));
+        Ok(())
+    }
+
+    fn first_hits(
+        &mut self,
+        segments: &[[[f32; 3]; 2]],
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), String> {
+        each(segments, answers, |segment| {
+            self.0.first_hit(segment).map_or(Answer::Miss, Answer::Hit)
+        });
+        Ok(())
+    }
+}

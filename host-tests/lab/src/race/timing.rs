@@ -1,0 +1,130 @@
+//! Rounds in which every engine has its turn.
+
+use meshsweep_host_tests::workload::Subject;
+
+use super::agreement::{Agreement, Truth};
+use super::engine::{Answer, ENTRANTS, Engine, Entrant, REFERENCE};
+use super::workload::{Queries, stride};
+use super::{Scale, Scope, Workload};
+use crate::measure::rival::Rival;
+use crate::measure::stopwatch::Stopwatch;
+
+/// Rounds, of which the fastest counts: others on the machine can only slow an engine down.
+const ROUNDS: usize = 3;
+
+/// An engine with its index built.
+pub struct Lane<'a> {
+    pub entrant: &'static Entrant,
+    pub engine: Box<dyn Engine + 'a>,
+    pub build_seconds: f64,
+}
+
+/// One engine on one workload.
+#[derive(Clone, Debug)]
+pub struct Lap {
+    /// What was asked.
+    pub workload: Workload,
+    /// Who answered.
+    pub engine: &'static str,
+    /// Queries answered.
+    pub queries: usize,
+    /// Nanoseconds a query, the fastest round.
+    pub nanoseconds: f64,
+    /// How many times as fast as parry3d.
+    pub speed: f64,
+    /// How well the answers agree with the others'.
+    pub agreement: Agreement,
+}
+
+/// Builds every index. `blobs` has one place for each entrant.
+pub fn lanes<'a>(
+    subject: &Subject,
+    scope: &Scope,
+    blobs: &'a mut [Vec<u8>],
+) -> Result<Vec<Lane<'a>>, String> {
+    let mut lanes = Vec::new();
+    for (entrant, blob) in ENTRANTS.iter().zip(blobs) {
+        let begun = Stopwatch::start();
+        let built = (entrant.build)(subject, scope, blob);
+        let build_seconds = begun.seconds();
+        if let Some(engine) = built.map_err(|reason| format!("{}: {reason}", entrant.name))? {
+            lanes.push(Lane { entrant, engine, build_seconds });
+        }
+    }
+    Ok(lanes)
+}
+
+/// Runs and checks all workloads.
+pub fn laps(subject: &Subject, scale: Scale, lanes: &mut [Lane<'_>]) -> Result<Vec<Lap>, String> {
+    let guide = Rival::new(subject)?;
+    let mut laps = Vec::new();
+    for workload in Workload::ALL {
+        let queries = workload.queries(subject, &guide, scale);
+        let runs = rounds(workload, &queries, lanes)?;
+        let reference = runs.iter().find(|run| run.engine == REFERENCE);
+        let reference = reference.ok_or_else(|| format!("no {REFERENCE} to compare with"))?;
+        let truth = Truth::new(subject, &queries, scale.checked);
+        for run in &runs {
+            laps.push(Lap {
+                workload,
+                engine: run.engine,
+                queries: run.answers.len(),
+                nanoseconds: run.nanoseconds,
+                speed: reference.nanoseconds / run.nanoseconds,
+                agreement: truth.compare(&run.answers, run.stride, &reference.answers),
+            });
+        }
+    }
+    Ok(laps)
+}
+
+struct Run {
+    engine: &'static str,
+    queries: Queries,
+    /// Of the workload's queries every how many-th was asked.
+    stride: usize,
+    answers: Vec<Answer>,
+    nanoseconds: f64,
+}
+
+fn rounds(
+    workload: Workload,
+    queries: &Queries,
+    lanes: &mut [Lane<'_>],
+) -> Result<Vec<Run>, String> {
+    let mut runs: Vec<(Run, &mut Lane<'_>)> = lanes
+        .iter_mut()
+        .filter(|lane| lane.engine.limit(workload) > 0)
+        .map(|lane| {
+            let stride = stride(queries.len(), lane.engine.limit(workload));
+            let queries = queries.thinned(stride);
+            let answers = Vec::with_capacity(queries.len());
+            (
+                Run {
+                    engine: lane.entrant.name,
+                    queries,
+                    stride,
+                    answers,
+                    nanoseconds: f64::INFINITY,
+                },
+                lane,
+            )
+        })
+        .collect();
+    for _ in 0..ROUNDS {
+        for (run, lane) in &mut runs {
+            let begun = Stopwatch::start();
+            match &run.queries {
+                Queries::Points(points) => lane.engine.closest(points, &mut run.answers)?,
+                Queries::Segments(segments) => {
+                    lane.engine.first_hits(segments, &mut run.answers)?
+                }
+            }
+            run.nanoseconds = run.nanoseconds.min(begun.nanoseconds_each(run.queries.len()));
+            if run.answers.len() != run.queries.len() {
+                return Err(format!("{} left queries unanswered", run.engine));
+            }
+        }
+    }
+    Ok(runs.into_iter().map(|(run, _)| run).collect())
+}

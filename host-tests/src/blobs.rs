@@ -1,0 +1,254 @@
+//! The blobs that the firmware images are asked about: split hierarchies in every coordinate format,
+//! whole and cut, box trees, triboxes and tight hulls.
+
+use std::fs;
+use std::path::Path;
+
+use meshsweep::bvh::{TreeOptions, build as build_tree};
+use meshsweep::cut::cut;
+use meshsweep::hull::{BuildOptions, build};
+use meshsweep::mesh::Mesh;
+use meshsweep::surface::VertexBits;
+use meshsweep_core::Hull;
+use meshsweep_suite::ask::{Refused, hull, tight, tree, triboxes};
+use meshsweep_suite::fold::Fold;
+use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
+
+use crate::generate::{Triangles, bracket, torus};
+use crate::golden::{bracket_hulls, torus_triboxes};
+
+/// A blob of the images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blob {
+    /// A torus of 480 triangles: fits the smallest part with the code.
+    Torus,
+    /// The bracket of 1,948 triangles.
+    Bracket,
+    /// The torus on a 16-bit grid.
+    Grid16,
+    /// The torus on a 24-bit grid.
+    Grid24,
+    /// The torus, cut after the level that follows the base hull.
+    Cut,
+    /// The torus's box tree, vertices on a grid.
+    TorusTree,
+    /// The bracket's box tree.
+    BracketTree,
+    /// The torus's box tree, vertices as f32.
+    SingleTree,
+    /// The box tree of a torus with holes, beside needles and triangles without area, with normal
+    /// cones.
+    SoupTree,
+    /// 64 triboxes of a finer torus.
+    Triboxes,
+    /// Tight hulls of the bracket.
+    Tight,
+}
+
+impl Blob {
+    /// All blobs.
+    pub const ALL: [Self; 11] = [
+        Self::Torus,
+        Self::Bracket,
+        Self::Grid16,
+        Self::Grid24,
+        Self::Cut,
+        Self::TorusTree,
+        Self::BracketTree,
+        Self::SingleTree,
+        Self::SoupTree,
+        Self::Triboxes,
+        Self::Tight,
+    ];
+
+    /// The file's name without its extension.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Torus => "torus",
+            Self::Bracket => "bracket",
+            Self::Grid16 => "grid16",
+            Self::Grid24 => "grid24",
+            Self::Cut => "cut",
+            Self::TorusTree => "torus_tree",
+            Self::BracketTree => "bracket_tree",
+            Self::SingleTree => "single_tree",
+            Self::SoupTree => "soup_tree",
+            Self::Triboxes => "triboxes",
+            Self::Tight => "tight",
+        }
+    }
+
+    fn bytes(self) -> Result<Vec<u8>, String> {
+        // 50 faces: the levels below the surface are few enough to be cut, and the splits are many.
+        let small = |vertex_bits| whole(small_torus(), 50, vertex_bits);
+        let default = TreeOptions::default();
+        match self {
+            Self::Torus => small(VertexBits::Auto),
+            Self::Bracket => whole(bracket(), BuildOptions::default().base_faces, VertexBits::Auto),
+            Self::Grid16 => small(VertexBits::Grid16),
+            Self::Grid24 => small(VertexBits::Grid24),
+            Self::Cut => {
+                let bytes = small(VertexBits::Auto)?;
+                let model = Hull::open(&bytes).map_err(|error| error.to_string())?;
+                Ok(cut(&model, 1).map_err(|error| error.to_string())?.to_bytes())
+            }
+            Self::TorusTree => Ok(box_tree(small_torus(), &default)),
+            Self::BracketTree => Ok(box_tree(bracket(), &default)),
+            // Fewer triangles: with f32 vertices and all questions the image just fits into the
+            // flash of the smallest board.
+            Self::SingleTree => {
+                Ok(box_tree(torus(2.0, 0.75, 16, 10), &TreeOptions { single: true, ..default }))
+            }
+            Self::Triboxes => Ok(torus_triboxes()),
+            Self::Tight => Ok(bracket_hulls()),
+            Self::SoupTree => Ok(box_tree(soup(), &TreeOptions { cull: true, ..default })),
+        }
+    }
+}
+
+fn small_torus() -> Triangles {
+    torus(2.0, 0.75, 20, 12)
+}
+
+fn soup() -> Triangles {
+    let (positions, mut triangles) = small_torus();
+    let mut number = 0u32..;
+    triangles.retain(|_| number.next().is_some_and(|n| n % 5 != 3));
+    // Twice the same, wound either way, without area, and so long that it crosses the hole.
+    triangles.extend([[0, 1, 13], [13, 1, 0], [7, 7, 8], [9, 9, 9], [0, 1, 120], [30, 150, 31]]);
+    (positions, triangles)
+}
+
+fn box_tree((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
+    let mesh = Mesh::new(positions, triangles);
+    let (tables, _) = build_tree(mesh.as_input(), options);
+    tables.to_bytes()
+}
+
+fn whole(
+    (positions, triangles): Triangles,
+    base_faces: usize,
+    vertex_bits: VertexBits,
+) -> Result<Vec<u8>, String> {
+    let mesh = Mesh::new(positions, triangles);
+    let options = BuildOptions { base_faces, vertex_bits, ..BuildOptions::default() };
+    let built = build(mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
+    Ok(built.bytes)
+}
+
+/// Writes each blob to `NAME.msw` and this machine's answers to `NAME.txt`, as an image prints them.
+///
+/// # Errors
+/// The builder's, or a file that cannot be written.
+pub fn write(folder: &Path) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("cannot write {}: {error}", folder.display());
+    fs::create_dir_all(folder).map_err(failed)?;
+    for blob in Blob::ALL {
+        let bytes = blob.bytes()?;
+        let path = folder.join(blob.name());
+        fs::write(path.with_extension("txt"), expected(&bytes)?).map_err(failed)?;
+        let file = path.with_extension("msw");
+        // So that cargo does not build images again whose blob has not changed.
+        if fs::read(&file).is_ok_and(|there| there == bytes) {
+            continue;
+        }
+        fs::write(file, bytes).map_err(failed)?;
+    }
+    Ok(())
+}
+
+/// What an image should print of a blob: the suite's answers on this machine. The suite asks the
+/// blob's box tree if there is one, else its triboxes, its tight hulls or its split hierarchy.
+///
+/// # Errors
+/// The core's refusal.
+pub fn expected(blob: &[u8]) -> Result<String, String> {
+    let mut lines = Lines(format!("blob {} {:016x}\n", blob.len(), Fold::of_bytes(blob)));
+    let plan = Plan::STANDARD;
+    let mut ran = run::<tree::Bvh<'_>>(blob, plan, &mut tree::Scratch::new(), &mut lines);
+    if ran == Err(Refused::NO_SECTION) {
+        ran = run::<triboxes::Triboxes<'_>>(blob, plan, &mut triboxes::Scratch::new(), &mut lines);
+    }
+    if ran == Err(Refused::NO_SECTION) {
+        ran = run::<tight::Hulls<'_>>(blob, plan, &mut tight::Scratch::new(), &mut lines);
+    }
+    if ran == Err(Refused::NO_SECTION) {
+        ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut lines);
+    }
+    ran.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
+    Ok(lines.0 + "done\n")
+}
+
+struct Lines(String);
+
+impl Clock for Lines {}
+
+impl Recorder for Lines {
+    fn block(&mut self, kind: Kind, index: u32, hash: u64) {
+        self.0.push_str(&format!("block {} {index} {hash:016x}\n", kind.name()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Blob;
+    use meshsweep_core::internal::format::layout::VertexFormat;
+    use meshsweep_core::{Bvh, Hull, Triboxes};
+    use meshsweep_suite::Subject;
+    use meshsweep_suite::ask::hull;
+    use meshsweep_suite::ask::tight::Hulls;
+
+    const HULLS: [Blob; 5] = [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut];
+    const TREES: [Blob; 4] = [Blob::TorusTree, Blob::BracketTree, Blob::SingleTree, Blob::SoupTree];
+
+    #[test]
+    fn every_blob_opens_and_the_suite_has_memory_for_it() {
+        for blob in HULLS {
+            let bytes = blob.bytes().expect("a blob");
+            let opened = hull::Model::open(&bytes).expect("opens");
+            assert!(opened.memory_suffices(), "{blob:?}");
+        }
+        for blob in TREES {
+            let bytes = blob.bytes().expect("a blob");
+            assert!(Bvh::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
+        }
+        let bytes = Blob::Triboxes.bytes().expect("a blob");
+        assert!(Triboxes::open(&bytes).expect("opens").memory_suffices());
+        let bytes = Blob::Tight.bytes().expect("a blob");
+        assert!(Hulls::open(&bytes).expect("opens").memory_suffices());
+    }
+
+    #[test]
+    fn blobs_differ_in_format_and_in_what_they_hold() {
+        let header =
+            |blob: Blob| *Hull::open(&blob.bytes().expect("a blob")).expect("opens").header();
+        assert_eq!(header(Blob::Torus).vertex_format, VertexFormat::F32);
+        assert_eq!(header(Blob::Grid16).vertex_format, VertexFormat::Grid16);
+        assert_eq!(header(Blob::Grid24).vertex_format, VertexFormat::Grid24);
+        assert_eq!(header(Blob::Torus).surface_triangles, 480);
+        assert_eq!(header(Blob::Bracket).surface_triangles, 1948);
+        let cut = header(Blob::Cut);
+        assert!(cut.surface_triangles == 0 && cut.splits > 0);
+    }
+
+    #[test]
+    fn trees_differ_in_format_and_in_what_they_hold() {
+        for blob in TREES {
+            let bytes = blob.bytes().expect("a blob");
+            let tree = Bvh::open(&bytes).expect("opens");
+            let header = tree.header();
+            assert!(tree.serves_distances() && tree.serves_segments(), "{blob:?}");
+            assert_eq!(header.is_f32(), blob == Blob::SingleTree, "{blob:?}");
+            assert_eq!(header.is_closed(), blob != Blob::SoupTree, "{blob:?}");
+            assert_eq!(tree.serves_culling(), blob == Blob::SoupTree, "{blob:?}");
+            let triangles = match blob {
+                Blob::BracketTree => 1948,
+                Blob::SingleTree => 320,
+                Blob::SoupTree => 390,
+                _ => 480,
+            };
+            assert_eq!(header.triangles, triangles, "{blob:?}");
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Questions to fixtures that a simulator counts: the first so many of a seeded list.
+
+mod tree;
+mod triboxes;
+
+use std::hint::black_box;
+use std::path::Path;
+
+use meshsweep_core::{Budget, Face, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
+
+use crate::workload::{Points, Subject, points, segments};
+
+/// Queries that are placed, whether they are asked or not, so that placing them is no part of a
+/// difference between two runs.
+const PLACED: usize = 2500;
+
+/// Asks the first `queries` of a question; `NODES TRIANGLES A_LEAF`: the nodes and triangles looked
+/// at, and the triangles of a leaf, where the question counts them.
+///
+/// # Errors
+/// An unknown question, or a fixture that is missing or refused.
+pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<String, String> {
+    if let Some(question) = question.strip_prefix("tree ") {
+        let (work, triangles) = tree::ask(fixtures, question, queries)?;
+        return Ok(format!("{} {} {triangles}", work.splits, work.triangles));
+    }
+    match question.strip_prefix("triboxes ") {
+        Some(question) => triboxes::ask(fixtures, question, queries),
+        None => hull(fixtures, question, queries),
+    }
+    .map(|()| "0 0 1".to_owned())
+}
+
+/// Questions to the hull hierarchy.
+fn hull(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
+    let subject = Subject::load(&fixtures.join("bracket.stl"))?;
+    let blob = std::fs::read(fixtures.join("bracket.msw"))
+        .map_err(|error| format!("fixtures/bracket.msw: {error}"))?;
+    let model = Hull::open(&blob).map_err(|error| error.to_string())?;
+    let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
+    let failed = |error: QueryError| error.to_string();
+    if let Some(kind) = Points::ALL.into_iter().find(|kind| kind.name() == question) {
+        for point in points(&subject, kind, PLACED).into_iter().take(queries) {
+            black_box(model.closest_point(point, Budget::EXACT, &mut queue).map_err(failed)?);
+        }
+        return Ok(());
+    }
+    let search = match question {
+        "first_hit" => None,
+        "outer_first" => Some(Search::First),
+        "outer_all" => Some(Search::Outer),
+        _ => return Err(format!("no question `{question}`")),
+    };
+    let (mut performed, mut swept) =
+        (vec![0; model.refined_words()], vec![0; model.refined_words()]);
+    let mut candidates = vec![Face::EMPTY; 64];
+    let mut hits = [Hit::EMPTY; 16];
+    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
+    for [a, b] in segments(&subject, PLACED).into_iter().take(queries) {
+        if let Some(search) = search {
+            black_box(
+                model
+                    .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
+                    .map_err(failed)?,
+            );
+        } else {
+            black_box(model.first_hit(a, b, Budget::EXACT, &mut queue).map_err(failed)?);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,134 @@
+//! A batch has the bits of its queries one at a time, whatever its order and however many threads.
+
+use meshsweep::bvh::{self, TreeOptions, build};
+use meshsweep::mesh::Mesh;
+use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
+use meshsweep_host_tests::generate::{Rng, Triangles, rough_sphere, scaled, torus};
+use std::num::NonZeroUsize;
+
+fn blob((positions, triangles): &Triangles) -> Vec<u8> {
+    let mesh = Mesh::new(positions.clone(), triangles.clone());
+    build(mesh.as_input(), &TreeOptions::default()).0.to_bytes()
+}
+
+fn random(count: usize, size: f32) -> Vec<[f32; 3]> {
+    let mut rng = Rng::new(7);
+    (0..count).map(|_| rng.point_in([-size; 3], [size; 3])).collect()
+}
+
+fn bits(answer: &ClosestPoint) -> ([u32; 5], Option<u32>, meshsweep_core::Ended) {
+    let [x, y, z] = answer.point.map(f32::to_bits);
+    (
+        [answer.distance.lower.to_bits(), answer.distance.upper.to_bits(), x, y, z],
+        answer.triangle,
+        answer.ended,
+    )
+}
+
+fn one_at_a_time(
+    tree: &Bvh<'_>,
+    points: &[[f32; 3]],
+    stop: &Budget,
+    stack: &mut [ScratchEntry],
+) -> Vec<ClosestPoint> {
+    points.iter().map(|&p| tree.closest_point(p, *stop, stack).unwrap()).collect()
+}
+
+#[test]
+fn a_batch_has_the_bits_of_its_queries_whatever_its_order() {
+    for (mesh, size) in
+        [(torus(2.0, 0.75, 60, 40), 4.0), (scaled(&rough_sphere(3, 0.3, 2), 1.0e30), 2.0e30)]
+    {
+        let bytes = blob(&mesh);
+        let tree = Bvh::open(&bytes).unwrap();
+        let needed = tree.header().stack_entries as usize;
+        let mut points = random(500, size);
+        // Equal ones, one far away, one at the end of f32.
+        points.extend([[0.25 * size; 3]; 20]);
+        points.extend([[1.0e7 * size, 0.0, 0.0], [f32::MAX, f32::MIN, 0.0]]);
+        for stop in [Budget::EXACT, Budget::EXACT.with_relative(0.1), Budget::EXACT.with_steps(3)] {
+            for entries in [needed, 4] {
+                let mut stack = vec![ScratchEntry::EMPTY; entries];
+                let wanted = one_at_a_time(&tree, &points, &stop, &mut stack);
+                for room in [0, 1, 2, 7, 64, 2 * points.len(), 3 * points.len()] {
+                    let mut answers = vec![wanted[0]; points.len()];
+                    let mut order = vec![u64::MAX; room];
+                    let mut hint = Hint::NONE;
+                    tree.closest_points(&points, &mut hint, &mut answers, stop, &mut stack)
+                        .unwrap();
+                    for (answer, wanted) in answers.iter().zip(&wanted) {
+                        assert_eq!(
+                            bits(answer),
+                            bits(wanted),
+                            "{stop:?}, {entries} entries, room {room}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let bytes = blob(&torus(2.0, 0.75, 60, 40));
+    let tree = Bvh::open(&bytes).unwrap();
+    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    for count in [0, 1, 2, 5, 1000] {
+        let points = random(count, 4.0);
+        let wanted = one_at_a_time(&tree, &points, &Budget::EXACT, &mut stack);
+        for threads in [1, 2, 3, 7, 16] {
+            let threads = NonZeroUsize::new(threads).unwrap();
+            let answers = bvh::closest_points(&tree, &points, &Budget::EXACT, threads).unwrap();
+            assert_eq!(answers.len(), count);
+            assert!(
+                answers.iter().zip(&wanted).all(|(answer, wanted)| bits(answer) == bits(wanted))
+            );
+        }
+    }
+}
+
+#[test]
+fn a_batch_in_order_takes_less_work() {
+    let bytes = blob(&torus(2.0, 0.75, 120, 80));
+    let tree = Bvh::open(&bytes).unwrap();
+    let points = random(4000, 4.0);
+    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    let one = one_at_a_time(&tree, &points, &Budget::EXACT, &mut stack);
+    let batch = bvh::closest_points(&tree, &points, &Budget::EXACT, NonZeroUsize::MIN).unwrap();
+    let total =
+        |answers: &[ClosestPoint]| answers.iter().map(|a| u64::from(a.work.total())).sum::<u64>();
+    assert!(total(&batch) < total(&one), "{} against {}", total(&batch), total(&one));
+}
+
+#[test]
+fn errors_are_typed_and_name_the_query() {
+    let bytes = blob(&torus(2.0, 0.75, 20, 12));
+    let tree = Bvh::open(&bytes).unwrap();
+    let mut stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
+    let mut points = random(50, 4.0);
+    let untouched = one_at_a_time(&tree, &points[..1], &Budget::EXACT, &mut stack)[0];
+    let ask = |points: &[[f32; 3]], answers: usize, stop: &Budget, stack: &mut [ScratchEntry]| {
+        let mut answers = vec![untouched; answers];
+        let result =
+            tree.closest_points(points, &mut Hint::NONE.clone(), &mut answers, *stop, stack);
+        assert!(result.is_ok() || answers.iter().all(|a| *a == untouched));
+        result
+    };
+    assert_eq!(
+        ask(&points, 49, &Budget::EXACT, &mut stack),
+        Err(QueryError::AnswerCount { points: 50, answers: 49 })
+    );
+    assert_eq!(ask(&[], 0, &Budget::EXACT, &mut stack), Ok(()));
+    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut []), Err(QueryError::NoScratch));
+    let wrong = Budget::EXACT.with_absolute(f32::NAN);
+    assert_eq!(ask(&points, 50, &wrong, &mut stack), Err(QueryError::Tolerance));
+    (points[31][1], points[44][0]) = (f32::INFINITY, f32::NAN);
+    let first = QueryError::PointNotFinite { index: 31 };
+    assert_eq!(ask(&points, 50, &Budget::EXACT, &mut stack), Err(first));
+    for threads in [1, 2, 3, 50] {
+        let threads = NonZeroUsize::new(threads).unwrap();
+        let refused = bvh::closest_points(&tree, &points, &Budget::EXACT, threads);
+        assert_eq!(refused.map(|a| a.len()), Err(first));
+    }
+}

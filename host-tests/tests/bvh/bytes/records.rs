@@ -1,0 +1,104 @@
+//! Boxes, vertices and source numbers.
+
+use super::{edited, record, single, sphere};
+use meshsweep_core::{Bvh, OpenError, SectionKind};
+use meshsweep_host_tests::corrupt::{entry, put_u32, word};
+
+// Bytes of records.
+const FRAME: usize = 108;
+const BOXES: usize = 72;
+
+#[test]
+fn frames_out_of_range_name_the_node() {
+    let huge = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38];
+    for node in [0usize, 3] {
+        for field in 0..15 {
+            let negative = (field >= 12).then_some(-1.0);
+            for x in huge.into_iter().chain(negative) {
+                let result = edited(sphere(), SectionKind::TreeFrames, |bytes| {
+                    put_u32(bytes, FRAME * node + 48 + 4 * field, x.to_bits());
+                });
+                assert_eq!(
+                    result,
+                    record(SectionKind::TreeFrames, node as u32),
+                    "{x} in field {field}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn boxes_out_of_range_name_the_node() {
+    let huge = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38];
+    for node in [0usize, 3] {
+        for field in 0..6 {
+            let negative = (field >= 3).then_some(-1.0);
+            for x in huge.into_iter().chain(negative) {
+                let result = edited(sphere(), SectionKind::TreeBoxes, |bytes| {
+                    put_u32(bytes, BOXES * node + 48 + 4 * field, x.to_bits());
+                });
+                assert_eq!(
+                    result,
+                    record(SectionKind::TreeBoxes, node as u32),
+                    "{x} in field {field}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn vertices_that_are_outside_or_not_numbers_name_the_leaf() {
+    let fans = |bytes: Vec<u8>, at: usize, value: u32| {
+        edited(bytes, SectionKind::TreeFans, |fans| put_u32(fans, at, value))
+    };
+    for x in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e9, -1e9] {
+        assert_eq!(fans(single(), 4, x.to_bits()), record(SectionKind::TreeFans, 0), "{x}");
+    }
+    // On the grid every number is one: the sphere does not fill its grid, so the greatest lies
+    // outside.
+    assert_eq!(fans(sphere(), 0, u32::MAX), record(SectionKind::TreeFans, 0));
+}
+
+#[test]
+fn bytes_after_the_last_leaf_must_be_zero() {
+    for bytes in [sphere(), single()] {
+        let length = entry(&bytes, SectionKind::TreeFans as u32).bytes as usize;
+        let padding = if Bvh::open(&bytes).expect("opens").header().is_f32() { 96 } else { 48 };
+        for at in [length - 1, length - padding] {
+            let result = edited(bytes.clone(), SectionKind::TreeFans, |fans| fans[at] = 1);
+            assert_eq!(result, Err(OpenError::MissingSection { section: SectionKind::TreeFans }));
+        }
+    }
+}
+
+#[test]
+fn source_numbers_out_of_range_name_the_block_or_the_triangle() {
+    let source = |at: usize, change: fn(u32) -> u32| {
+        edited(sphere(), SectionKind::TreeSource, |bytes| {
+            put_u32(bytes, at, change(word(bytes, at).expect("a record")));
+        })
+    };
+    // The second block's least number, offset and width.
+    let in_block = source(8, |_| 320);
+    assert_eq!(in_block, record(SectionKind::TreeSource, 64), "a number past the input's");
+    assert_eq!(
+        source(8, |_| u32::MAX),
+        record(SectionKind::TreeSource, 64),
+        "a sum past the integers"
+    );
+    for change in
+        [(|word| word + 32) as fn(u32) -> u32, |word| word - 32, |_| u32::MAX, |word| word & 31]
+    {
+        assert_eq!(source(12, change), record(SectionKind::TreeSource, 1), "data elsewhere");
+    }
+    assert_eq!(
+        source(12, |word| word ^ 1),
+        record(SectionKind::TreeSource, 2),
+        "the next block is elsewhere"
+    );
+    // The last of five blocks: too wide for the section.
+    let missing = Err(OpenError::MissingSection { section: SectionKind::TreeSource });
+    assert_eq!(source(36, |word| word | 31), missing);
+}

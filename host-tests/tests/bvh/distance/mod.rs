@@ -1,0 +1,9 @@
+//! Distance questions to the box tree against brute force.
+
+mod all_within;
+mod closest;
+mod nearest;
+mod scenes;
+mod side;
+mod winding;
+mod within;

@@ -1,0 +1,364 @@
+//! Signed distance.
+
+use super::scenes::{STACK, allowed_width, closed, stack};
+use super::winding::winding_number;
+use meshsweep_core::{Budget, Ended, QueryError, Side, SignedDistance, Undecided};
+use meshsweep_host_tests::generate::corpus::{IDENTITY, soups};
+use meshsweep_host_tests::generate::{
+    Rng, Triangles, cube, icosphere, inverted, joined, rough_sphere, scaled, torus, transformed,
+};
+use meshsweep_host_tests::scene::Scene;
+use proptest::prelude::*;
+
+fn ask(scene: &Scene, p: [f32; 3], stop: &Budget, entries: usize) -> SignedDistance {
+    scene.bvh().signed_distance(p, *stop, &mut stack(entries)).expect("a finite question")
+}
+
+fn number(scene: &Scene, p: [f32; 3]) -> Option<i32> {
+    winding_number(p, &scene.positions, &scene.triangles, f64::from(scene.size()))
+}
+
+/// The side is that of the winding number, whose value on the inside is `inside`; the interval
+/// contains the signed distance. Whether there is a side.
+fn check(scene: &Scene, p: [f32; 3], inside: i32, answer: &SignedDistance) -> bool {
+    let (name, truth) = (&scene.name, scene.truth(p));
+    let signed = match (answer.side, number(scene, p)) {
+        (Side::Undecided(_), _) => {
+            assert_eq!(
+                (answer.distance.lower, answer.distance.upper),
+                (-answer.closest.distance.upper, answer.closest.distance.upper)
+            );
+            assert!(
+                truth.lower <= f64::from(answer.distance.upper),
+                "{name}: {p:?}: {answer:?} {truth:?}"
+            );
+            return false;
+        }
+        (side, Some(number)) => {
+            let expected = if number == inside { Side::Inside } else { Side::Outside };
+            assert_eq!(
+                side, expected,
+                "{name}: {p:?}: {answer:?}, winding number {number}, {truth:?}"
+            );
+            if side == Side::Inside {
+                (-truth.upper, -truth.lower)
+            } else {
+                (truth.lower, truth.upper)
+            }
+        }
+        (Side::Inside, None) => (-truth.upper, -truth.lower),
+        (Side::Outside, None) => (truth.lower, truth.upper),
+    };
+    let holds = f64::from(answer.distance.lower) <= signed.1
+        && signed.0 <= f64::from(answer.distance.upper);
+    assert!(holds, "{name}: {p:?}: {answer:?} does not contain {signed:?}");
+    true
+}
+
+#[test]
+fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
+    for scene in closed() {
+        assert!(scene.bvh().header().is_closed(), "{}", scene.name);
+        let (mut undefined, mut clear) = (0, 0);
+        for p in scene.points(480, &mut Rng::new(61)) {
+            let answer = ask(&scene, p, &Budget::EXACT, STACK);
+            let defined = check(&scene, p, 1, &answer);
+            let truth = scene.truth(p);
+            if truth.lower > allowed_width(&scene, truth.upper) {
+                clear += 1;
+                undefined += u32::from(!defined);
+                let ended = if defined { Ended::Exact } else { Ended::Resolution };
+                assert_eq!(answer.closest.ended, ended, "{}: {p:?}", scene.name);
+            }
+        }
+        // Their triangles have no certain normals, or lie closer together than rounding can tell.
+        let hopeless = ["needle comb", "spire"].iter().any(|name| scene.name.starts_with(name));
+        assert!(
+            clear > 100 && (undefined == 0 || hopeless),
+            "{}: {undefined} of {clear}",
+            scene.name
+        );
+    }
+}
+
+#[test]
+fn centre_of_a_sphere_is_inside() {
+    for single in [false, true] {
+        for level in [0, 1, 3] {
+            let scene = Scene::tree("icosphere", icosphere(level), single);
+            assert_eq!(ask(&scene, [0.0; 3], &Budget::EXACT, STACK).side, Side::Inside);
+        }
+    }
+}
+
+#[test]
+fn beyond_edges_and_vertices_of_a_cube_all_is_outside() {
+    for single in [false, true] {
+        for n in [1, 3] {
+            let scene = Scene::tree("cube", cube(n), single);
+            for x in [-1.000_1, -1.0, -0.999_999_9, -0.5, 0.0, 0.999_99, 1.0, 1.000_000_1, 1.5] {
+                for y in [-1.0, -0.999_999, 0.0, 1.0, 1.000_01] {
+                    for p in [[2.0, x, y], [x, 2.0, y], [x, y, -1.01], [x, y, 40.0]] {
+                        let answer = ask(&scene, p, &Budget::EXACT, STACK);
+                        assert_eq!(answer.side, Side::Outside, "{}: {p:?}: {answer:?}", scene.name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn sharp_edges_and_tips_have_a_side() {
+    // Acute everywhere, so that triangles with their backs to the point are as near as those with
+    // their fronts.
+    for single in [false, true] {
+        for scene in
+            closed().iter().filter(|s| s.name.contains("spire") || s.name.contains("spiky"))
+        {
+            let size = scene.size();
+            let mut rng = Rng::new(62);
+            let mut defined = 0;
+            for i in 0..400 {
+                let vertex = scene.positions[i % scene.positions.len()];
+                let d = rng.direction();
+                let p: [f32; 3] = std::array::from_fn(|k| vertex[k] + d[k] * size * 1e-3);
+                defined += u32::from(check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK)));
+            }
+            // Near the tip of a spire opposite walls are nearer to each other than rounding tells
+            // apart.
+            assert!(defined > 250, "{}: {defined} of 400, {single}", scene.name);
+        }
+    }
+}
+
+fn moved(mesh: &Triangles, by: [f32; 3]) -> Triangles {
+    transformed(mesh, IDENTITY, by)
+}
+
+#[test]
+fn an_inverted_mesh_exchanges_the_sides() {
+    for single in [false, true] {
+        let scene = Scene::tree("inverted torus", inverted(&torus(2.0, 0.75, 24, 12)), single);
+        for p in scene.points(240, &mut Rng::new(63)) {
+            check(&scene, p, 0, &ask(&scene, p, &Budget::EXACT, STACK));
+        }
+        assert_eq!(ask(&scene, [40.0, 0.0, 3.0], &Budget::EXACT, STACK).side, Side::Inside);
+        assert_eq!(ask(&scene, [1e20, 0.0, 3.0], &Budget::EXACT, STACK).side, Side::Inside);
+    }
+}
+
+#[test]
+fn a_cavity_is_outside() {
+    let hollow = joined(&icosphere(3), &inverted(&scaled(&icosphere(2), 0.5)));
+    for single in [false, true] {
+        let scene = Scene::tree("hollow sphere", hollow.clone(), single);
+        for p in scene.points(240, &mut Rng::new(64)) {
+            check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK));
+        }
+        assert_eq!(ask(&scene, [0.0; 3], &Budget::EXACT, STACK).side, Side::Outside);
+        assert_eq!(ask(&scene, [0.75, 0.0, 0.0], &Budget::EXACT, STACK).side, Side::Inside);
+    }
+}
+
+#[test]
+fn overlapping_parts_answer_for_the_nearest_surface() {
+    let scene = Scene::tree("overlap", joined(&cube(2), &moved(&cube(2), [1.0, 0.0, 0.0])), true);
+    // Within the first cube, outside of the second, next to the second's wall at 0; and within
+    // both.
+    assert_eq!(ask(&scene, [-0.1, 0.0, 0.0], &Budget::EXACT, STACK).side, Side::Outside);
+    assert_eq!(ask(&scene, [0.1, 0.0, 0.0], &Budget::EXACT, STACK).side, Side::Inside);
+}
+
+#[test]
+fn overlapping_parts_that_are_equally_near_are_not_guessed() {
+    let turned = [
+        [0.764_842, -0.644_218, 0.0],
+        [0.593_361, 0.704_466, -0.389_418],
+        [0.250_870, 0.297_843, 0.921_061],
+    ];
+    let big = transformed(&scaled(&cube(1), 2.0), turned, [0.0; 3]);
+    let beam =
+        transformed(&cube(1), [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [3.0, 0.0, 0.0]);
+    let beam = transformed(&beam, turned, [0.0; 3]);
+    let [both, big, beam] =
+        [joined(&big, &beam), big, beam].map(|mesh| Scene::tree("beam in a box", mesh, true));
+    let mut rng = Rng::new(66);
+    let (mut sides, mut open) = ([0u32; 2], 0u32);
+    for i in 0..6_000 {
+        // Within the box, as far from its wall, whose back is there, as from the beam's end, whose
+        // front is.
+        let y = 0.05 + 0.9 * f64::from(rng.below(1000) as u32) / 1000.0;
+        let off = [0.0, 1e-8, 1e-7, 3e-7, 1e-6, 1e-5, 1e-3][i % 7]
+            * (f64::from(rng.below(3) as u32) - 1.0);
+        let flat = [y - 1.0 + off, y, 0.1 * f64::from(rng.below(9) as u32) - 0.4];
+        let p: [f32; 3] = std::array::from_fn(|k| {
+            turned[k].iter().zip(flat).map(|(row, x): (&f32, f64)| f64::from(*row) * x).sum::<f64>()
+                as f32
+        });
+        let (wall, end) = (big.truth(p), beam.truth(p));
+        let answer = ask(&both, p, &Budget::EXACT, STACK);
+        match answer.side {
+            Side::Undecided(_) => open += 1,
+            Side::Inside => assert!(wall.lower <= end.upper, "{p:?} {answer:?} {wall:?} {end:?}"),
+            Side::Outside => assert!(end.lower <= wall.upper, "{p:?} {answer:?} {wall:?} {end:?}"),
+        }
+        if !matches!(answer.side, Side::Undecided(_)) {
+            sides[usize::from(answer.side == Side::Inside)] += 1;
+        }
+    }
+    assert!(sides.iter().all(|&count| count > 100) && open > 500, "{sides:?} {open}");
+}
+
+#[test]
+fn thin_walls_are_never_guessed() {
+    // A plate of one step of the grid, and thinner: seen from afar both faces are equally near.
+    for (thickness, single) in [(2e-5, false), (1e-6, true), (1e-7, true)] {
+        let (mut positions, triangles) = cube(2);
+        positions.iter_mut().for_each(|p| p[2] *= thickness);
+        let scene = Scene::tree("plate", (positions, triangles), single);
+        let mut rng = Rng::new(65);
+        for i in 0..300 {
+            let far = 10f32.powi(i % 9 - 4);
+            let p = rng.direction().map(|x| x * far);
+            check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK));
+        }
+    }
+}
+
+#[test]
+fn open_meshes_and_soups_have_no_side() {
+    let (positions, mut triangles) = cube(2);
+    triangles.pop();
+    let mut meshes = soups();
+    meshes.push(("open cube", (positions, triangles)));
+    for (name, mesh) in meshes {
+        let scene = Scene::tree(name, mesh, false);
+        if scene.bvh().header().is_closed() {
+            continue;
+        }
+        for p in scene.points(24, &mut Rng::new(66)) {
+            let answer = ask(&scene, p, &Budget::EXACT, STACK);
+            assert_eq!(
+                (answer.side, answer.closest.ended),
+                (Side::Undecided(Undecided::OpenMesh), Ended::Exact),
+                "{name}: {p:?}"
+            );
+            check(&scene, p, 1, &answer);
+        }
+    }
+}
+
+#[test]
+fn flat_closed_sheets_have_no_side() {
+    // Every triangle twice, front to back: closed, and no inside.
+    let sheet = vec![[0, 1, 2], [1, 3, 2], [0, 2, 1], [1, 2, 3]];
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.25], [0.0, 1.0, 0.5], [1.0, 1.0, 0.75]];
+    for single in [false, true] {
+        let scene = Scene::tree("sheet", (positions.clone(), sheet.clone()), single);
+        assert!(scene.bvh().header().is_closed());
+        for p in scene.points(120, &mut Rng::new(67)) {
+            let answer = ask(&scene, p, &Budget::EXACT, STACK);
+            assert_ne!(answer.side, Side::Inside, "{p:?}: {answer:?}");
+        }
+    }
+}
+
+#[test]
+fn distance_is_the_closest_points() {
+    for scene in closed() {
+        let tree = scene.bvh();
+        for p in scene.points(60, &mut Rng::new(68)) {
+            let (signed, closest) = (
+                ask(&scene, p, &Budget::EXACT, STACK).closest,
+                tree.closest_point(p, Budget::EXACT, &mut stack(STACK)).expect("finite"),
+            );
+            assert_eq!(
+                (signed.distance.upper, signed.triangle, signed.point),
+                (closest.distance.upper, closest.triangle, closest.point),
+                "{}: {p:?}",
+                scene.name
+            );
+            let off = (f64::from(signed.distance.lower) - f64::from(closest.distance.lower)).abs();
+            // The plain query lets its certificates fall short by 2^-19 of the distance.
+            assert!(
+                off <= 2e-6 * f64::from(signed.distance.upper) + allowed_width(&scene, 0.0),
+                "{}: {p:?}",
+                scene.name
+            );
+        }
+    }
+}
+
+#[test]
+fn short_stacks_and_few_steps_leave_the_side_open_or_right() {
+    let mut undefined = 0;
+    for scene in closed() {
+        for p in scene.points(24, &mut Rng::new(69)) {
+            for (steps, entries) in
+                [(u32::MAX, 1), (u32::MAX, 4), (u32::MAX, 12), (0, 9), (3, STACK), (8, STACK)]
+            {
+                let answer = ask(&scene, p, &Budget::EXACT.with_steps(steps), entries);
+                undefined += u32::from(!check(&scene, p, 1, &answer));
+                assert!(answer.closest.work.splits <= steps);
+            }
+        }
+    }
+    assert!(undefined > 100, "only {undefined} searches were cut short");
+}
+
+#[test]
+fn far_points_are_outside() {
+    for factor in [1.0, 1e-30, 1e30] {
+        for single in [false, true] {
+            let scene = Scene::tree("torus", scaled(&torus(2.0, 0.75, 12, 8), factor), single);
+            let mut rng = Rng::new(70);
+            let mut far = 1.5 * f64::from(scene.size());
+            while far < 3e38 {
+                let p = rng.direction().map(|x| (f64::from(x) * far) as f32);
+                let answer = ask(&scene, p, &Budget::EXACT, STACK);
+                check(&scene, p, 1, &answer);
+                assert_eq!(answer.side, Side::Outside, "{}: {p:?}: {answer:?}", scene.name);
+                far *= 5.0;
+            }
+        }
+    }
+}
+
+#[test]
+fn bad_questions_are_typed_errors() {
+    let scene = Scene::tree("cube", cube(1), false);
+    let tree = scene.bvh();
+    let nan = [f32::NAN, 0.0, 0.0];
+    assert_eq!(
+        tree.signed_distance(nan, Budget::EXACT, &mut stack(64)),
+        Err(QueryError::NotFinite)
+    );
+    assert_eq!(tree.signed_distance([0.0; 3], Budget::EXACT, &mut []), Err(QueryError::NoScratch));
+    let bad = Budget::EXACT.with_absolute(f32::NAN);
+    assert_eq!(tree.signed_distance([0.0; 3], bad, &mut stack(64)), Err(QueryError::Tolerance));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn side_holds_for_any_rough_sphere_and_order_of_triangles(
+        seed in 0u64..100_000,
+        amplitude in 0f32..0.95,
+        single in any::<bool>(),
+        p in prop::array::uniform3(-2f32..2.0),
+    ) {
+        let (positions, mut triangles) = rough_sphere(1, amplitude, seed);
+        let scene = Scene::tree("rough sphere", (positions.clone(), triangles.clone()), single);
+        let one = ask(&scene, p, &Budget::EXACT, STACK);
+        check(&scene, p, 1, &one);
+        let mut rng = Rng::new(seed);
+        (1..triangles.len()).for_each(|i| triangles.swap(i, rng.below(i + 1)));
+        let shuffled = Scene::tree("shuffled", (positions, triangles), single);
+        check(&shuffled, p, 1, &ask(&shuffled, p, &Budget::EXACT, STACK));
+        for p in scene.points(24, &mut Rng::new(seed)) {
+            check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK));
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The box tree: its bytes, its kernels and its questions.
+
+mod batch;
+mod bytes;
+mod check;
+mod coherent;
+mod cull;
+mod distance;
+mod kernels;
+mod overlap;
+mod segments;

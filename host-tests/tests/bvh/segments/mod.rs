@@ -1,0 +1,8 @@
+//! Segments on the box tree against exact predicates on the input mesh.
+
+mod aimed;
+mod all_hits;
+mod scenes;
+mod settled;
+mod truth;
+mod watertight;

@@ -1,0 +1,87 @@
+//! The committed blobs are the builder's, and the committed answers are this machine's.
+
+use std::path::{Path, PathBuf};
+
+use meshsweep_core::{Bvh, Hull, TightHulls, Triboxes};
+use meshsweep_host_tests::golden::{
+    bracket_hulls, bracket_model, groove_tree, hull_answers, tight_answers, torus_triboxes,
+    tree_answers, tribox_answers,
+};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
+}
+
+fn read(name: &str) -> Vec<u8> {
+    std::fs::read(folder().join(name)).expect("the fixture is there")
+}
+
+#[test]
+fn committed_tree_is_what_the_builder_makes() {
+    assert!(
+        read("groove.msw") == groove_tree(),
+        "fixtures/groove.msw is out of date: run `cargo xtask fixtures`"
+    );
+}
+
+#[test]
+fn committed_tree_opens_with_every_triangle_and_every_section() {
+    let bytes = read("groove.msw");
+    let tree = Bvh::open(&bytes).expect("opens");
+    assert_eq!(tree.header().triangles, tree.input_triangles());
+    assert!(tree.serves_distances() && tree.serves_segments() && tree.serves_culling());
+    assert!(tree.header().is_closed());
+}
+
+#[test]
+fn committed_triboxes_are_what_the_builder_makes() {
+    let bytes = read("torus.msw");
+    assert!(
+        bytes == torus_triboxes(),
+        "fixtures/torus.msw is out of date: run `cargo xtask fixtures`"
+    );
+    let triboxes = Triboxes::open(&bytes).expect("opens");
+    assert!(triboxes.is_solid() && triboxes.leaf_count() == 64);
+}
+
+#[test]
+fn committed_hulls_are_what_the_builder_makes() {
+    let bytes = read("hulls.msw");
+    assert!(
+        bytes == bracket_hulls(),
+        "fixtures/hulls.msw is out of date: run `cargo xtask fixtures`"
+    );
+    let hulls = TightHulls::open(&bytes).expect("opens");
+    assert!(hulls.records().map(|record| record.faces).eq([64, 160]) && !hulls.is_nested());
+}
+
+#[test]
+fn answers_have_the_committed_bits() {
+    let here = hull_answers("bracket.msw", &read("bracket.msw")).expect("opens")
+        + &tree_answers("groove.msw", &read("groove.msw")).expect("opens")
+        + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens")
+        + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens");
+    let committed = String::from_utf8(read("answers.txt")).expect("text");
+    for (here, committed) in here.lines().zip(committed.lines()) {
+        assert_eq!(
+            here, committed,
+            "other bits; if they are meant to be, run `cargo xtask fixtures`"
+        );
+    }
+    assert_eq!(here.lines().count(), committed.lines().count());
+}
+
+#[test]
+fn committed_blob_is_what_the_builder_makes() {
+    let built = bracket_model(&folder()).expect("the fixture is a closed mesh");
+    let committed = read("bracket.msw");
+    assert!(committed == built, "fixtures/bracket.msw is out of date: run `cargo xtask fixtures`");
+}
+
+#[test]
+fn committed_blob_opens_with_every_triangle() {
+    let committed = read("bracket.msw");
+    let model = Hull::open(&committed).expect("opens");
+    assert_eq!(model.header().surface_triangles, 1948);
+    assert_eq!(model.header().surface_error, 0.0);
+}

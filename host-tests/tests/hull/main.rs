@@ -1,0 +1,9 @@
+//! The hull hierarchy: its bytes, its proof and its questions.
+
+mod bytes;
+mod check;
+mod closest;
+mod edge_cases;
+mod outer_hits;
+mod scenes;
+mod segments;

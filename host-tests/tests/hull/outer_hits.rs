@@ -1,0 +1,261 @@
+//! Hits on the refined hull: the first is the surface's first, however short the working memory,
+//! and no answer is a wrong "clear".
+
+use super::scenes::{exact, options};
+use meshsweep_core::{
+    Budget, Ended, Face, Hit, Hull, OuterHits, QueryError, RefinedHull, ScratchEntry, Search,
+};
+use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, torus};
+use meshsweep_host_tests::oracle::contacts;
+use meshsweep_host_tests::scene::Scene;
+use std::sync::mpsc;
+use std::time::Duration;
+
+type Segment = ([f32; 3], [f32; 3]);
+
+/// Memory of a front: words in each bit set, candidates.
+type Memory = (usize, usize);
+
+fn ask(
+    model: &Hull<'_>,
+    (a, b): Segment,
+    search: Search,
+    (words, faces): Memory,
+) -> (OuterHits, Vec<Hit>) {
+    // What the memory held before does not matter.
+    let (mut performed, mut swept) = (vec![u32::MAX; words], vec![0x5A5A_5A5A; words]);
+    let mut candidates = vec![Face::EMPTY; faces];
+    let mut hits = vec![Hit::EMPTY; 256];
+    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
+    let answer = model
+        .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
+        .expect("a segment in the domain");
+    hits.truncate(answer.stored);
+    (answer, hits)
+}
+
+/// A segment from outside the hull's box to somewhere around the mesh.
+fn from_outside(scene: &Scene, rng: &mut Rng) -> Segment {
+    let (low, high) = scene.bounds();
+    let mut start = scene.around(2.0, rng);
+    let axis = rng.below(3);
+    let side = 3.0 * (high[axis] - low[axis]).max(0.2 * scene.size());
+    start[axis] = if rng.below(2) == 0 { low[axis] - side } else { high[axis] + side };
+    let t = rng.below(scene.triangles.len()) as u32;
+    let end = match rng.below(4) {
+        0 => scene.around(1.5, rng),
+        1 => scene.on_triangle(t, rng),
+        2 => scene.corners(t)[0],
+        _ => {
+            let on = scene.on_triangle(t, rng);
+            std::array::from_fn(|k| on[k] + (on[k] - start[k]))
+        }
+    };
+    (start, end)
+}
+
+#[test]
+fn first_outer_hit_is_the_first_hit() {
+    for scene in exact() {
+        let model = scene.model();
+        let words = model.refined_words();
+        let mut queue = vec![ScratchEntry::EMPTY; 1024];
+        let mut rng = Rng::new(31);
+        let mut asked = 0;
+        for _ in 0..200 {
+            let segment = from_outside(&scene, &mut rng);
+            let (outer, hits) = ask(&model, segment, Search::First, (words, 1024));
+            if outer.starts_inside {
+                continue;
+            }
+            asked += 1;
+            let first = model
+                .first_hit(segment.0, segment.1, Budget::EXACT, &mut queue)
+                .expect("in the domain");
+            assert_eq!(outer.ended, Ended::Exact, "{}: {segment:?}", scene.name);
+            // Of several triangles that share a point either may be named first.
+            let named = first.hit.map(|hit| (hit.t, hit.triangle));
+            let found =
+                hits.iter().take_while(|hit| hit.t == hits[0].t).map(|hit| (hit.t, hit.triangle));
+            let agree = found.clone().any(|pair| Some(pair) == named)
+                || (named.is_none() && hits.is_empty());
+            assert!(agree, "{}: {segment:?}: {outer:?} {hits:?} {first:?}", scene.name);
+            assert_eq!(
+                outer.t.lower == f32::INFINITY,
+                first.is_clear(),
+                "{}: {segment:?}",
+                scene.name
+            );
+        }
+        assert!(asked > 100, "{}: {asked} started outside", scene.name);
+    }
+}
+
+#[test]
+fn outer_search_names_only_true_hits_and_the_first_of_all() {
+    for scene in exact() {
+        let model = scene.model();
+        let words = model.refined_words();
+        let mut rng = Rng::new(32);
+        for _ in 0..100 {
+            let segment = from_outside(&scene, &mut rng);
+            let (outer, hits) = ask(&model, segment, Search::Outer, (words, 1024));
+            if outer.starts_inside {
+                continue;
+            }
+            let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
+            assert!(hits.is_sorted_by(|x, y| x.t <= y.t));
+            if let Some(first) = truth.first() {
+                assert!(
+                    f64::from(outer.t.lower) <= first.t_upper,
+                    "{}: {segment:?}: {outer:?} {first:?}",
+                    scene.name
+                );
+                assert!(
+                    f64::from(hits[0].t) <= first.t_upper + 1e-6,
+                    "{}: {segment:?}: {outer:?}",
+                    scene.name
+                );
+            }
+            for hit in &hits {
+                let triangle = hit.triangle.expect("a whole blob");
+                let corners = scene.corners(triangle);
+                let gap =
+                    meshsweep_host_tests::oracle::gap_to_triangle(segment.0, segment.1, corners);
+                let size = f64::from(scene.size())
+                    * if scene.name == "needle comb" { 65_536.0 } else { 1.0 };
+                assert!(
+                    gap <= 1e-12 * (size + scene.reach()) * 8.0,
+                    "{}: {segment:?}: {hit:?}",
+                    scene.name
+                );
+            }
+        }
+    }
+}
+
+/// Runs in a thread, so that a search that does not end fails the test and not the machine.
+fn in_time(what: &str, run: impl FnOnce() + Send + 'static) {
+    let (done, wait) = mpsc::channel();
+    let thread = std::thread::spawn(move || {
+        run();
+        let _ = done.send(());
+    });
+    match wait.recv_timeout(Duration::from_secs(20)) {
+        Ok(()) => {}
+        Err(mpsc::RecvTimeoutError::Timeout) => panic!("{what}: the search does not end"),
+        Err(mpsc::RecvTimeoutError::Disconnected) => {
+            let panic = thread.join().expect_err("it ended without a word");
+            std::panic::resume_unwind(panic);
+        }
+    }
+}
+
+fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Send + 'static) {
+    in_time(what, move || {
+        for scene in [
+            Scene::hull("torus", torus(2.0, 0.75, 24, 12), &options(40)),
+            Scene::hull("groove block", groove_block(), &options(30)),
+            Scene::hull("rough sphere", rough_sphere(2, 0.2, 7), &options(40)),
+        ] {
+            let model = scene.model();
+            let mut rng = Rng::new(33);
+            for _ in 0..60 {
+                let segment = from_outside(&scene, &mut rng);
+                let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
+                let words = model.refined_words();
+                let (whole, _) = ask(&model, segment, Search::First, (words, 1024));
+                for memory in memories(words) {
+                    for search in [Search::First, Search::Outer] {
+                        let (outer, hits) = ask(&model, segment, search, memory);
+                        let say = || {
+                            format!("{}: {segment:?} {memory:?}: {outer:?} {truth:?}", scene.name)
+                        };
+                        if let Some(first) = truth.first() {
+                            assert!(
+                                f64::from(outer.t.lower) <= first.t_upper,
+                                "a wrong clear: {}",
+                                say()
+                            );
+                        }
+                        if outer.ended == Ended::Exact
+                            && search == Search::First
+                            && !outer.starts_inside
+                        {
+                            assert_eq!(outer.t.lower, whole.t.lower, "{}", say());
+                            assert_eq!(hits.is_empty(), truth.is_empty(), "{}", say());
+                        }
+                    }
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn short_candidate_list_ends_and_changes_no_answer() {
+    small_memory("a few candidates", |words| vec![(words, 1), (words, 2), (words, 3), (words, 17)]);
+}
+
+#[test]
+fn no_candidate_list_ends_and_is_never_a_wrong_clear() {
+    small_memory("no candidates", |words| vec![(words, 0)]);
+}
+
+#[test]
+fn short_bit_sets_are_never_a_wrong_clear() {
+    small_memory("short bit sets", |words| vec![(0, 1024), (1, 1024), (words / 2, 1024)]);
+}
+
+#[test]
+fn short_bit_sets_with_a_short_candidate_list_end() {
+    small_memory("short bit sets, few candidates", |words| {
+        vec![(0, 0), (0, 1), (1, 1), (1, 3), (words / 2, 2)]
+    });
+}
+
+#[test]
+fn a_start_inside_the_hulls_box_is_said_and_nothing_is_promised() {
+    let scene = Scene::hull("groove block", groove_block(), &options(12));
+    let (outer, hits) =
+        ask(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), Search::First, (16, 64));
+    assert!(outer.starts_inside && outer.t.lower == 0.0 && hits.is_empty());
+}
+
+#[test]
+fn a_moved_surface_gets_no_wrong_clear() {
+    let vertex_bits = meshsweep::surface::VertexBits::Grid16;
+    let options = meshsweep::hull::BuildOptions { vertex_bits, ..options(40) };
+    let scene = Scene::hull("rough sphere", rough_sphere(2, 0.2, 7), &options);
+    let model = scene.model();
+    assert!(model.header().surface_error > 0.0);
+    let mut rng = Rng::new(34);
+    for _ in 0..300 {
+        let segment = from_outside(&scene, &mut rng);
+        let (outer, _) = ask(&model, segment, Search::First, (64, 64));
+        let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
+        if let Some(first) = truth.first() {
+            assert!(f64::from(outer.t.lower) <= first.t_upper, "{segment:?}: {outer:?} {first:?}");
+        }
+    }
+}
+
+#[test]
+fn nan_infinity_and_far_ends_are_typed_errors() {
+    let scene = Scene::hull("cube", cube(2), &options(12));
+    let model = scene.model();
+    for (p, error) in [
+        ([f32::NAN, 0.0, 0.0], QueryError::NotFinite),
+        ([0.0, f32::NEG_INFINITY, 0.0], QueryError::NotFinite),
+        ([0.0, 0.0, 1e30], QueryError::OutOfDomain),
+    ] {
+        for (a, b) in [(p, [9.0; 3]), ([9.0; 3], p)] {
+            let mut candidates = [Face::EMPTY; 4];
+            let mut front = RefinedHull::new(&mut [], &mut [], &mut candidates);
+            assert_eq!(
+                model.outer_hits(a, b, Search::First, &mut front, &mut [], Budget::EXACT),
+                Err(error)
+            );
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Mesh files and generated meshes.
+
+mod fixtures;
+mod generators;
+mod hostile;

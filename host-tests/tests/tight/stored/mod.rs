@@ -1,0 +1,29 @@
+//! Tight hulls stored in a blob: what they say of the mesh within holds, and any bytes are safe to
+//! open.
+
+mod answers;
+mod bytes;
+mod chains;
+
+use meshsweep::mesh::Mesh;
+use meshsweep::tight::{ChainOptions, HullReport, chain};
+use meshsweep_host_tests::generate::Triangles;
+use meshsweep_host_tests::with;
+
+fn mesh((positions, triangles): &Triangles) -> Mesh {
+    Mesh::new(positions.clone(), triangles.clone())
+}
+
+/// Next to no polish: nothing here depends on how tight a hull is.
+fn options(faces: &[usize]) -> ChainOptions {
+    ChainOptions::of_faces(faces).with_effort(0.01)
+}
+
+/// A blob of tight hulls and nothing else, of a mesh of which every vertex was moved by `moved` at
+/// most.
+fn of(mesh: &Mesh, moved: f64, options: &ChainOptions) -> (Vec<u8>, Vec<HullReport>) {
+    let (tables, reports) =
+        chain(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options, |_| {})
+            .expect("there is room around it");
+    (tables.to_bytes(), reports)
+}

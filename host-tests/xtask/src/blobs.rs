@@ -1,0 +1,86 @@
+//! The blobs that the images are asked about.
+
+use std::path::PathBuf;
+
+use crate::boards::Flash;
+use crate::host;
+use crate::images::Profile;
+use crate::reading::Reading;
+use crate::workspace;
+
+/// A blob, by the name that `host blobs` gives it, and the image that is asked about it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Blob {
+    /// The file's name without its extension.
+    pub name: &'static str,
+    /// The image.
+    pub image: &'static str,
+}
+
+const fn hull(name: &'static str) -> Blob {
+    Blob { name, image: "suite_hull" }
+}
+
+const fn tree(name: &'static str) -> Blob {
+    Blob { name, image: "suite_tree" }
+}
+
+const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
+const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
+
+impl Blob {
+    /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box
+    /// tree of one mesh, triboxes, and tight hulls.
+    #[must_use]
+    pub const fn standard(flash: Flash) -> [Self; 4] {
+        match flash {
+            Flash::Small => [hull("torus"), tree("torus_tree"), TRIBOXES, TIGHT],
+            Flash::Large => [hull("bracket"), tree("bracket_tree"), TRIBOXES, TIGHT],
+        }
+    }
+
+    /// Blobs whose bits are compared beside the standard ones: other formats of vertices, a cut
+    /// blob, and a soup of triangles.
+    pub const VARIANTS: [Self; 5] =
+        [hull("grid16"), hull("grid24"), hull("cut"), tree("single_tree"), tree("soup_tree")];
+
+    /// How the image is optimised for a part with so much flash. All questions to a box tree,
+    /// compiled for speed, are more than 256 KiB.
+    #[must_use]
+    pub fn profile(self, flash: Flash) -> Profile {
+        if self.image == "suite_tree" && flash == Flash::Small {
+            Profile::Small
+        } else {
+            Profile::Release
+        }
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn file(self) -> PathBuf {
+        folder().join(self.name).with_extension("msw")
+    }
+
+    /// What the host answered.
+    ///
+    /// # Errors
+    /// [`write`] was not run.
+    pub fn expected(self) -> Result<Reading, String> {
+        let file = folder().join(self.name).with_extension("txt");
+        let text = std::fs::read_to_string(&file)
+            .map_err(|error| format!("cannot read {}: {error}", file.display()))?;
+        Reading::parse(&text, None)
+    }
+}
+
+/// Writes all blobs, each beside the answers of this machine.
+///
+/// # Errors
+/// The builder's.
+pub fn write() -> Result<(), String> {
+    host::run(&["blobs", &folder().to_string_lossy()]).map(drop)
+}
+
+fn folder() -> PathBuf {
+    workspace::target().join("blobs")
+}

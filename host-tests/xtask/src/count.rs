@@ -1,0 +1,152 @@
+//! `cargo xtask count`: instructions a query on this machine, counted by callgrind.
+//!
+//! Times on a busy machine are noise; instructions are not. The host's program runs in the
+//! simulator twice, with different numbers of queries: the difference is the queries' alone.
+
+use std::path::Path;
+
+use crate::host;
+use crate::process;
+use crate::steps::Steps;
+use crate::table::{Cell, Table, fixed};
+use crate::valgrind::Valgrind;
+
+/// Questions by their words on the host program's command line.
+const QUESTIONS: [&str; 16] = [
+    "far",
+    "near",
+    "path",
+    "first_hit",
+    "outer_first",
+    "outer_all",
+    "tree bracket.stl far",
+    "tree bracket.stl near",
+    "tree bracket.stl path",
+    "tree bracket.stl first_hit",
+    "tree torus.ply overlap",
+    "triboxes apart",
+    "triboxes by vertices",
+    "triboxes candidates",
+    "triboxes distance",
+    "triboxes clip",
+];
+
+/// Questions by whose instructions vector code is told from scalar code, with the most instructions
+/// that a node or a leaf may take: a quarter more than it took on plain x86-64 when this was
+/// written (893, 741, 711, 692, 482, 764). Without vectors (`-C no-vectorize-loops -C
+/// no-vectorize-slp`) it took 2420, 1489, 1802, 1560, 1119, 1284. "Clear" is for nodes, for it
+/// opens few leaves; "first hit" has its own loops.
+const LIMITS: [(&str, f64); 6] = [
+    ("tree bracket.stl far", 1115.0),
+    ("tree bracket.stl first_hit", 925.0),
+    ("tree torus.ply far", 890.0),
+    ("tree torus.ply near", 865.0),
+    ("tree torus.ply clear", 600.0),
+    ("tree torus.ply first_hit", 955.0),
+];
+
+/// Queries of the two runs.
+const QUERIES: [u32; 2] = [500, 2500];
+
+/// Costs of one query, in mean.
+struct Each {
+    instructions: f64,
+    nodes: f64,
+    leaves: f64,
+}
+
+/// Counts all questions and prints the table.
+pub fn run(steps: &mut Steps) {
+    let Some(valgrind) = Valgrind::find() else { return };
+    let Some(program) = steps.run("the host's program", host::optimised) else { return };
+    let columns = ["question", "instructions"];
+    let mut table = Table::new(
+        "instructions",
+        "Instructions a query, fixtures/bracket, this machine",
+        &columns,
+    );
+    for question in QUESTIONS {
+        let counted =
+            steps.run(&format!("count {question}"), || each(&valgrind, &program, question));
+        let cell = counted.map_or(Cell::Empty, |each| fixed(each.instructions, 0));
+        table.push(vec![Cell::from(question), cell]);
+    }
+    table.note(
+        "far, near, path: closest point; all with the memory that the model's capacities name",
+    );
+    table.note("tree: to the box tree, triboxes: to 64 of them, the others to the hull hierarchy");
+    table.note(
+        "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
+    );
+    say!("{}", table.text());
+    check_lanes(steps);
+}
+
+/// That node and leaf take few enough instructions to be vector code. Skipped, with a line that
+/// says so, where nothing can be counted.
+pub fn check_lanes(steps: &mut Steps) {
+    if cfg!(not(target_arch = "x86_64")) {
+        say!("── lanes are vectors\n   skipped: the limits are those of x86-64");
+        return;
+    }
+    let Some(valgrind) = Valgrind::find() else { return };
+    let Some(program) = steps.run("the host's program", host::optimised) else { return };
+    steps.run("lanes are vectors", || {
+        let columns =
+            ["question", "instructions a query", "nodes", "leaves", "instructions each", "limit"];
+        let mut table = Table::new("lanes", "Instructions a node or leaf, this machine", &columns);
+        let mut beyond = Vec::new();
+        for (question, limit) in LIMITS {
+            let Each { instructions, nodes, leaves } = each(&valgrind, &program, question)?;
+            let cost = instructions / (nodes + leaves);
+            if cost > limit {
+                beyond.push(format!(
+                    "{question}: {cost:.0} instructions a node or leaf, not {limit:.0}"
+                ));
+            }
+            let cells = [
+                fixed(instructions, 0),
+                fixed(nodes, 2),
+                fixed(leaves, 2),
+                fixed(cost, 1),
+                fixed(limit, 0),
+            ];
+            table.push([Cell::from(question)].into_iter().chain(cells).collect());
+        }
+        say!("{}", table.text());
+        if beyond.is_empty() { Ok(()) } else { Err(beyond.join("\n")) }
+    });
+}
+
+/// The difference of two runs.
+fn each(valgrind: &Valgrind, program: &Path, question: &str) -> Result<Each, String> {
+    let [few, many] = QUERIES.map(|queries| counted(valgrind, program, question, queries));
+    let ([few, more_nodes, more_triangles, a_leaf], [many, nodes, triangles, _]) = (few?, many?);
+    let each = |many: f64, few: f64| (many - few) / f64::from(QUERIES[1] - QUERIES[0]);
+    Ok(Each {
+        instructions: each(many, few),
+        nodes: each(nodes, more_nodes),
+        leaves: each(triangles, more_triangles) / a_leaf,
+    })
+}
+
+/// Instructions of a run, nodes and triangles that its queries looked at, and triangles of a leaf.
+fn counted(
+    valgrind: &Valgrind,
+    program: &Path,
+    question: &str,
+    queries: u32,
+) -> Result<[f64; 4], String> {
+    let mut command = valgrind.command();
+    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(program);
+    let output = process::output(command.args(["ask", question, &queries.to_string()]))?;
+    let [printed, counted] =
+        [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    let read = || {
+        let instructions = counted.lines().find_map(|line| line.split_once("Collected : "))?.1;
+        let mut numbers = std::iter::once(instructions).chain(printed.split(' '));
+        let mut next = || numbers.next()?.trim().parse::<f64>().ok();
+        Some([next()?, next()?, next()?, next()?])
+    };
+    read().ok_or_else(|| format!("callgrind counted nothing\n{printed}{counted}"))
+}

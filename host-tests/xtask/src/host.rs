@@ -1,0 +1,25 @@
+//! The program of host-tests: all that the commands need of the library on this machine.
+
+use std::path::PathBuf;
+
+use crate::checks::cargo;
+use crate::process;
+use crate::workspace;
+
+/// Runs it as the tests are built, so that nothing is compiled twice; its output.
+pub fn run(arguments: &[&str]) -> Result<String, String> {
+    let program = build("dev", "debug")?;
+    process::capture(std::process::Command::new(program).args(arguments))
+}
+
+/// Builds it as users build the library; its path.
+pub fn optimised() -> Result<PathBuf, String> {
+    build("release", "release")
+}
+
+fn build(profile: &str, folder: &str) -> Result<PathBuf, String> {
+    let package = ["--package", "meshsweep-host-tests", "--bin", "host"];
+    let mut command = cargo(&["build", "--quiet", "--profile", profile]);
+    process::capture(command.args(package))?;
+    Ok(workspace::target().join(folder).join("host"))
+}

@@ -1,0 +1,35 @@
+//! What `cargo xtask` and the laboratory share: processes, tools, firmware images and tables.
+//!
+//! ```text
+//! checks (fmt, clippy, tests, docs)
+//! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
+//! count ──── valgrind (callgrind) on host
+//! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
+//!           ├ qemu ─────────────────┘
+//!           ├ reading (what an image printed) ─ compared with the host's own run
+//!           ├ proof   (no panic left)
+//!           └ elf     (sizes) ─ cost
+//! ```
+
+#[macro_use]
+pub mod say;
+
+pub mod blobs;
+pub mod boards;
+pub mod checks;
+pub mod cost;
+pub mod count;
+pub mod cross;
+pub mod elf;
+pub mod firmware;
+pub mod host;
+pub mod images;
+pub mod process;
+pub mod proof;
+pub mod qemu;
+pub mod reading;
+pub mod steps;
+pub mod table;
+pub mod toolbox;
+pub mod valgrind;
+pub mod workspace;

@@ -1,0 +1,64 @@
+//! `cargo xtask`: what takes more than one cargo command. This file only dispatches.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use meshsweep_xtask::steps::Steps;
+use meshsweep_xtask::valgrind::Valgrind;
+use meshsweep_xtask::{checks, count, firmware, host, say};
+
+const USAGE: &str = "\
+cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
+cargo xtask test                    setup, then everything that has to hold
+cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
+cargo xtask fixtures                writes fixtures/ anew
+cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
+cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
+
+environment:
+  MESHSWEEP_STD=rustup|debian       where the cross targets' std comes from (default: rustup, else debian)
+  MESHSWEEP_TOOLS=DIR               where Debian packages are unpacked (default: ~/.cache/meshsweep-tools)";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let mut steps = Steps::new();
+    match words.as_slice() {
+        ["setup"] => {
+            firmware::setup(&mut steps);
+            say!("── setup: valgrind");
+            Valgrind::find();
+        }
+        ["test"] => {
+            // First, because a new machine fails here, and the message tells the remedy.
+            let tools = firmware::setup(&mut steps);
+            checks::run(&mut steps);
+            count::check_lanes(&mut steps);
+            if let Some(tools) = tools {
+                firmware::run(&mut steps, &tools, None);
+            }
+        }
+        ["firmware", rest @ ..] => {
+            let json = match rest {
+                [] => None,
+                ["--json", file] => Some(Path::new(*file)),
+                _ => return usage(),
+            };
+            if let Some(tools) = firmware::setup(&mut steps) {
+                firmware::run(&mut steps, &tools, json);
+            }
+        }
+        ["fixtures"] => {
+            steps.run("fixtures", || host::run(&["fixtures"]).map(|text| say!("{text}")));
+        }
+        ["count"] => count::run(&mut steps),
+        ["measure" | "race" | "rival", ..] => return checks::lab(&words),
+        _ => return usage(),
+    }
+    steps.finish()
+}
+
+fn usage() -> ExitCode {
+    eprintln!("{USAGE}");
+    ExitCode::from(2)
+}

@@ -1,0 +1,178 @@
+//! The lines that the suite prints, on a board or on the host.
+
+use crate::boards::Board;
+
+/// Hash of one block.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The question's name.
+    pub kind: String,
+    /// Number of the block in its kind.
+    pub index: u32,
+    /// Of all answers' bits.
+    pub hash: String,
+}
+
+/// Cost of one kind of query.
+#[derive(Clone, Debug, Default)]
+pub struct Cost {
+    /// The question's name.
+    pub kind: String,
+    /// Queries that were asked.
+    pub queries: u32,
+    /// Instructions of the cheapest query.
+    pub min: f64,
+    /// Of the mean one.
+    pub mean: f64,
+    /// Of the dearest one.
+    pub max: f64,
+    /// Bytes below the suite's loop.
+    pub stack: u32,
+}
+
+/// All that a run told.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// Length and hash of the blob.
+    pub blob: String,
+    /// Hashes in the order of asking.
+    pub blocks: Vec<Block>,
+    /// Costs in the order of asking.
+    pub costs: Vec<Cost>,
+    /// Bytes of memory that the caller hands to queries.
+    pub scratch: u32,
+}
+
+impl Reading {
+    /// Reads what an image printed on a board, or what the host printed.
+    ///
+    /// # Errors
+    /// The image stopped early, or its counter runs at another rate than the board's.
+    pub fn parse(printed: &str, board: Option<&Board>) -> Result<Self, String> {
+        let mut reading = Self::default();
+        let mut done = false;
+        for line in printed.lines() {
+            let words: Vec<&str> = line.split(' ').collect();
+            match words.as_slice() {
+                ["blob", bytes, hash] => reading.blob = format!("{bytes} {hash}"),
+                ["scratch", bytes] => reading.scratch = number(bytes)?,
+                ["calibration", instructions, ticks] => {
+                    let board = board.ok_or("the host has no counter")?;
+                    check_rate(number(instructions)?, number(ticks)?, board)?;
+                }
+                ["block", kind, index, hash] => reading.blocks.push(Block {
+                    kind: (*kind).to_owned(),
+                    index: number(index)?,
+                    hash: (*hash).to_owned(),
+                }),
+                ["ticks", kind, queries, min, sum, max] => {
+                    let rate = board.map_or(0.0, |board| board.instructions_per_tick);
+                    let instructions = |ticks: &str| Ok::<_, String>(number::<f64>(ticks)? * rate);
+                    let count: u32 = number(queries)?;
+                    reading.costs.push(Cost {
+                        kind: (*kind).to_owned(),
+                        queries: count,
+                        min: instructions(min)?,
+                        mean: instructions(sum)? / f64::from(count.max(1)),
+                        max: instructions(max)?,
+                        stack: 0,
+                    });
+                }
+                ["stack", kind, bytes] => {
+                    let cost = reading.costs.iter_mut().find(|cost| cost.kind == *kind);
+                    cost.ok_or_else(|| format!("`{line}` before its ticks"))?.stack =
+                        number(bytes)?;
+                }
+                ["refused", error] => {
+                    return Err(format!("the core refuses the blob: error {error}"));
+                }
+                ["done"] => done = true,
+                _ => return Err(format!("the image printed `{line}`")),
+            }
+        }
+        if done {
+            Ok(reading)
+        } else {
+            Err(format!("the image stopped before it was done:\n{printed}"))
+        }
+    }
+
+    /// Compares the bits of all answers with another run's.
+    pub fn compare(&self, reference: &Self) -> Result<(), String> {
+        if self.blob != reference.blob {
+            return Err(format!(
+                "the image carries blob {}, the host read {}",
+                self.blob, reference.blob
+            ));
+        }
+        if self.blocks.len() != reference.blocks.len() {
+            return Err(format!(
+                "{} blocks, {} on the host",
+                self.blocks.len(),
+                reference.blocks.len()
+            ));
+        }
+        let pairs = self.blocks.iter().zip(&reference.blocks).filter(|(here, there)| here != there);
+        let differences: Vec<_> = pairs
+            .map(|(here, there)| {
+                format!("{} {}: {}, on the host {}", here.kind, here.index, here.hash, there.hash)
+            })
+            .collect();
+        match differences.first() {
+            None => Ok(()),
+            Some(first) => Err(format!(
+                "{} of {} blocks differ from the host's; the first is {first}",
+                differences.len(),
+                self.blocks.len()
+            )),
+        }
+    }
+}
+
+fn number<T: std::str::FromStr>(word: &str) -> Result<T, String> {
+    word.parse().map_err(|_| format!("the image printed `{word}` where a number belongs"))
+}
+
+/// A board whose counter runs at another rate than assumed would have all its costs wrong.
+fn check_rate(instructions: f64, ticks: f64, board: &Board) -> Result<(), String> {
+    let measured = instructions / ticks;
+    let off = (measured / board.instructions_per_tick - 1.0).abs();
+    if off < 1.0e-3 {
+        Ok(())
+    } else {
+        Err(format!("{measured:.3} instructions a tick, {} expected", board.instructions_per_tick))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Block, Reading};
+    use crate::boards::BOARDS;
+
+    const PRINTED: &str = "blob 3 0000000000000001\ncalibration 2000000 50000\nscratch 256\n\
+        block arith 0 000000000000000a\nticks arith 2 1 4 3\nstack arith 64\ndone\n";
+
+    #[test]
+    fn a_reading_holds_what_was_printed() {
+        let reading = Reading::parse(PRINTED, Some(&BOARDS[0])).expect("readable");
+        assert_eq!(reading.blocks.len(), 1);
+        let cost = &reading.costs[0];
+        assert_eq!((cost.min, cost.mean, cost.max, cost.stack), (40.0, 80.0, 120.0, 64));
+    }
+
+    #[test]
+    fn a_wrong_rate_and_an_early_end_are_errors() {
+        assert!(Reading::parse(PRINTED, Some(&BOARDS[1])).is_err());
+        assert!(Reading::parse(PRINTED.trim_end_matches("done\n"), Some(&BOARDS[0])).is_err());
+        assert!(Reading::parse(&format!("panicked\n{PRINTED}"), Some(&BOARDS[0])).is_err());
+    }
+
+    #[test]
+    fn one_changed_bit_is_located() {
+        let reference = Reading::parse(PRINTED, Some(&BOARDS[0])).expect("readable");
+        let mut other = reference.clone();
+        assert_eq!(other.compare(&reference), Ok(()));
+        other.blocks[0] = Block { hash: "000000000000000b".to_owned(), ..other.blocks[0].clone() };
+        assert!(other.compare(&reference).is_err_and(|reason| reason.contains("arith 0")));
+    }
+}
