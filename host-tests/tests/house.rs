@@ -21,12 +21,13 @@ const CORE: [(&str, &[&str]); 10] = [
 
 /// Rooms that all structures of the builder may use.
 const BENEATH: &[&str] =
-    &["counted", "emit", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
+    &["counted", "error", "emit", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
 
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted`
 /// prints numbers. `cut` is above: it knows all structures.
-const BUILDER: [(&str, &[&str]); 13] = [
+const BUILDER: [(&str, &[&str]); 14] = [
     ("counted", &[]),
+    ("error", &[]),
     ("emit", &[]),
     ("lp", &[]),
     ("mesh", &["counted"]),
@@ -38,7 +39,10 @@ const BUILDER: [(&str, &[&str]); 13] = [
     ("tight", BENEATH),
     ("tribox", BENEATH),
     ("curve", BENEATH),
-    ("cut", &["counted", "emit", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"]),
+    (
+        "cut",
+        &["counted", "error", "emit", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
+    ),
 ];
 
 /// A module's path from its crate's root: `["bvh", "node"]`.

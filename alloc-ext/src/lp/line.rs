@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
+use super::boundary::Plane;
 use super::half_space::HalfSpace;
 use super::insertion::offset;
 use super::interval::Interval;
-use super::plane::Plane;
 use super::tolerance::{CONTRADICTION, PARALLEL, scale};
 
 /// A line, by its point nearest to the origin.
