@@ -52,7 +52,6 @@
 //! Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete &
 //! Computational Geometry 6 (1991), §2.
 
-mod boundary;
 mod half_space;
 mod insertion;
 mod interval;
@@ -60,11 +59,11 @@ mod line;
 mod plane;
 mod tolerance;
 
-use boundary::Plane;
 use glam::DVec3;
 pub use half_space::HalfSpace;
 use insertion::insert;
 pub use interval::Interval;
+use line::Plane;
 use tolerance::DESCENT;
 
 /// What a program came to.

@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
-use super::boundary::Plane;
 use super::half_space::HalfSpace;
 use super::insertion::insert;
-use super::line;
+use super::line::{self, Plane};
 
 /// The point of `h`'s plane nearest to `pull` that satisfies `constraints`.
 ///
