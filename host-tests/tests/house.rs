@@ -314,21 +314,19 @@ fn visibility(line: &str) -> (bool, &str) {
 /// The name of an item that a line begins to define.
 fn defined(line: &str) -> Option<String> {
     let mut words = line.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '!'));
-    loop {
-        match words.next()? {
-            "const" | "unsafe" | "extern" | "async" => {
-                // `const fn` and `const NAME` alike: the next word decides.
-                let next = words.next()?;
-                if next != "fn" {
-                    return Some(next.to_owned()).filter(|name| !name.is_empty());
-                }
-                return words.next().map(str::to_owned);
+    match words.next()? {
+        "const" | "unsafe" | "extern" | "async" => {
+            // `const fn` and `const NAME` alike: the next word decides.
+            let next = words.next()?;
+            if next != "fn" {
+                return Some(next.to_owned()).filter(|name| !name.is_empty());
             }
-            "fn" | "struct" | "enum" | "trait" | "type" | "static" | "union" | "macro_rules!" => {
-                return words.find(|word| !word.is_empty()).map(str::to_owned);
-            }
-            _ => return None,
+            words.next().map(str::to_owned)
         }
+        "fn" | "struct" | "enum" | "trait" | "type" | "static" | "union" | "macro_rules!" => {
+            words.find(|word| !word.is_empty()).map(str::to_owned)
+        }
+        _ => None,
     }
 }
 

@@ -315,11 +315,10 @@ impl Node {
     /// For each lane the square of a distance, in the tree's frame, that no point of its box is
     /// nearer than.
     fn distances_sq(&self, p: DVec3) -> [f64; WIDTH] {
-        let p = p.to_array();
         let mut sum = [0.0; WIDTH];
-        for axis in 0..3 {
+        for (axis, p) in p.to_array().into_iter().enumerate() {
             for (lane, sum) in sum.iter_mut().enumerate() {
-                let off = (f64::from(self.middle[axis][lane]) - p[axis]).abs()
+                let off = (f64::from(self.middle[axis][lane]) - p).abs()
                     - f64::from(self.half[axis][lane])
                     - SLACK;
                 let off = if off > 0.0 { off } else { 0.0 };

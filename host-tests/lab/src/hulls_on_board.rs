@@ -1,10 +1,10 @@
 //! Tight hulls on a Cortex-M4F: bytes, memory, and instructions of a conservative "closer than d?",
 //! by the number of faces.
 
+use meshsweep_core::{Blob, TightHulls};
 use std::path::Path;
 
 use meshsweep::tight::{ChainOptions, chain, cut};
-use meshsweep_core::{Hull, TightHulls};
 use meshsweep_host_tests::blobs::expected;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_lab::measure::tight::FACES;
@@ -21,7 +21,7 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
     let (tables, _) =
         chain(subject.mesh.as_input(), &options, |_| {}).map_err(|error| error.to_string())?;
     let all = tables.to_bytes();
-    let model = Hull::open(&all).map_err(|error| error.to_string())?;
+    let blob = Blob::open(&all).map_err(|error| error.to_string())?;
     let [board, ..] = BOARDS;
     let mut table = Table::new(
         "tight_firmware",
@@ -39,9 +39,9 @@ pub fn table(tools: &Tools, mesh: &Path) -> Result<Table, String> {
             "near, most",
         ],
     );
-    for record in model.tight_hulls().iter().flat_map(TightHulls::records) {
+    for record in blob.tight_hulls().iter().flat_map(TightHulls::records) {
         // The finest hull of a blob is the one that is asked.
-        let tables = cut(&model, record.faces).ok_or("no tight hulls")?;
+        let tables = cut(&blob, record.faces).ok_or("no tight hulls")?;
         let hulls = tables.to_bytes();
         let opened = TightHulls::open(&hulls).map_err(|error| error.to_string())?;
         let hull = opened.finest().ok_or("no tight hulls")?;

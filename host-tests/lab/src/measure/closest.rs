@@ -123,8 +123,8 @@ pub fn tables(subject: &Subject, model: &Hull<'_>) -> Result<[Table; 2], String>
 
 /// Width of an interval relative to its upper end.
 pub fn width(answer: &ClosestPoint) -> f64 {
-    if answer.upper > 0.0 {
-        f64::from(answer.upper - answer.lower) / f64::from(answer.upper)
+    if answer.distance.upper > 0.0 {
+        f64::from(answer.distance.upper - answer.distance.lower) / f64::from(answer.distance.upper)
     } else {
         0.0
     }
@@ -133,7 +133,8 @@ pub fn width(answer: &ClosestPoint) -> f64 {
 /// Whether a distance that f64 rounding may have moved lies in the interval.
 fn contains(answer: &ClosestPoint, truth: f64) -> bool {
     let slack = 1.0e-13 * (truth + answer.point.iter().map(|x| f64::from(x.abs())).sum::<f64>());
-    f64::from(answer.lower) <= truth + slack && truth <= f64::from(answer.upper) + slack
+    f64::from(answer.distance.lower) <= truth + slack
+        && truth <= f64::from(answer.distance.upper) + slack
 }
 
 fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {

@@ -32,6 +32,7 @@ mod trade;
 mod tree;
 pub mod triboxes;
 
+use meshsweep_core::Blob;
 use std::path::Path;
 
 use meshsweep::collapse::Priority;
@@ -114,7 +115,11 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     let model = open(&built.bytes)?;
     let mut tables =
         vec![subject_table(&subject), hulls::table(&subject), storage::build_times(&built)];
-    tables.extend([storage::sections(&model), storage::limits(&model), storage::levels(&model)]);
+    tables.extend([
+        storage::sections(&Blob::open(&built.bytes).map_err(|error| error.to_string())?),
+        storage::limits(&model),
+        storage::levels(&model),
+    ]);
     tables.push(segments::work(&subject)?);
     tables.push(segments::engines(&subject, &model)?);
     tables.extend(closest::tables(&subject, &model)?);

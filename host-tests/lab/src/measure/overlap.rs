@@ -2,8 +2,7 @@
 //! parry3d's.
 
 use meshsweep::bvh::{TreeOptions, build};
-use meshsweep_core::internal::geom::Contact;
-use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry, TrianglePair, Work};
+use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry, TrianglePair, Verdict, Work};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
 use meshsweep_host_tests::workload::pose::{FARTHEST, Pose as Motion, poses, sphere};
@@ -88,9 +87,9 @@ fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
         time: nanoseconds,
     };
     for (case, answer) in cases.iter().zip(&answers) {
-        match answer.contact {
-            Contact::Open => verdicts.open += 1,
-            contact => verdicts.wrong += usize::from((contact == Contact::Meets) != case.meets),
+        match answer.verdict {
+            Verdict::Undecided(_) => verdicts.open += 1,
+            verdict => verdicts.wrong += usize::from((verdict == Verdict::Yes) != case.meets),
         }
         let sum = &mut verdicts.work[usize::from(case.meets)];
         sum.nodes += answer.work.nodes;
@@ -170,7 +169,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
             [("apart", MOTIONS - meeting, verdicts.work[0]), ("meeting", meeting, verdicts.work[1])]
         {
             let each = |sum: u32| fixed(f64::from(sum) / count.max(1) as f64, 2);
-            let Work { nodes, triangles, exact, splits } = work_of;
+            let Work { nodes, triangles, exact, splits, .. } = work_of;
             work.push(row![
                 format!("{name}, {which}"),
                 count,

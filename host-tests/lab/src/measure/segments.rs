@@ -6,7 +6,7 @@ use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
 use super::brute::Brute;
 use super::open;
-use super::paper::{HORSE, Hull as Paper, STRATEGIES};
+use super::paper::{HORSE, Model as Paper, STRATEGIES};
 use super::rival::Rival;
 use super::stopwatch::{Stopwatch, fastest};
 use super::{BASE_FACES, Subject};
@@ -42,7 +42,7 @@ impl Run {
             let (hit, work, settled) = ask(segment)?;
             run.hits.push(hit);
             run.unsettled += usize::from(!settled);
-            let Work { nodes, triangles, exact, splits } = work;
+            let Work { nodes, triangles, exact, splits, .. } = work;
             for (sum, one) in run.work.iter_mut().zip([nodes, triangles, exact, splits]) {
                 *sum += u64::from(one);
             }
@@ -246,7 +246,9 @@ fn against_brute(
         let (theirs, clear) = brute.first_hit([a, b]);
         let inside = match theirs {
             None => ours.is_clear(),
-            Some(t) => f64::from(ours.lower) <= t + 1.0e-12 && t <= f64::from(ours.upper) + 1.0e-12,
+            Some(t) => {
+                f64::from(ours.t.lower) <= t + 1.0e-12 && t <= f64::from(ours.t.upper) + 1.0e-12
+            }
         };
         // Where a hit or miss is within rounding of an edge, either answer is right.
         grazing += usize::from(!clear);

@@ -2,6 +2,7 @@
 
 use meshsweep::hull::Built;
 use meshsweep_core::Hull;
+use meshsweep_core::{Blob, ScratchEntry};
 use meshsweep_xtask::table::{Table, fixed, row};
 
 /// Stages of a whole build.
@@ -34,20 +35,20 @@ pub fn build_times(built: &Built) -> Table {
 }
 
 /// Bytes of each section.
-pub fn sections(model: &Hull<'_>) -> Table {
+pub fn sections(blob: &Blob<'_>) -> Table {
     let mut table =
         Table::new("sections", "Bytes of the blob", &["section", "bytes", "bytes/triangle"]);
-    let triangles = f64::from(model.header().surface_triangles.max(1));
-    for section in model.sections() {
+    let triangles = f64::from(blob.header().surface_triangles.max(1));
+    for section in blob.sections() {
         table.push(row![
             section.kind.name(),
             section.bytes,
             fixed(f64::from(section.bytes) / triangles, 2)
         ]);
     }
-    let total = model.bytes().len();
+    let total = blob.bytes().len();
     table.push(row!["all, with header", total, fixed(total as f64 / triangles, 2)]);
-    table.note(format!("coordinates as {:?}", model.header().vertex_format));
+    table.note(format!("coordinates as {:?}", blob.header().vertex_format));
     table
 }
 
@@ -63,15 +64,14 @@ pub fn limits(model: &Hull<'_>) -> Table {
         "longest chain",
     ];
     let mut table = Table::new("capacities", "Memory that no query outgrows", &columns);
-    let capacities = model.capacities();
     table.push(row![
         model.header().nodes,
         model.header().splits,
-        capacities.queue,
-        capacities.queue * size_of::<meshsweep_core::ScratchEntry>(),
-        capacities.front_words,
-        2 * capacities.front_words * size_of::<u32>(),
-        capacities.dependency_depth,
+        model.scratch_entries(),
+        model.scratch_entries() * size_of::<ScratchEntry>(),
+        model.refined_words(),
+        2 * model.refined_words() * size_of::<u32>(),
+        model.header().dependency_depth,
     ]);
     table
 }
@@ -104,8 +104,8 @@ pub fn levels(model: &Hull<'_>) -> Table {
     let columns =
         ["level", "faces", "splits", "nodes", "hull to surface", "surface to hull", "void %"];
     let mut table = Table::new("levels", "Levels; distances certified, of the diagonal", &columns);
-    let diagonal =
-        f64::from((model.header().surface_box.max - model.header().surface_box.min).length());
+    let [low, high] = model.header().surface_box.map(glam::Vec3::from_array);
+    let diagonal = f64::from((high - low).length());
     for (index, level) in model.levels().enumerate() {
         table.push(row![
             index,

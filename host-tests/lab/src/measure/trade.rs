@@ -68,8 +68,13 @@ fn fill(
 
 /// How far each upper bound is above the exact one, relative.
 fn errors(run: &Answers, truth: &Answers) -> Vec<f64> {
-    let pairs = run.answers.iter().zip(&truth.answers).filter(|(_, exact)| exact.upper > 0.0);
-    pairs.map(|(answer, exact)| f64::from(answer.upper) / f64::from(exact.upper) - 1.0).collect()
+    let pairs =
+        run.answers.iter().zip(&truth.answers).filter(|(_, exact)| exact.distance.upper > 0.0);
+    pairs
+        .map(|(answer, exact)| {
+            f64::from(answer.distance.upper) / f64::from(exact.distance.upper) - 1.0
+        })
+        .collect()
 }
 
 /// Levels cut off: bytes against width.
@@ -92,18 +97,22 @@ pub fn cuts(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
     let exact = [0, 1].map(|kind| Answers::of(model, &asked[kind], &Budget::EXACT, LONG_QUEUE));
     let [exact_far, exact_near] = exact;
     let (exact_far, exact_near) = (exact_far?, exact_near?);
+    // The finest level is the whole.
+    let finest = model.header().levels.saturating_sub(1);
+    let whole = cut(model, finest).map_err(|error| error.to_string())?.to_bytes().len();
     for (index, level) in model.levels().enumerate() {
         let bytes = cut(model, index as u32).map_err(|error| error.to_string())?.to_bytes();
         let coarse = open(&bytes)?;
         let far = Answers::of(&coarse, &asked[0], &Budget::EXACT, LONG_QUEUE)?;
         let near = Answers::of(&coarse, &asked[1], &Budget::EXACT, LONG_QUEUE)?;
-        let absolute =
-            |run: &Answers| run.mean(|a| f64::from(a.upper) - f64::from(a.lower)) / diagonal;
+        let absolute = |run: &Answers| {
+            run.mean(|a| f64::from(a.distance.upper) - f64::from(a.distance.lower)) / diagonal
+        };
         table.push(row![
             index,
             level.faces,
             bytes.len(),
-            fixed(100.0 * bytes.len() as f64 / model.bytes().len() as f64, 1),
+            fixed(100.0 * bytes.len() as f64 / whole as f64, 1),
             fixed(far.nanoseconds, 0),
             scientific(far.mean(width)),
             scientific(absolute(&far)),
@@ -119,5 +128,10 @@ pub fn cuts(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
 /// Intervals that have nothing in common with the whole blob's: one of the two would be wrong.
 fn disjoint(run: &Answers, exact: &Answers) -> usize {
     let pairs = run.answers.iter().zip(&exact.answers);
-    pairs.filter(|(coarse, fine)| coarse.lower > fine.upper || coarse.upper < fine.lower).count()
+    pairs
+        .filter(|(coarse, fine)| {
+            coarse.distance.lower > fine.distance.upper
+                || coarse.distance.upper < fine.distance.lower
+        })
+        .count()
 }

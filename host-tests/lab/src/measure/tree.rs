@@ -119,7 +119,7 @@ fn sections(subject: &Subject) -> Table {
     ];
     let built = kinds.map(|options| Built::new(subject, &options));
     let triangles = subject.mesh.triangles.len() as f64;
-    for kind in SectionKind::ALL.into_iter().filter(|kind| kind.is_tree()) {
+    for kind in SectionKind::ALL.into_iter().filter(|kind| kind.is_bvh()) {
         let bytes = |built: &Built| {
             let section = built.tables.bodies.iter().find(|(found, _)| *found == kind);
             section.map_or(Cell::Empty, |(_, body)| fixed(body.len() as f64 / triangles, 2))
@@ -166,7 +166,7 @@ fn fans(subject: &Subject) -> Table {
             fixed(report.triangles_per_fan(), 2),
             report.degenerate,
             of_patches(report.leaves.into()),
-            of_patches(fixed(report.triangles_per_patch(), 2)),
+            of_patches(fixed(report.triangles_per_leaf(), 2)),
             of_patches(report.stored_vertices.into()),
             of_patches(fixed(report.vertices_per_triangle(), 3)),
         ]);

@@ -3,6 +3,7 @@
 
 use meshsweep::tribox::store;
 use meshsweep_core::Pose as CorePose;
+use meshsweep_core::ScratchEntry;
 use meshsweep_core::{Budget, NodePair, Triboxes};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
@@ -57,7 +58,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     );
     for level in all.levels() {
         let triboxes = all.coarser(level.triboxes);
-        let mut stack = vec![NodePair::EMPTY; triboxes.separation_entries(&triboxes)];
+        let mut stack = vec![ScratchEntry::EMPTY; triboxes.separation_entries(&triboxes)];
         let mut pairs = vec![NodePair::EMPTY; 1 << 16];
         let (mut settled, mut tested, mut most, mut tested_apart) = (0usize, 0u64, 0, 0u64);
         let (mut by_vertices_settled, mut by_vertices_tested, mut found) = (0usize, 0u64, 0usize);

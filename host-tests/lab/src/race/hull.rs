@@ -12,8 +12,9 @@ const BASE_FACES: usize = 200;
 /// Queries of one workload: 3 to 30 µs each.
 const QUERIES: usize = 10_000;
 
-struct Hull<'a> {
-    model: Hull<'a>,
+struct Hierarchy<'a> {
+    bytes: usize,
+    hull: Hull<'a>,
     queue: Vec<ScratchEntry>,
 }
 
@@ -30,14 +31,14 @@ pub fn build<'a>(
         return Ok(None);
     }
     *blob = subject.build(BASE_FACES, Priority::Program)?.bytes;
-    let model = Hull::open(blob).map_err(|error| error.to_string())?;
-    let queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
-    Ok(Some(Box::new(Hull { model, queue })))
+    let hull = Hull::open(blob).map_err(|error| error.to_string())?;
+    let queue = vec![ScratchEntry::EMPTY; hull.scratch_entries()];
+    Ok(Some(Box::new(Hierarchy { bytes: blob.len(), hull, queue })))
 }
 
-impl Engine for Hull<'_> {
+impl Engine for Hierarchy<'_> {
     fn bytes(&self) -> usize {
-        self.model.bytes().len()
+        self.bytes
     }
 
     fn limit(&self, _: Workload) -> usize {
@@ -46,8 +47,10 @@ impl Engine for Hull<'_> {
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         try_each(points, answers, |point| {
-            let found = self.model.closest_point(point, Budget::EXACT, &mut self.queue);
-            found.map(|found| Answer::Distance(found.upper)).map_err(|error| error.to_string())
+            let found = self.hull.closest_point(point, Budget::EXACT, &mut self.queue);
+            found
+                .map(|found| Answer::Distance(found.distance.upper))
+                .map_err(|error| error.to_string())
         })
     }
 
@@ -57,7 +60,7 @@ impl Engine for Hull<'_> {
         answers: &mut Vec<Answer>,
     ) -> Result<(), String> {
         try_each(segments, answers, |[a, b]| {
-            let found = self.model.first_hit(a, b, Budget::EXACT, &mut self.queue);
+            let found = self.hull.first_hit(a, b, Budget::EXACT, &mut self.queue);
             let found = found.map_err(|error| error.to_string())?;
             Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
         })

@@ -6,9 +6,7 @@
 use std::hint::black_box;
 
 use meshsweep::bvh::{TreeOptions, build as build_tree};
-use meshsweep_core::{
-    Budget, Bvh, ClosestPoint, CoherentQuery, Ended, Facing, Hint, ScratchEntry, Work,
-};
+use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, ScratchEntry};
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, try_each};
@@ -138,12 +136,8 @@ impl Engine for Following<'_> {
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
         let mut session = CoherentQuery::<128>::new();
         try_each(points, answers, |point| {
-            let found = black_box(session.closest_point(
-                &self.tree,
-                point,
-                &Budget::EXACT,
-                &mut self.stack,
-            ));
+            let found =
+                black_box(session.closest_point(&self.tree, point, Budget::EXACT, &mut self.stack));
             found.map(|found| Answer::Point(found.closest.point)).map_err(|error| error.to_string())
         })
     }
@@ -165,14 +159,13 @@ pub fn build_batch<'a>(
 ) -> Result<Option<Box<dyn Engine + 'a>>, String> {
     let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
     let stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    Ok(Some(Box::new(Batched { bytes, tree, stack, order: Vec::new(), found: Vec::new() })))
+    Ok(Some(Box::new(Batched { bytes, tree, stack, found: Vec::new() })))
 }
 
 struct Batched<'a> {
     bytes: usize,
     tree: Bvh<'a>,
     stack: Vec<ScratchEntry>,
-    order: Vec<u64>,
     found: Vec<ClosestPoint>,
 }
 
@@ -190,17 +183,11 @@ impl Engine for Batched<'_> {
     }
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        const NONE: ClosestPoint = ClosestPoint {
-            lower: 0.0,
-            upper: f32::INFINITY,
-            point: [0.0; 3],
-            triangle: None,
-            work: Work { nodes: 0, triangles: 0, exact: 0, splits: 0 },
-            ended: Ended::Steps,
-        };
-        self.found.resize(points.len(), NONE);
-        self.order.resize(2 * points.len(), 0);
-        let Self { tree, stack, order, found, .. } = self;
+        self.found.resize(points.len(), ClosestPoint::EMPTY);
+        // The entries behind the descent's own put the points in order.
+        let entries = self.tree.scratch_entries() + 2 * points.len();
+        self.stack.resize(entries, ScratchEntry::EMPTY);
+        let Self { tree, stack, found, .. } = self;
         tree.closest_points(points, &mut Hint::NONE.clone(), found, Budget::EXACT, stack)
             .map_err(|error| error.to_string())?;
         answers.clear();

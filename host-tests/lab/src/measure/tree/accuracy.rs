@@ -50,7 +50,8 @@ pub fn table(subject: &Subject, grid: &Built, single: &Built) -> Result<Table, S
             let (mut widest, mut width) = (0f64, 0f64);
             for (&point, answer) in asked.iter().zip(&run.answers) {
                 let (here, there) = (stored.distance(point), input.distance(point));
-                let (lower, upper) = (f64::from(answer.lower), f64::from(answer.upper));
+                let (lower, upper) =
+                    (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
                 outside += usize::from(!contains(lower, upper, there, point));
                 if lower > 0.0 {
                     middle.push((0.5 * (lower + upper) / here - 1.0).abs());

@@ -58,19 +58,29 @@ fn fill(
         let timed =
             |stop: &Budget| fastest(|| Answers::of(tree, &asked, stop), |run| run.nanoseconds);
         let exact = timed(&Budget::EXACT)?;
-        let quantised = exact.mean(|answer| f64::from(answer.upper - answer.lower));
+        let quantised =
+            exact.mean(|answer| f64::from(answer.distance.upper - answer.distance.lower));
         for (name, stop) in stops {
             let run = timed(stop)?;
-            let width =
-                run.mean(|answer| f64::from(answer.upper) - f64::from(answer.lower)) - quantised;
+            let width = run
+                .mean(|answer| f64::from(answer.distance.upper) - f64::from(answer.distance.lower))
+                - quantised;
             let relative =
                 |excess: f64, of: f32| if of > 0.0 { excess / f64::from(of) } else { 0.0 };
-            let promised = run.mean(|a| relative(f64::from(a.upper) - f64::from(a.lower), a.upper));
+            let promised = run.mean(|a| {
+                relative(
+                    f64::from(a.distance.upper) - f64::from(a.distance.lower),
+                    a.distance.upper,
+                )
+            });
             let pairs = || run.answers.iter().zip(&exact.answers);
             let excess = |pair: (&_, &_)| above(pair.0, pair.1);
-            let found = pairs().map(|pair| relative(excess(pair), pair.1.upper)).sum::<f64>()
-                / COUNT as f64;
-            let finished = pairs().filter(|(early, exact)| early.upper <= exact.upper).count();
+            let found =
+                pairs().map(|pair| relative(excess(pair), pair.1.distance.upper)).sum::<f64>()
+                    / COUNT as f64;
+            let finished = pairs()
+                .filter(|(early, exact)| early.distance.upper <= exact.distance.upper)
+                .count();
             table.push(row![
                 kind.name(),
                 name.clone(),
@@ -93,5 +103,5 @@ fn fill(
 
 /// By how much an upper bound is above the exact query's.
 fn above(early: &meshsweep_core::ClosestPoint, exact: &meshsweep_core::ClosestPoint) -> f64 {
-    f64::from(early.upper) - f64::from(exact.upper)
+    f64::from(early.distance.upper) - f64::from(exact.distance.upper)
 }
