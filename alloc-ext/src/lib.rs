@@ -40,8 +40,3 @@ pub mod tight;
 pub mod tribox;
 
 pub use error::BuildError;
-
-// Paths of before, until their users are moved.
-pub use bvh as tree;
-pub use bvh::fans as fan;
-pub use surface as precision;
