@@ -25,7 +25,9 @@ fn main() -> ExitCode {
             .map_err(|_| format!("`{queries}` is not a number"))
             .and_then(|queries| counted::ask(&fixtures, question, queries))
             .map(|line| println!("{line}")),
-        _ => Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N".to_owned()),
+        _ => {
+            Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N".to_owned())
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
