@@ -40,16 +40,3 @@ pub mod tight;
 pub mod tribox;
 
 pub use error::BuildError;
-
-// Paths of before, until their users are moved.
-pub use bvh as tree;
-pub use bvh::fans as fan;
-pub use surface as precision;
-
-/// The names of [`tight`] under which the program and the tests use one hull.
-pub mod wrap {
-    pub use crate::tight::{
-        Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
-        WrapError, split_components, wrap,
-    };
-}
