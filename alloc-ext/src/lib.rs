@@ -13,7 +13,7 @@
 //! | room | owns |
 //! | --- | --- |
 //! | [`lp`] | the linear program in three variables |
-//! | [`mesh`] | mesh files, what is wrong with a mesh, repair, report |
+//! | [`mesh`] | mesh files, defects of a mesh, repair, report |
 //! | [`surface`] | the triangle surface that all builders share |
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`hausdorff`] | certified distances between two meshes |
