@@ -87,8 +87,8 @@ pub use tribox::{
     Bound, Boundary, Candidates, NodePair, Separation, Tribox, TriboxError, TriboxLevel, Triboxes,
 };
 
-/// The folders, for the builder, the checker and the tests. Not part of the public interface: it may
-/// change in any release.
+/// The folders, for the builder, the checker and the tests. Not part of the public interface: it
+/// may change in any release.
 #[doc(hidden)]
 #[allow(missing_docs, reason = "each room documents itself")]
 pub mod internal {

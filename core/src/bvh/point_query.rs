@@ -125,8 +125,8 @@ impl PointQuery {
         distance_sq * (1.0 + 1.0 / 1024.0) + self.allowance
     }
 
-    /// A triangle with a smaller squared lower bound is refined as a sliver, if `distance_sq` is the
-    /// best squared distance.
+    /// A triangle with a smaller squared lower bound is refined as a sliver, if `distance_sq` is
+    /// the best squared distance.
     #[inline(always)]
     pub(crate) fn refine_below(&self, distance_sq: f32) -> f32 {
         distance_sq * CERTIFIED_PART - self.shortfall_sq
@@ -142,8 +142,8 @@ impl PointQuery {
         )
     }
 
-    /// Rounding of a box's distance, grid units. `allowance` is 2100 times its square, and 2100 is a
-    /// little more than 45².
+    /// Rounding of a box's distance, grid units. `allowance` is 2100 times its square, and 2100 is
+    /// a little more than 45².
     #[inline(always)]
     pub(crate) fn box_error(&self) -> f32 {
         sqrt_approx(self.limit(0.0)) * (1.0 / 45.0)

@@ -80,7 +80,7 @@ impl Bvh<'_> {
     /// Signed distance of `point` (input units), negative where the nearest surface has its back to
     /// the point.
     ///
-    /// For a mesh that bounds a with_area this is the usual signed distance. For an inverted mesh the
+    /// For a mesh that bounds a solid this is the usual signed distance. For an inverted mesh the
     /// sides are exchanged. Parts that overlap are not united: the nearest surface decides, and of
     /// surfaces that are equally near up to rounding and the surface error, one of them. Cavities
     /// are as their winding says.

@@ -32,7 +32,8 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
 }
 
-/// Calls `each` for every triangle of a leaf, in order: lane, squared distance, squared lower bound.
+/// Calls `each` for every triangle of a leaf, in order: lane, squared distance, squared lower
+/// bound.
 #[inline]
 pub(crate) fn each_triangle(
     query: &PointQuery,

@@ -331,8 +331,8 @@ impl<'a, 't> Follow<'a, 't> {
         self.front.key(lower * (1.0 - SHORTFALL) - self.shortfall)
     }
 
-    /// The least key of all triangles except the best. The best lies in the first entry; `others` is
-    /// the least key of the other entries.
+    /// The least key of all triangles except the best. The best lies in the first entry; `others`
+    /// is the least key of the other entries.
     #[cold]
     #[inline(never)]
     pub(crate) fn second(&mut self, best: &Nearest, others: f32) -> f32 {
@@ -347,8 +347,8 @@ impl<'a, 't> Follow<'a, 't> {
         least(others, self.key_of_triangles(lower_bound_sq))
     }
 
-    /// The triangle `lane` of the first entry's leaf, if it is certainly still the nearest. All other
-    /// triangles have keys of at least `second`.
+    /// The triangle `lane` of the first entry's leaf, if it is certainly still the nearest. All
+    /// other triangles have keys of at least `second`.
     #[inline(always)]
     pub(crate) fn same(&mut self, lane: usize, second: f32) -> Option<Nearest> {
         let (_, child) = self.front.get(0)?;

@@ -24,8 +24,8 @@ struct Plane {
     of: u32,
 }
 
-/// Planes of leaves that were visited lately: a hash table, where a later leaf overwrites an earlier
-/// one in the same place.
+/// Planes of leaves that were visited lately: a hash table, where a later leaf overwrites an
+/// earlier one in the same place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes([Plane; PLANES]);
 

@@ -115,8 +115,8 @@ const BASE: u32 = 4;
 const CREDIT: u32 = 4;
 /// Plain queries in the first rest, and in the longest.
 const REST: (u32, u32) = (8, 256);
-/// A rest ends early after this many steps in a row that are much [`SHORTER`] than the step at which
-/// it began.
+/// A rest ends early after this many steps in a row that are much [`SHORTER`] than the step at
+/// which it began.
 const WAKE: u32 = 3;
 /// Ratio of two steps from which on the second counts as much shorter.
 const SHORTER: f32 = 8.0;

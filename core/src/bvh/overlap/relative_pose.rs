@@ -123,8 +123,8 @@ impl RelativePose {
         let directions = [x, y, z, c0, c1, c2];
         let back = directions.map(|d| columns.map(|column| dot(column, d)));
         let away = directions.map(|d| dot(d, shift_exact));
-        // Along each axis, an upper bound of a moved vertex's coordinate, and of its difference from
-        // a vertex of the first tree.
+        // Along each axis, an upper bound of a moved vertex's coordinate, and of its difference
+        // from a vertex of the first tree.
         let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
             most(row, extent_b)
                 + extent_a.get(axis).copied().unwrap_or(0.0)
