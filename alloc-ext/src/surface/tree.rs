@@ -1,8 +1,8 @@
 //! The static tree of boxes behind all searches of the builder: eight boxes a node, in single
 //! precision. It passes over what a search cannot need. The searches test the items that are left.
 //!
-//! Its frame has its origin in the middle of all boxes and half their longest side as unit. So every
-//! number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
+//! Its frame has its origin in the middle of all boxes and half their longest side as unit. So
+//! every number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::bounds::{Bounds, Plane};
 use arrayvec::ArrayVec;
@@ -256,8 +256,8 @@ impl StaticTree {
         self.visit_below(0, &mut Reached { probe: self.probe(bounds, planes), visit })
     }
 
-    /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and perhaps
-    /// with others, until it returns false; whether it never did.
+    /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and
+    /// perhaps with others, until it returns false; whether it never did.
     #[inline]
     pub fn visit_kept(
         &self,
@@ -280,8 +280,8 @@ impl StaticTree {
         self.visit(near, &mut Raising { tree: self, probe, visit });
     }
 
-    /// The item of the least squared distance, as `distance_sq` gives it, and that square; the least
-    /// number of equals. `None` without items.
+    /// The item of the least squared distance, as `distance_sq` gives it, and that square; the
+    /// least number of equals. `None` without items.
     ///
     /// `distance_sq` must not be below the squared distance from `p` to the item's box.
     pub fn nearest(
