@@ -1,17 +1,18 @@
-//! Planes of a placement's program where the hull keeps a margin from the mesh.
+//! Planes of a placement's linear program that keep a margin between the hull and the mesh.
 //!
-//! A new face must not pass the mesh grown by the margin: a ball around each of its points. In the
-//! way are points that are cut off, in the tetrahedron between an old face and the new vertex, and
-//! points that the new face is too near to.
+//! The mesh grown by the margin is a ball around each point of the mesh. A new face must not cut
+//! into a ball. Two kinds of points are in the way: points that the edit cuts off, in the
+//! tetrahedron between an old face and the new vertex, and points that the new face is too near to.
 //!
-//! - A ball below the face adds the plane about the ring edge that touches the ball. Of these
-//!   planes the steepest is kept, as without a margin.
-//! - A ball beside the face, near an edge that moves or near the vertex, has no such plane, or one
-//!   that asks too much. There the face's nearest point is pushed away along the line to the mesh.
-//!   The point moves as the vertex does, times its weight. Such a plane is only right near the
-//!   place where it was made, so that these planes are looked for last and all of them are kept.
+//! - *Touching planes.* A ball below the face adds the plane through the ring edge that touches the
+//!   ball. Of these planes the steepest is kept, as without a margin.
+//! - *Pushing planes.* A ball beside the face, near an edge that moves or near the vertex, has no
+//!   touching plane, or one that asks too much. There the point of the face that is nearest to the
+//!   mesh is pushed away from it. That point moves as the vertex does, times its weight. A pushing
+//!   plane is right only near the place where it was made. So pushing planes are searched last, and
+//!   all of them are kept.
 //!
-//! All is floating point, as in `placement`.
+//! All is floating point. The editor proves or refuses the result.
 
 use super::star::{Frame, StarFace};
 use crate::lp::HalfSpace;
@@ -27,8 +28,8 @@ const LIGHT: f64 = 1e-6;
 /// Part of the clearance below which a point counts as too near.
 const LEAST_CLEARANCE: f64 = 0.5;
 
-/// A new face, and the region that its vertex sweeps.
-pub(crate) struct Sweep<'a> {
+/// A new face, the tetrahedron that its vertex sweeps, and the planes found for it so far.
+pub(crate) struct FaceMargin<'a> {
     obstacle: &'a Obstacle,
     frame: &'a Frame,
     ring: [DVec3; 2],
@@ -38,18 +39,18 @@ pub(crate) struct Sweep<'a> {
     tetrahedron: Tetrahedron,
     clearance: f64,
     tolerance: f64,
-    /// The highest plane that touches a ball, and the plane above which the centres of higher balls
-    /// are.
+    /// The highest touching plane, and a plane parallel to it through the ball's centre. Higher
+    /// balls have their centres above the second plane.
     touching: Cell<Option<(Plane, Plane)>>,
-    /// How far the vertex is below the highest plane.
+    /// Height of the highest touching plane above the vertex.
     height: Cell<f64>,
-    /// The plane that pushes the nearest point away.
+    /// The pushing plane of the nearest point so far.
     pushing: Cell<Option<HalfSpace>>,
-    /// The distance of the nearest point.
+    /// The distance of this point from the mesh.
     distance: Cell<f64>,
 }
 
-impl<'a> Sweep<'a> {
+impl<'a> FaceMargin<'a> {
     /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit.
     /// Heights up to `tolerance` are rounding.
     pub fn new(
@@ -78,8 +79,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The plane for the vertices of the mesh that are in the way.
-    pub fn points(&self, near: &Frontier) -> Option<HalfSpace> {
+    /// The highest touching plane of the vertices of the mesh that are in the way.
+    pub fn plane_over_vertices(&self, near: &Frontier) -> Option<HalfSpace> {
         let far = self.obstacle.margin() + self.clearance;
         self.obstacle.visit_points(
             near,
@@ -107,8 +108,8 @@ impl<'a> Sweep<'a> {
         weights.iter().all(|&w| w > LIGHT) && self.is_near(found.distance_sq.sqrt(), weights[0])
     }
 
-    /// The plane for the triangles that are in the way, if no vertex is.
-    pub fn pieces(&self, near: &Frontier) -> Option<HalfSpace> {
+    /// The highest touching plane of the triangles that are in the way, if no vertex is.
+    pub fn plane_over_triangles(&self, near: &Frontier) -> Option<HalfSpace> {
         self.obstacle.visit_triangles(
             near,
             |of| self.rises_to(of) && self.tetrahedron.may_meet(of),
@@ -121,8 +122,8 @@ impl<'a> Sweep<'a> {
         self.touching()
     }
 
-    /// The plane for the nearest triangle beside the face, if nothing is cut off.
-    pub fn beside(&self, near: &Frontier) -> Option<HalfSpace> {
+    /// The pushing plane of the nearest triangle beside the face, if nothing is cut off.
+    pub fn pushing_plane(&self, near: &Frontier) -> Option<HalfSpace> {
         let clearance = Clearance::new(self.obstacle.margin() + LEAST_CLEARANCE * self.clearance);
         let bounds = Bounds::of(&self.face);
         self.obstacle.visit_triangles(

@@ -13,7 +13,7 @@
 //!
 //! All is floating point. The editor proves or refuses the place that is found here.
 
-use super::margin_planes::Sweep;
+use super::margin_planes::FaceMargin;
 use super::star::{Frame, StarFace, corners, radius};
 use crate::lp::{HalfSpace, minimise_bounded};
 use crate::surface::{Bounds, Frontier, Plane};
@@ -153,12 +153,19 @@ impl Placer {
                 // A face that rises cuts nothing off, but it may turn towards mesh that it has to
                 // keep the margin from.
                 Some(ring) if margin > 0.0 => {
-                    let sweep =
-                        Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+                    let face_margin = FaceMargin::new(
+                        search.obstacle,
+                        frame,
+                        face,
+                        ring,
+                        x,
+                        clearance,
+                        tolerance,
+                    );
                     if search.edges {
-                        sweep.pieces(&search.near[1])
+                        face_margin.plane_over_triangles(&search.near[1])
                     } else {
-                        sweep.points(&search.near[0])
+                        face_margin.plane_over_vertices(&search.near[0])
                     }
                 }
                 _ if rises => None,
@@ -186,8 +193,9 @@ impl Placer {
         for face in star {
             let Some(ring) = face.ring else { continue };
             let tolerance = ROUNDING * frame.radius;
-            let sweep = Sweep::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
-            self.pushes.extend(sweep.beside(&search.near[1]));
+            let face_margin =
+                FaceMargin::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
+            self.pushes.extend(face_margin.pushing_plane(&search.near[1]));
         }
         self.pushes.len() == before
     }
