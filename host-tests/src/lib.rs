@@ -11,7 +11,7 @@ pub mod oracle;
 pub mod scene;
 pub mod workload;
 
-/// The Rust of `README.md`, run as it stands.
+/// The Rust blocks of `README.md`, run as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 mod readme {}

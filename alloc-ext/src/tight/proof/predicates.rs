@@ -151,9 +151,9 @@ pub(crate) fn are_apart(s: &Face, t: &Face) -> bool {
     }
 }
 
-/// Whether an edit that replaces the face `base` by faces at `apex` cuts `p` off the hull: `apex` is
-/// not in front of the base, and `p` lies in their closed tetrahedron. A flat tetrahedron counts as
-/// well.
+/// Whether an edit that replaces the face `base` by faces at `apex` cuts `p` off the hull: `apex`
+/// is not in front of the base, and `p` lies in their closed tetrahedron. A flat tetrahedron counts
+/// as well.
 pub(crate) fn is_cut_off(base: &Triangle, apex: DVec3, p: DVec3) -> bool {
     if side(base, apex) > 0.0 || side(base, p) > 0.0 {
         return false;
