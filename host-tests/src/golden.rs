@@ -1,4 +1,5 @@
-//! Blobs and answers that are committed. A machine or a version that computes other bits is noticed.
+//! Blobs and answers that are committed. A machine or a version that computes other bits is
+//! noticed.
 
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! The static tree of boxes behind all searches of the builder: eight boxes a node, in single
 //! precision. It passes over what a search cannot need. The searches test the items that are left.
 //!
-//! Its frame has its origin in the middle of all boxes and half their longest side as unit. So every
-//! number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
+//! Its frame has its origin in the middle of all boxes and half their longest side as unit. So
+//! every number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::bounds::{Bounds, Plane};
 use arrayvec::ArrayVec;
@@ -263,8 +263,8 @@ impl StaticTree {
         });
     }
 
-    /// The item of the least squared distance, as `distance_sq` gives it, and that square; the least
-    /// number of equals. `None` without items.
+    /// The item of the least squared distance, as `distance_sq` gives it, and that square; the
+    /// least number of equals. `None` without items.
     ///
     /// `distance_sq` must not be below the squared distance from `p` to the item's box.
     pub fn nearest(

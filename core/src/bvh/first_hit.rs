@@ -1,7 +1,7 @@
 //! The first common point of a segment and the surface.
 
 use super::descent::{Descent, descend};
-use super::segment_leaf::{Collect, Facing, Place, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor, prepare};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
@@ -53,32 +53,32 @@ impl Bvh<'_> {
     ) -> Result<FirstHit, QueryError> {
         let Some(query) = prepare(self, a, b, scratch)? else { return Ok(FirstHit::CLEAR) };
         let mut work = Work::default();
-        let collect = First {
+        let collector = FirstCrossing {
             limit: query.ray.end(),
             lower: f32::INFINITY,
-            best: Place { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
+            best: HitPlace { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
             certain: false,
             tree: self,
         };
-        let mut visitor = SegmentVisitor { query: &query, facing, collect };
+        let mut visitor = SegmentVisitor { query: &query, facing, collector };
         let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        visitor.collect.answer(&query, descent, work)
+        visitor.collector.answer(&query, descent, work)
     }
 }
 
-struct First<'a> {
+struct FirstCrossing<'a> {
     tree: &'a Bvh<'a>,
-    /// The input's surface is met no later, if `certain`; else the segment's end.
+    /// If `certain`, the input's surface is met not after this parameter. Else the segment's end.
     limit: f32,
-    /// It is not met earlier.
+    /// The input's surface is not met before this parameter.
     lower: f32,
-    best: Place,
+    best: HitPlace,
     certain: bool,
 }
 
-impl First<'_> {
+impl FirstCrossing<'_> {
     #[cold]
-    fn number(&self, place: &Place) -> Option<u32> {
+    fn number(&self, place: &HitPlace) -> Option<u32> {
         Some(self.tree.links(place.node)?.triangle(place.child).wrapping_add(place.lane))
     }
 
@@ -110,7 +110,7 @@ impl First<'_> {
     }
 }
 
-impl Collect for First<'_> {
+impl CrossingCollector for FirstCrossing<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
@@ -122,7 +122,7 @@ impl Collect for First<'_> {
             self.lower = crossing.lower;
         }
         if crossing.stored && crossing.t <= self.best.t {
-            let place = Place { t: crossing.t, node, child, lane };
+            let place = HitPlace { t: crossing.t, node, child, lane };
             if crossing.t < self.best.t || self.number(&place) < self.number(&self.best) {
                 self.best = place;
             }
