@@ -10,8 +10,8 @@ use crate::tribox::format::Triboxes;
 
 /// A blob whose bytes were checked. Copies are cheap: it borrows the bytes and holds the header.
 ///
-/// If [`Blob::open`] returned `Ok`, then every section of the blob has its CRC, and every structure
-/// is one that its own `open` accepts.
+/// If [`Blob::open`] returned `Ok`, then every section of a known kind has its CRC, and every
+/// structure is one that its own `open` accepts.
 ///
 /// ```
 /// use meshsweep_core::{Blob, Budget, BuildFor, QueryError, Scratch};

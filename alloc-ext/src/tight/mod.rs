@@ -29,7 +29,7 @@
 //! - The hull has no point in common with any triangle of the mesh. Touching counts.
 //! - Every vertex of the mesh is inside.
 //! - With a margin, no point of the hull is within the margin of the mesh. This is proved in
-//!   floating point with bounded rounding; see `proof/distance.rs`. Every point within the margin
+//!   floating point with bounded rounding; see `proof/clearance.rs`. Every point within the margin
 //!   of the mesh is therefore inside.
 //!
 //! The initial hull is tested as a whole. After that, a move is made only if exact predicates prove
