@@ -5,7 +5,7 @@ use crate::error::BuildError;
 use crate::{bvh, hull, tight, tribox};
 use meshsweep_core::{Blob, Hull};
 
-/// What to keep of a blob; what nothing is said of stays as it is.
+/// Parts of a blob to keep. A structure without a number stays as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Keep {
     /// The finest level of the hull hierarchy. A box tree cannot be cut: it is left out.
@@ -16,7 +16,7 @@ pub struct Keep {
     pub tight: Option<u32>,
 }
 
-/// What is left of a blob.
+/// A blob that was cut.
 ///
 /// # Errors
 /// [`BuildError`] if there is nothing of the kind to cut.

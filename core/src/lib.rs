@@ -87,7 +87,8 @@ pub use tribox::{
     Bound, Boundary, Candidates, NodePair, Separation, Tribox, TriboxError, TriboxLevel, Triboxes,
 };
 
-/// The rooms, for the builder, the checker and the laboratory. It promises nothing.
+/// The folders, for the builder, the checker and the tests. Not part of the public interface: it may
+/// change in any release.
 #[doc(hidden)]
 #[allow(missing_docs, reason = "each room documents itself")]
 pub mod internal {

@@ -3,15 +3,15 @@
 use meshsweep_core::{Budget, Bvh, ClosestPoint, Hint, QueryError, ScratchEntry};
 use std::num::NonZeroUsize;
 
-/// Queries that are sorted at once: 4 MiB of order, and long enough for neighbours to be near.
+/// Queries that are sorted at once. Their order takes 4 MiB, and neighbours in it are near.
 const PIECE: usize = 1 << 18;
 
-/// Closest points of all `points`, in their order: the bits of
-/// [`Bvh::closest_point`] but for `work`, which depends on where the query before ended, and so on
-/// the number of threads.
+/// Closest points of all `points`, in their order, with the bits of [`Bvh::closest_point`]. Only
+/// `work` depends on the number of threads: a query starts from the answer of the one before.
 ///
-/// Each thread takes a run of successive queries. If they are a path, or a grid row by row, it asks
-/// them as they come, else in Morton order (see [`Bvh::closest_points`]).
+/// Each thread takes a run of successive queries. It asks a path, or a grid row by row, as given,
+/// and other points in Morton order (see [`Bvh::closest_points`]).
+///
 /// Memory: 16 bytes a query besides the answers, at most 4 MiB a thread.
 ///
 /// # Errors
@@ -53,8 +53,8 @@ pub fn closest_points(
     first_error.map_or(Ok(answers), Err)
 }
 
-/// Whether each query is near the one before: a sixteenth of the box of all, on average, in
-/// 1-norms.
+/// Whether queries are near the ones before: on average within a sixteenth of the box of all, in
+/// the 1-norm.
 fn is_coherent(points: &[[f32; 3]]) -> bool {
     let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
     let wide = |p: &[f32; 3]| p.map(f64::from);
@@ -68,7 +68,7 @@ fn is_coherent(points: &[[f32; 3]]) -> bool {
     path * 16.0 <= apart(low, high) * points.len() as f64
 }
 
-/// A thread's panic is the caller's.
+/// Passes on a thread's panic to the caller.
 fn join<T>(thread: std::thread::ScopedJoinHandle<'_, T>) -> T {
     thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }

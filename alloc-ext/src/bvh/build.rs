@@ -1,4 +1,4 @@
-//! The stages in order, and what they report.
+//! The stages of a box tree's build, in order, and their report.
 
 use super::cones::cones;
 use super::encode;
@@ -19,22 +19,22 @@ use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_core::internal::num::up_to_f32;
 use std::time::{Duration, Instant};
 
-/// What to build.
+/// Options of a build.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TreeOptions {
-    /// Boxes in shared frames, which closest points are found with.
+    /// Whether to store boxes in shared frames, for closest points.
     pub closest: bool,
-    /// Axis-aligned boxes, which segments need.
+    /// Whether to store axis-aligned boxes, for segments and overlap.
     pub segments: bool,
-    /// Normal cones, which culling needs.
+    /// Whether to store normal cones, for culling.
     pub cull: bool,
-    /// Vertices as exact f32 instead of 16 bits on a grid.
+    /// Whether to store vertices in f32 instead of 16 bits on a grid.
     pub single: bool,
     /// Weights of the fan decomposition.
     pub weights: Weights,
-    /// What the topology minimises.
+    /// Objective of the topology.
     pub topology: TopologyOptions,
-    /// How frames are chosen.
+    /// Choice of frames.
     pub frames: FrameOptions,
 }
 
@@ -52,7 +52,7 @@ impl Default for TreeOptions {
     }
 }
 
-/// What building took and gave.
+/// Counts and time of a build.
 #[derive(Clone, Debug)]
 pub struct TreeReport {
     /// Triangles.
@@ -67,17 +67,17 @@ pub struct TreeReport {
     pub depth: usize,
     /// The tree's header.
     pub header: BvhHeader,
-    /// Time in all.
+    /// Time of the whole build.
     pub time: Duration,
 }
 
-/// Most triangles of a tree: with more, node numbers and the offsets of source numbers could
-/// outgrow the format.
+/// Most triangles of a tree. With more, node numbers or offsets of source numbers could exceed the
+/// format's range.
 pub const MAX_TRIANGLES: usize = 1 << 24;
 
 /// Builds the box tree of any triangle soup.
 ///
-/// Every triangle is kept, also one that the grid makes degenerate. Each [`Wire`] is kept as a
+/// Every triangle is kept, even if the grid makes it degenerate. Each [`Wire`] is kept as a
 /// triangle with a repeated corner, in a leaf of its own.
 ///
 /// Cost: O(n log n), about a microsecond a triangle and step.
@@ -196,7 +196,7 @@ fn header(
     }
 }
 
-/// Whether as many triangles run through every edge in one direction as in the other: then the
+/// Whether triangles run through every edge as often in one direction as in the other. Then the
 /// surface bounds a volume. Wires bound none.
 fn is_closed(vertex_count: usize, triangles: &[[u32; 3]]) -> bool {
     if triangles.is_empty() {

@@ -5,9 +5,9 @@ use super::nodes::order::Topology;
 use glam::DVec3;
 use meshsweep_core::internal::geom::fan::NormalCone;
 
-/// Squared sine of the angle between two edges below which the direction of the normal is not
-/// trusted: f64 gets it to 1e-15 of the edges' lengths, a millionth of this sine. On the grid that
-/// leaves out needles whose area is next to none.
+/// Squared sine of the angle between two edges below which a normal's direction is not used. f64
+/// gives the normal to 1e-15 of the edges' lengths, a millionth of this sine. On the grid only
+/// needles of almost no area are left out.
 const FLAT: f64 = 1e-18;
 
 /// Room in the sine for all rounding here.
@@ -18,7 +18,7 @@ pub(super) fn cones(topology: &Topology, leaves: &[FanLeaf], positions: &[DVec3]
     topology.leaf_order.iter().flat_map(|&item| cone(&leaves[item as usize], positions)).collect()
 }
 
-/// The cone of a leaf. Triangles without area face nowhere and do not count.
+/// The cone of a leaf. Triangles without area have no normal and do not count.
 fn cone(leaf: &FanLeaf, positions: &[DVec3]) -> [u8; 4] {
     let mut normals = Vec::new();
     for fan in leaf.fans() {
@@ -49,8 +49,8 @@ fn cone(leaf: &FanLeaf, positions: &[DVec3]) -> [u8; 4] {
     if steps <= 254.0 { NormalCone::write(axis, steps as u8) } else { NormalCone::UNKNOWN }
 }
 
-/// Directions, one of which is the axis of the narrowest cone: that of one, two or three normals;
-/// and their mean, should none of these do.
+/// Directions, among them the axis of the narrowest cone: those of one, two or three normals, and
+/// the mean of all.
 fn axes(normals: &[DVec3]) -> Vec<DVec3> {
     let mut axes = vec![normals.iter().sum()];
     for (i, &a) in normals.iter().enumerate() {

@@ -124,7 +124,7 @@ pub(super) fn frames(nodes: &[NodeBoxes], grid_origin: [i32; 3]) -> Vec<u8> {
         put_origin(&mut out, node, grid_origin);
         for exponent in node.exponent {
             let step = exp2(i32::from(exponent)) / f64::from(node.n());
-            // A square of f64 rounding below, so that no bound is too great.
+            // Rounded down, so that no lower bound of a distance is too large.
             put(&mut out, down_to_f32(step * step * (1.0 - 1e-15)));
         }
     }

@@ -1,10 +1,10 @@
 //! The box tree: triangle fans, an 8-wide tree over them, quantised boxes, and their bytes.
 //!
 //! ```text
-//! mesh ─ store (grid) ─ fan (leaves) ─ sah ─ collapse ─ order ─ fit (frames, boxes) ─ encode ─ sections
+//! mesh ─ store (grid) ─ fans (leaves) ─ nodes (topology, boxes) ─ encode ─ sections
 //! ```
 //!
-//! Any triangle soup will do: nothing here asks for a closed or manifold mesh.
+//! Any triangle soup will do. The mesh need not be closed or manifold.
 
 mod batch;
 mod build;

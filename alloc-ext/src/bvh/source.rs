@@ -1,6 +1,6 @@
-//! Triangle numbers in the input file, packed: blocks of 64 neighbouring triangles, each with its
-//! least number and just enough bits for the differences. Files number neighbours alike, so that
-//! takes half of what plain numbers would.
+//! Triangle numbers in the input file, packed in blocks of 64 neighbouring triangles. A block has
+//! its least number and just enough bits for the differences. Files give neighbours similar
+//! numbers, so this takes half the bytes of plain numbers.
 
 use meshsweep_core::internal::bvh::format::layout::{
     SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING,

@@ -16,20 +16,19 @@ pub(super) struct OnGrid {
     pub(super) origin: [i32; 3],
     /// Vertices as stored, grid units.
     pub(super) positions: Vec<DVec3>,
-    /// Distance that no vertex moved more than since the input, local frame, rounded up.
+    /// Largest distance of a vertex from its place in the input, local frame, rounded up.
     pub(super) surface_error: f64,
 }
 
-/// Finest exponent for which every coordinate on the grid is an integer below 2^24: exact sums in
-/// f32.
+/// Finest exponent for which every coordinate on the grid is an integer below 2^24. Their sums are
+/// exact in f32.
 const FINEST: i32 = -24;
 
-/// Steps that the mesh may take on its longest axis: vertices are rounded to the nearest step, up
-/// or down.
+/// Most steps of the mesh's longest axis. Vertices are rounded to the nearest step, up or down.
 const STEPS: f64 = 65_534.0;
 
-/// Moves a mesh to the finest power-of-two grid of 16 bits that holds it, or, if `single`, only
-/// changes its units.
+/// Moves a mesh to the finest power-of-two grid of 16 bits that holds it. With `single`, only its
+/// units change.
 pub(super) fn store(input: Input<'_>, single: bool) -> OnGrid {
     let mesh = input.mesh;
     let scale = scale_exponent(mesh);
@@ -66,7 +65,7 @@ pub(super) fn store(input: Input<'_>, single: bool) -> OnGrid {
         exponent,
         origin,
         positions,
-        // Room for what f32 does to it in a query (`core/docs/rounding.md` §9).
+        // Room for its rounding to f32 in a query (`core/docs/rounding.md` §9).
         surface_error: (error + before) * (1.0 + 1e-6),
     }
 }

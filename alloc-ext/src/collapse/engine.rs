@@ -1,9 +1,9 @@
 //! The progressive hull of a mesh: its edges as the [greedy loop](super::greedy) sees them, and the
 //! record of its collapses.
 //!
-//! Costs are evaluated lazily: after a collapse only the edges of the new vertex are evaluated at
-//! once; other edges around it keep their old cost until they reach the top of the queue. With few
-//! faces left, where every choice shows, evaluation is eager, as in the paper. `core/DESIGN.md` has
+//! Costs are evaluated lazily. After a collapse only the edges of the new vertex are evaluated at
+//! once. Other edges around it keep their old cost until they reach the top of the queue. With few
+//! faces left every choice shows, and evaluation is eager, as in the paper. `core/DESIGN.md` has
 //! the measurements.
 
 use super::greedy::{self, Candidate, Collapsing, Schedule};
@@ -16,10 +16,10 @@ use crate::surface::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// Faces from which on the first priority is evaluated eagerly.
+/// Faces left below which evaluation is eager.
 const EAGER_BELOW: usize = 4000;
 
-/// What the loop has done so far.
+/// Progress of the loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
     /// Faces left.
@@ -30,7 +30,7 @@ pub struct Progress {
     pub programs: u64,
 }
 
-/// Why the loop stopped before its target: what kept the edges that were left from collapsing.
+/// Why the loop ended before its target: the edges that are left, by the reason of their refusal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stuck {
     /// Link condition or valence.
@@ -41,12 +41,12 @@ pub struct Stuck {
     pub shape: usize,
 }
 
-/// What is known of an edge.
+/// State of an edge.
 #[derive(Clone, Copy, Debug)]
 enum EdgeState {
-    /// In the queue, by its entry of this time; older entries are void.
+    /// Its entry in the queue has this time. Older entries do not count.
     Queued(u32),
-    /// Refused since anything near it changed; the cost to try again by.
+    /// Refused; the cost of its entry when a star near it changes.
     Refused(f64),
 }
 
@@ -59,9 +59,9 @@ pub struct Engine {
 /// The edges of the mesh, and the record of their collapses.
 struct Edges {
     surface: Surface,
-    /// Label of the vertex that now sits in each slot.
+    /// Label of the vertex in each slot.
     labels: Vec<u32>,
-    /// Instance of the triangle that now sits in each slot.
+    /// Instance of the triangle in each slot.
     instances: Vec<u32>,
     states: FxHashMap<[u32; 2], EdgeState>,
     around: Vec<[u32; 2]>,
@@ -100,7 +100,7 @@ impl Engine {
         Engine { edges, schedule }
     }
 
-    /// Where the loop stands.
+    /// Progress so far.
     pub fn progress(&self) -> Progress {
         self.edges.progress()
     }
@@ -110,7 +110,7 @@ impl Engine {
         self.edges.history.added_volume.iter().sum()
     }
 
-    /// Positions by label, those that are gone too.
+    /// Positions by label, also of vertices that are gone.
     pub fn positions(&self) -> &[DVec3] {
         &self.edges.history.positions
     }
@@ -120,7 +120,7 @@ impl Engine {
         self.edges.faces()
     }
 
-    /// Collapses until at most `target` faces are left, `Some` if no legal collapse gets there.
+    /// Collapses until at most `target` faces are left; `Some` if no legal collapse is left before.
     pub fn run(&mut self, target: usize, mut on_progress: impl FnMut(Progress)) -> Option<Stuck> {
         let show = |edges: &Edges| {
             if edges.history.collapses.len().is_multiple_of(1024) {
@@ -172,12 +172,12 @@ impl Collapsing for Edges {
         }
     }
 
-    /// Places the vertex exactly and collapses; `false` if it is refused after all, or put back.
+    /// Places the vertex exactly and collapses; `false` if the edge is refused or put back.
     ///
-    /// The second priority learns here what the collapse really adds. One that adds more than its
-    /// priority promised goes back and waits for its turn by that; the paper would apply it. It
-    /// costs no further program for the edges that do collapse at once, and keeps the worst of
-    /// them from the last few hundred faces.
+    /// The span is only an estimate of the volume that a collapse adds. An edge that adds more than
+    /// its span goes back into the queue with the true volume; the paper would collapse it. This
+    /// costs no further linear program for the other edges, and the last few hundred faces are
+    /// better by it.
     fn collapse(&mut self, candidate: &Candidate, schedule: &mut Schedule) -> bool {
         let ends = candidate.ends;
         let placed = if self.surface.gather(ends) {
@@ -291,7 +291,7 @@ impl Edges {
         Some(())
     }
 
-    /// Tries every edge once more to say what is in the way.
+    /// Tries every edge once more and counts the reasons of refusals.
     fn why_stuck(&mut self) -> Stuck {
         let mut stuck = Stuck::default();
         for ends in self.surface.mesh.edges() {

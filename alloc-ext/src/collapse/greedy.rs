@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 /// An edge that may be collapsed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate<N = ()> {
-    /// Cost of the collapse, as far as known.
+    /// Cost of the collapse when it was evaluated.
     pub cost: f64,
     /// Decides between equal costs, before the ends do.
     pub rank: u32,
@@ -19,12 +19,12 @@ pub(crate) struct Candidate<N = ()> {
     pub ends: [u32; 2],
     /// Time of the evaluation; 0 if the cost is only a guess.
     pub time: u32,
-    /// What the evaluation found for the collapse.
+    /// Result of the evaluation that the collapse needs.
     pub note: N,
 }
 
 impl<N> Ord for Candidate<N> {
-    /// The cheapest is the greatest. Ties are ordered, so that a build does not depend on the heap's
+    /// The cheapest is the greatest. Ties are ordered, so a build does not depend on the heap's
     /// history.
     fn cmp(&self, other: &Self) -> Ordering {
         other
@@ -64,7 +64,7 @@ impl<N> Schedule<N> {
         Self { queue: BinaryHeap::new(), changed: vec![0; vertex_count], now: 1 }
     }
 
-    /// The time: it goes on with every collapse.
+    /// The time. Every collapse advances it by 1.
     pub fn now(&self) -> u32 {
         self.now
     }
@@ -84,7 +84,7 @@ impl<N> Schedule<N> {
         time < self.changed[a as usize].max(self.changed[b as usize])
     }
 
-    /// Goes on in time, and marks the stars of a vertex and its ring as changed.
+    /// Advances the time, and marks the stars of a vertex and its ring as changed.
     fn mark(&mut self, vertex: u32, ring: &[u32]) {
         self.now += 1;
         self.changed[vertex as usize] = self.now;
@@ -92,10 +92,10 @@ impl<N> Schedule<N> {
     }
 }
 
-/// What a [`Schedule`] drives: a mesh, the priority of its edges, the placement of new vertices, and
-/// the conditions that admit them.
+/// A mesh that the loop collapses: the priority of its edges, the placement of new vertices, and the
+/// conditions that admit them.
 pub(crate) trait Collapsing {
-    /// Found by the evaluation of an edge, for its collapse.
+    /// Result of an evaluation that the collapse needs.
     type Note;
 
     /// The mesh as it is.
@@ -104,18 +104,17 @@ pub(crate) trait Collapsing {
     /// Adds an edge to the schedule with its cost now, unless it may not collapse.
     fn evaluate(&mut self, ends: [u32; 2], schedule: &mut Schedule<Self::Note>);
 
-    /// Whether a candidate's entry counts. An entry for an edge that is gone must not.
+    /// Whether a candidate's entry counts. False for an edge that is gone.
     fn is_valid(&self, candidate: &Candidate<Self::Note>) -> bool;
 
-    /// Collapses an edge into its first end, if there is a place for the vertex that all conditions
-    /// admit.
+    /// Collapses an edge into its first end; false if no place for the vertex meets all conditions.
     fn collapse(
         &mut self,
         candidate: &Candidate<Self::Note>,
         schedule: &mut Schedule<Self::Note>,
     ) -> bool;
 
-    /// Edges whose star a collapse has changed.
+    /// Evaluates edges whose star a collapse has changed.
     fn reconsider(&mut self, vertex: u32, ring: &[u32], schedule: &mut Schedule<Self::Note>) {
         for &v in ring {
             self.evaluate([vertex.min(v), vertex.max(v)], schedule);
@@ -133,8 +132,8 @@ pub(crate) trait Collapsing {
     }
 }
 
-/// Collapses the cheapest edge, again and again, until at most `target` faces are left; false if it
-/// ends before. `on_collapse` is told the faces after each collapse.
+/// Collapses the cheapest edge until at most `target` faces are left; false if it ends before.
+/// `on_collapse` is called after each collapse.
 pub(crate) fn run<C: Collapsing>(
     of: &mut C,
     schedule: &mut Schedule<C::Note>,

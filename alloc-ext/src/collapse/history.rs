@@ -1,4 +1,4 @@
-//! What was collapsed, in order: enough to undo every step out of order.
+//! The record of all collapses: enough to undo each of them, in any order that dependencies allow.
 
 use glam::DVec3;
 

@@ -1,5 +1,5 @@
-//! The edge-collapse engine: priorities, conditions, placement by a linear program, and a history
-//! that can be inverted.
+//! Edge collapses: one greedy loop, priorities, conditions, placement by a linear program, and a
+//! history that can be inverted.
 //!
 //! Progressive hulls after Platis & Theoharis 2003, 3.1. Topology never looks at positions
 //! (`star`), placement never at topology (`placement`), and the loop at neither (`greedy`).
@@ -24,8 +24,8 @@ pub enum Priority {
     /// Volume that the collapse would add, from the program's own optimum: tighter hulls.
     #[default]
     Program,
-    /// Volume of the tetrahedra between the star and the centre of its link: no program before the
-    /// collapse itself.
+    /// Volume of the tetrahedra between the star and the centre of its link: no linear program before
+    /// the collapse.
     Span,
 }
 

@@ -1,6 +1,6 @@
-//! Where the new vertex of a collapse goes: on or outside every plane of the star, adding the least
-//! volume (Platis & Theoharis 2003, 3.1.2), rounded to the stored precision and proved there by
-//! exact predicate.
+//! Placement of the new vertex of a collapse: on or outside every plane of the star, with the least
+//! added volume (Platis & Theoharis 2003, 3.1.2). The vertex is rounded to the stored precision and
+//! proved there by an exact predicate.
 
 use super::Conditions;
 use crate::lp::{HalfSpace, minimise_bounded};
@@ -8,7 +8,7 @@ use crate::surface::Grid;
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-/// A face's plane, kept up to date so that evaluating an edge needs no square root per face.
+/// A face's plane. It is kept, so the evaluation of an edge needs no square root for each face.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Facet {
     /// Unit normal; zero if the face has no area.
@@ -33,7 +33,7 @@ impl Facet {
     }
 }
 
-/// One triangle of a star, as the placement sees it.
+/// A triangle of a star.
 #[derive(Clone, Copy, Debug)]
 pub struct StarFace {
     /// Corners.
@@ -53,7 +53,7 @@ pub struct Placement {
     pub volume: f64,
 }
 
-/// Why there is none.
+/// Why there is no placement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Refusal {
     /// No point lies outside all planes, or rounding to the stored precision could not be repaired.
@@ -62,8 +62,8 @@ pub enum Refusal {
     Condition(f64),
 }
 
-/// Places the vertex that replaces an edge with midpoint `middle`. With `exact` it is rounded to
-/// the grid and proved to lie on or outside every plane; without, it is good enough for a priority.
+/// Places the vertex that replaces an edge with midpoint `middle`. With `exact` the vertex is rounded
+/// to the grid and proved to lie on or outside every plane. Without, it serves a priority only.
 #[inline]
 pub fn place(
     faces: &[StarFace],
@@ -144,9 +144,9 @@ impl<'a> Program<'a> {
         Some(self.middle + x * self.radius)
     }
 
-    /// The optimum on the grid, outside or on every plane of the star by exact predicate. Rounding
-    /// breaks a plane in a third of all collapses; planes shifted by one to eight half-steps of
-    /// the grid and solved again repair nearly all of them.
+    /// The optimum on the grid, on or outside every plane of the star by exact predicate. Rounding
+    /// crosses a plane in a third of all collapses. The program is then solved again, with planes
+    /// shifted by one to sixteen half-steps of the grid. That repairs nearly all of them.
     fn solve_exactly(&mut self, faces: &[StarFace], grid: &Grid) -> Option<DVec3> {
         let mut shift = 0.0;
         for attempt in 0..6 {

@@ -2,7 +2,7 @@
 
 use arrayvec::ArrayVec;
 
-/// Most triangles of an edge's star that the engine handles.
+/// Most triangles of an edge's star.
 pub const MAX_STAR: usize = 64;
 
 /// Triangles and the triangles at each vertex.
@@ -84,9 +84,9 @@ impl Connectivity {
         self.at(vertex).iter().map(move |&t| self.next_in(t, vertex))
     }
 
-    /// Puts the triangles of edge `a b`'s star into `star` and says whether collapsing the edge
-    /// keeps the mesh manifold (link condition, Dey et al. 1999) and the valence in bounds. If
-    /// not, `star` holds nothing of use.
+    /// Puts the triangles of edge `a b`'s star into `star`. True if collapsing the edge keeps the
+    /// mesh manifold (link condition, Dey et al. 1999) and the valence in bounds; otherwise `star`
+    /// is incomplete.
     #[inline]
     pub fn collapsible_star(
         &mut self,
@@ -99,8 +99,8 @@ impl Connectivity {
         let stamp = self.stamp;
         let (at_a, at_b) = (&self.at_vertex[a as usize], &self.at_vertex[b as usize]);
         let total = at_a.len() + at_b.len();
-        // Both ends keep their two shared triangles; the closed mesh of four triangles is the end
-        // of the road.
+        // Both ends count their two shared triangles. A closed mesh of four triangles cannot
+        // collapse further.
         if total < 7 || total - 4 > max_valence || total - 2 > MAX_STAR {
             return false;
         }
@@ -237,7 +237,7 @@ impl Connectivity {
     }
 }
 
-/// What lies on the two sides of an edge `a b`: left of it first.
+/// The two sides of an edge `a b`, the left one first.
 #[derive(Clone, Copy, Debug)]
 pub struct Wings {
     /// The triangle of `a b`, and that of `b a`.

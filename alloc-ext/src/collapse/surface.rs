@@ -1,4 +1,4 @@
-//! A mesh with the planes of its faces, and the star of an edge as placement sees it.
+//! A mesh with the planes of its faces, and the star of an edge for the placement.
 
 use super::Conditions;
 use super::placement::{Facet, Placement, Refusal, StarFace, place};
@@ -16,7 +16,7 @@ pub struct Surface {
     grid: Grid,
     /// Linear programs solved.
     pub programs: u64,
-    /// Star of the edge at hand, and its program: kept to save allocations.
+    /// Star of the current edge, and its linear program: kept to save allocations.
     star: Vec<u32>,
     faces: Vec<StarFace>,
     planes: Vec<HalfSpace>,
@@ -43,7 +43,7 @@ impl Surface {
         }
     }
 
-    /// Gathers the star of an edge and what placement needs; `false` if the edge may not collapse.
+    /// Gathers the star of an edge for its placement; `false` if the edge may not collapse.
     #[inline]
     pub fn gather(&mut self, [a, b]: [u32; 2]) -> bool {
         if !self.mesh.collapsible_star(a, b, self.conditions.max_valence, &mut self.star) {
@@ -121,7 +121,7 @@ impl Surface {
         }
     }
 
-    /// Positions and triangles without gaps, each in the order that it had.
+    /// Positions and triangles that are left, each in its old order.
     pub fn compact(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         compact_in_order(&self.positions, self.mesh.alive().map(|t| self.mesh.corners[t as usize]))
     }

@@ -1,8 +1,8 @@
-//! Many collapses at once, where their order does not show: rounds of the cheapest edges whose
-//! stars have no face in common.
+//! Rounds of collapses for fine meshes, where the order of collapses does not show: a round takes
+//! the cheapest edges whose stars share no face.
 //!
-//! The queue of [`Engine`](super::Engine) gives a better hull of as many faces and takes four times
-//! as long: it solves a program for each edge around each collapse, and reads memory in no order.
+//! [`Engine`](super::Engine) gives a better hull of as many faces and takes four times as long. It
+//! solves a linear program for each edge around each collapse, and reads memory in no order.
 
 use super::Conditions;
 use super::greedy::{self, Candidate, Collapsing, Schedule};
@@ -11,17 +11,17 @@ use super::surface::Surface;
 use crate::surface::Grid;
 use glam::DVec3;
 
-/// Part of the edges that a round tries, the cheapest: with more the hull grows into itself in
-/// narrow places.
+/// Part of the edges that a round tries. With more, the hull grows into itself in narrow places.
 const TRIED: f64 = 0.1;
 
-/// A round that collapses fewer than one edge in this many that it tries is the last.
+/// The last round is the one that collapses fewer than one in this many of its edges.
 const TOO_FEW: usize = 100;
 
-/// Collapses edges of a closed manifold mesh, positions on `grid`, until about `target` faces are
-/// left and never fewer, or hardly an edge may collapse, or `stop` says so after a round:
-/// positions, on the grid, and triangles of a hull of it. As with [`Engine`](super::Engine), what
-/// the mesh winds around it winds around.
+/// Positions, on `grid`, and triangles of a hull of a closed manifold mesh, whose positions are on
+/// `grid` too. The hull winds around every point that the mesh winds around.
+///
+/// It has `target` faces, or one more. It has more if hardly an edge may collapse, or if `stop`,
+/// which is told the faces after a round, returns true.
 pub fn thin(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
@@ -76,7 +76,7 @@ impl<F: FnMut(usize) -> bool> Collapsing for Rounds<F> {
         let placed =
             if self.surface.gather([a, b]) { self.surface.place([a, b], true).ok() } else { None };
         let Some(placement) = placed else {
-            // Refused as long as its star is the same.
+            // Refused until its star changes.
             self.costs[candidate.rank as usize] = f64::INFINITY;
             return false;
         };

@@ -1,4 +1,4 @@
-//! The stages in order, and what they report.
+//! The stages of a hull hierarchy's build, in order, and their report.
 
 use super::cover::{Cover, Offspring, plant};
 use super::forest::{Forest, grow};
@@ -19,7 +19,7 @@ use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
 use meshsweep_core::{Level, OpenError};
 use std::time::{Duration, Instant};
 
-/// What to build.
+/// Options of a build.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BuildOptions {
     /// Faces of the base hull; the build stops earlier if no legal collapse is left.
@@ -43,7 +43,7 @@ impl Default for BuildOptions {
     }
 }
 
-/// What building took and gave.
+/// Counts, times and volume of a build.
 #[derive(Clone, Debug)]
 pub struct BuildReport {
     /// Faces of the base hull.
@@ -52,11 +52,11 @@ pub struct BuildReport {
     pub stuck: Option<Stuck>,
     /// Linear programs solved.
     pub programs: u64,
-    /// Collapsing.
+    /// Time of the collapses.
     pub collapse_time: Duration,
-    /// Radii and cover tree.
+    /// Time of radii and cover tree.
     pub sweep_time: Duration,
-    /// Certifying the levels' distances.
+    /// Time of certifying the levels' distances.
     pub certify_time: Duration,
     /// Volume of the mesh, input units.
     pub volume: f64,
@@ -64,14 +64,14 @@ pub struct BuildReport {
     pub wires: f64,
 }
 
-/// A blob and how it came about.
+/// A blob, its tables, and the report of its build.
 #[derive(Clone, Debug)]
 pub struct Built {
-    /// The blob's contents.
+    /// Tables of the hull hierarchy.
     pub tables: Tables,
     /// The blob.
     pub bytes: Vec<u8>,
-    /// What it took.
+    /// Report of the build.
     pub report: BuildReport,
 }
 
@@ -81,9 +81,9 @@ const MAX_TRIANGLES: usize = 20_000_000;
 /// Builds the hull hierarchy of a closed manifold mesh (see
 /// [`require_closed_manifold`](crate::mesh::require_closed_manifold)).
 ///
-/// Parts may overlap. But where a mesh passes through itself inside out, so that it winds around
-/// points negatively, its hulls do not enclose it; distances and
-/// [`first_hit`](meshsweep_core::query::first_hit) hold all the same.
+/// Components may overlap. Where a mesh passes through itself inside out, it winds around points
+/// negatively, and its hulls do not enclose it there. Distances and
+/// [`first_hit`](meshsweep_core::Hull::first_hit) hold all the same.
 ///
 /// How far [wires](crate::mesh::Wire) are from the triangles with an area is part of the surface
 /// error: the hulls need not enclose them.
@@ -148,8 +148,8 @@ fn store_solid(mesh: &Mesh, bits: VertexBits) -> Stored {
     stored
 }
 
-/// A hull alone: its triangles in input units, the void it adds as a part of the mesh's volume, and
-/// why it stopped early. It encloses the mesh without its wires.
+/// A hull alone: its triangles in input units, its void as a part of the mesh's volume, and why
+/// collapses ended early. It encloses the mesh without its wires.
 ///
 /// # Errors
 /// [`BuildError::NotPositive`].
@@ -173,7 +173,7 @@ pub fn hull_of(
     Ok((Mesh::new(positions, triangles), void, stuck))
 }
 
-/// Volume in the local frame, which void is measured against.
+/// Volume of the mesh in the local frame: the unit of void.
 fn positive_volume(stored: &Stored, mesh: &Mesh) -> Result<f64, BuildError> {
     let corners = mesh.triangles.iter().map(|t| t.map(|v| stored.positions[v as usize]));
     let volume = SignedVolume::of(corners).value;
@@ -324,8 +324,8 @@ fn assemble(
     }
 }
 
-/// Fills in how far each level's cover can be from the surface, both ways, by asking the finished
-/// model.
+/// Fills in certified distances between each level's cover and the surface, both ways, by queries of
+/// the finished blob.
 fn certify(tables: &mut Tables) -> Result<(), OpenError> {
     let bytes = tables.to_bytes();
     let model = Hull::open(&bytes)?;

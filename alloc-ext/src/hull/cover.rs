@@ -1,17 +1,17 @@
 //! The cover tree: the forest without its chains, with one root, in the order in which a blob
 //! stores it.
 //!
-//! Any swept triangle that contains the leaves below a node will do as its bound. So chains of
-//! single children shrink to their finest triangle, small subtrees become lists of triangles, runs
-//! of nodes that hardly bound better than their parent are skipped, and above the base hull nodes
-//! are made from its vertices.
+//! Any swept triangle that contains the leaves below a node bounds the node. So chains of single
+//! children shrink to their finest triangle. Small subtrees become lists of triangles. Nodes that
+//! hardly bound better than their parent are skipped. Above the base hull, nodes are made from its
+//! vertices.
 
 use super::forest::{Forest, NO_PARENT, cover_radius};
 use super::swept::best_cover;
 use crate::collapse::{History, VertexOrder};
 use glam::DVec3;
 
-/// What is below a node.
+/// Children of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Offspring {
     /// Nodes `first .. first + count` of [`Cover::nodes`].
@@ -39,7 +39,7 @@ pub struct CoverNode {
     pub radius: f64,
     /// Splits that must have been performed before all corners exist.
     pub ready: u32,
-    /// What is below.
+    /// Its children.
     pub offspring: Offspring,
 }
 
@@ -81,8 +81,8 @@ struct Grove {
     children: Vec<Vec<u32>>,
     /// Original triangles below each instance.
     leaves: Vec<u32>,
-    /// Finest instance of the chain of each base triangle that stands for something, and the
-    /// triangle's position.
+    /// Finest instance of the chain of each base triangle that covers original triangles, and the
+    /// base triangle's position.
     roots: Vec<(u32, usize)>,
 }
 
@@ -309,8 +309,8 @@ impl Drafts<'_> {
             }
         }
         let root = done.pop().unwrap_or(0);
-        // One base triangle may stand for everything, by a node of a finer level: the root must
-        // exist at every level.
+        // One base triangle may cover everything by a node of a finer level. The root must exist
+        // at every level.
         if self.drafts[root].ready > 0 { self.crown_node(&all, vec![root]) } else { root }
     }
 

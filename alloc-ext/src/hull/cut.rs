@@ -4,8 +4,8 @@
 use super::tables::Tables;
 use meshsweep_core::Hull;
 
-/// Tables of a hull hierarchy after level `index`, a valid and still certified coarser
-/// model; the last level returns all of it. `None` if there is no such level.
+/// Tables of a hull hierarchy after level `index`: a valid, certified, coarser hierarchy. The last
+/// level gives all of it. `None` if there is no such level.
 #[must_use]
 pub fn cut(whole: &Hull<'_>, index: u32) -> Option<Tables> {
     let level = whole.level(index)?;

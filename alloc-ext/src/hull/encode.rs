@@ -82,7 +82,7 @@ impl Tables {
                 for node in &self.nodes {
                     node.corners.iter().for_each(|&v| put(&mut out, v, wv));
                     out.extend(node.radius.0.to_le_bytes());
-                    // What was cut off is "none": it lies beyond every count.
+                    // A child that was cut off is "none": it lies beyond every count.
                     let first = if node.count == 0 { none(wc) } else { node.first };
                     put(&mut out, first, wc);
                     out.push(node.count | if node.leaf { LEAF_FLAG } else { 0 });
@@ -105,7 +105,7 @@ impl Tables {
                     }
                 }
             }
-            // All others bring their own.
+            // Sections of other structures.
             _ => {}
         }
         out

@@ -12,8 +12,8 @@ pub const NO_PARENT: u32 = u32::MAX;
 pub struct Forest {
     /// Coarse instance that each instance was assigned to.
     pub parent: Vec<u32>,
-    /// Radius of each instance, local frame, not rounded to storage yet; infinite where it stands
-    /// for nothing.
+    /// Radius of each instance, local frame, before it is rounded for storage; infinite for an
+    /// instance that covers nothing.
     pub radius: Vec<f64>,
     /// Original vertices below each instance of the base hull, in the order of
     /// `History::base_instances`.
@@ -104,7 +104,7 @@ fn tightest(history: &History, vertices: &[u32], corners: &[[DVec3; 3]], natural
     best
 }
 
-/// Union of vertex lists; duplicates are weeded out before they pile up.
+/// Union of vertex lists, without duplicates.
 fn merge(into: &mut Vec<u32>, mut other: Vec<u32>) {
     if into.len() < other.len() {
         std::mem::swap(into, &mut other);

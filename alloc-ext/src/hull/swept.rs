@@ -1,4 +1,4 @@
-//! A swept triangle around several: which one is tightest.
+//! The tightest of a few swept triangles around a set of vertices.
 
 use super::forest::cover_radius;
 use glam::DVec3;
@@ -6,9 +6,9 @@ use glam::DVec3;
 /// Faces that are tried as they are.
 const FACES_TRIED: usize = 8;
 
-/// Of the first faces, and the corner nearest the middle, the longest segment and the largest
-/// triangle through it: what covers `vertices` with the least radius. All are indices into
-/// `positions`.
+/// The triangle that covers `vertices` with the least radius, and that radius. Candidates are the
+/// first faces, the corner nearest the middle, the longest segment and the largest triangle on it.
+/// All numbers are indices into `positions`.
 pub fn best_cover(
     positions: &[DVec3],
     faces: &[[u32; 3]],

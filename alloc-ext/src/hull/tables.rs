@@ -1,5 +1,5 @@
-//! The contents of a blob as plain vectors: what the builder fills, what a cut shortens, what is
-//! written.
+//! A hull hierarchy as plain vectors. The builder fills them, a cut shortens them, and they are
+//! written as sections.
 
 use glam::Vec3;
 use meshsweep_core::Hull;
@@ -39,7 +39,7 @@ pub struct NodeRecord {
     pub leaf: bool,
 }
 
-/// Everything that a blob holds.
+/// A hull hierarchy as a blob holds it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tables {
     /// Input coordinate = local coordinate × 2^this.

@@ -1,4 +1,4 @@
-//! How far wires are from the surface: what a hull hierarchy carries in its surface error.
+//! The distance of wires from the surface, which a hull hierarchy carries in its surface error.
 
 use crate::bvh::exact_blob;
 use crate::hausdorff::{farthest, nearest_in};
@@ -6,11 +6,11 @@ use crate::mesh::Mesh;
 use glam::Vec3;
 use meshsweep_core::Bvh;
 
-/// A distance, input units, that no point of a [wire](crate::mesh::Wire) is farther than from the
-/// triangles with an area; 0 without wires, infinite without triangles.
+/// Upper bound of the distance from a point of a [wire](crate::mesh::Wire) to the triangles with an
+/// area, input units; 0 without wires, infinite without triangles.
 ///
-/// The split tables hold triangles with an area only. So the hull hierarchy takes the wires for
-/// points of the surface that were moved onto it by this distance at most.
+/// The split tables hold triangles with an area only. So the hull hierarchy treats the wires as
+/// points of the surface that were moved onto it by at most this distance.
 ///
 /// Cost: a box tree of the mesh, and some dozen closest points for each wire.
 #[must_use]

@@ -89,7 +89,7 @@ fn take_out_flat(
             let corners = triangle.map(|v| positions[v as usize]);
             let wire = Wire::of(positions, triangle, number);
             taken_out.push(TakenOut { wire, first: triangle[0], repeats_corner: false });
-            // Enough to explain the holes that an error will list.
+            // As many as explain the holes that an error lists.
             if report.dropped.len() < 64 * PLACES_KEPT {
                 report.dropped.push((number, corners));
             }

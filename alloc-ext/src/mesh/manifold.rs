@@ -2,7 +2,7 @@
 
 use super::boundary::boundary;
 use super::edges::{EdgeTable, NON_MANIFOLD, ends};
-use super::outward::closed_parts;
+use super::outward::closed_components;
 use super::report::PLACES_KEPT;
 use super::vertex_fans::fans;
 use super::winding::propagate;
@@ -63,7 +63,7 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
         return Err(MeshError::InconsistentWinding { edge_count, places });
     }
 
-    let solids = closed_parts(&mesh.positions, triangles, &parts);
+    let solids = closed_components(&mesh.positions, triangles, &parts);
     let first_corner = |t: u32| mesh.positions[triangles[t as usize][0] as usize];
     if let Some(part) = solids.iter().find(|part| part.volume.is_zero()) {
         return Err(MeshError::ZeroVolume {

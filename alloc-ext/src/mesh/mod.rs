@@ -46,7 +46,7 @@ pub(crate) use edges::{EdgeTable, UnionFind, ends};
 pub use error::{EdgePlace, MeshError};
 pub use input::Input;
 pub use manifold::require_closed_manifold;
-pub(crate) use nesting::Part as Enclosure;
+pub(crate) use nesting::Enclosure;
 pub use read::{read, read_bytes};
 pub use repair::repair;
 pub use report::{Finding, Place, RepairReport};

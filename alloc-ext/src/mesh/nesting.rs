@@ -1,25 +1,25 @@
-//! Whether one closed part lies inside another, by exact predicates.
+//! Whether a point, or a closed component, lies inside a closed component, by exact predicates.
 
 use std::cell::OnceCell;
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-/// A closed part, ready to be asked what lies inside.
-pub(crate) struct Part {
+/// A closed surface that is asked which points it holds.
+pub(crate) struct Enclosure {
     /// Its triangles' corners.
     pub triangles: Vec<[[f32; 3]; 3]>,
     pub low: [f32; 3],
     pub high: [f32; 3],
     /// A vertex at each of the six extremes.
     extremes: Vec<[f32; 3]>,
-    /// Triangle numbers by the strips of y that they reach into; made when first asked for.
+    /// Triangle numbers by the strips of y that they reach into; made by the first query.
     strips: OnceCell<Vec<Vec<u32>>>,
 }
 
-/// Strips per part: a point needs to look at one only. More would cost long triangles more entries.
+/// Strips of a surface. A point looks at one. With more strips long triangles have more entries.
 const STRIPS: usize = 64;
 
-impl Part {
+impl Enclosure {
     /// `triangles` must not be empty.
     pub(crate) fn new(triangles: Vec<[[f32; 3]; 3]>) -> Self {
         let mut low = [f32::INFINITY; 3];
@@ -41,22 +41,21 @@ impl Part {
         Self { triangles, low, high, extremes, strips: OnceCell::new() }
     }
 
-    /// True if `inner`'s box lies in this one's and its extreme vertices lie inside this part. For
-    /// parts that do not intersect this is exact (one vertex would do); parts that poke through
-    /// each other may go either way.
+    /// True if `inner`'s box lies in this one's and its extreme vertices lie inside. This is exact
+    /// for surfaces that do not intersect, where one vertex would do. Surfaces that intersect may
+    /// give either answer.
     pub(super) fn contains(&self, inner: &Self) -> bool {
         let box_inside =
             (0..3).all(|k| self.low[k] <= inner.low[k] && inner.high[k] <= self.high[k]);
         box_inside && inner.extremes.iter().all(|&p| self.encloses(p))
     }
 
-    /// Whether a point that is not on the surface lies inside. Exact; parts that overlap count by
-    /// parity.
+    /// Whether a point that is not on the surface lies inside. Exact; overlaps count by parity.
     pub(crate) fn holds(&self, p: [f32; 3]) -> bool {
         (0..3).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k]) && self.encloses(p)
     }
 
-    /// Parity of the crossings of the ray from `p` along +z. The ray is thought to be moved by an
+    /// Parity of the crossings of the ray from `p` along +z. The ray is moved by an
     /// infinitesimal step along +x (and one infinitely smaller along +y), so it meets no edge
     /// and no vertex: each edge is judged by one exact predicate that both of its triangles
     /// share. A point on the surface counts as not below it.
@@ -72,7 +71,7 @@ impl Part {
             strips
         });
         let crosses = |number: &&u32| {
-            // Most triangles are told off by comparisons alone.
+            // Comparisons alone rule out most triangles.
             let [a, b, c] = self.triangles[**number as usize];
             (a[2] > p[2] || b[2] > p[2] || c[2] > p[2])
                 && (a[0] > p[0] || b[0] > p[0] || c[0] > p[0])
@@ -81,7 +80,7 @@ impl Part {
         strips[self.strip(p[1])].iter().filter(crosses).count() % 2 == 1
     }
 
-    /// The strip of a y coordinate. Each step is monotonic also when rounded, so a triangle is in
+    /// The strip of a y coordinate. Each step is monotonic after rounding too, so a triangle is in
     /// the strip of every y that it reaches.
     fn strip(&self, y: f32) -> usize {
         let (low, high) = (f64::from(self.low[1]), f64::from(self.high[1]));

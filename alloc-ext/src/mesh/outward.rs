@@ -1,36 +1,36 @@
-//! Closed parts: their volume, which lie inside which, and which are inside out.
+//! Closed components: their volumes, their nesting, and whether they are inside out.
 //!
-//! The rule. A part that lies inside no other must face outwards, so it is inside out if its signed
-//! volume is negative; then it is turned, and all parts inside it with it, because they were drawn
-//! relative to it. Parts inside another are never judged on their own: facing inwards they are
-//! cavities, facing outwards they are solids within a solid, and both are legitimate. A volume that
-//! rounding cannot tell from zero is left alone. Parts that are open, one-sided or
-//! on a non-manifold edge have no inside and are not looked at.
+//! A component that lies inside no other must face outwards. It is inside out if its signed volume
+//! is negative. Then it is turned together with all components inside it, for those were drawn
+//! relative to it. A component inside another is never judged on its own: facing inwards it is a
+//! cavity, facing outwards it is a solid within a solid, and both are valid. A component whose
+//! volume cannot be told from zero is left as it is. Components that are open, one-sided or on a
+//! non-manifold edge have no inside and do not count.
 
-use super::nesting::Part;
+use super::nesting::Enclosure;
 use super::volume::SignedVolume;
-use super::winding::Parts;
+use super::winding::Components;
 use glam::Vec3;
 
-/// One closed two-sided part.
-pub(super) struct ClosedPart {
-    /// Its number in [`Parts`].
+/// A closed two-sided component.
+pub(super) struct ClosedComponent {
+    /// Its number in [`Components`].
     pub number: u32,
     /// Its first triangle.
     pub first: u32,
     pub volume: SignedVolume,
-    /// It, or an outermost part that it lies in, is inside out.
+    /// It is inside out, or lies in an outermost component that is.
     pub inside_out: bool,
-    /// It lies in another closed part.
+    /// It lies in another closed component.
     pub nested: bool,
 }
 
-/// Judges all closed two-sided parts of `triangles`, which must be wound consistently.
-pub(super) fn closed_parts(
+/// All closed two-sided components of `triangles`, which must be wound consistently.
+pub(super) fn closed_components(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
-    parts: &Parts,
-) -> Vec<ClosedPart> {
+    parts: &Components,
+) -> Vec<ClosedComponent> {
     let mut firsts = vec![u32::MAX; parts.kinds.len()];
     let wanted = |part: u32| {
         let kind = &parts.kinds[part as usize];
@@ -52,11 +52,11 @@ pub(super) fn closed_parts(
             gathered[part as usize].push(triangle.map(|v| positions[v as usize]));
         }
     }
-    let solids: Vec<(u32, Part)> = gathered
+    let solids: Vec<(u32, Enclosure)> = gathered
         .into_iter()
         .enumerate()
         .filter(|(_, t)| !t.is_empty())
-        .map(|(number, t)| (number as u32, Part::new(t)))
+        .map(|(number, t)| (number as u32, Enclosure::new(t)))
         .collect();
     let wide = |triangle: &[[f32; 3]; 3]| triangle.map(|p| Vec3::from(p).as_dvec3());
     let volumes: Vec<SignedVolume> =
@@ -74,7 +74,7 @@ pub(super) fn closed_parts(
         .map(|(i, &(number, _))| {
             let outermost =
                 containers[i].iter().copied().find(|&j| containers[j].is_empty()).unwrap_or(i);
-            ClosedPart {
+            ClosedComponent {
                 number,
                 first: firsts[number as usize],
                 volume: volumes[i],

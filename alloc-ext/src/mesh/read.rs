@@ -37,8 +37,7 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     Ok(mesh)
 }
 
-/// The promises of [`RawMesh`]. The readers have checked what they can name more exactly (lines);
-/// this catches the rest.
+/// Checks the invariants of [`RawMesh`]. Readers have checked before where they can name a line.
 pub(super) fn check(mesh: &RawMesh) -> Result<(), MeshError> {
     let file = || mesh.file.clone();
     for (what, count) in [("vertices", mesh.positions.len()), ("triangles", mesh.triangles.len())] {

@@ -1,34 +1,37 @@
-//! The stages of repair, in order; each leaves one promise of [`Mesh`] kept.
+//! The stages of repair, in order. Each establishes one invariant of [`Mesh`].
 
 use super::caps::remove_caps;
 use super::duplicate::{drop_duplicates, retain};
 use super::edges::EdgeTable;
-use super::outward::closed_parts;
+use super::outward::closed_components;
 use super::read::check;
 use super::report::RepairReport;
 use super::round::round;
 use super::vertex_fans::{fans, split};
 use super::weld::weld;
-use super::winding::{Parts, propagate};
+use super::winding::{Components, propagate};
 use super::wire::{TakenOut, Wire, uncovered};
 use super::{Mesh, MeshError, RawMesh};
 
-/// Mends what can be mended without moving the surface (beyond the rounding to `f32`), and says
-/// what it did.
+/// A clean mesh of a raw one, and a report. The surface does not move beyond the rounding to `f32`.
 ///
-/// In this order: round to `f32`; weld equal positions; take out triangles with a repeated corner;
-/// drop duplicates, keeping the first of each whatever the winding; remove zero-area triangles, by
-/// an edge flip where that keeps the mesh closed; keep as [`Wire`]s those segments and points of
-/// what was taken out that no edge of a triangle covers; split vertices in which several fans meet; wind each
-/// part consistently, as most of its triangles are; turn closed outermost parts that are inside
-/// out, with all that lies inside them; drop unreferenced vertices.
+/// The stages, in this order:
+/// - round to `f32`, and weld equal positions;
+/// - take out triangles with a repeated corner;
+/// - drop duplicates; the first of each stays, whatever the winding;
+/// - remove zero-area triangles, by an edge flip where that keeps the mesh closed;
+/// - keep [`Wire`]s: segments and points of removed triangles that no edge covers;
+/// - split vertices in which several fans meet;
+/// - wind each component consistently, as most of its triangles are;
+/// - turn closed outermost components that are inside out, with all components inside them;
+/// - drop unreferenced vertices.
 ///
-/// Any triangle soup is accepted: holes, non-manifold edges and one-sided parts are left as they
-/// are, for [`require_closed_manifold`](super::require_closed_manifold) to refuse. Repairing the
-/// result again changes nothing.
+/// Any triangle soup is accepted. Holes, non-manifold edges and one-sided components stay, for
+/// [`require_closed_manifold`](super::require_closed_manifold) to refuse. A second repair changes
+/// nothing.
 ///
-/// Cost: linear in the triangles but for the search for nested parts: at worst parts × triangles,
-/// in practice a small fraction.
+/// Cost: linear in the triangles, but for the search for nested components: at worst components ×
+/// triangles, in practice a small fraction.
 ///
 /// # Errors
 /// A coordinate that is not finite or beyond `f32`, a mesh wholly below `f32`'s normal range, an
@@ -98,7 +101,7 @@ fn wind(
     positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
     source: &[u32],
-    parts: &Parts,
+    parts: &Components,
     report: &mut RepairReport,
 ) {
     for (t, triangle) in triangles.iter_mut().enumerate() {
@@ -119,18 +122,18 @@ fn turn_outwards(
     positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
     source: &[u32],
-    parts: &Parts,
+    parts: &Components,
     report: &mut RepairReport,
 ) {
     let mut turn = vec![false; parts.kinds.len()];
-    for part in closed_parts(positions, triangles, parts) {
+    for part in closed_components(positions, triangles, parts) {
         turn[part.number as usize] = part.inside_out;
         let (number, at) =
             (source[part.first as usize], positions[triangles[part.first as usize][0] as usize]);
         if !part.nested && part.inside_out {
             report.turned_parts.triangle(number, at);
         }
-        // As it will be after turning.
+        // Its winding after turning.
         let faces_inwards = part.volume.is_negative() != part.inside_out && !part.volume.is_zero();
         if part.nested && faces_inwards {
             report.cavities.triangle(number, at);

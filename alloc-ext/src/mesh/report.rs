@@ -1,11 +1,11 @@
-//! What [`repair`](super::repair) did, with places.
+//! The report of [`repair`](super::repair), with places.
 
 use std::fmt;
 
 use super::MeshError;
 use crate::counted::Counted;
 
-/// How many places a list keeps: enough to find the flaw, few enough to read.
+/// Most places of a list: enough to find the flaw, few enough to read.
 pub(super) const PLACES_KEPT: usize = 5;
 
 /// A place in the input file. Numbers count from 0; triangles after fan triangulation.
@@ -22,7 +22,7 @@ pub struct Place {
 /// A count with the first few places.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Finding {
-    /// How many there were.
+    /// Number of places.
     pub count: usize,
     /// The first five at most.
     pub places: Vec<Place>,
@@ -45,7 +45,7 @@ impl Finding {
     }
 }
 
-/// What [`repair`](super::repair) found and did. `Display` prints one line per kind that occurred.
+/// Findings and changes of [`repair`](super::repair). `Display` prints a line for each kind.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RepairReport {
     /// Vertices in the input.
@@ -60,13 +60,13 @@ pub struct RepairReport {
     pub triangles_kept: usize,
     /// As [`Mesh::rounding`](super::Mesh::rounding).
     pub rounding: f64,
-    /// Parts that are connected by edges, in the result.
+    /// Components that are connected by edges, in the result.
     pub part_count: usize,
     /// Vertices merged into an earlier one at the same position (after rounding to `f32`; −0.0
     /// equals 0.0).
     pub welded: Finding,
     /// Triangles dropped because two of their corners are the same vertex and edges of others cover
-    /// what is left of them. The mesh stays closed.
+    /// their points. The mesh stays closed.
     pub repeated_corner: Finding,
     /// Zero-area triangles (three distinct collinear corners) removed by an edge flip with the
     /// neighbour across their longest edge. The surface is the same point set and stays
@@ -103,8 +103,7 @@ pub struct RepairReport {
 }
 
 impl RepairReport {
-    /// All findings: a key for machines, for people a noun and what is said of it, the finding. For
-    /// printing and JSON.
+    /// All findings, each with a key for JSON, and a noun and a predicate for text.
     #[must_use]
     pub fn findings(&self) -> [(&'static str, [&'static str; 2], &Finding); 13] {
         [

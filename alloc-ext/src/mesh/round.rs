@@ -1,4 +1,4 @@
-//! From `f64` to `f32` positions, with a bound of what that moved.
+//! From `f64` to `f32` positions, with a bound of the distance moved.
 
 use super::{MeshError, RawMesh};
 

@@ -49,7 +49,7 @@ fn read_binary(file: &Path, mut bytes: Vec<u8>, count: u32) -> Result<RawMesh, M
             found: room,
         });
     }
-    // `stl_io` takes any file that starts with "solid " for ASCII; we know better by now.
+    // `stl_io` takes any file that starts with "solid " for ASCII. This one is binary.
     bytes[..HEADER_BYTES].fill(0);
     let mut cursor = Cursor::new(bytes);
     let malformed = |triangle: usize, error: std::io::Error| MeshError::Malformed {

@@ -2,31 +2,31 @@
 
 use super::edges::{BOUNDARY, NON_MANIFOLD, ends};
 
-/// The parts of a mesh that are connected across manifold edges, and how each would be wound
-/// consistently.
-pub(super) struct Parts {
-    /// Per triangle its part; parts are numbered in file order.
+/// Components of a mesh that are connected across manifold edges, and the consistent winding of
+/// each.
+pub(super) struct Components {
+    /// Per triangle its component. Components are numbered in file order.
     pub part: Vec<u32>,
-    /// Per triangle whether it must be rewound to agree with the majority of its part.
+    /// Per triangle whether it must be rewound to agree with the majority of its component.
     pub rewind: Vec<bool>,
-    /// Per part what propagation found.
-    pub kinds: Vec<PartKind>,
+    /// Per component its kind.
+    pub kinds: Vec<ComponentKind>,
 }
 
-/// What kind of surface a part is.
+/// Kind of surface of a component.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PartKind {
+pub(super) struct ComponentKind {
     /// Each of its edges has exactly two triangles.
     pub closed: bool,
-    /// A half-edge at which any winding fails, if the part is one-sided.
+    /// A half-edge at which any winding fails, if the component is one-sided.
     pub conflict: Option<u32>,
     /// Number of triangles.
     pub triangle_count: usize,
 }
 
-/// Walks each part from its first triangle. On a tie between the two windings the first triangle's
-/// stays; a one-sided part is left alone.
-pub(super) fn propagate(triangles: &[[u32; 3]], twins: &[u32]) -> Parts {
+/// Walks each component from its first triangle. On a tie between the two windings the first
+/// triangle's stays. A one-sided component is left as it is.
+pub(super) fn propagate(triangles: &[[u32; 3]], twins: &[u32]) -> Components {
     const NONE: u32 = u32::MAX;
     let mut part = vec![NONE; triangles.len()];
     let mut rewind = vec![false; triangles.len()];
@@ -37,7 +37,7 @@ pub(super) fn propagate(triangles: &[[u32; 3]], twins: &[u32]) -> Parts {
             continue;
         }
         let number = kinds.len() as u32;
-        let mut kind = PartKind { closed: true, conflict: None, triangle_count: 0 };
+        let mut kind = ComponentKind { closed: true, conflict: None, triangle_count: 0 };
         part[first as usize] = number;
         members.clear();
         members.push(first);
@@ -72,5 +72,5 @@ pub(super) fn propagate(triangles: &[[u32; 3]], twins: &[u32]) -> Parts {
         }
         kinds.push(kind);
     }
-    Parts { part, rewind, kinds }
+    Components { part, rewind, kinds }
 }

@@ -1,9 +1,7 @@
-//! Triangles without area: the segments and points that they are, kept where no other triangle
-//! covers them.
+//! Triangles without area: their segments and points, kept where no other triangle covers them.
 //!
-//! The points of such a triangle are points of the mesh. Most often an edge of a neighbour holds
-//! them, or a chain of edges: then the triangle says nothing that the others do not. What is left is
-//! a [`Wire`].
+//! The points of a triangle without area are points of the mesh. Most often an edge of a neighbour,
+//! or a chain of edges, covers them. Those that nothing covers become a [`Wire`].
 
 use super::collinear::{collinear, middle};
 use super::report::RepairReport;
@@ -46,7 +44,7 @@ impl Wire {
     }
 }
 
-/// A triangle without area that repair took out, and which of its kinds it is.
+/// A triangle without area that repair took out, and its kind.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TakenOut {
     pub wire: Wire,

@@ -10,8 +10,8 @@ use ply_rs_bw::writer::Writer;
 use super::Mesh;
 
 /// Writes positions and triangles as little-endian PLY: `x`, `y`, `z` as `float`, `vertex_indices`
-/// as lists of three `int`. What [`read`](super::read) reads back has the same bits and the same
-/// order. Nothing else of the mesh is kept.
+/// as lists of three `int`. [`read`](super::read) gives back the same bits in the same order.
+/// Nothing else of the mesh is kept.
 ///
 /// # Errors
 /// Those of `out`; and `InvalidInput` for a vertex number beyond `i32`, before anything is written.

@@ -1,14 +1,13 @@
 //! Cells: the part of a mesh, or of the solid that it bounds, between the planes of the splits
 //! above, and its tribox.
 //!
-//! *Why the tribox holds the solid, too.* Where the solid in a cell reaches farthest along a
-//! direction there is a point of the surface, which [`polygons`](super::polygons) see to, or a
-//! vertex of the region that the solid fills there. The parent's tribox, cut by the plane, is such
-//! a region, for it holds all of the solid there. Its vertices are computed within 2^-47 of the
-//! largest coordinate, 1/64 of the margin by which they are padded. If a computed vertex is outside
-//! of the solid and the true one inside, then the surface passes between them, and the surface's
-//! own bounds, of a solid padded by the same margin everywhere, hold the true one. A vertex whose
-//! winding number cannot be told counts as inside.
+//! *Why the tribox holds the solid, too.* The extreme point of the solid in a cell along a direction
+//! is a point of the surface, which [`polygons`](super::polygons) cover, or a vertex of a region
+//! that holds the solid there. The parent's tribox, cut by the plane, is such a region. Its vertices
+//! are computed within 2^-47 of the largest coordinate, 1/64 of the margin by which they are padded.
+//! If a computed vertex is outside of the solid and the true one inside, then the surface passes
+//! between them. The surface's own bounds are padded by the same margin everywhere, so they hold the
+//! true vertex. A vertex whose winding number is undecided counts as inside.
 
 use super::polygons::{HalfSpace, Polygons, margin};
 use super::span::{Frame, projections};
@@ -21,22 +20,22 @@ use meshsweep_core::{ScratchEntry, Side};
 use meshsweep_core::{Tribox, TriboxError};
 use std::cell::RefCell;
 
-/// How sure one has to be of what is inside.
+/// Certainty of what is inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Trust {
-    /// What is not inside is proved not to be, by winding numbers.
+    /// A point counts as outside only if its winding number proves that.
     Proof,
-    /// The box tree's word will do: to choose planes.
+    /// The box tree's side decides: good enough to choose planes.
     Sketch,
 }
 
-/// What all cells of a mesh share.
+/// Data that all cells of a mesh share.
 pub(super) struct Whole<'a> {
     /// Those with an area: wires have higher numbers, and do not change winding numbers.
     pub triangles: Vec<[[f64; 3]; 3]>,
     /// Whether winding numbers exist, so that the solid counts and not only its surface.
     pub is_solid: bool,
-    /// How far planes are moved outward, see [`polygons`](super::polygons).
+    /// Distance by which planes are moved outward, see [`polygons`](super::polygons).
     pub margin: f64,
     tree: &'a Bvh<'a>,
     stack: RefCell<Vec<ScratchEntry>>,
@@ -84,7 +83,7 @@ impl<'a> Whole<'a> {
         Ok(Cell { tribox, polygons, frame, inner: Vec::new(), references })
     }
 
-    /// Winding number of a point of a cell, if it can be told.
+    /// Winding number of a point of a cell; `None` if it is undecided.
     fn winding(&self, cell: &Cell, point: [f64; 3]) -> Option<i32> {
         let loops = cell.polygons.loops.iter();
         let triangles =
@@ -140,7 +139,7 @@ impl<'a> Whole<'a> {
     /// Vertices of the second kind of a cell's part in a half-space: of the cell's tribox, and of
     /// its section with the plane.
     ///
-    /// The tribox may stand for the region between the planes, for it holds all of the solid there.
+    /// The tribox may replace the region between the planes, for it holds all of the solid there.
     fn inner(&self, cell: &Cell, half: &HalfSpace, trust: Trust) -> Vec<[f64; 3]> {
         let reach = if half.is_low { half.at + self.margin } else { half.at - self.margin };
         let along = |vertex: &[f64; 3]| projections(*vertex)[half.slab];
@@ -153,7 +152,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// Where the edges of a polytope pass a plane.
+/// Points where the edges of a polytope pass a plane.
 pub(super) fn section(frame: &Frame, slab: usize, at: f64) -> impl Iterator<Item = [f64; 3]> + '_ {
     frame.edges.iter().filter_map(move |&(i, j)| {
         let (a, b) = (frame.vertices[i], frame.vertices[j]);

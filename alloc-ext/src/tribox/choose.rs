@@ -1,5 +1,5 @@
-//! Which plane splits a cell best (Crosnier & Rossignac 1999, section 4, who ask for one and take
-//! the plane that bisects the thickest slab).
+//! The plane that splits a cell best. Crosnier & Rossignac 1999, section 4, take the plane that
+//! bisects the thickest slab.
 
 use super::cell::{Cell, Trust, Whole, section};
 use super::extent::Extent;
@@ -7,25 +7,25 @@ use super::polygons::HalfSpace;
 use super::span::{Span, projections};
 use meshsweep_core::internal::tribox::SLABS;
 
-/// What a split should make little of.
+/// The measure that splits minimise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Total area of the triboxes, as in the paper.
     Area,
-    /// Total volume: what triboxes hold beside a solid is what they cost as its proxy.
+    /// Total volume: the volume beside a solid is the cost of its proxy.
     Volume,
 }
 
-/// Which planes are tried.
+/// Planes that are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Planes {
-    /// The one that bisects the thickest slab, as in the paper.
+    /// The plane that bisects the thickest slab, as in the paper.
     Thickest,
-    /// So many of each of the nine directions, evenly between the ends of its slab.
+    /// This number for each of the nine directions, evenly between the ends of its slab.
     Nine(u32),
 }
 
-/// How planes are chosen.
+/// Choice of planes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Choosing {
     pub planes: Planes,
@@ -34,18 +34,18 @@ pub(super) struct Choosing {
     pub unit: f64,
     /// See [`SplitOptions::foresight`](super::SplitOptions::foresight).
     pub foresight: f64,
-    /// How sure it has to be of what is inside.
+    /// Certainty of what is inside.
     pub trust: Trust,
 }
 
-/// A plane, and what splitting there saves.
+/// A plane, and the gain of a split there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Choice {
     pub slab: usize,
     pub at: f64,
     /// Measure of the cell's tribox less that of its parts'; negative if they have more.
     pub now: f64,
-    /// The same, or where the parts' splits were looked at the mean of all three.
+    /// The same; with foresight, the mean of the gains of this split and of both parts' splits.
     pub gain: f64,
 }
 
@@ -62,10 +62,11 @@ impl Choosing {
     /// The plane of the greatest gain, the first one of several; `None` if no plane leaves
     /// something on both sides.
     ///
-    /// Where that is little, a hole in the middle of the cell for instance, each direction's
-    /// bisecting plane is tried together with the best splits of both parts. Cost: for each
-    /// direction one pass over the cell's corners, and a winding number for each vertex of each
-    /// plane's section; ten times that where a second split is looked at.
+    /// Where the gain is small, as at a hole in the middle of the cell, each direction's bisecting
+    /// plane is tried together with the best splits of both parts.
+    ///
+    /// Cost: for each direction one pass over the cell's corners, and a winding number for each
+    /// vertex of each plane's section; ten times that with second splits.
     pub fn best(&self, whole: &Whole<'_>, cell: &Cell) -> Option<Choice> {
         let best = self.single(whole, cell)?;
         let enough = self.foresight * self.measure.of(Extent::of(&cell.tribox));

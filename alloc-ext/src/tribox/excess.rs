@@ -1,22 +1,23 @@
-//! The error figure of Crosnier & Rossignac 1999, formula (10): how far a tribox reaches beyond the
-//! convex hull of what it holds.
+//! The error figure of Crosnier & Rossignac 1999, formula (10): the distance by which a tribox
+//! reaches beyond the convex hull of its part of the mesh.
 
 use super::cell::Cell;
 use super::span::Frame;
 use glam::DVec3;
 use meshsweep_core::Tribox;
 
-/// Part of the result by which it may be too great.
+/// Relative error of the result, upward.
 const SLACK: f64 = 0.01;
 
-/// Steps towards the closest point of a hull; what is found by then is an upper bound as well.
+/// Most steps towards the closest point of a hull. The result after them is an upper bound as well.
 const STEPS: usize = 200;
 
-/// Greatest distance of a vertex of `proxy` from the convex hull of the cell's part; an upper bound
-/// that is 1 % too great where it converged.
+/// Greatest distance of a vertex of `proxy` from the convex hull of the cell's part: an upper bound,
+/// at most 1 % too great where the descent converged.
 ///
-/// Gilbert's descent for each vertex that may be farther than those before. Cost: a few passes over
-/// the cell's corners.
+/// Gilbert's descent runs for each vertex that may be farther than those before.
+///
+/// Cost: a few passes over the cell's corners.
 pub(super) fn excess(proxy: &Tribox, cell: &Cell) -> f64 {
     let corners = cell.polygons.corners.iter().map(|corner| corner.at);
     let mut points: Vec<[f64; 3]> = corners.chain(cell.inner.iter().copied()).collect();

@@ -8,14 +8,14 @@ use meshsweep_core::{Boundary, Tribox};
 /// Area and volume, squared and cubed input units; within 1e-12 of the area and volume of its box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extent {
-    /// Of the boundary; of a flat tribox both sides count.
+    /// Area of the boundary; of a flat tribox both sides count.
     pub area: f64,
-    /// Of what is inside.
+    /// Volume inside.
     pub volume: f64,
 }
 
 impl Extent {
-    /// Of a tribox; nothing of an empty one. Cost: a boundary and some hundred products.
+    /// Of a tribox; 0 for an empty one. Cost: a boundary and some hundred products.
     #[must_use]
     pub fn of(tribox: &Tribox) -> Extent {
         if tribox.is_empty() {

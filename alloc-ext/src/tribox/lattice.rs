@@ -21,9 +21,9 @@ pub struct Lattice {
     pub scale_exponent: i32,
     /// Local coordinate = coordinate in units × 2^this.
     pub grid_exponent: i32,
-    /// What parameters are counted from, units.
+    /// Origin of the stored parameters, units.
     pub origin: [i32; 3],
-    /// How far planes move outward before they are rounded: what the input may be off by, input
+    /// Distance by which planes move outward before they are rounded: the error of the input, input
     /// units.
     pub padding: f64,
 }
@@ -38,7 +38,7 @@ impl Lattice {
         let used = mesh.all_triangles().flatten().map(|v| mesh.positions[v as usize]);
         let whole = Tribox::of_points(used)?;
         let scale = scale_exponent(mesh);
-        // Room for what f64 does to it.
+        // Room for its rounding in f64.
         let padding = padding * (1.0 + 1e-6);
         let on = |grid_exponent: i32| {
             let unit = exp2(scale + grid_exponent);
@@ -62,7 +62,7 @@ impl Lattice {
         Ok((finest..40).find_map(on).expect("a grid of one unit holds everything"))
     }
 
-    /// What planes are at even multiples of, input units: planes of splits should be.
+    /// Planes of splits lie at even multiples of this, input units.
     pub fn spacing(&self) -> f64 {
         2.0 * self.unit()
     }
@@ -95,8 +95,8 @@ impl Lattice {
         units.tightened()
     }
 
-    /// A tribox on the grid that holds this one, padded, input units. Monotone: of what is inside
-    /// of another's parameters the result is inside of the other's result.
+    /// A tribox on the grid that holds this one, padded, input units. Monotone: a tribox inside of
+    /// another has a result inside of the other's result.
     #[must_use]
     pub fn around(&self, tribox: &Tribox) -> Tribox {
         if tribox.is_empty() {

@@ -1,5 +1,5 @@
-//! Levels of detail, and what they cost and miss (Crosnier & Rossignac 1999, section 4 and Table
-//! 1).
+//! Levels of detail: faces, volume, error and distance (Crosnier & Rossignac 1999, section 4 and
+//! Table 1).
 
 use super::extent::Extent;
 use super::polygons::margin;
@@ -14,7 +14,7 @@ use meshsweep_core::internal::tribox::FACES;
 /// A union of triboxes that covers a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// How many.
+    /// Number of triboxes.
     pub triboxes: usize,
     /// Their faces, without those of no extent: `M` of Table 1.
     pub faces: usize,
@@ -24,20 +24,22 @@ pub struct Level {
     ///
     /// As printed, ρ = max over vertices sᵢ and directions dⱼ of the cone of normals of sᵢ of
     /// (sᵢ·dⱼ) depends on where the origin is, and names no tribox. We read it as the
-    /// Hausdorff distance of two convex bodies, the tribox T and the hull of the part S: sᵢ·dⱼ,
-    /// with dⱼ of unit length in the normal cone of sᵢ, is the support function of S, and what
-    /// T's exceeds it by is the error along dⱼ; the cones of all vertices are all directions. ρ =
-    /// max (h_T(d) − h_S(d)). An upper bound but for what planes are moved by (2^-40 of the
-    /// coordinates), 1 % too great at most where it converged; corners that cannot be told to be
-    /// outside count as part. Cavities do not count; they do in [`distance`](Self::distance).
+    /// Hausdorff distance of two convex bodies, the tribox T and the hull of the part S. sᵢ·dⱼ, with
+    /// dⱼ of unit length in the normal cone of sᵢ, is the support function of S. The error along dⱼ
+    /// is the excess of T's support function, and the cones of all vertices are all directions: ρ =
+    /// max (h_T(d) − h_S(d)).
+    ///
+    /// It is an upper bound, up to the 2^-40 of the coordinates by which planes are moved, and at
+    /// most 1 % too great where the descent converged. Undecided corners count as part of the
+    /// solid. Cavities do not count here; they do in [`distance`](Self::distance).
     pub error: f64,
     /// Largest distance from a point of the union's boundary to the mesh, input units.
     pub distance: Farthest,
 }
 
 impl Level {
-    /// Void beside a solid of this volume, as a part of it. For solids whose parts overlap it
-    /// counts what overlaps twice.
+    /// Void beside a solid of this volume, as a part of it. Where components of a solid overlap, the
+    /// overlap counts twice.
     #[must_use]
     pub fn void(&self, solid: f64) -> f64 {
         self.volume / solid - 1.0
@@ -83,6 +85,6 @@ fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>) -> Farthest {
         .iter()
         .flat_map(|piece| piece.windows(2).skip(1).map(|edge| [piece[0], edge[0], edge[1]]));
     let Farthest { lower, upper } = farthest(triangles, 0.0, nearest_in(tree, mesh));
-    // What rounding did to the pieces, and slivers that are missing.
+    // Room for the rounding of the pieces, and for missing slivers.
     Farthest { lower: (lower - margin(size)).max(0.0), upper: upper + margin(size) }
 }

@@ -2,17 +2,17 @@
 //! Rossignac 1999, section 4).
 //!
 //! ```text
-//! polygons, winding   the surface in a cell, clipped; which points are inside: nothing of the solid is lost
+//! polygons, winding   the surface in a cell, clipped; points inside the solid
 //! cell                a cell's tribox, and its parts on both sides of a plane
-//! choose              which plane
+//! choose              the plane of a split
 //! split               the tree: the cell of the greatest gain is split first
 //! level               unions as levels of detail: faces, volume, error, distance
 //! surface             their triangles
 //! lattice, store      the same on a blob's grid, and the section's bytes
 //! ```
 //!
-//! Cells are cut, not sorted into: triboxes of a level meet at planes and do not overlap. If the
-//! mesh is closed they hold its inside too.
+//! Triangles are cut at the planes of cells, so triboxes of a level do not overlap. If the mesh is
+//! closed they hold its inside too.
 //!
 //! *Planes.* Void beside the solid in %, at 8 / 64 triboxes (`meshsweep tribox MESH --measure …
 //! --planes … --least-gain=-1e9`):
@@ -25,13 +25,13 @@
 //! | volume, nine directions: the default | 76.4 / 22.5 | 54.9 / 15.7 | 33.0 / 8.4 | 29.5 / 10.7 |
 //!
 //! Volume never grows when a cell is split. Area mostly does, for the plane is new area on both
-//! sides; the least loss is then a slice off an end, and the greatest gain first cuts slices off
-//! slices. Under the paper's own stop rule (`--measure area` alone) rocker arm is not split at all.
-//! Area is the measure of flat meshes only.
+//! sides. The least loss of area is a thin slice off an end, and its slices are sliced again. Under
+//! the paper's own stop rule (`--measure area` alone) rocker arm is not split at all. Area is the
+//! measure of flat meshes only.
 //!
-//! *Looking ahead.* No single plane shows a hole: halves of a ring have most of the ring's hull.
-//! Where the best plane saves less than 5 % the splits of both parts are looked at too. Without
-//! that 64 triboxes have 39.5 % void (torus), 39.0 (rocker arm), 5.6 (`fixtures/bracket.stl`) in
+//! *Foresight.* No single plane shows a hole: halves of a ring have most of the ring's hull. Where
+//! the best plane saves less than 5 %, the splits of both parts are tried too. Without foresight 64
+//! triboxes have 39.5 % void (torus), 39.0 (rocker arm), 5.6 (`fixtures/bracket.stl`) in
 //! place of 10.7, 22.5 and 0.3. Three planes a direction in place of seven, looking ahead at 3 %:
 //! 25.8 (rocker arm; seven: 24.8), 18.0 (cow; 15.4).
 

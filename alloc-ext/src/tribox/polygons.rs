@@ -7,7 +7,7 @@
 //! the triangle's true part in the cell. At first w = ṽ. A cut keeps the corners that are computed
 //! to be inside of the moved plane, and where an edge leaves adds a point ṽ(t) of it; its
 //! counterpart is the point of Q's edge at the same t. Those points lie on the boundary of Q in
-//! order, so they are convex again. What of Q is inside of the plane itself, or up to m/2 beyond
+//! order, so they are convex again. The part of Q inside of the plane itself, or up to m/2 beyond
 //! it, is kept: its corners there are computed to be inside, and the edges' new ends are beyond, as
 //! long as √2·η and some units 4·u·M of rounding stay below m/2. Each cut rounds a coordinate by
 //! 5·u·M, so that η ≤ 2^-49·M times the number of cuts, which is [limited](super::split::DEPTH) to
@@ -43,11 +43,11 @@ pub(super) struct Polygons {
 pub(super) struct HalfSpace {
     pub slab: usize,
     pub at: f64,
-    /// Whether what is less is kept.
+    /// Whether the lesser side is kept.
     pub is_low: bool,
 }
 
-/// How far planes are moved outward, for coordinates up to `size`.
+/// Distance by which planes are moved outward, for coordinates up to `size`.
 pub(super) fn margin(size: f64) -> f64 {
     size * (1.0 / (1u64 << 40) as f64)
 }
@@ -71,7 +71,7 @@ impl Polygons {
         })
     }
 
-    /// What is inside of a half-space whose plane is moved outward by `margin` (Sutherland &
+    /// The part inside of a half-space whose plane is moved outward by `margin` (Sutherland &
     /// Hodgman).
     pub fn clipped(&self, half: &HalfSpace, margin: f64) -> Polygons {
         let sign = if half.is_low { 1.0 } else { -1.0 };
@@ -128,7 +128,7 @@ impl Polygons {
     }
 }
 
-/// More than what a sum is rounded by; 0 if it is not.
+/// Upper bound of a sum's rounding; 0 if the sum is exact.
 fn rounding(a: f64, b: f64) -> f64 {
     let sum = a + b;
     if sum - a == b && sum - b == a { 0.0 } else { sum.abs() * (2.0 * f64::EPSILON) }

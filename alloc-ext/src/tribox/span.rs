@@ -40,7 +40,7 @@ impl Scalar for Wide {
     }
 }
 
-/// What a point measures along the directions, each sum rounded once.
+/// Parameters of a point along the directions, each sum rounded once.
 #[inline(always)]
 pub(super) fn projections([x, y, z]: [f64; 3]) -> [f64; SLABS] {
     [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x]

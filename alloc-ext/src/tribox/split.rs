@@ -16,19 +16,19 @@ use std::collections::BinaryHeap;
 /// Most splits above a cell; the rounding bound of [`polygons`](super::polygons) counts on it.
 pub(super) const DEPTH: u32 = 64;
 
-/// Part of a tribox's measure by which a gain may fall short of what was promised: what rounding to
-/// f32 does to thin triboxes.
+/// Part of a tribox's measure by which a gain may fall short of its prediction: the effect of rounding
+/// to f32 on thin triboxes.
 const DOUBT: f64 = 1e-3;
 
-/// How to split.
+/// Options of a split.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitOptions {
     /// Most leaves.
     pub leaves: usize,
-    /// What splits should make little of; `None`: volume, or area if the mesh's tribox has next to
-    /// no volume.
+    /// The measure that splits minimise; `None`: volume, or area if the mesh's tribox has almost no
+    /// volume.
     pub measure: Option<Measure>,
-    /// Which planes are tried.
+    /// Planes that are tried.
     pub planes: Planes,
     /// A cell is split only if that saves more than this part of its tribox's measure. The paper's
     /// rule where positive; at −∞ cells are split although the total grows, which may pay
@@ -37,10 +37,10 @@ pub struct SplitOptions {
     /// Where the best plane saves less than this part of the tribox's measure, planes are tried
     /// together with those that split both parts again.
     pub foresight: f64,
-    /// How far planes of [proxies](Node::proxy) may move outward so that small faces vanish, input
-    /// units.
+    /// Distance by which planes of [proxies](Node::proxy) may move outward so that small faces
+    /// vanish, input units.
     pub simplify: f32,
-    /// Where proxies are stored; `None`: on a [grid](Tribox::on_grid) each of their own.
+    /// Grid of the proxies; `None`: each has a [grid](Tribox::on_grid) of its own.
     pub lattice: Option<Lattice>,
 }
 
@@ -65,7 +65,7 @@ pub struct Node {
     /// above, in real arithmetic. Inside of the parent's, and on its side of the split's
     /// plane.
     pub tribox: Tribox,
-    /// What is drawn for it: the same [simplified](Tribox::snapped) as asked for, and on a
+    /// The tribox that is drawn: the same [simplified](Tribox::snapped) as asked for, and on a
     /// [grid](Tribox::on_grid) or the [lattice](SplitOptions::lattice), so that every
     /// vertex is an f32.
     pub proxy: Tribox,
@@ -97,7 +97,7 @@ pub struct Hierarchy {
     /// Whether the mesh bounds a solid, whose inside counts; else the triboxes hold its surface
     /// only.
     pub is_solid: bool,
-    /// What was made little of.
+    /// The measure that splits minimised.
     pub measure: Measure,
 }
 
@@ -184,13 +184,13 @@ fn grid_unit(tribox: &Tribox) -> f64 {
     exp2(((most.to_bits() >> 23).cast_signed() - 126 - 20).max(-147))
 }
 
-/// Whether volumes say nothing: a tribox that is a thousand times as wide as thick, or so.
+/// Whether a tribox is too flat for volumes: about a thousand times as wide as thick.
 fn is_flat(tribox: &Tribox) -> bool {
     let Extent { area, volume } = Extent::of(tribox);
     volume <= 1e-4 * area * area.sqrt()
 }
 
-/// A leaf whose best split is known.
+/// A leaf and its best split.
 struct Leaf {
     node: u32,
     depth: u32,
@@ -224,7 +224,7 @@ struct Growing<'a> {
 }
 
 impl Growing<'_> {
-    /// Takes a cell in; its number.
+    /// Adds a cell; its number.
     fn put(&mut self, cell: Cell, depth: u32) -> u32 {
         let node = self.nodes.len() as u32;
         let simple = cell.tribox.snapped(self.options.simplify);
@@ -249,9 +249,9 @@ impl Growing<'_> {
 
     /// The best split of a cell, and its parts.
     ///
-    /// Where parts of a solid overlap the box tree takes some of the inside for outside, and
-    /// promises gains that are not to be had. As soon as one turns out so, planes are chosen by
-    /// winding numbers.
+    /// Where components of a solid overlap, the box tree takes some of the inside for outside and
+    /// predicts gains that are too large. After the first such gain, planes are chosen by winding
+    /// numbers.
     fn choose(&mut self, cell: &Cell) -> Option<(Choice, [Cell; 2])> {
         loop {
             let choice = self.choosing.best(&self.whole, cell)?;

@@ -22,12 +22,12 @@ use meshsweep_core::internal::tribox::format::layout::{
 use meshsweep_core::{Blob, Bvh};
 use std::time::{Duration, Instant};
 
-/// What storing took and gave.
+/// Levels and time of a hierarchy.
 #[derive(Clone, Debug)]
 pub struct TriboxReport {
     /// Levels as measured, coarse to fine.
     pub levels: Vec<Level>,
-    /// Time in all.
+    /// Time of the whole build.
     pub time: Duration,
 }
 
@@ -66,7 +66,7 @@ pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), B
         triboxes: level.triboxes as u32,
         distance: up_to_f32((level.distance.upper + lattice.padding) * local),
         error: up_to_f32((level.error + lattice.padding) * local),
-        // A volume that next to vanishes would give a ratio that f32 does not hold.
+        // The ratio to a tiny volume may exceed f32.
         void_ratio: solid.map_or(0.0, |solid| level.void(solid).min(f64::from(f32::MAX)) as f32),
     });
     let whole = hierarchy.nodes[0].tribox;

@@ -4,12 +4,12 @@ use crate::mesh::Mesh;
 use meshsweep_core::Tribox;
 use meshsweep_core::internal::tribox::FACES;
 
-/// The boundaries of triboxes, triangulated, one after another; they share no vertices. For
-/// triboxes on a [grid](Tribox::on_grid) every vertex is where three planes meet, exactly, so that
-/// the mesh encloses what they hold.
+/// The boundaries of triboxes, triangulated, one after another, counter-clockwise from outside. They
+/// share no vertices. For triboxes on a [grid](Tribox::on_grid) every vertex is the exact point where
+/// three planes meet, so the mesh encloses all that the triboxes hold.
 ///
-/// Counter-clockwise from outside. A flat tribox gives two sides, one with less than two dimensions
-/// nothing. Where a vertex lies within an edge of a face a triangle may have no area.
+/// A flat tribox gives two sides, a segment or a point nothing. A triangle may have no area where a
+/// vertex lies within an edge of a face.
 #[must_use]
 pub fn surface(triboxes: &[Tribox]) -> Mesh {
     let mut positions: Vec<[f32; 3]> = Vec::new();

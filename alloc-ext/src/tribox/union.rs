@@ -5,13 +5,13 @@ use glam::DVec3;
 use meshsweep_core::Tribox;
 use meshsweep_core::internal::tribox::{FACES, SLABS};
 
-/// Faces of the union, in convex pieces: what of the triboxes' faces is in no other tribox. Where
-/// faces of two lie on each other back to back, neither counts; where they face the same way, one
-/// does.
+/// Faces of the union, in convex pieces: the parts of the triboxes' faces that are in no other
+/// tribox. Of two faces back to back neither counts; of two that face the same way, one does.
 ///
-/// For triboxes [on a grid](Tribox::on_grid). Pieces thinner than `sliver` may be missing; faces
-/// that enclose nothing, as of flat triboxes, are there twice. Cost: for each face, those triboxes
-/// that overlap.
+/// For triboxes [on a grid](Tribox::on_grid). Pieces thinner than `sliver` may be missing. Faces of
+/// flat triboxes stand twice.
+///
+/// Cost: for each face, the triboxes that overlap it.
 pub(super) fn boundary_of_union(triboxes: &[Tribox], sliver: f64) -> Vec<Vec<DVec3>> {
     let mut pieces = Vec::new();
     for (number, tribox) in triboxes.iter().enumerate() {
@@ -44,7 +44,7 @@ pub(super) fn boundary_of_union(triboxes: &[Tribox], sliver: f64) -> Vec<Vec<DVe
     pieces
 }
 
-/// What of a convex piece, which lies between the planes of `along`, is outside of a tribox.
+/// The parts of a convex piece, which lies between the planes of `along`, outside of a tribox.
 fn outside(mut piece: Vec<DVec3>, along: usize, tribox: &Tribox, sliver: f64) -> Vec<Vec<DVec3>> {
     let mut outside = Vec::new();
     for slab in (0..SLABS).filter(|&slab| slab != along) {

@@ -1,13 +1,14 @@
-//! On which side of the surface a point of a cell is: its winding number, by counting crossings on
-//! the way to points whose number is known.
+//! Winding numbers of a cell's points, by counting crossings on the way to points whose winding
+//! number is known.
 //!
-//! The way stays in the cell, so only the cell's own triangles can cross it, and the whole becomes
-//! cheaper with every split. Crossings are decided by exact predicates; a way that touches an edge
-//! or a vertex is given up for another one. The box tree's sides
-//! ([`signed_distance`](meshsweep_core::query::tree::signed_distance)) are no proof here: where
-//! parts of a mesh overlap, a point inside one of them is outside of another that is nearer. They
-//! are what planes are chosen by, where being wrong costs nothing but a worse choice, and save four
-//! fifths of the time.
+//! The way stays in the cell, so only the cell's own triangles can cross it. Every split makes the
+//! count cheaper. Crossings are decided by exact predicates. A way that touches an edge or a vertex
+//! is given up for another one.
+//!
+//! The box tree's sides ([`Bvh::signed_distance`](meshsweep_core::Bvh::signed_distance)) are no
+//! proof: where components overlap, a point inside one is outside of another that is nearer. They
+//! serve the choice of planes, where an error costs only a worse choice, and save four fifths of the
+//! time.
 
 use super::span::Frame;
 use robust::{Coord3D, orient3d};

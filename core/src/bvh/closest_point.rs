@@ -13,8 +13,8 @@ use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
 
-/// Where an answer was found: the leaf to look at first for a query nearby. Any value is safe. A
-/// bad one costs a leaf.
+/// The leaf of an answer, to visit first for a query nearby. Any value is safe. A bad one costs a
+/// leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hint(u32);
 
@@ -269,7 +269,7 @@ impl<'a> Closest<'a> {
         // All other triangles have at least this part of the best square as lower bound.
         let mut least_sq = match self.refine_below {
             below if below > 0.0 => below,
-            // No leaf was looked at.
+            // No leaf was visited.
             f32::NEG_INFINITY => f32::MAX,
             _ => 0.0,
         };

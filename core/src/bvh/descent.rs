@@ -38,7 +38,7 @@ pub(crate) struct LeafVisit<'a> {
     pub(crate) lane: u32,
 }
 
-/// What a question does with leaves.
+/// A question's visitor for leaves.
 pub(crate) trait LeafVisitor {
     /// Bound above which nothing is wanted.
     fn limit(&self) -> f32;

@@ -6,7 +6,7 @@ use crate::geom::fan::{NormalCone, WIDTH};
 use crate::query::QueryError;
 use glam::Vec3;
 
-/// Where a scene is looked at from.
+/// The point or direction that a scene is seen from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Eye {

@@ -21,8 +21,8 @@ pub struct KNearest {
     pub rest_lower: f32,
     /// The work of the search.
     pub work: Work,
-    /// [`Ended::Exact`] if every leaf that matters was looked at. Else those stored may not be the
-    /// nearest; `rest_lower` still holds.
+    /// [`Ended::Exact`] if every leaf that can change the answer was visited. Else those stored may
+    /// not be the nearest; `rest_lower` still holds.
     pub ended: Ended,
 }
 
@@ -86,7 +86,7 @@ impl Bvh<'_> {
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let mut rest_lower = f32::INFINITY;
         if visitor.heap.stored() < all {
-            // Everything that was not looked at is farther than the last one stored.
+            // All triangles that were not visited are farther than the last one stored.
             let last = visitor.heap.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
             let rest = if last < visitor.rest { last } else { visitor.rest };
             rest_lower = query.lower(rest);
@@ -105,7 +105,7 @@ struct Nearest<'a> {
     query: &'a PointQuery,
     heap: Heap<'a>,
     limit: f32,
-    /// Lower bound of every triangle that was looked at and is not stored, grid units.
+    /// Lower bound of every visited triangle that is not stored, grid units.
     rest: f32,
 }
 

@@ -25,7 +25,7 @@ use glam::Vec3;
 
 /// Which side of a triangle is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Facing {
+pub(crate) enum ViewedSide {
     Front = 0,
     Back = 1,
     /// Rounding leaves it open.
@@ -49,13 +49,13 @@ fn cross(e: Vec3, g: Vec3) -> (Vec3, Vec3) {
 
 /// How triangle `lane` faces `p`.
 #[inline]
-pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
+pub(crate) fn viewed_side(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> ViewedSide {
     let second = lane >= leaf.shape().turn();
     let which = usize::from(second);
     let (e, g) = (leaf.spoke(lane, which), leaf.spoke(lane + 1, which));
     let (normal, size) = cross(e, g);
     if normal == Vec3::ZERO && is_flat(leaf, lane, norm_1(size)) {
-        return Facing::Flat;
+        return ViewedSide::Flat;
     }
     let s = p - leaf.centre(which);
     let volume = normal.dot(s);
@@ -64,11 +64,11 @@ pub(crate) fn facing(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> Facing {
         SIGN_TRIPLE_PRODUCT * U32 * size.dot(s.abs()) + f32::MIN_POSITIVE * (1.0 + norm_1(s));
     let volume = if second && leaf.shape().second_reversed() { -volume } else { volume };
     if volume > rounding {
-        Facing::Front
+        ViewedSide::Front
     } else if volume < -rounding {
-        Facing::Back
+        ViewedSide::Back
     } else {
-        Facing::Unclear
+        ViewedSide::Unclear
     }
 }
 
@@ -146,7 +146,7 @@ impl LeafVisitor for Shared<'_> {
         each_triangle(self.candidates.query, leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > self.limit
                 || lower_of(leaf, lane, p, distance_sq, lower_bound_sq) > self.candidates.band
-                || facing(leaf, lane, p) == Facing::Flat
+                || viewed_side(leaf, lane, p) == ViewedSide::Flat
             {
                 return;
             }

@@ -2,8 +2,7 @@
 //!
 //! A segment visits two nodes and less than one leaf on scanned parts, so the work once for each
 //! segment decides. The fan kernels flag the triangles that may be met. Only flagged triangles are
-//! looked at one by one, with the interval of parameters in which the *input's* triangle can be
-//! met.
+//! tested one by one, with the interval of parameters in which the *input's* triangle can be met.
 
 use super::descent::{LeafVisit, LeafVisitor, NodeQuery};
 use super::node::WIDE;
@@ -52,7 +51,7 @@ pub(crate) struct Place {
 
 /// The part of a question that handles triangles that may be met, in any order.
 pub(crate) trait Collect {
-    /// Nothing that begins later matters.
+    /// Intervals that begin later are not wanted.
     fn limit(&self) -> f32;
     /// A triangle of the wanted facing. `None` says that the tree is unchecked.
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;

@@ -37,7 +37,7 @@ use super::closest_point::closest_point;
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use super::leaf_distance::nearest_triangle;
 use super::point_query::{PointQuery, bounds};
-use super::pseudonormal::{Candidates, Facing, facing, side_of_shared_feature};
+use super::pseudonormal::{Candidates, ViewedSide, side_of_shared_feature, viewed_side};
 use super::side_search::{OPEN, Search};
 use super::triangle_bounds::{each_triangle, limit_of, lower_of, lower_of_box, witness};
 use crate::bvh::format::Bvh;
@@ -278,7 +278,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// Where a triangle is.
+/// The place of a triangle.
 #[derive(Clone, Copy)]
 struct Place {
     distance_sq: f32,
@@ -314,7 +314,7 @@ struct Survey<'p> {
     solid: Place,
     /// The closest triangle with its front to the point, with its back, with an open facing.
     seen: [Place; 3],
-    /// For each [`Facing`] the least lower bound of its triangles, grid units.
+    /// For each [`ViewedSide`] the least lower bound of its triangles, grid units.
     least: [f32; 4],
     /// Squared box bound of the nodes that were not opened.
     missed: f32,
@@ -422,8 +422,8 @@ impl Sides<'_, '_> {
             }
             let here = Place { distance_sq, node: visit.node, child: visit.lane, lane };
             self.best.improve(self.tree, here);
-            let facing = facing(leaf, lane, p);
-            if facing != Facing::Flat && distance_sq <= self.solid.distance_sq {
+            let facing = viewed_side(leaf, lane, p);
+            if facing != ViewedSide::Flat && distance_sq <= self.solid.distance_sq {
                 self.solid.improve(self.tree, here);
                 let band = Candidates::new(self.query, self.margin, self.solid.distance_sq).band;
                 let limit = limit_of(self.query, band);

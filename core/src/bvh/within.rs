@@ -37,7 +37,7 @@ impl Bvh<'_> {
     ///
     /// It ends as soon as one triangle is certainly near enough. A distance of 0 asks whether the
     /// point touches the surface: the answer is `No` or, as f32 cannot prove a contact, undecided.
-    /// A verdict is missing for want of precision only if the distance is within
+    /// The verdict is undecided for lack of precision only if the distance is within
     /// [`surface_error`](Bvh::surface_error) and rounding of the one asked about. Farther than a
     /// million model sizes the model's box answers.
     ///

@@ -41,7 +41,7 @@ pub enum OpenError {
     Reserved,
     /// Counts that contradict each other or a limit.
     Counts {
-        /// What is wrong.
+        /// The fault.
         what: &'static str,
     },
     /// The header or a section does not have its stored CRC.

@@ -15,9 +15,9 @@ pub struct Aabb {
 /// The part of a segment that may lie in a box.
 #[derive(Clone, Copy, Debug)]
 pub struct Clipped {
-    /// Where the part begins, up to `16·2^-53·magnitude`.
+    /// Parameter at which the part begins, up to `16·2^-53·magnitude`.
     pub start: DVec3,
-    /// Where it ends, up to the same.
+    /// Parameter at which it ends, up to the same.
     pub end: DVec3,
     /// Parameter of `start` on the whole segment, never above the true one.
     pub t_start: f64,

@@ -10,7 +10,8 @@ use super::point_triangle::point_triangle;
 use crate::num::tolerance::{COPLANAR_TOUCH, TRIPLE_PRODUCT, U64};
 use glam::DVec3;
 
-/// Where a segment meets a triangle. Parameters run from 0 at the segment's start to 1 at its end.
+/// A common point of a segment and a triangle. Parameters run from 0 at the segment's start to 1 at
+/// its end.
 #[derive(Clone, Copy, Debug)]
 pub struct SegmentTriangle {
     /// Best estimate of the first parameter at which they meet.

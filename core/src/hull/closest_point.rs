@@ -2,8 +2,8 @@
 //!
 //! Any cut of the forest of swept triangles covers the surface, so a node may be opened without the
 //! splits that a consistent mesh would need first (`core/DESIGN.md`, "Cut"). Nodes are bounded in
-//! f32, rounded down with a proved margin; the few triangles that may hold the answer are evaluated
-//! in f64, so that the interval is a rounding of f32 wide.
+//! f32, rounded down with a proved margin; The few triangles that may hold the answer are evaluated
+//! in f64, so that the interval is as wide as one rounding of f32.
 
 use super::sweep_queue::{SweepQueue, Taken, before};
 use crate::geom::{Aabb, LANES, Lanes, Support, SweptPoint, point_triangle};
@@ -18,10 +18,10 @@ impl Hull<'_> {
     /// distance to the input mesh.
     ///
     /// `scratch`: [`scratch_entries`](Hull::scratch_entries) make overflow impossible. More give a
-    /// tighter interval to a query that stops early. With fewer the interval still holds, and
-    /// [`Ended::Scratch`] says so. A point on the surface has a lower bound of 0. Of equidistant
-    /// triangles the answer is the least in blob order, whatever the order of visits. A point
-    /// farther than 2^40 times the model's size gets the interval of the model's box.
+    /// tighter interval to a query that stops early. With fewer the interval still holds, and the
+    /// answer may say [`Ended::Scratch`]. A point on the surface has a lower bound of 0. Of
+    /// equidistant triangles the answer is the least in blob order, whatever the order of visits. A
+    /// point farther than 2^40 times the model's size gets the interval of the model's box.
     ///
     /// Cost: some hundreds of nodes and triangles near a scanned part. The worst case is all of
     /// them, at the centre of a sphere. Where time is bounded, set [`Budget::with_steps`]. The box
@@ -51,7 +51,8 @@ impl Hull<'_> {
     }
 }
 
-/// Numbers and no budget: a program whose tolerances are constants links no code for others.
+/// Takes the tolerances as numbers, not a budget, so that a program with constant tolerances links
+/// no code for others.
 fn closest_point(
     hull: &Hull<'_>,
     point: [f32; 3],
@@ -110,7 +111,7 @@ struct Sweep<'a> {
     /// Not below the distance; f64 for the answer, f32 rounded up for pruning.
     upper: f64,
     upper_f32: f32,
-    /// Least lower bound of all evaluated triangles and of what was left unopened.
+    /// Least lower bound of all evaluated triangles and of all unopened nodes.
     lower: f64,
     best: Option<Best>,
     cut: bool,
@@ -152,7 +153,7 @@ impl<'a> Sweep<'a> {
             let key = f64::from(entry.key());
             let beaten = entry.key() > self.upper_f32;
             let tolerated = tolerant && {
-                // As it will be reported: with the stored surface's error, and rounded to f32
+                // The reported interval: with the stored surface's error, and rounded to f32
                 // outward.
                 let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
                 let high = (self.upper + surface_error) * (1.0 + REPORTED);
@@ -189,8 +190,8 @@ impl<'a> Sweep<'a> {
         })
     }
 
-    /// Replaces a node by what is below it, and returns the nearest child node instead of queueing
-    /// it. `None`: not an opened model.
+    /// Replaces a node by its children, and returns the nearest child node instead of queueing it.
+    /// `None`: the model is unchecked.
     #[inline]
     fn open(
         &mut self,
@@ -236,8 +237,8 @@ impl<'a> Sweep<'a> {
         Some(None)
     }
 
-    /// Queues nodes by bounds in f64, for a query from which f32 cannot tell the parts of the model
-    /// apart.
+    /// Queues nodes by bounds in f64, for a query so far away that f32 gives all parts of the model
+    /// the same bound.
     #[cold]
     fn visit_distant(
         &mut self,
@@ -271,8 +272,8 @@ impl<'a> Sweep<'a> {
         Some((lanes.supports(count), radii))
     }
 
-    /// Up to four triangles of the surface: a bound in f32, and the interval in f64 where the bound
-    /// leaves them in the race.
+    /// Up to four triangles of the surface: a bound in f32, and the interval in f64 of those whose
+    /// bound is not above the limit.
     #[inline(always)]
     fn triangles(&mut self, first: u32, count: usize) -> Option<()> {
         self.work.triangles += count as u32;
@@ -290,8 +291,7 @@ impl<'a> Sweep<'a> {
         for (bound, support) in bounds.iter_mut().zip(lanes.supports(count)).take(count) {
             *bound = self.swept.bound(support, 0.0, self.upper_f32).unwrap_or(f32::INFINITY);
         }
-        // Nearest first: each evaluation may spare the others theirs, which on a Cortex-M are done
-        // in software.
+        // Nearest first: each evaluation may spare others, and on a Cortex-M f64 runs in software.
         for _ in 0..count {
             let mut nearest = (f32::INFINITY, 0);
             for (bound, triangle) in bounds.iter().zip(first..) {
@@ -339,8 +339,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// A node whose children were cut off: its triangle is near the surface by the level's
-    /// certified distance.
+    /// A node whose children were cut off: the surface is within the level's certified distance of
+    /// its triangle.
     fn cut_node(&mut self, corners: [crate::hull::format::VertIdx; 3], key: f64) -> Option<()> {
         self.work.exact += 1;
         self.cut = true;

@@ -1,4 +1,4 @@
-//! The hull of one level as triangles: to draw it, to export it, to test against it.
+//! The hull of one level as triangles: for drawing, export and tests.
 
 use crate::hull::format::{Hull, Level, SplitIdx, VertIdx};
 
@@ -7,8 +7,8 @@ use crate::hull::format::{Hull, Level, SplitIdx, VertIdx};
 pub struct HullFace {
     /// Corners, counter-clockwise seen from outside.
     pub corners: [VertIdx; 3],
-    /// Certified radius, local frame; infinite where the triangle stands for no part of the
-    /// surface.
+    /// Certified radius, local frame. Infinite if no part of the surface is assigned to the
+    /// triangle.
     pub radius: f32,
 }
 
@@ -16,8 +16,8 @@ impl Hull<'_> {
     /// Triangles of the hull after `level.splits` splits, from the tables alone: no memory, time
     /// linear in the splits. [`vertex`](Hull::vertex) gives the corners' coordinates.
     ///
-    /// A triangle is alive exactly while its three corners are. It comes with the last of them, and
-    /// the first split of a corner takes it away: the whole star of a split vertex goes.
+    /// A triangle exists exactly while its three corners exist. It appears with the last of them.
+    /// The first split of a corner removes it, with the whole star of the split vertex.
     pub fn faces(&self, level: &Level) -> impl Iterator<Item = HullFace> + '_ {
         let splits = level.splits;
         let alive =

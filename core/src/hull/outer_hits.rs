@@ -2,11 +2,10 @@
 //! hull (Platis & Theoharis 2003, 3.2.1).
 //!
 //! Every hull encloses the surface. So between a start outside and the first point of the surface
-//! the segment crosses the refined hull, and when no face that it crosses can be refined any more,
-//! that face is the surface's: the first hit is found. Faces are tested a fragment at a time: those
-//! of a split lie within its `reach` of the vertex that it replaced, and sixteen base faces share a
-//! swept triangle. Hits farther on may lie below an unbroken hull face;
-//! [`Hull::all_hits`] finds those.
+//! the segment crosses the refined hull. A crossed face that cannot be refined any more is a face
+//! of the surface, and the first hit is found. Faces are tested in groups: those of a split lie
+//! within its `reach` of the vertex that it replaced, and sixteen base faces share a swept
+//! triangle. Later hits may lie below an unbroken hull face. [`Hull::all_hits`] finds those.
 
 use super::refined_hull::{Face, Refined, RefinedHull};
 use crate::geom::{SweptPoint, SweptSegment, segment_triangle};
@@ -16,7 +15,7 @@ use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, Work};
 use glam::DVec3;
 
-/// How far the search goes.
+/// The extent of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Search {
@@ -29,15 +28,15 @@ pub enum Search {
 /// The answer of the refined hull about a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OuterHits {
-    /// The parameter of the first common point. `lower` is infinite if there is none at all,
+    /// The parameter of the first common point. `lower` is infinite if no common point exists,
     /// `upper` if none is known.
     pub t: Interval,
     /// Hits in the slice.
     pub stored: usize,
     /// Hits that did not fit.
     pub dropped: u32,
-    /// The segment starts inside the base hull's box. Then the theorem does not hold, and nothing
-    /// was computed.
+    /// The segment starts inside the base hull's box. The theorem does not hold there, and no hit
+    /// was searched for.
     pub starts_inside: bool,
     /// The work of the search. `triangles`: faces tested. `splits`: vertex splits performed.
     /// `nodes`: boxes and cover nodes.
@@ -53,9 +52,10 @@ impl Hull<'_> {
     /// hull. `hits` gets the hits by rising parameter. If `starts_inside` is set in the answer, ask
     /// [`first_hit`](Hull::first_hit) instead: the segment may start between hull and surface. The
     /// surface must be stored exactly (no grid rounding, no cut), or the answer is
-    /// [`Ended::Resolution`] and says nothing. It must not wind around any point negatively, as a
-    /// solid that is turned inside out where it passes through itself does: the hulls of such a
-    /// mesh do not enclose it there. [`first_hit`](Hull::first_hit) has no such conditions.
+    /// [`Ended::Resolution`] without any bound. The surface must not wind around any point
+    /// negatively. A solid that is turned inside out where it passes through itself does, and the
+    /// hulls of that mesh do not enclose it there. [`first_hit`](Hull::first_hit) has no such
+    /// conditions.
     ///
     /// Of the budget only `steps` matters: vertex splits. Cost: faces tested and splits as in Table
     /// 3 of Platis & Theoharis 2003.
@@ -163,13 +163,13 @@ impl Sweep<'_, '_> {
                 return Some(());
             }
             if self.out.work.splits >= self.steps {
-                // Nothing is known of the faces that did not fit.
+                // Faces that did not fit may be hit anywhere.
                 self.give_up(0.0, Ended::Steps);
                 return Some(());
             }
-            // Some candidates did not fit: what is alive and crossed is found again from the
-            // tables. At least one fits, and all of them can be refined, so the hull
-            // gets finer each time.
+            // Some candidates did not fit: the live faces that the segment crosses are found again
+            // from the tables. At least one fits, and all can be refined, so the hull gets finer
+            // each time.
             self.overflowed = false;
             self.test_base(false)?;
             self.test_splits(0, self.model.header().splits, false)?;
@@ -182,8 +182,7 @@ impl Sweep<'_, '_> {
         self.refined.candidates.get(last).copied()
     }
 
-    /// One candidate: forgotten if it is gone or too far, else replaced by the split that refines
-    /// it.
+    /// One candidate: dropped if it is gone or too far, else replaced by the split that refines it.
     fn refine(&mut self, face: Face) -> Option<()> {
         let corners = face.corners(self.model)?;
         if self.beyond(face.enter_at()) || !self.refined.is_alive(self.model, corners) {
@@ -217,7 +216,7 @@ impl Sweep<'_, '_> {
         }
     }
 
-    /// A face that cannot be refined stays, and the surface may be hit wherever the face is.
+    /// A face that cannot be refined stays. The surface may be hit anywhere on it.
     fn give_up(&mut self, t: f32, ended: Ended) {
         self.out.t.lower = self.out.t.lower.min(t.max(0.0));
         self.out.ended = ended;
@@ -240,7 +239,7 @@ impl Sweep<'_, '_> {
         Some(())
     }
 
-    /// Whether the segment may meet anything inside a swept triangle, before what matters ends.
+    /// Whether the segment may meet a swept triangle below the limit.
     #[inline]
     fn may_meet(&mut self, corners: [VertIdx; 3], radius: f32) -> Option<bool> {
         self.out.work.nodes += 1;
@@ -248,8 +247,7 @@ impl Sweep<'_, '_> {
         Some(entered.is_some_and(|t| !self.beyond(t)))
     }
 
-    /// Faces of the splits in a range that were performed; only those not looked at before if
-    /// `fresh`.
+    /// Faces of the performed splits in a range. With `fresh` only those not visited before.
     fn test_splits(&mut self, from: u32, to: u32, fresh: bool) -> Option<()> {
         for index in from / 32..to.div_ceil(32) {
             let performed = self.refined.performed.get(index as usize).copied().unwrap_or(0);
@@ -281,13 +279,13 @@ impl Sweep<'_, '_> {
         Some(())
     }
 
-    /// Whether nothing from this parameter on matters any more.
+    /// Whether hits from this parameter on cannot change the answer.
     fn beyond(&self, t: f32) -> bool {
         self.search == Search::First && t > self.out.t.upper
     }
 
-    /// Tests a live face; one that the segment may cross is a hit if it is the surface's, else a
-    /// candidate.
+    /// Tests a live face. One that the segment may cross is a hit if it is a face of the surface,
+    /// else a candidate.
     fn test(&mut self, face: Face, corners: [VertIdx; 3], record_hits: bool) -> Option<()> {
         self.out.work.triangles += 1;
         let positions = self.model.positions(corners)?;
@@ -324,8 +322,8 @@ impl Sweep<'_, '_> {
         Some(())
     }
 
-    /// Number of a surface triangle in the input file: the cover tree is searched at the triangle's
-    /// centre, which saves the blob a table and costs a few dozen nodes per hit.
+    /// Number of a surface triangle in the input file. A search of the cover tree at the triangle's
+    /// centre finds it. This costs a few dozen nodes per hit and needs no table in the blob.
     fn number(&mut self, corners: [VertIdx; 3], centre: DVec3) -> Option<Option<u32>> {
         let segment = SweptPoint::new(centre.as_vec3(), &self.model.hull_box());
         let wanted = sorted(corners);
@@ -351,7 +349,8 @@ impl Sweep<'_, '_> {
                 Children::Cut => {}
             }
         }
-        // A tree deeper than the stack: rare, and a scan of the surface is always right.
+        // The tree is deeper than the stack. That is rare, and a scan of the surface always finds
+        // it.
         if complete {
             Some(None)
         } else {
@@ -374,6 +373,6 @@ const DEPTH: usize = 96;
 
 fn sorted([a, b, c]: [VertIdx; 3]) -> [u32; 3] {
     let (low, high) = (a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0));
-    // The one that is neither: xor of all three with the two that are known.
+    // The third one: xor of all three with the two known.
     [low, a.0 ^ b.0 ^ c.0 ^ low ^ high, high]
 }

@@ -1,11 +1,11 @@
 //! The selectively refined hull: which splits have been performed, in fixed-capacity arrays
 //! (Platis & Theoharis 2003, 3.2.1; Guéziec 2000, 4.2).
 //!
-//! A split may be performed when every vertex of its ring exists: then the star of its vertex is
-//! exactly what the builder collapsed, and the refined mesh still encloses the surface. Hull
-//! vertices of different levels are different vertices, so "exists" is "the split that makes it was
-//! performed", which two bit sets hold. There is no selective coarsening: a query starts from the
-//! base hull again, which clears the bits (paper 000, 3.2.2).
+//! A split may be performed when every vertex of its ring exists. Then the star of its vertex is
+//! exactly the one that the builder collapsed, and the refined mesh still encloses the surface.
+//! Hull vertices of different levels are different vertices. So a vertex exists if the split that
+//! makes it was performed, and one bit set holds that. There is no selective coarsening. A query
+//! starts from the base hull again and clears the bits (Platis & Theoharis 2003, 3.2.2).
 
 use crate::hull::format::{Hull, Split, SplitIdx, VertIdx};
 
@@ -53,15 +53,15 @@ impl Face {
 
 /// Memory of a refinement: two bit sets of one bit per split, candidates, and a path.
 ///
-/// Any length is correct. With [`Hull::refined_words`]
-/// words in each bit set every split can be performed; with fewer, only the coarsest are, and a
-/// query says that capacity ended it. A short candidate list costs repeated scans, a short path
-/// repeated searches; neither costs an answer.
+/// Any length is correct. With [`Hull::refined_words`] words in each bit set every split can be
+/// performed. With fewer, only the coarsest can, and a query ends with
+/// [`Ended::Scratch`](crate::Ended::Scratch). A short candidate list costs repeated scans, a short
+/// path repeated searches. Neither changes an answer.
 #[derive(Debug)]
 pub struct RefinedHull<'a> {
     /// Bit set: split performed.
     pub(crate) performed: &'a mut [u32],
-    /// Bit set: its new faces have been looked at.
+    /// Bit set: the new faces were visited.
     pub(crate) swept: &'a mut [u32],
     /// Faces still to be refined.
     pub(crate) candidates: &'a mut [Face],
@@ -77,17 +77,17 @@ const PATH: usize = 32;
 /// Splits of one refinement that are listed. After a larger one the bit sets are compared instead.
 const FRESH: usize = 64;
 
-/// What [`RefinedHull::refine`] did.
+/// The result of [`RefinedHull::refine`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refined {
-    /// The split and all that it needed are performed: so many of them.
+    /// The split and all that it needed are performed: the number of splits.
     Splits(u32),
     /// The bit sets are too short for a split that it needs.
     Scratch,
 }
 
 impl<'a> RefinedHull<'a> {
-    /// A front in the caller's memory; its contents do not matter. The shorter bit set counts.
+    /// A refined hull in the caller's memory, with any contents. The shorter bit set counts.
     pub fn new(performed: &'a mut [u32], swept: &'a mut [u32], candidates: &'a mut [Face]) -> Self {
         RefinedHull {
             performed,
@@ -117,7 +117,7 @@ impl<'a> RefinedHull<'a> {
         self.performed.get(split.usize() / 32).is_some_and(|word| word >> (split.0 % 32) & 1 != 0)
     }
 
-    /// Whether a vertex has been replaced. That it was made is the caller's knowledge.
+    /// Whether a vertex was replaced. The caller has to know that it was made.
     #[inline]
     pub fn is_split(&self, model: &Hull<'_>, vertex: VertIdx) -> bool {
         model.split_of(vertex).is_some_and(|split| self.is_performed(split))
@@ -132,14 +132,14 @@ impl<'a> RefinedHull<'a> {
     /// The split that refines a live face: the coarsest among those of its corners. `None` on the
     /// surface.
     ///
-    /// The others need vertices that this one makes, so it comes before them.
+    /// The others need vertices that this one makes.
     #[inline]
     pub fn split_of_face(model: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
         corners.into_iter().filter_map(|v| model.split_of(v)).min()
     }
 
     /// Performs a split and, before it, every split that it needs; no recursion. `None` only if the
-    /// model is not one that was opened.
+    /// model is unchecked.
     ///
     /// Every split on the way is coarser than the one that asked for it, so the search ends.
     pub fn refine(&mut self, model: &Hull<'_>, wanted: SplitIdx) -> Option<Refined> {
@@ -153,7 +153,7 @@ impl<'a> RefinedHull<'a> {
         while !self.is_performed(wanted) {
             let split = model.split(current)?;
             if let Some(needed) = self.missing(model, &split)? {
-                // A full path forgets its oldest part; the loop comes back to `wanted` for it.
+                // A full path drops its oldest part. The loop comes back to `wanted` for it.
                 if self.path.push(current).is_err() {
                     self.path.clear();
                 }
@@ -164,16 +164,16 @@ impl<'a> RefinedHull<'a> {
                 *word |= 1 << (current.0 % 32);
             }
             count += 1;
-            // What does not fit is found by its `swept` bit: `count` tells that the list is not
-            // whole.
+            // Splits that do not fit are found by their `swept` bits. `count` shows that the list
+            // is incomplete.
             let _ = self.fresh.push(current);
             current = self.path.pop().unwrap_or(wanted);
         }
         Some(Refined::Splits(count))
     }
 
-    /// A split that must come before `split` and has not been performed. The outer `None`: not an
-    /// opened model.
+    /// A split that must come before `split` and has not been performed. The outer `None`: the
+    /// model is unchecked.
     #[inline]
     fn missing(&self, model: &Hull<'_>, split: &Split<'_>) -> Option<Option<SplitIdx>> {
         let absent =

@@ -1,8 +1,8 @@
 //! First hit and all hits of a segment, on the cover tree.
 //!
-//! A node is opened because the segment may meet the swept triangle that covers its part of the
-//! surface, not because it crosses a hull face; so hits below an unbroken hull (paper 000, Figure
-//! 5) are found, wherever the segment starts.
+//! A node is opened if the segment may meet the swept triangle that covers its part of the surface,
+//! whether or not it crosses a hull face. So hits below an unbroken hull (Platis & Theoharis 2003,
+//! Figure 5) are found, wherever the segment starts.
 
 use super::sweep_queue::{SweepQueue, Taken};
 use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
@@ -20,7 +20,7 @@ impl Hull<'_> {
     /// lengths involved, or within the surface error, of an edge may be reported as a hit. Segments
     /// in the plane of a triangle hit where they enter it. A segment of no length hits if its point
     /// lies on the surface. On a cut blob, and where a grid moved vertices, `hit` is the first
-    /// place where the surface may be, and [`Ended::Resolution`] says so.
+    /// place where the surface may be, and the answer ends with [`Ended::Resolution`].
     ///
     /// `scratch` as for [`closest_point`](Hull::closest_point). Of the budget only `steps` matters.
     /// Cost: some dozens of nodes on scanned parts.
@@ -100,10 +100,10 @@ struct Met {
     point: [f32; 3],
 }
 
-/// What to do with hits, and how far along the segment it is worth looking.
+/// A question's visitor for hits, and its limit along the segment.
 trait Collect {
     fn add(&mut self, met: Met);
-    /// Nothing beyond this parameter matters.
+    /// Hits beyond this parameter are not wanted.
     fn limit(&self) -> f32;
 }
 
@@ -148,7 +148,7 @@ impl Collect for All<'_> {
 struct Traced {
     work: Work,
     ended: Ended,
-    /// Least parameter at which something that was not opened may be hit.
+    /// Least parameter of a hit in unopened nodes.
     unopened: f32,
 }
 
@@ -206,7 +206,7 @@ struct Walk<'a> {
     segment: SweptSegment,
     clipped: Clipped,
     surface_error: f32,
-    /// Something was reported that the stored surface cannot decide.
+    /// A reported hit is one that the stored surface cannot decide.
     doubtful: bool,
 }
 
@@ -302,8 +302,8 @@ impl Walk<'_> {
         let corners = corners.map(|v| v.as_dvec3());
         let mut met = segment_triangle(self.start, self.end, corners);
         if self.surface_error > 0.0 {
-            // The input surface may lie up to `surface_error` from the stored one: a hit may be a
-            // miss, a near miss a hit, and the parameter is that uncertain.
+            // The input surface may lie up to `surface_error` from the stored one. So a hit may be
+            // a miss, a near miss a hit, and the parameter is uncertain by as much.
             if met.is_none()
                 && !comes_within(self.start, self.end, corners, f64::from(self.surface_error))
             {
@@ -321,7 +321,7 @@ impl Walk<'_> {
         Some(())
     }
 
-    /// All that is known below a cut is that the surface may be hit from here on.
+    /// Below a cut the surface may be hit from here on.
     fn cut_node(&mut self, entry: ScratchEntry, collect: &mut dyn Collect) {
         self.doubtful = true;
         let t = f64::from(entry.key()).max(self.clipped.t_start.min(1.0)).max(0.0);

@@ -1,10 +1,10 @@
-//! The priority queue of the sweeping process (Guéziec 2000, 3.2), in a slice of the caller's.
+//! The priority queue of the sweeping process (Guéziec 2000, 3.2), in the caller's slice.
 //!
 //! Best first while there is room: a binary heap grows from the left. Where the heap could leave
-//! too little room for a descent, the search goes depth first on a stack that grows from the right,
-//! and comes back to the heap when that is empty. So `Hull::scratch_entries`, the depth-first worst
-//! case that the builder counted, are enough for an exact answer, and every entry more buys tighter
-//! intervals for a query that is stopped early.
+//! too little room for a descent, the search goes depth first on a stack that grows from the right.
+//! It returns to the heap when the stack is empty. So `Hull::scratch_entries`, the depth-first
+//! worst case that the builder counted, are enough for an exact answer. More entries give tighter
+//! intervals to a query that stops early.
 
 use crate::query::ScratchEntry;
 
@@ -28,7 +28,7 @@ pub(crate) struct SweepQueue<'a> {
     stack: usize,
     /// Free slots that a depth-first descent may need.
     reserve: usize,
-    /// Least key of what did not fit.
+    /// Least key of the entries that did not fit.
     dropped: f32,
     depth_first: bool,
     /// Children pushed on the stack since `begin_children`.
@@ -48,7 +48,7 @@ impl<'a> SweepQueue<'a> {
         }
     }
 
-    /// To be called before the children of a popped node are pushed: decides where they go.
+    /// Decides where the children of a popped node go. Call it before they are pushed.
     pub(crate) fn begin_children(&mut self, count: u32) {
         self.siblings = 0;
         let room = self.slots.len() - self.heap.min(self.slots.len());
@@ -65,9 +65,9 @@ impl<'a> SweepQueue<'a> {
         }
     }
 
-    /// The entry to open next: `nearest`, the nearest child of the node opened last, if it comes
-    /// first anyway or if `dive` says to go down whatever waits; else the best that waits,
-    /// `nearest` joining the queue.
+    /// The entry to open next. It is `nearest`, the nearest child of the node opened last, if that
+    /// has the least key or if `dive` is set. Else it is the best that waits, and `nearest` joins
+    /// the queue.
     #[inline]
     pub(crate) fn take(&mut self, nearest: Option<ScratchEntry>, dive: bool) -> Option<Taken> {
         let Some(nearest) = nearest else { return self.pop() };
@@ -92,7 +92,7 @@ impl<'a> SweepQueue<'a> {
         self.pop_heap().map(|entry| Taken { entry, least: true })
     }
 
-    /// Least key of all that waits or was dropped; infinity if there is none.
+    /// Least key of all entries that wait or were dropped. Infinite without any.
     pub(crate) fn lower(&self) -> f32 {
         let heap = if self.heap > 0 {
             self.slots.first().map_or(f32::INFINITY, |e| e.key())
@@ -108,8 +108,8 @@ impl<'a> SweepQueue<'a> {
         self.dropped
     }
 
-    /// Pushes among the siblings since `begin_children`, nearest on top; what lies below them stays
-    /// where it is, or a descent could need more room than the builder counted.
+    /// Pushes among the siblings since `begin_children`, nearest on top. Entries below them must
+    /// not move, or a descent could need more room than the builder counted.
     fn push_stack(&mut self, entry: ScratchEntry) {
         self.stack += 1;
         let mut at = self.slots.len() - self.stack;

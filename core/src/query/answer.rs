@@ -23,7 +23,7 @@ impl Interval {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Ended {
-    /// Nothing is left to look at: the interval is as narrow as the stored surface allows.
+    /// The search is complete: the interval is as narrow as the stored surface allows.
     Exact,
     /// The tolerance of the [`Budget`](crate::Budget) was met.
     Tolerance,

@@ -2,7 +2,8 @@
 
 use crate::format::layout::BuildFor;
 
-/// Why a query was refused. Nothing was computed. Twelve bytes, so that answers cost no more by it.
+/// Why a query was refused. No answer was computed. An error has twelve bytes, so that it makes no
+/// answer larger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum QueryError {

@@ -1,4 +1,4 @@
-//! What all questions share.
+//! Types that all questions share.
 //!
 //! | file | owns |
 //! | --- | --- |

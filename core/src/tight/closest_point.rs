@@ -15,10 +15,10 @@ impl TightHull<'_> {
     /// and at least 0. [`point`](ClosestPoint::point) lies on the hull. There is no triangle.
     ///
     /// `scratch` as for [`Bvh::closest_point`](crate::Bvh::closest_point), for the hull's
-    /// [`bvh`](TightHull::bvh). The tolerances of the budget shorten nothing: a hull as tight as
-    /// the tolerance ends with [`Ended::Tolerance`], any other with [`Ended::Resolution`].
-    /// [`Ended::Steps`] and [`Ended::Scratch`] as there, with a lower end of 0 where the side was
-    /// not found.
+    /// [`bvh`](TightHull::bvh). The budget's tolerances do not shorten the search. If the hull is
+    /// as tight as the tolerance, it ends with [`Ended::Tolerance`], else with
+    /// [`Ended::Resolution`]. [`Ended::Steps`] and [`Ended::Scratch`] as there, with a lower end of
+    /// 0 if the side was not found.
     ///
     /// Cost: that of the box tree's closest point outside the hull's box, of its signed distance
     /// inside.

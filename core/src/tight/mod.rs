@@ -1,4 +1,4 @@
-//! Tight hulls: hulls of few triangles that stand in for a mesh.
+//! Tight hulls: hulls of few triangles in place of a mesh.
 //!
 //! | where | what lies there |
 //! | --- | --- |

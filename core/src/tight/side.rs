@@ -1,11 +1,11 @@
-//! How far a point is from a hull, and whether it is certainly outside.
+//! Distance of a point from a hull, and whether the point is certainly outside.
 
 use crate::bvh::format::Bvh;
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Side};
 
-/// Whether a point, given in input units, is outside of the box of all stored vertices. Exact but
-/// for points that f32 cannot tell from the box's planes in grid units: those are too near for a
-/// distance above 0.
+/// Whether a point (input units) is outside the box of all stored vertices. Exact, except for
+/// points that f32 in grid units puts on the box's planes. Those are too near for a distance above
+/// 0.
 pub(crate) fn is_outside_box(tree: &Bvh<'_>, point: [f32; 3]) -> bool {
     let scale = tree.scale();
     let [inward, rest] = scale.inward;
@@ -26,8 +26,7 @@ pub(crate) fn seen_from(
     let budget = Budget::EXACT.with_steps(steps);
     if is_outside_box(tree, point) {
         let near = tree.closest_point(point, budget, scratch)?;
-        // What was moved to be stored is no farther from where it was than a distance of 0 allows
-        // for.
+        // Storing moved no vertex farther than a distance of 0 allows for.
         return Ok((near, near.distance.lower > 0.0));
     }
     let signed = tree.signed_distance(point, budget, scratch)?;

@@ -9,13 +9,13 @@ use crate::tight::format::TightHull;
 impl TightHull<'_> {
     /// Whether the part inside the hull is at most `distance` from `point`, both in input units.
     ///
-    /// `No` is said outside the hull only, so that it holds for a solid part with its inside.
-    /// Within the hull, and as far from it as its slack, the answer is `Yes` or undecided. For
+    /// The answer is `No` only outside the hull, so that it holds for a solid part with its inside.
+    /// Within the hull, and nearer to it than its slack, the answer is `Yes` or undecided. For
     /// collision avoidance, treat undecided as `Yes`. There is no triangle. `budget` and `scratch`
     /// as for [`Bvh::within`](crate::Bvh::within).
     ///
-    /// Cost: where the hull is farther, that of its tree's `within`, and inside its box that of its
-    /// signed distance; else that of its tree's closest point too.
+    /// Cost: if the hull is farther, that of its tree's `within`, and inside the hull's box also of
+    /// its signed distance. Else that of its tree's closest point too.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Scratch, TightHulls};

@@ -1,9 +1,9 @@
 //! The boundary of a tribox, corner by corner (Crosnier & Rossignac 1999, sections 2.2 and 3).
 //!
-//! Three planes of the box and three chamfers meet at each of its eight corners. Where the
-//! chamfers' common point lies decides which of four ways they meet in; no corner depends on
-//! another. A corner has four vertices, so that there are 32 vertices, 48 edges and 18
-//! faces, always; some of them may have no extent.
+//! Three planes of the box and three chamfers meet at each of its eight corners, in one of four
+//! ways. The chamfers' common point decides which. No corner depends on another. A corner has four
+//! vertices. So there are always 32 vertices, 48 edges and 18 faces, some of them perhaps without
+//! extent.
 
 use super::bounds::Tribox;
 use super::directions::FACES;
@@ -16,12 +16,12 @@ pub const VERTICES: usize = 32;
 /// Most vertices of a face.
 pub const LOOP: usize = 8;
 
-/// What a boundary is computed in: f32, or integers of which a quarter exists, or what counts
+/// The numbers of a boundary: f32, integers that can be divided by four, or a type that counts
 /// operations.
 pub trait Scalar:
     Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self>
 {
-    /// What unused places hold.
+    /// The value of unused slots.
     const ZERO: Self;
     /// Half of it.
     #[must_use]
@@ -68,7 +68,7 @@ const CHAMFER_PARTS: [[&[u8]; 3]; 4] = [
     [&[2, 0, 1, 3], &[3, 1], &[0, 2]],
 ];
 
-/// A part of a loop, ready to be written: slots of a corner, and how many.
+/// A part of a loop: slots of a corner, and their count.
 #[derive(Clone, Copy)]
 struct Part {
     slots: u32,
@@ -170,16 +170,16 @@ fn beyond<S: Scalar>([a, b, c]: [S; 3], [ab, bc, ca]: [S; 3]) -> [[S; 3]; 4] {
     [[a, y, bc - y], [a, bc - z, z], [ab - b, b, bc - b], [ca - c, bc - c, c]]
 }
 
-/// The boundary of the intersection of nine slabs, of which every plane touches it
-/// ([`Tribox::tightened`] sees to that).
+/// The boundary of the intersection of nine slabs. Every plane has to touch it, as
+/// [`Tribox::tightened`] gives it.
 ///
 /// Faces are counter-clockwise from outside. Between 96 and 112 additions, 24 halvings and at most
-/// 24 comparisons. With f32 a vertex is within 10·2^-24 of the greatest parameter from where it
-/// should be, by coordinate; exact for parameters that are multiples of 2^-20 of a power of two
-/// above all of them ([`Tribox::on_grid`]). Planes that do not touch give vertices that lie beyond
-/// others, in loops that still close.
+/// 24 comparisons. In f32 each coordinate of a vertex is off by at most 10·2^-24 of the greatest
+/// parameter. It is exact for parameters that are multiples of 2^-20 of a power of two above all of
+/// them ([`Tribox::on_grid`]). Planes that do not touch give vertices beyond other planes, in loops
+/// that still close.
 ///
-/// [`Boundary::compute`] does the same in place, which saves copying 600 bytes.
+/// [`Boundary::compute`] does the same in place and saves a copy of 600 bytes.
 #[inline]
 pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> Boundary<S> {
     let mut boundary = Boundary::EMPTY;
@@ -187,7 +187,7 @@ pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> Boundary<S> {
     boundary
 }
 
-/// Puts the vertices of corner `I` into its slots; its case.
+/// Puts the vertices of corner `I` into its slots. Returns its case.
 #[inline(always)]
 fn at<S: Scalar, const I: usize>(
     low: &[S; SLABS],
@@ -196,7 +196,7 @@ fn at<S: Scalar, const I: usize>(
 ) -> u8 {
     let [x, y, z] = [I & 1 != 0, I & 2 != 0, I & 4 != 0];
     let side = |low: S, high: S, is_low: bool| if is_low { -low } else { high };
-    // Where two coordinates grow in the same direction the sum's slab bounds the edge, else the
+    // If two coordinates grow in the same direction, the sum's slab bounds the edge, else the
     // difference's.
     let planes = [side(low[0], high[0], x), side(low[1], high[1], y), side(low[2], high[2], z)];
     let chamfers = [
@@ -222,12 +222,12 @@ struct Loop {
 impl Loop {
     const EMPTY: Loop = Loop { vertices: [0; LOOP + 3], length: 0 };
 
-    /// Makes it the loop of face `F`. A function for each face, so that the tables are constants in
-    /// it: half the instructions of a loop over them.
+    /// Makes it the loop of face `F`. One function for each face, so that the tables are constants:
+    /// half the instructions of a loop over the tables.
     #[inline(always)]
     fn join<const F: usize>(&mut self, parts: &[&[Part; 12]; 8]) {
         let mut end = 0usize;
-        // Four constants and not a loop over them: so they are.
+        // Four constants. A loop would read them from a table.
         let [a, b, c, d] = const { CORNERS_OF_FACES[F] };
         end = self.put(a, parts, end);
         end = self.put(b, parts, end);
@@ -238,7 +238,7 @@ impl Loop {
         self.length = end as u8;
     }
 
-    /// Writes a part of a corner from `start` on; where it ends.
+    /// Writes a part of a corner from `start` on. Returns its end.
     #[inline(always)]
     fn put(
         &mut self,
@@ -260,8 +260,8 @@ impl Loop {
         self.vertices.get(..usize::from(self.length)).unwrap_or(&[])
     }
 
-    /// Adds a vertex unless it is the last one; one that was there before the last one takes that
-    /// off: there and back again.
+    /// Adds a vertex unless it is the last one. If it is the one before the last, it removes the
+    /// last: the loop went there and back.
     fn push(&mut self, vertex: u8) {
         match self.as_slice() {
             [.., before, _] if *before == vertex => self.length -= 1,
@@ -368,7 +368,7 @@ impl Boundary<f32> {
 }
 
 impl Tribox {
-    /// Its [`boundary()`]; of an empty one no vertex is a number.
+    /// Its [`boundary()`]. All vertices of an empty one are NaN.
     #[must_use]
     pub fn boundary(&self) -> Boundary<f32> {
         boundary(&self.low, &self.high)

@@ -1,4 +1,4 @@
-//! The eighteen parameters, and what comparisons alone can tell of them.
+//! The eighteen parameters, and the questions that comparisons alone answer.
 
 use super::directions::SLABS;
 use crate::num::tolerance::U32;
@@ -8,13 +8,14 @@ use core::fmt;
 /// The intersection of nine slabs `low ≤ direction · p ≤ high`, see
 /// [`DIRECTIONS`](super::DIRECTIONS).
 ///
-/// What is put into one is inside in real arithmetic: sums of coordinates are rounded outward.
-/// Every plane touches what is inside, up to that rounding, as long as only points, triboxes and
-/// [translations](Tribox::translated) made it; after [`intersection`](Tribox::intersection) and
-/// [`padded`](Tribox::padded) a plane may be idle, which [`tightened`](Tribox::tightened) mends.
+/// It holds its points in real arithmetic: sums of coordinates are rounded outward. A tribox of
+/// points, unions and [translations](Tribox::translated) is tight up to this rounding: every plane
+/// touches the points inside. After [`intersection`](Tribox::intersection) and
+/// [`padded`](Tribox::padded) a plane may be idle. [`tightened`](Tribox::tightened) moves it
+/// inward.
 ///
-/// Coordinates have to be within [`Tribox::DOMAIN`], so that no sum overflows. Unit and frame are
-/// the caller's.
+/// Coordinates have to be within [`Tribox::DOMAIN`], so that no sum overflows. The caller chooses
+/// unit and frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tribox {
     /// Least values along the directions.
@@ -23,10 +24,10 @@ pub struct Tribox {
     pub high: [f32; SLABS],
 }
 
-/// Why there is no tribox.
+/// Why a tribox could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TriboxError {
-    /// A coordinate is not a number, or infinite.
+    /// A coordinate is NaN or infinite.
     NotFinite,
     /// A coordinate is beyond [`Tribox::DOMAIN`].
     OutOfDomain,
@@ -43,7 +44,7 @@ impl fmt::Display for TriboxError {
 
 impl core::error::Error for TriboxError {}
 
-/// What a point measures along the directions, between what is rounded down and what is rounded up.
+/// A point's values along the directions, rounded down and rounded up.
 #[inline(always)]
 pub(crate) fn projections([x, y, z]: [f32; 3]) -> ([f32; SLABS], [f32; SLABS]) {
     let sums = [(x, y), (x, -y), (y, z), (y, -z), (z, x), (z, -x)];
@@ -65,7 +66,7 @@ pub(crate) fn checked(point: [f32; 3]) -> Result<[f32; 3], TriboxError> {
 }
 
 impl Tribox {
-    /// Holds nothing.
+    /// The empty tribox.
     pub const EMPTY: Tribox =
         Tribox { low: [f32::INFINITY; SLABS], high: [f32::NEG_INFINITY; SLABS] };
 
@@ -92,8 +93,8 @@ impl Tribox {
             .try_fold(Tribox::EMPTY, |all, point| Ok(all.union(&Tribox::of_point(point)?)))
     }
 
-    /// Whether a slab is empty: a proof that it holds nothing. Parameters that contradict each
-    /// other in a less obvious way show once they are [tightened](Tribox::tightened).
+    /// Whether a slab is empty: a proof that no point is inside. Other contradictions between
+    /// parameters are found by [`tightened`](Tribox::tightened).
     pub fn is_empty(&self) -> bool {
         self.slabs().any(|(low, high)| low > high)
     }
@@ -104,22 +105,22 @@ impl Tribox {
         self.low.iter().copied().zip(self.high.iter().copied())
     }
 
-    /// The least tribox of both; that of an empty one and another is the other.
+    /// The least tribox of both. With an empty one it is the other.
     #[inline]
     #[must_use]
     pub fn union(&self, other: &Tribox) -> Tribox {
         Tribox { low: least(&self.low, &other.low), high: greatest(&self.high, &other.high) }
     }
 
-    /// What both hold, exactly. Parameters may then be idle; see [`tightened`](Tribox::tightened).
+    /// The exact intersection. Parameters may then be idle; see [`tightened`](Tribox::tightened).
     #[inline]
     #[must_use]
     pub fn intersection(&self, other: &Tribox) -> Tribox {
         Tribox { low: greatest(&self.low, &other.low), high: least(&self.high, &other.high) }
     }
 
-    /// Whether the slabs of both overlap: `false` is a proof that they have no point in common.
-    /// Both in one frame.
+    /// Whether the slabs of both overlap, in one frame. `false` is a proof that they have no common
+    /// point.
     ///
     /// `true` is no proof, for the intersection may be [empty](Tribox::tightened) although all nine
     /// slabs overlap. Touching counts as overlapping; an empty tribox overlaps none. Cost: at
@@ -132,7 +133,7 @@ impl Tribox {
             .all(|((low, high), (other_low, other_high))| (low <= other_high) & (other_low <= high))
     }
 
-    /// Whether all of `other` is inside, by its parameters; an empty one is. Exact if `other` is
+    /// Whether all of `other` is inside, by its parameters. An empty one is. Exact if `other` is
     /// tight.
     #[inline]
     #[must_use]
@@ -143,9 +144,9 @@ impl Tribox {
             })
     }
 
-    /// Whether a point may be inside: `false` is a proof that it is not. It is one in real
-    /// arithmetic for all points whose sums f32 can hold; for others `true` reaches one unit of
-    /// rounding beyond a diagonal plane. Not for NaN.
+    /// Whether a point may be inside. `false` is a proof that it is not, and is always given
+    /// outside if f32 holds the point's sums. Otherwise `true` is possible up to one unit of
+    /// rounding beyond a diagonal plane. `false` for NaN.
     #[inline]
     #[must_use]
     pub fn contains_point(&self, point: [f32; 3]) -> bool {
@@ -155,8 +156,7 @@ impl Tribox {
             .all(|((from, to), (low, high))| (from <= high) & (low <= to))
     }
 
-    /// What it becomes if all that is inside moves by `by`, rounded outward. Exact where f32 holds
-    /// the sums.
+    /// The tribox moved by `by`, rounded outward. Exact if f32 holds the sums.
     ///
     /// # Errors
     /// If a coordinate of `by`, or of the result, is not finite or beyond [`Tribox::DOMAIN`].

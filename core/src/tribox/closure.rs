@@ -1,9 +1,10 @@
-//! Parameters that no other ones imply.
+//! Closure: planes moved inward as far as the other parameters imply.
 //!
 //! Slabs along the axes and the diagonals of the coordinate planes are the *octagons* of Miné (*The
-//! octagon abstract domain*, 2006). Between the six numbers x, −x, y, −y, z, −z every parameter
-//! bounds a difference; shortest paths give what differences imply, and one more step what two
-//! bounds of single coordinates do. The result is the tightest there is, over the reals.
+//! octagon abstract domain*, 2006). Every parameter bounds a difference between two of the six
+//! numbers x, −x, y, −y, z, −z. Shortest paths give the bounds that sums of differences imply, and
+//! one more step those that two bounds of single coordinates imply. Over the reals no bound is
+//! tighter.
 
 use super::bounds::Tribox;
 use super::directions::SLABS;
@@ -29,7 +30,7 @@ const PAIRS: [(usize, usize, bool); SLABS] = [
     (2, 0, true),
 ];
 
-/// Where a slab's greatest value stands: twice, or once for an axis, whose value counts double.
+/// The entries of a slab's greatest value: two, or one for an axis, whose value counts double.
 #[inline(always)]
 fn places((first, second, negative): (usize, usize, bool)) -> [(usize, usize); 2] {
     let (a, minus_a) = (2 * first, 2 * first + 1);
@@ -62,11 +63,11 @@ fn entry(differences: &Differences, i: usize, j: usize) -> f32 {
 
 impl Tribox {
     /// The same set with every plane moved inward until it touches, rounded outward.
-    /// [`Tribox::EMPTY`] proves that the slabs have no common point; off a
-    /// [grid](Self::on_grid) rounding may hide that they have none.
+    /// [`Tribox::EMPTY`] proves that the slabs have no common point. Off a [grid](Self::on_grid)
+    /// rounding may hide this.
     ///
-    /// Parameters never grow. Exact if they are on a [grid](Self::on_grid). Cost: 216 sums and
-    /// comparisons and some.
+    /// Parameters never grow. Exact if they are on a [grid](Self::on_grid). Cost: somewhat more
+    /// than 216 sums and comparisons.
     #[must_use]
     pub fn tightened(&self) -> Tribox {
         if self.is_empty() {
@@ -114,11 +115,11 @@ impl Tribox {
         if tight.is_empty() { Tribox::EMPTY } else { tight }
     }
 
-    /// A tribox that holds this one and whose [`boundary`](Self::boundary) f32 computes exactly:
-    /// parameters are rounded outward to multiples of 2^-20 of the power of two above all of
-    /// them, then [tightened](Self::tightened), which may leave multiples of half of that, and
-    /// which a second time would be rounded again. Coarse for what lies far from the origin:
-    /// the unit goes by coordinates, not by size.
+    /// A tribox that holds this one and whose [`boundary`](Self::boundary) f32 computes exactly.
+    /// Parameters are rounded outward to multiples of 2^-20 of the power of two above all of them,
+    /// then [tightened](Self::tightened). That may leave multiples of half of it, so a second call
+    /// may round again. Coarse far from the origin, for the unit depends on coordinates, not on
+    /// size.
     #[must_use]
     pub fn on_grid(&self) -> Tribox {
         if self.is_empty() {
@@ -128,8 +129,8 @@ impl Tribox {
             let here = if low.abs() > high.abs() { low.abs() } else { high.abs() };
             if here > most { here } else { most }
         });
-        // The exponent of the power of two above it less 20, but a quarter of it still has to
-        // exist.
+        // The exponent of the power of two above it, less 20, but f32 still has to hold a quarter
+        // of it.
         let exponent = (most.to_bits() >> 23).cast_signed() - 126 - 20;
         let unit = crate::num::exp2(if exponent > -147 { exponent } else { -147 }) as f32;
         let mut out = *self;
@@ -139,8 +140,7 @@ impl Tribox {
     }
 }
 
-/// The least multiple of `unit`, a power of two, that is not below `x`; there are few enough for an
-/// i32.
+/// The least multiple of `unit`, a power of two, that is not below `x`. Its factor fits in an i32.
 #[inline(always)]
 fn multiple_above(x: f32, unit: f32) -> f32 {
     let whole = (x / unit) as i32 as f32 * unit;

@@ -8,21 +8,20 @@ use crate::tribox::format::Triboxes;
 /// A lower bound from a union of triboxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    /// Nothing of the mesh, or of its inside where that counts, is nearer (of a distance, input
-    /// units), or at a lesser parameter of the segment. Infinite if nothing of it is on the segment
-    /// at all.
+    /// No point of the mesh, or of a solid's inside, is nearer than this (input units) or at a
+    /// lesser parameter of the segment. Infinite if no point is on the segment.
     pub lower: f32,
-    /// The node that decided. `None` if `lower` is infinite.
+    /// The node with this bound. `None` if `lower` is infinite.
     pub node: Option<u32>,
     /// The work of the search: triboxes tested, nodes opened.
     pub work: Work,
-    /// [`Ended::Scratch`] or [`Ended::Steps`]: the bound may be lower than it need be.
+    /// [`Ended::Scratch`] or [`Ended::Steps`]: the bound may be less than that of the leaves.
     pub ended: Ended,
 }
 
 impl Triboxes<'_> {
-    /// Scratch entries with which neither [`distance`](Triboxes::distance) nor
-    /// [`clip`](Triboxes::clip) can end for want of memory.
+    /// With this many scratch entries neither [`distance`](Triboxes::distance) nor
+    /// [`clip`](Triboxes::clip) ends for lack of memory.
     pub fn scratch_entries(&self) -> usize {
         self.depth() as usize + 2
     }

@@ -1,4 +1,4 @@
-//! Distance to a tribox, and the part of a segment that is in it.
+//! Distance to a tribox, and the part of a segment inside it.
 
 use super::bounds::{Tribox, projections};
 use crate::num::tolerance::U32;
@@ -9,8 +9,8 @@ use crate::num::{sqrt_approx, sum_down, sum_up};
 const FRAMES: [[usize; 3]; 4] = [[0, 1, 2], [3, 4, 2], [5, 6, 0], [7, 8, 1]];
 
 impl Tribox {
-    /// A lower bound, in the unit of the parameters, of the distance from a point to all that is
-    /// inside; infinity if that is nothing, NaN for none.
+    /// Lower bound of the distance from a point to the tribox, in the unit of the parameters.
+    /// Infinite if it is empty. Never NaN.
     ///
     /// The greatest distance to the four boxes of which the tribox is the intersection, rounded
     /// down, below f32's normal range to 0: exact where the closest point lies on a face, short
@@ -26,7 +26,7 @@ impl Tribox {
         for (gap, ((from, to), (low, high))) in gaps.iter_mut().zip(slabs) {
             let (below, above) = (sum_down(from, -high), sum_down(low, -to));
             let most = if below > above { below } else { above };
-            // A sum beyond f32 says nothing; those of the axes do.
+            // A sum beyond f32 gives no bound. Those of the axes still do.
             *gap = if most > 0.0 && most.is_finite() { most } else { 0.0 };
         }
         let most = gaps.iter().fold(0f32, |most, &gap| if gap > most { gap } else { most });
@@ -51,11 +51,11 @@ impl Tribox {
         if distance >= f32::MIN_POSITIVE { distance } else { 0.0 }
     }
 
-    /// Parameters between which the segment from `a` (0) to `b` (1) may be inside, rounded outward;
-    /// `None` is a proof that it nowhere is.
+    /// Parameters between which the segment from `a` (0) to `b` (1) may be inside, rounded outward.
+    /// `None` is a proof that it is nowhere inside.
     ///
-    /// A segment of no length gives `(0, 1)` or nothing. Neither end may be NaN or infinite. Cost:
-    /// 9 slabs.
+    /// A segment of no length gives `(0, 1)` or `None`. Neither end may be NaN or infinite. Cost: 9
+    /// slabs.
     #[must_use]
     pub fn clip(&self, a: [f32; 3], b: [f32; 3]) -> Option<(f32, f32)> {
         let along = |[x, y, z]: [f32; 3]| [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x];
@@ -66,11 +66,11 @@ impl Tribox {
         let ends = along(a).into_iter().zip(along(b)).zip(size(a).into_iter().zip(size(b)));
         let (mut enter, mut leave) = (0f32, 1f32);
         for ((low, high), ((from, to), (size_a, size_b))) in self.slabs().zip(ends) {
-            // What either end is rounded by; the parameter's own rounding is relative.
+            // Rounding of either end. The parameter's own rounding is relative.
             let doubt = (4.0 * U32) * (size_a + size_b);
             let (low, high) = (sum_down(low, -doubt), sum_up(high, doubt));
             let way = to - from;
-            // So far away that the way overflows: the slab says nothing.
+            // So far away that the way overflows: the slab gives no bound.
             if !way.is_finite() {
                 continue;
             }

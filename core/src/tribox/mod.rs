@@ -2,9 +2,9 @@
 //! three-dimensional objects* (1999).
 //!
 //! A tribox is the intersection of nine slabs, along the axes and the diagonals of the coordinate
-//! planes: a box whose twelve edges are chamfered. Its parameters are what the object's points
-//! measure along nine directions that need no root, for bounds along one direction are only ever
-//! compared with each other. What it is for: a first reject that is tighter than a box for three
+//! planes: a box whose twelve edges are chamfered. Its parameters are the least and greatest values
+//! of the object's points along nine directions. The directions need no unit length, because values
+//! are only compared along the same one. Uses: a first reject that is tighter than a box for three
 //! times the comparisons, and a proxy that can be drawn.
 //!
 //! | where | what lies there |

@@ -1,4 +1,4 @@
-//! Bounds of what was moved (Crosnier & Rossignac 1999, section 3: from a hull's vertices, or from
+//! Triboxes of moved points (Crosnier & Rossignac 1999, section 3: from a hull's vertices, or from
 //! the vertices of the tribox).
 
 use super::bounds::{Tribox, TriboxError, checked};
@@ -18,7 +18,7 @@ impl Pose {
         Ok(())
     }
 
-    /// Where a point goes, and the sum of the sizes of each coordinate's terms.
+    /// The moved point, and the sum of the sizes of each coordinate's terms.
     #[inline(always)]
     fn apply(&self, [x, y, z]: [f32; 3]) -> ([f32; 3], [f32; 3]) {
         let (mut place, mut size) = ([0f32; 3], [0f32; 3]);
@@ -31,8 +31,8 @@ impl Pose {
         (place, size)
     }
 
-    /// A tribox of all points after the motion: tight but for rounding, for which each plane is
-    /// moved outward once, as far as the worst point needs.
+    /// The tribox of all points after the motion. Tight except for rounding: each plane is moved
+    /// outward once, as far as the worst point needs.
     ///
     /// # Errors
     /// If a number is not finite, a coordinate beyond [`Tribox::DOMAIN`] before or after the
@@ -85,9 +85,9 @@ impl Pose {
 }
 
 impl Tribox {
-    /// A tribox of everything that may be inside, after a motion: that of its own vertices, which
-    /// is larger than that of what it bounds, the more so the rounder that is. To have that,
-    /// keep the vertices of its convex hull for [`Pose::bound`].
+    /// The tribox after a motion. It is the tribox of its moved vertices, and so larger than that
+    /// of the moved object, the more so the rounder the object. For a tight one keep the vertices
+    /// of the object's convex hull for [`Pose::bound`].
     ///
     /// # Errors
     /// As [`Pose::bound`].
@@ -101,8 +101,8 @@ impl Tribox {
             let at = |of: &[f32; SLABS]| of.get(slab).copied().unwrap_or(0.0);
             largest(largest(most, at(&self.low)), at(&self.high))
         });
-        // Vertices as computed are that close to the real ones: five roundings of a vertex, and as
-        // many if rounding decided its corner's case.
+        // Error of the computed vertices: five roundings, and as many again if rounding decided the
+        // corner's case.
         let doubt = (16.0 * U32) * size;
         pose.around(self.boundary().vertices, doubt)
     }

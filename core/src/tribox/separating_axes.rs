@@ -8,10 +8,10 @@ use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_AXIS, U32};
 use crate::query::QueryError;
 use crate::tribox::format::Triboxes;
 
-/// A direction of one tribox's own slabs, as the other one, which was moved, sees it.
+/// A direction of one tribox's own slabs in the other's frame.
 ///
-/// For a point p of the other one its value along the slab is `towards` · p + `offset`, up to
-/// `margin`, which is more than all that rounding does to a comparison.
+/// A point p of the other one has the value `towards` · p + `offset` along the slab, up to
+/// `margin`. The margin is more than the rounding of a comparison.
 #[derive(Clone, Copy)]
 struct Axis {
     /// Along `towards`; prepared when it is first wanted.
@@ -37,7 +37,7 @@ fn size(v: [f32; 3]) -> f32 {
     (x + y) + z
 }
 
-/// Largest coordinate of what a hierarchy holds.
+/// Largest coordinate of a hierarchy.
 fn reach(triboxes: &Triboxes<'_>) -> Result<f32, QueryError> {
     let planes = triboxes.planes(0).ok_or(QueryError::Unchecked)?;
     Ok(planes
@@ -46,12 +46,13 @@ fn reach(triboxes: &Triboxes<'_>) -> Result<f32, QueryError> {
         .fold(0f32, |most, plane| if plane.abs() > most { plane.abs() } else { most }))
 }
 
-/// A tribox as the tests want it.
+/// A tribox prepared for the tests.
 #[derive(Clone, Copy)]
 pub(crate) struct Body {
     /// Outward: of slab k the least value, negated, at 2k and the greatest at 2k + 1.
     planes: [f32; FACES],
-    /// Of its box: inside, for of each pair of axes it is.
+    /// Centre of its box. It is inside, because it is inside the projection along each axis, a
+    /// tight octagon.
     centre: [f32; 3],
 }
 
@@ -63,7 +64,7 @@ impl Body {
         Some(Body { planes, centre: [0.5 * (xx - x), 0.5 * (yy - y), 0.5 * (zz - z)] })
     }
 
-    /// Sum of the box's edges: how coarse it is.
+    /// Sum of the box's edges.
     #[inline(always)]
     pub(crate) fn size(&self) -> f32 {
         let [x, xx, y, yy, z, zz, ..] = self.planes;
@@ -125,7 +126,7 @@ impl Axes {
             let w = [dot(p, f), dot(q, f), dot(r, f)];
             let [x, y, z] = back(w);
             let [fx, fy, fz] = f;
-            // What the matrix lacks of a rotation.
+            // Bound of the matrix's difference from a rotation.
             let rest = size([x - fx, y - fy, z - fz]) * reach_b;
             (of_b.towards, of_b.offset, of_b.margin) =
                 (w, -dot(w, pose.translation), margin(w) + rest);
@@ -133,8 +134,8 @@ impl Axes {
         Ok(())
     }
 
-    /// Whether one of the directions proves that two nodes have no common point. It looks first at
-    /// the direction `*hint`, of which side and slab, and leaves there which one it was.
+    /// Whether one of the directions proves that two nodes have no common point. It tests the side
+    /// and slab in `*hint` first, and leaves there the one that proved it.
     #[inline]
     pub(crate) fn separate(&mut self, a: &Body, b: &Body, hint: &mut (usize, usize)) -> bool {
         let [of_a, of_b] = &mut self.sides;
@@ -156,14 +157,14 @@ impl Axes {
 }
 
 impl Axis {
-    /// Whether there is a gap between the slab of `own` and what the other one takes of the
-    /// direction.
+    /// Whether there is a gap along the direction between the slab of `own` and the other one's
+    /// extent.
     #[inline(always)]
     fn separates(&mut self, own: &Body, other: &Body, slab: usize) -> bool {
         let plane = |plane: usize| own.planes.get(plane).copied().unwrap_or(f32::INFINITY);
         let (low, high) = (plane(2 * slab), plane(2 * slab + 1));
         let centre = dot(self.towards, other.centre) + self.offset;
-        // Beyond a plane there is a gap only if even the centre is.
+        // A gap beyond a plane needs the centre beyond it.
         let is_above = centre > high;
         if !(is_above || -centre > low) {
             return false;

@@ -64,8 +64,8 @@ impl Candidates {
 }
 
 impl Triboxes<'_> {
-    /// Scratch entries with which neither [`separation`](Triboxes::separation) nor
-    /// [`candidates`](Triboxes::candidates) can end for want of memory: one more than both depths
+    /// With this many scratch entries neither [`separation`](Triboxes::separation) nor
+    /// [`candidates`](Triboxes::candidates) ends for lack of memory: one more than both depths
     /// together.
     pub fn separation_entries(&self, other: &Triboxes<'_>) -> usize {
         (self.depth() + other.depth()) as usize + 1
@@ -74,15 +74,14 @@ impl Triboxes<'_> {
     /// Whether this model is apart from `other`, moved by `pose` from its frame to this one's, both
     /// in input units.
     ///
-    /// Descends both hierarchies from the larger of two nodes to its children. Two nodes are apart
-    /// if one of the eighteen directions of both shows a gap. The other node's extent along that
-    /// direction is computed exactly, up to rounding (`tribox/support`). The paper takes the extent
-    /// of a tribox around its moved vertices, which is a third to a half larger. It ends with the
-    /// first pair of leaves that may meet.
+    /// Descends both hierarchies, always into the larger of two nodes. Two nodes are apart if one
+    /// of the eighteen directions of both shows a gap. The other node's extent along the direction
+    /// is computed exactly, up to rounding (`tribox/support`). The paper takes the extent of a
+    /// tribox around the moved vertices, which is a third to a half larger. The search ends with
+    /// the first pair of leaves that may meet.
     ///
-    /// The matrix is taken as it is: if it is a rotation up to rounding only, so is the motion. If
-    /// it is no rotation, less is told apart. Below f32's normal range everything may meet. Of the
-    /// budget only `steps` matters: pairs opened.
+    /// The matrix is taken as exact. If it is no rotation, fewer pairs are proved apart. Below
+    /// f32's normal range all pairs may meet. Of the budget only `steps` matters: pairs opened.
     ///
     /// Cost: some 2,000 instructions of a Cortex-M4F once, 1,500 a pair on average; 2 KiB of stack.
     ///
@@ -159,7 +158,7 @@ fn entry(a: u32, b: u32) -> ScratchEntry {
     ScratchEntry::of_words([a, b])
 }
 
-/// Hands `found` every pair that may meet and that was not opened.
+/// Calls `found` with every pair that may meet and that was not opened.
 fn descend(
     [a, b]: [&Triboxes<'_>; 2],
     pose: &Pose,

@@ -13,14 +13,13 @@ fn planes() -> impl Iterator<Item = Plane> {
 }
 
 impl Tribox {
-    /// A tribox with fewer faces that holds this one: planes are moved outward, none by more than
-    /// `tolerance` (in the parameters' unit), the nearest to being idle first, if there are
-    /// fewer faces without it. Vertices may move by more than that where planes meet at small
-    /// angles.
+    /// A tribox with fewer faces that holds this one. Planes are moved outward, none by more than
+    /// `tolerance` (in the parameters' unit), those nearest to being idle first, and only if that
+    /// leaves fewer faces. Vertices may move farther where planes meet at small angles.
     ///
-    /// Negative and NaN tolerances move nothing; what has no volume may get some.
-    /// [`Boundary::cleaned`](super::Boundary::cleaned) then shows fewer faces. Cost: some
-    /// hundred to some thousand times that of [`tightened`](Tribox::tightened).
+    /// Negative and NaN tolerances move no plane. A tribox without volume may get some.
+    /// [`Boundary::cleaned`](super::Boundary::cleaned) then shows fewer faces. Cost: some hundred
+    /// to some thousand times that of [`tightened`](Tribox::tightened).
     #[must_use]
     pub fn snapped(&self, tolerance: f32) -> Tribox {
         let mut snapped = *self;
@@ -43,8 +42,8 @@ impl Tribox {
         snapped
     }
 
-    /// The plane that is idle after the shortest motion from where it is in `original`, and where;
-    /// among those within the tolerance and not refused.
+    /// The plane that is idle after the shortest motion from its place in `original`, and its new
+    /// place, among those within the tolerance and not refused.
     fn nearest_idle(
         &self,
         original: &Tribox,
@@ -66,12 +65,13 @@ impl Tribox {
         nearest.map(|(_, plane, implied)| (plane, implied))
     }
 
-    /// How many planes are not idle.
+    /// Number of planes that are not idle.
     fn showing(&self) -> usize {
         planes().filter(|&plane| self.implied(plane) != self.parameter(plane)).count()
     }
 
-    /// Where a plane would just touch if it were not there; where it is if that is farther inward.
+    /// The farthest place at which a plane still touches, given the others. Its own place if that
+    /// is farther outward.
     fn implied(&self, plane @ (_, is_high): Plane) -> f32 {
         let here = self.parameter(plane);
         let mut without = *self;

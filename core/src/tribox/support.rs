@@ -1,12 +1,12 @@
-//! How far tight triboxes reach along any direction, without their vertices.
+//! Extent of tight triboxes along any direction, without their vertices.
 //!
 //! The greatest e·p of all points p between the planes nₖ·p ≤ hₖ is the least Σ λₖhₖ of all λ ≥ 0
 //! with Σ λₖnₖ = e. Let e = (a, b, c) with a ≥ b ≥ c ≥ 0; the other orders and signs are mirror
 //! images. Where no plane can move inward, parameters obey 2h(x) ≤ h(x + y) + h(x − y), h(x) ≤ h(x
 //! − y) + h(y), h(x + z) ≤ h(x − y) + h(y + z), h(x + y) ≤ h(x) + h(y): so a least sum has none of
-//! the differences, and at most one of x, y, z. What remains is one parameter for each of the
-//! three, on which the sum depends linearly, and so these, of which the last three ask for a < b +
-//! c and the second for the contrary, the fourth beside that for a ≤ b + c of its own coefficient:
+//! the differences, and at most one of x, y, z. One parameter for each of the three remains, and
+//! the sum is linear in it. So the least sum is one of these; the last three need a < b + c, the
+//! second needs a ≥ b + c:
 //!
 //! ```text
 //! (b − c)(x + y) + c(y + z)       + (a − b + c) x
@@ -16,7 +16,7 @@
 //! b(x + y)       + (a − b)(z + x) + (b + c − a) z
 //! ```
 //!
-//! One for each way in which the faces may meet at the corner that lies in that direction.
+//! One for each way in which the faces may meet at the corner in that direction.
 
 use super::directions::FACES;
 
@@ -32,17 +32,17 @@ pub(crate) struct Support {
 const DIAGONALS: [[u8; 3]; 3] = [[0, 3, 7], [3, 0, 5], [7, 5, 0]];
 
 impl Support {
-    /// Nothing.
+    /// No direction.
     pub(crate) const NONE: Support =
         Support { factors: [[0.0; 3]; 4], planes: [[0; 3]; 4], count: 0 };
 
-    /// Whether it is that.
+    /// Whether it is [`NONE`](Self::NONE).
     #[inline(always)]
     pub(crate) fn is_none(&self) -> bool {
         self.count == 0
     }
 
-    /// Of a finite direction.
+    /// Splits a finite direction.
     pub(crate) fn along(direction: [f32; 3]) -> Support {
         // Axes by falling size; each with the sign, and the sign of −x for the order in which z − x
         // is stored.
@@ -67,7 +67,7 @@ impl Support {
         let double = |(i, i_up): (u8, bool), (j, j_up): (u8, bool)| {
             let slab =
                 DIAGONALS.get(usize::from(i)).and_then(|row| row.get(usize::from(j))).copied();
-            // A difference is counted from the axis that comes first; of x and z that is z.
+            // A difference is counted from the first axis. Of x and z that is z.
             let first = if (i < j) != (i + j == 2 && i != j) { i_up } else { j_up };
             2 * (slab.unwrap_or(0) + u8::from(i_up != j_up)) + u8::from(first)
         };
@@ -109,8 +109,8 @@ impl Support {
     /// The greatest direction · point of a tight tribox, planes outward: of slab k its least value,
     /// negated, at 2k and its greatest at 2k + 1.
     ///
-    /// Off by at most 22 units of rounding times the sum of the direction's sizes times the largest
-    /// coordinate.
+    /// The error is at most 22 units of rounding times the sum of the direction's sizes times the
+    /// largest coordinate.
     #[inline(always)]
     pub(crate) fn greatest(&self, planes: &[f32; FACES]) -> f32 {
         self.least(planes, 0)

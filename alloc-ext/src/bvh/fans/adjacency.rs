@@ -1,7 +1,7 @@
 //! Which triangle lies across which edge, for any triangle soup.
 //!
-//! Half-edge `3t + k` runs from corner `k` of triangle `t` to the next corner; corner `3t + k` is
-//! the one that it starts from.
+//! Half-edge `3t + k` runs from corner `k` of triangle `t` to the next corner. Corner `3t + k` is
+//! its start.
 
 use crate::surface::{EdgeTable, ends};
 use std::cmp::Ordering;
@@ -16,10 +16,10 @@ pub(super) struct Adjacency<'a> {
 }
 
 impl<'a> Adjacency<'a> {
-    /// Pairs the half-edges of each edge: first those that run in opposite directions, in ascending
-    /// order, then what is left of one direction; an odd one stays open. So a soup is cut into
-    /// pieces in which at most two triangles meet in an edge. An edge from a vertex to itself
-    /// stays open, and no triangle is its own neighbour.
+    /// Pairs the half-edges of each edge: first those of opposite directions, in ascending order,
+    /// then the rest of one direction. An odd one stays open. So at most two triangles are
+    /// neighbours across an edge. An edge from a vertex to itself stays open, and no triangle is
+    /// its own neighbour.
     ///
     /// # Panics
     /// If a triangle names a vertex that is not below `vertex_count`, or if half-edges do not fit

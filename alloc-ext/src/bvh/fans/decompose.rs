@@ -7,11 +7,11 @@ use super::{Fan, MAX_LEAF_TRIANGLES, Weights};
 
 /// Splits a soup into fans of 1 to [`MAX_LEAF_TRIANGLES`] triangles, none of them reversed.
 ///
-/// The paper's rule: the front starts at the open edges, or at triangle 0 of what is left if there
-/// is none; of the vertices about the front, the one with the largest `f(c) = α v + β r − γ t`
-/// becomes the next centre. One thing is added: of the runs of triangles about a centre only the
-/// longest are taken, in pieces of [`MAX_LEAF_TRIANGLES`] if they are longer; the rest stays for other
-/// centres, and this centre is a candidate again. Ties go to the vertex with the larger number.
+/// The paper's rule: the front starts at the open edges, or at the first triangle left if there are
+/// none. Of the vertices about the front, the one with the largest `f(c) = α v + β r − γ t` becomes
+/// the next centre. One rule is added: of the runs of triangles about a centre only the
+/// longest are taken, cut to [`MAX_LEAF_TRIANGLES`]. The rest stays for other centres, and this
+/// centre is a candidate again. Ties go to the vertex with the larger number.
 ///
 /// `O(n log n)`: the three counts are kept up to date as triangles go, and a centre's corners are
 /// walked at most [`MAX_LEAF_TRIANGLES`] times in a row.

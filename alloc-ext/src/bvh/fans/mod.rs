@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! triangles ─┬─ decompose ─ fans     the paper's greedy rule, one fan after the other
-//!            └─ pack ────── leaves  the same rule for leaves of two fans, which is what the box tree stores
+//!            └─ pack ────── leaves   the same rule for leaves of two fans, as the box tree has
 //! ```
 //!
 //! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
@@ -45,10 +45,10 @@ pub struct Fan {
     pub reversed: bool,
 }
 
-/// What one leaf of the box tree holds: one fan, or two that share a vertex of their rings.
+/// A leaf of the box tree: one fan, or two that share a vertex of their rings.
 ///
-/// At most [`MAX_LEAF_TRIANGLES`] triangles together. `first` is not reversed; `second` may be, and its ring
-/// starts with the last vertex of `first`'s, so that both rings are one path.
+/// It has at most [`MAX_LEAF_TRIANGLES`] triangles. `first` is not reversed; `second` may be. The
+/// ring of `second` starts with the last vertex of the ring of `first`, so both are one path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FanLeaf {
     /// The fan at the path's start.

@@ -9,25 +9,24 @@ use super::score::{contact, cut_off, spread};
 use super::window::{Run, Window};
 use super::{FanLeaf, MAX_LEAF_TRIANGLES};
 
-/// Candidates whose score is computed in full. All of them instead give no better result.
+/// Candidates whose score is computed in full. More give no better result.
 const FINALISTS: usize = 16;
 /// Places for masks seen, a power of two well above the number of candidates (76 on average, a few
 /// hundred at most).
 const SEEN: usize = 512;
 
-/// Packs a soup into leaves, one for each leaf of the box tree.
+/// Packs a soup into leaves of the box tree. Every triangle is in exactly one leaf.
 ///
-/// The paper's idea, with the leaf in place of the fan: the front starts at the open edges and
-/// moves inwards, and what is most in danger of being left alone goes first. The next seed is the
-/// remaining triangle with the fewest remaining neighbours, and of those the one that has waited
-/// longest. In a window of 32 triangles about it, every leaf that contains the seed and
-/// cannot be extended is scored: by its size, the open edges it leaves, the triangles and parts it
-/// cuts off, and its box. The best becomes the next leaf. Triangles that share no edge never meet
-/// in a leaf.
+/// The paper's rule, with the leaf in place of the fan: the front starts at the open edges and
+/// moves inwards. The next seed is the remaining triangle with the fewest remaining neighbours; of
+/// equals, the oldest entry of the queue. In a window of 32 triangles about the seed, every leaf is
+/// scored that contains the seed and cannot be extended: by its size, the open edges it leaves, the
+/// triangles it cuts off, and its box. The best becomes the next leaf. Triangles that share no edge
+/// never meet in a leaf.
 ///
-/// Time and memory are linear: a leaf costs bounded work, whatever the valences, about 20 µs. The
-/// same input gives the same leaves. `positions` decide among leaves only: whatever they are,
-/// every triangle is in exactly one leaf.
+/// The same input gives the same leaves.
+///
+/// Cost: linear time and memory, about 20 µs a leaf, whatever the valences.
 ///
 /// # Panics
 /// If a triangle names a vertex that has no position, or if there are 2³²/3 triangles or more.
@@ -98,7 +97,7 @@ impl Candidate {
     }
 }
 
-/// Each set of triangles counts once, made of one fan if that can be.
+/// Each set of triangles counts once, as one fan if possible.
 struct Candidates {
     list: Vec<Candidate>,
     /// Masks seen, each at the place that its hash gives; a later one replaces an earlier one.

@@ -1,4 +1,4 @@
-//! What a decomposition came to, in numbers.
+//! Counts of a decomposition.
 
 use std::fmt;
 

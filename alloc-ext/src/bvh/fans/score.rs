@@ -1,13 +1,13 @@
-//! What a leaf is worth to the greedy packing.
+//! The score of a leaf in the greedy packing.
 
 use glam::DVec3;
 
 use super::MAX_LEAF_TRIANGLES;
 use super::window::Window;
 
-// The weights extend the paper's `f` from fans to leaves: size, contact with the front, and what
-// is left behind. They were chosen for few leaves and small boxes together, on two scanned meshes
-// and a modelled one. They lie on a plateau: any one of them half or one and a half times as large
+// The weights extend the paper's `f` from fans to leaves: size, contact with the front, and the
+// triangles left behind. They were chosen for few leaves and small boxes together, on two scanned
+// meshes and a modelled one. They lie on a plateau: any one of them half or one and a half times as large
 // moves the number of leaves and the sum of box areas by 3 % at most.
 
 /// For each triangle of the leaf. Twice as much makes 1 % fewer leaves, with boxes 2 % larger.
@@ -20,7 +20,7 @@ const INNER_EDGE: i32 = 1;
 const ALONE: i32 = 64;
 /// Against each triangle left with one neighbour.
 const DANGLING: i32 = 6;
-/// Against each lane that will stay empty because a part was cut off whose size is no multiple of
+/// Against each lane that stays empty because the number of triangles cut off is no multiple of
 /// [`MAX_LEAF_TRIANGLES`].
 const EMPTY_LANE: i32 = 4;
 /// Against the box's half area for each triangle, in units of a full leaf's mean squared edge.

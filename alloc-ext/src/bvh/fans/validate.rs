@@ -1,10 +1,10 @@
-//! What a packing promises, checked.
+//! Checks the invariants of fans and leaves.
 
 use std::fmt;
 
 use super::{Fan, FanLeaf, MAX_LEAF_TRIANGLES};
 
-/// The first broken promise that [`validate()`] found.
+/// The first violation that [`validate()`] found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FanFault {
     /// A leaf, or a fan of it, has no triangle or more than [`MAX_LEAF_TRIANGLES`].
@@ -69,11 +69,12 @@ impl fmt::Display for FanFault {
 
 impl std::error::Error for FanFault {}
 
-/// Checks the promises of [`Fan`] and [`FanLeaf`], and that every triangle is in exactly one fan.
-/// Linear.
+/// Checks the invariants of [`Fan`] and [`FanLeaf`], and that every triangle is in exactly one fan.
+///
+/// Cost: linear.
 ///
 /// # Errors
-/// The first promise that does not hold.
+/// The first violation.
 pub fn validate(leaves: &[FanLeaf], triangles: &[[u32; 3]]) -> Result<(), FanFault> {
     let mut found = vec![0u32; triangles.len()];
     for (index, leaf) in leaves.iter().enumerate() {

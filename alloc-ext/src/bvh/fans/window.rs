@@ -1,5 +1,5 @@
-//! A small piece of what remains of the soup, in bit masks: every run of triangles about every
-//! vertex of it.
+//! A small window of the remaining soup, in bit masks: every run of triangles about every vertex
+//! of it.
 //!
 //! Corner `3i + k` is corner `k` of the window's triangle `i`.
 

@@ -25,7 +25,7 @@ const GRID_MAX: f64 = 65_535.0;
 /// Relative error of `M·(P − origin)` for fractional points: twice the proved bound, see above.
 const FRACTIONAL_MARGIN: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// What the blob stores of a node's frame and boxes.
+/// A node's frame and boxes, as the blob stores them.
 ///
 /// A point `P` (grid units) has the box coordinates `q_k = (M_k·(P − origin)) · 2^(−exponent_k) +
 /// 128` for `k = 0..3`, and child `i` covers `low[k][i] <= q_k <= high[k][i]` for all its points,
@@ -65,7 +65,7 @@ impl NodeBoxes {
     ///
     /// Exact for coordinates that are multiples of 2^−76; smaller bits count as an interval that
     /// must be covered whole, so `true` is always right. False for absent lanes and for
-    /// coordinates beyond ±70,000, which no model has.
+    /// coordinates beyond ±70,000, which no mesh has.
     pub fn covers(&self, lane: usize, point: DVec3) -> bool {
         const FRACTION_BITS: u32 = 76;
         if point.abs().max_element().is_nan() || point.abs().max_element() > MAX_ABS_COORDINATE {

@@ -1,10 +1,10 @@
-//! Few points that stand for many in the frame search: the extreme ones in directions spread evenly
-//! over the set's own shape.
+//! Extreme points of a set, which replace the set in the frame search. Their directions are spread
+//! evenly over the set's own shape.
 
 use super::rotation::principal_axes;
 use glam::DVec3;
 
-/// Thinnest spread that directions are stretched for, relative to the greatest: flatter sets would
+/// Least spread for which directions are stretched, relative to the greatest. Flatter sets would
 /// spend all directions on noise.
 const LEAST_ASPECT: f64 = 1e-3;
 

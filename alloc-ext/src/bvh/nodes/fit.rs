@@ -79,7 +79,7 @@ pub fn shared_frames(
     boxes
 }
 
-/// [`shared_frames`] without rotation: the nodes that segment questions use.
+/// [`shared_frames`] without rotation: the boxes for segment queries.
 pub fn axis_aligned_boxes(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
     let subtrees = SubtreePoints::new(topology, leaves);
     (0..topology.nodes.len())

@@ -1,6 +1,6 @@
 //! Choice of the rotation that a node's children share.
 //!
-//! The cost of a frame is the expected number of children that a distance question opens: by
+//! The cost of a frame is the expected number of children that a distance query opens. By
 //! Steiner's formula a box with extents `a, b, c` grown by `d` on all sides has the volume
 //! `abc + 2(ab + bc + ca) d + π(a + b + c) d² + …`, summed over the children. The candidates are
 //! the principal axes of all points and of each child, turned about the axis of least spread; the
@@ -12,7 +12,7 @@ use super::extremes::extreme_points;
 use super::rotation::{frame_axes, principal_frame, round_quaternion, unit_quaternion};
 use glam::{DQuat, DVec3};
 
-/// What the frame search minimises and how long it tries.
+/// Objective and effort of the frame search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
     /// Distance by which boxes are grown for the cost, relative to the mean diagonal of the node's

@@ -4,7 +4,7 @@ use super::collapse::{WideNode, collapse};
 use super::sah::binary_tree;
 use glam::DVec3;
 
-/// What the topology minimises. The defaults were chosen by counting the nodes and leaves that
+/// Objective of the topology. The defaults were chosen by counting the nodes and leaves that
 /// closest-point searches visit on scanned and CAD meshes; visits change by about 2 % from `edge`
 /// 0.005 to 0.1 and from `node_weight` 0 to 0.4.
 #[derive(Clone, Copy, Debug, PartialEq)]

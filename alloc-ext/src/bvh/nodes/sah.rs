@@ -5,14 +5,14 @@
 //! all positions on the three axes (a full sweep, no bins). The orders of the three axes are kept
 //! sorted by stable partition, so a level costs O(items). Source: Wald and Havran, "On building
 //! fast kd-trees for ray tracing, and on doing that in O(N log N)", 2006; the measure is adapted to
-//! distance questions, see [`BoxMeasure`].
+//! distance queries, see [`BoxMeasure`].
 
 use glam::DVec3;
 
 /// No child: marks leaves of the binary tree.
 const NO_CHILD: u32 = u32::MAX;
 
-/// How likely a question visits an axis-aligned box: half its surface plus `edge` times its summed
+/// Chance that a query visits an axis-aligned box: half its surface plus `edge` times its summed
 /// extents.
 ///
 /// By Steiner's formula the volume of a box that grows by `d` on all sides is `V + S d + π L d² +

@@ -13,10 +13,11 @@
 //!
 //! All is floating point, as in `placement`.
 
-use super::star::{Frame, StarFace};
+use super::mesh_planes::Trial;
+use super::star::StarFace;
 use crate::lp::HalfSpace;
-use crate::surface::{Bounds, Frontier, Plane};
-use crate::tight::proof::{Clearance, Nearest, Obstacle, Tetrahedron, Triangle};
+use crate::surface::{Bounds, Plane};
+use crate::tight::proof::{Clearance, Nearest, Tetrahedron, Triangle};
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 use std::cell::Cell;
@@ -28,16 +29,13 @@ const LIGHT: f64 = 1e-6;
 const LEAST_CLEARANCE: f64 = 0.5;
 
 /// A new face, and the region that its vertex sweeps.
-pub(crate) struct Sweep<'a> {
-    obstacle: &'a Obstacle,
-    frame: &'a Frame,
+pub(super) struct Sweep<'a> {
+    trial: &'a Trial<'a>,
     ring: [DVec3; 2],
     /// The new face: its vertex first.
     face: Triangle,
     normal: DVec3,
     tetrahedron: Tetrahedron,
-    clearance: f64,
-    tolerance: f64,
     /// The highest plane that touches a ball, and the plane above which the centres of higher balls
     /// are.
     touching: Cell<Option<(Plane, Plane)>>,
@@ -50,39 +48,32 @@ pub(crate) struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit.
-    /// Heights up to `tolerance` are rounding.
-    pub fn new(
-        obstacle: &'a Obstacle,
-        frame: &'a Frame,
-        old: &StarFace,
-        ring: [DVec3; 2],
-        x: DVec3,
-        clearance: f64,
-        tolerance: f64,
-    ) -> Self {
+    /// Of a star's face with a ring edge.
+    pub fn new(trial: &'a Trial<'a>, old: &StarFace, ring: [DVec3; 2]) -> Self {
+        let x = trial.x;
         let face = [x, ring[0], ring[1]];
         Self {
-            obstacle,
-            frame,
+            trial,
             ring,
             face,
             normal: (ring[0] - x).cross(ring[1] - x).normalize_or_zero(),
             tetrahedron: Tetrahedron::new(&old.corners, x),
-            clearance,
-            tolerance,
             touching: Cell::new(None),
-            height: Cell::new(tolerance),
+            height: Cell::new(trial.tolerance()),
             pushing: Cell::new(None),
             distance: Cell::new(f64::INFINITY),
         }
     }
 
+    fn margin(&self) -> f64 {
+        self.trial.obstacle.margin()
+    }
+
     /// The plane for the vertices of the mesh that are in the way.
-    pub fn points(&self, near: &Frontier) -> Option<HalfSpace> {
-        let far = self.obstacle.margin() + self.clearance;
-        self.obstacle.visit_points(
-            near,
+    pub fn points(&self) -> Option<HalfSpace> {
+        let far = self.margin() + self.trial.clearance;
+        self.trial.obstacle.visit_points(
+            &self.trial.near[0],
             |of| self.may_hold_vertex(of),
             |q| {
                 // All of the tetrahedron is above the new face.
@@ -108,9 +99,9 @@ impl<'a> Sweep<'a> {
     }
 
     /// The plane for the triangles that are in the way, if no vertex is.
-    pub fn pieces(&self, near: &Frontier) -> Option<HalfSpace> {
-        self.obstacle.visit_triangles(
-            near,
+    pub fn pieces(&self) -> Option<HalfSpace> {
+        self.trial.obstacle.visit_triangles(
+            &self.trial.near[1],
             |of| self.rises_to(of) && self.tetrahedron.may_meet(of),
             |triangle| {
                 if !triangle.iter().all(|&q| self.is_lower(q)) {
@@ -122,11 +113,11 @@ impl<'a> Sweep<'a> {
     }
 
     /// The plane for the nearest triangle beside the face, if nothing is cut off.
-    pub fn beside(&self, near: &Frontier) -> Option<HalfSpace> {
-        let clearance = Clearance::new(self.obstacle.margin() + LEAST_CLEARANCE * self.clearance);
+    pub fn beside(&self) -> Option<HalfSpace> {
+        let clearance = Clearance::new(self.margin() + LEAST_CLEARANCE * self.trial.clearance);
         let bounds = Bounds::of(&self.face);
-        self.obstacle.visit_triangles(
-            near,
+        self.trial.obstacle.visit_triangles(
+            &self.trial.near[1],
             |of| !clearance.separates_box(&self.face, &bounds, self.normal, of),
             |triangle| {
                 if clearance.separates_quickly(&self.face, self.normal, triangle) {
@@ -147,7 +138,7 @@ impl<'a> Sweep<'a> {
 
     /// Whether a box may hold a vertex that is in the way.
     fn may_hold_vertex(&self, of: &Bounds) -> bool {
-        let margin = self.obstacle.margin() + self.clearance;
+        let margin = self.margin() + self.trial.clearance;
         self.rises_to(of) && self.tetrahedron.may_come_near(of, margin)
     }
 
@@ -157,7 +148,7 @@ impl<'a> Sweep<'a> {
     }
 
     fn is_near(&self, distance: f64, weight: f64) -> bool {
-        distance < self.obstacle.margin() + LEAST_CLEARANCE * weight * self.clearance
+        distance < self.margin() + LEAST_CLEARANCE * weight * self.trial.clearance
     }
 
     /// Pushes the face's nearest point away from a triangle's.
@@ -169,12 +160,12 @@ impl<'a> Sweep<'a> {
         {
             return;
         }
-        let away = if distance > self.tolerance { (p - q) / distance } else { self.normal };
-        let [_, a, b] = self.face.map(|corner| self.frame.local(corner));
-        let rest = a * weights[1] + b * weights[2] - self.frame.local(q);
-        let radius = self.frame.radius;
-        let offset = (self.obstacle.margin() / radius - away.dot(rest)) / weights[0]
-            + self.clearance / radius;
+        let away = if distance > self.trial.tolerance() { (p - q) / distance } else { self.normal };
+        let [_, a, b] = self.face.map(|corner| self.trial.frame.local(corner));
+        let rest = a * weights[1] + b * weights[2] - self.trial.frame.local(q);
+        let radius = self.trial.frame.radius;
+        let offset =
+            (self.margin() / radius - away.dot(rest)) / weights[0] + self.trial.clearance / radius;
         self.distance.set(distance);
         self.pushing.set(Some(HalfSpace { normal: away, offset }));
     }
@@ -187,8 +178,8 @@ impl<'a> Sweep<'a> {
         let normal = edge.cross(q - a);
         let length = normal.length();
         let from_edge = length / edge.length();
-        let sine = self.obstacle.margin() / from_edge;
-        if !(from_edge > 10.0 * self.tolerance && sine < 1.0) {
+        let sine = self.margin() / from_edge;
+        if !(from_edge > 10.0 * self.trial.tolerance() && sine < 1.0) {
             return;
         }
         let normal = normal / length;
@@ -197,19 +188,19 @@ impl<'a> Sweep<'a> {
         let normal = normal * (1.0 - sine * sine).sqrt() + out * sine;
         let above = normal.dot(a - self.face[0]);
         if above > self.height.get()
-            && (anyway || self.tetrahedron.holds(q + normal * self.obstacle.margin()))
+            && (anyway || self.tetrahedron.holds(q + normal * self.margin()))
         {
             self.height.set(above);
             let offset = normal.dot(a);
-            let centres = Plane { normal, offset: offset - self.obstacle.margin() };
+            let centres = Plane { normal, offset: offset - self.margin() };
             self.touching.set(Some((Plane { normal, offset }, centres)));
         }
     }
 
     fn touching(&self) -> Option<HalfSpace> {
         self.touching.get().map(|(plane, _)| {
-            let offset = plane.normal.dot(self.frame.local(self.ring[0]))
-                + self.clearance / self.frame.radius;
+            let offset = plane.normal.dot(self.trial.frame.local(self.ring[0]))
+                + self.trial.clearance / self.trial.frame.radius;
             HalfSpace { normal: plane.normal, offset }
         })
     }

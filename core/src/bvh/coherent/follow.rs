@@ -1,4 +1,4 @@
-//! One query of a session: the front is brought up to date as far as the answer depends on it.
+//! One search of a coherent query. It updates the front as far as the answer depends on it.
 
 use super::front::{Child, Known, TraversalFront};
 use super::leaf_shape::is_sound;
@@ -23,7 +23,7 @@ pub(crate) struct Nearest {
     pub(crate) lane: usize,
     pub(crate) v: f32,
     pub(crate) w: f32,
-    /// Where the front holds the leaf.
+    /// The leaf's place in the front.
     at: usize,
 }
 
@@ -41,38 +41,37 @@ impl Nearest {
 /// Why a front has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Gap {
-    /// A sliver decides the interval, or the step budget is used up: that is the plain query's
-    /// affair.
+    /// A sliver decides the interval, or the steps are used up. The plain query has to answer.
     Undecided,
     /// The front does not reach so far, or the search takes too long.
     Lost,
-    /// The tree is not one that was opened.
+    /// The tree is unchecked.
     Model,
 }
 
-/// A query on its way.
+/// One search and its state.
 pub(crate) struct Follow<'a, 't> {
     pub(crate) tree: &'a Bvh<'t>,
     pub(crate) query: &'a PointQuery,
     pub(crate) front: TraversalFront<'a>,
     planes: &'a mut Planes,
-    /// To the query from where planes are measured from.
+    /// From the model's middle, from which planes are measured, to the query.
     way: Vec3,
     pub(crate) work: Work,
-    /// How far beyond the answer entries stay active: a few steps.
+    /// Entries stay active up to this far beyond the answer: a few steps.
     ahead: f32,
     best: Nearest,
-    /// Keys above it are of no interest.
+    /// Keys above it cannot hold the answer.
     bound: f32,
-    /// Certified squares below this are weak.
+    /// A triangle's bound is used only where its squared distance is not below this.
     refine_below: f32,
-    /// Least certified square of a triangle whose own distance says too little.
+    /// Least certified squared distance of the triangles whose own distance is too uncertain.
     certified: f32,
-    /// What a box's bound may be off by.
+    /// Greatest error of a box's bound.
     pub(crate) off: f32,
-    /// What a triangle's may, beside [`SHORTFALL`] of itself.
+    /// Greatest error of a triangle's bound, beside [`SHORTFALL`] of itself.
     shortfall: f32,
-    /// What was done, in half leaves.
+    /// Work so far, in half leaves.
     pub(crate) looks: u32,
     /// Nodes that may be opened.
     steps: u32,
@@ -109,8 +108,8 @@ impl<'a, 't> Follow<'a, 't> {
         }
     }
 
-    /// The nearest triangle, from the root. There is one within `reach`, as far as an answer's
-    /// interval can tell.
+    /// The nearest triangle, searched from the root. The interval of an earlier answer says that
+    /// one lies within `reach`.
     #[cold]
     #[inline(never)]
     pub(crate) fn begin(&mut self, reach: f32, budget: u32) -> Result<Nearest, Gap> {
@@ -120,12 +119,12 @@ impl<'a, 't> Follow<'a, 't> {
         self.bound = bound;
         self.open(0, None)?;
         let nearest = self.nearest(false, budget)?;
-        // What was passed over lies beyond the first bound.
+        // Skipped children lie beyond the first bound.
         if self.bound <= bound { Ok(nearest) } else { Err(Gap::Lost) }
     }
 
-    /// The nearest triangle, first of all among those of the first entry if `first`. At most
-    /// `budget` nodes and leaves.
+    /// The nearest triangle. With `first` the search begins with the first entry. It looks at no
+    /// more than `budget` nodes and leaves.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     pub(crate) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, Gap> {
@@ -164,7 +163,7 @@ impl<'a, 't> Follow<'a, 't> {
         Ok(self.best)
     }
 
-    /// Brings entry `i` up to date until it is of no more interest.
+    /// Updates entry `i` until its key is too great for it to hold the answer.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, i: usize, mut child: Child) -> Result<(), Gap> {
@@ -242,7 +241,7 @@ impl<'a, 't> Follow<'a, 't> {
         self.front.key(sqrt_approx(key) * (1.0 - ROOT_AND_PRODUCTS) - self.off)
     }
 
-    /// What a leaf's box says now.
+    /// The bound from a leaf's box for the present point.
     #[cold]
     fn box_key(&mut self, child: Child) -> Result<f32, Gap> {
         let record = self.tree.frame(child.node()).ok_or(Gap::Model)?;
@@ -270,7 +269,7 @@ impl<'a, 't> Follow<'a, 't> {
             self.bound = self.horizon(distance_sq);
             self.refine_below = self.query.refine_below(distance_sq);
         }
-        // The plain query looks at slivers again, and may find them nearer.
+        // The plain query measures slivers again and may find them nearer.
         if near.lower_bound_sq < self.refine_below {
             self.certified = least(self.certified, near.lower_bound_sq);
         }
@@ -288,7 +287,7 @@ impl<'a, 't> Follow<'a, 't> {
         Ok(())
     }
 
-    /// Ties go to the least number in the tree; the leaf that is the best already counts as coming
+    /// Ties go to the least number in the tree. The leaf that holds the best triangle counts as
     /// first.
     #[cold]
     fn comes_first(&self, child: Child) -> bool {

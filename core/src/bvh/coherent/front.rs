@@ -1,27 +1,26 @@
-//! The front of a session: lower bounds of everything that the tree holds, kept from query to
-//! query.
+//! The front of a coherent query: lower bounds of all parts of the tree, kept from query to query.
 //!
-//! An entry's key is its bound plus the path length at the time when it was found. A query that has
-//! moved on since can have come nearer by no more than the path that it has travelled since, so
-//! that *key − path* stays a lower bound and nothing needs to be touched or sorted (Guéziec 2000,
-//! 5.1: intervals widen by the motion). Entries that were of interest lately stand first; of the
-//! others the least key is known, so that most queries never look at them.
+//! An entry's key is its bound plus the path length at that time. The query comes nearer by no more
+//! than the path that it travels. So *key − path* stays a lower bound, and no entry has to be
+//! changed or sorted (Guéziec 2000, 5.1: intervals widen by the motion). Entries that lately could
+//! hold the answer are active and stand first. Of the others the least key is known, so most
+//! queries never read them.
 
 use crate::num::tolerance::PATH_SUM;
 
-/// A child of a node, and what is known of it, in 32 bits: 24 of node (a blob has no more), 5 of
-/// which two say what is known, 3 of lane.
+/// A child of a node and the kind of its bound in 32 bits: 24 for the node (a blob has no more), 5
+/// for the kind (2 in use), 3 for the lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Child(u32);
 
-/// What a session knows of a child.
+/// The kind of bound that an entry's key holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Known {
-    /// Only its box.
+    /// The bound of a box.
     Nothing,
-    /// A leaf: its key is that of its triangles, not that of its box.
+    /// The bound of a leaf's triangles.
     Triangles,
-    /// A leaf with a sliver, so that its key has to be that of its box.
+    /// A leaf with a sliver: its key has to be the bound of its box.
     Sliver,
 }
 
@@ -43,7 +42,7 @@ impl Child {
         self.0 & 7
     }
 
-    /// Which child it is, without what is known of it.
+    /// The child alone, without the kind of its bound.
     #[inline(always)]
     pub(crate) fn leaf(self) -> u32 {
         self.0 & 0xFFFF_FF07
@@ -64,16 +63,16 @@ impl Child {
     }
 }
 
-/// What a front holds, beside its entries.
+/// The state of a front, beside its entries.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extent {
     /// Entries.
     pub(crate) count: usize,
-    /// Entries that were of interest lately; they stand first.
+    /// Active entries. They stand first.
     pub(crate) active: usize,
     /// No other entry has a lesser key.
     pub(crate) rest: f32,
-    /// What was dropped for want of room has no lesser key.
+    /// No entry that was dropped for lack of room has a lesser key.
     pub(crate) dropped: f32,
     /// Path length since the front was begun, grid units, rounded up.
     pub(crate) path: f32,
@@ -92,7 +91,7 @@ pub(crate) struct TraversalFront<'a> {
 }
 
 impl TraversalFront<'_> {
-    /// Holds nothing.
+    /// Removes all entries.
     pub(crate) fn clear(&mut self) {
         *self.extent = Extent::EMPTY;
     }
@@ -103,7 +102,7 @@ impl TraversalFront<'_> {
         self.extent.path = (self.extent.path + step) * (1.0 + PATH_SUM);
     }
 
-    /// Counts the path from here on: it has become so long that the rounding of keys would show.
+    /// Counts the path from here on. Keys of a longer path would round too much.
     #[cold]
     #[inline(never)]
     pub(crate) fn rebase(&mut self) {
@@ -147,14 +146,13 @@ impl TraversalFront<'_> {
         }
     }
 
-    /// Whether so many entries more would fit.
+    /// Whether `count` more entries fit.
     #[inline(always)]
     pub(crate) fn has_room(&self, more: usize) -> bool {
         self.extent.count + more <= self.keys.len().min(self.children.len())
     }
 
-    /// Adds an entry, to the active ones if its key is within `horizon`. What does not fit is
-    /// dropped.
+    /// Adds an entry, active if its key is within `horizon`. Without room it is dropped.
     #[inline(always)]
     pub(crate) fn insert(&mut self, key: f32, child: Child, horizon: f32) {
         let last = self.extent.count;
@@ -172,7 +170,7 @@ impl TraversalFront<'_> {
         }
     }
 
-    /// Entry `i` is of no interest for the time being: another active one takes its place.
+    /// Makes entry `i` inactive. Another active one takes its place.
     #[inline(always)]
     pub(crate) fn deactivate(&mut self, i: usize, key: f32) {
         let last = self.extent.active.saturating_sub(1);
@@ -187,7 +185,7 @@ impl TraversalFront<'_> {
         self.extent.active < self.extent.count
     }
 
-    /// Makes those of the rest active that are within `horizon`.
+    /// Makes all entries within `horizon` active.
     pub(crate) fn activate(&mut self, horizon: f32) {
         let (mut active, mut rest) = (self.extent.active, f32::INFINITY);
         let waiting = active..self.extent.count;
@@ -203,8 +201,8 @@ impl TraversalFront<'_> {
         (self.extent.active, self.extent.rest) = (active, rest);
     }
 
-    /// Makes room: of what is not active, or from entry `from` on beyond `horizon`, drops what is
-    /// beyond the mean of the keys.
+    /// Makes room. Drops, of the entries that are inactive, or from `from` on and beyond `horizon`,
+    /// those beyond the mean of their keys.
     #[cold]
     #[inline(never)]
     pub(crate) fn evict(&mut self, from: usize, horizon: f32) {
@@ -231,7 +229,7 @@ impl TraversalFront<'_> {
         (self.extent.count, self.extent.dropped) = (kept, dropped);
     }
 
-    /// No entry but the first, and nothing that was dropped, has a lesser key.
+    /// No entry but the first, and no dropped entry, has a lesser key.
     #[inline(always)]
     pub(crate) fn second(&self) -> f32 {
         let active = self.keys.get(1..self.extent.active).unwrap_or(&[]);

@@ -1,4 +1,5 @@
-//! Leaves without slivers: how far the bound that certifies a triangle can be from its distance.
+//! Leaves without slivers. On a sliver the certified bound of a triangle may be far below its
+//! distance.
 
 use crate::bvh::format::FanLeaf;
 use crate::bvh::node::{WIDE, in_memory};
@@ -6,8 +7,8 @@ use crate::geom::fan::{Edges8, LANES_BELOW, WIDTH};
 use crate::num::tolerance::SLIVER_SINE_SQ;
 use glam::Vec3;
 
-/// Whether no triangle of a leaf is a sliver. Triangles without area are. `None`: the leaf is not
-/// one of a tree that was opened.
+/// Whether no triangle of a leaf is a sliver. Triangles without area are slivers. `None` says that
+/// the tree is unchecked.
 pub(crate) fn is_sound(leaf: &FanLeaf<'_>) -> Option<bool> {
     if !WIDE {
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());

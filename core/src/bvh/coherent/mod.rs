@@ -5,7 +5,7 @@
 //! | `query` | [`CoherentQuery`]: the state of a moving query, and when it starts anew |
 //! | `follow` | one search over the front |
 //! | `front` | the set of nodes that is kept between queries |
-//! | `planes` | planes that part the closest triangle from the leaves around it |
+//! | `planes` | planes that separate the closest triangle from the leaves around it |
 //! | `leaf_shape` | leaves without slivers |
 
 mod follow;

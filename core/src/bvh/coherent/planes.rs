@@ -1,9 +1,9 @@
 //! Planes between a moving query and the leaves around it.
 //!
-//! That a leaf lies beyond a plane does not depend on where the query is. So a plane across the way
-//! to a leaf bounds the leaf's distance wherever the query goes, and as the query moves by a step
-//! it loses only a part of the order of the step's square, where path length (Guéziec 2000, 5.1)
-//! loses the whole step. One plane costs as much as half a leaf, asking it six products.
+//! A leaf stays beyond a plane wherever the query is. So a plane across the way to a leaf bounds
+//! the leaf's distance from every later point. After a step the bound loses only the order of the
+//! step's square, while path length (Guéziec 2000, 5.1) loses the whole step. To make a plane costs
+//! as much as half a leaf. To use it costs six products.
 
 use super::front::Child;
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -13,11 +13,10 @@ use crate::num::sqrt_approx;
 use crate::num::tolerance::{PLANE_NORMAL, SHORTFALL};
 use glam::Vec3;
 
-/// Planes that a session holds: a power of two.
+/// Planes of a coherent query: a power of two.
 const PLANES: usize = 32;
 
-/// A leaf's distance is at least `normal·(p − middle) − offset`, up to what a box's bound may be
-/// off by.
+/// A leaf's distance is at least `normal·(p − middle) − offset`, up to the error of a box's bound.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     normal: Vec3,
@@ -25,17 +24,17 @@ struct Plane {
     of: u32,
 }
 
-/// The planes of the leaves that were looked at lately, each at a place that its leaf decides.
+/// Planes of leaves that were visited lately. The leaf decides the plane's place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes([Plane; PLANES]);
 
 impl Planes {
-    /// Says nothing.
+    /// A plane that bounds no leaf.
     pub(crate) const EMPTY: Planes =
         Planes([Plane { normal: Vec3::ZERO, offset: 0.0, of: u32::MAX }; PLANES]);
 
-    /// A lower bound, grid units, of the distance of a leaf; negative if nothing is known. `way`
-    /// leads to the query from the model's middle.
+    /// Lower bound of the distance of a leaf, grid units. Negative without a plane. `way` leads
+    /// from the model's middle to the query.
     #[inline(always)]
     pub(crate) fn bound(&self, child: Child, way: Vec3) -> f32 {
         match self.0.get(place(child)) {
@@ -44,9 +43,9 @@ impl Planes {
         }
     }
 
-    /// Puts a plane between a leaf without slivers and the query: across the way from its closest
-    /// point, on triangle `lane`. `way` as above; `margin` is what triangles' bounds may be off
-    /// by, beside [`SHORTFALL`] of themselves.
+    /// Puts a plane between a leaf without slivers and the query, across the way from the leaf's
+    /// closest point, on triangle `lane`. `way` as above. `margin` is the error of triangles'
+    /// bounds, beside [`SHORTFALL`] of themselves.
     #[inline(always)]
     pub(crate) fn put(
         &mut self,
@@ -69,18 +68,18 @@ impl Planes {
     }
 }
 
-/// A leaf as it was looked at from `p`, and its triangles side by side where all were read at once.
+/// A leaf as seen from `p`, and its triangles side by side if all were read at once.
 pub(crate) struct Looked<'a> {
     pub(crate) fans: &'a FanLeaf<'a>,
     pub(crate) p: Vec3,
     pub(crate) edges: Option<&'a Edges8>,
 }
 
-/// A point of a triangle of a leaf: its lane, and coordinates along its spokes.
+/// A point of a triangle of a leaf: the lane, and coordinates along the spokes.
 pub(crate) type At = (usize, f32, f32);
 
-/// A direction a little shorter than 1, so that what is measured along it is less than the
-/// distance, also of a sliver's certificate.
+/// A direction slightly shorter than 1. Lengths along it are less than the distance, and less than
+/// a sliver's certified distance.
 #[inline(always)]
 fn normal(residual: Vec3) -> Option<Vec3> {
     let length = sqrt_approx(dot(residual, residual));
@@ -91,7 +90,7 @@ fn normal(residual: Vec3) -> Option<Vec3> {
     }
 }
 
-/// The direction from a leaf's point to `p`, and how far `p` is along it from all of the leaf.
+/// The direction from a leaf's point to `p`, and the distance along it between `p` and the leaf.
 #[inline(always)]
 fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(Vec3, f32)> {
     let Edges8 { e: [ex, ey, ez], g: [gx, gy, gz], s: [sx, sy, sz] } = edges;
@@ -107,7 +106,7 @@ fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(
         let centre = n.x * sx[i] + n.y * sy[i] + n.z * sz[i];
         let beyond = if first > 0.0 { first } else { 0.0 };
         let beyond = if second > beyond { second } else { beyond };
-        // An unused lane may hold anything: large.
+        // An unused lane may hold any value. A large one keeps it from being the least.
         along[i] =
             f32::from_bits((centre - beyond).to_bits() & used[i] | f32::MAX.to_bits() & !used[i]);
     }
@@ -128,8 +127,8 @@ fn separate_narrow(leaf: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec
     Some((n, less(along + nearest, dot(n, other))))
 }
 
-/// The middle of the model's box, from which planes are measured: rounding counts in model sizes,
-/// wherever the origin is.
+/// The middle of the model's box. Planes are measured from it, so that rounding is in proportion to
+/// the model's size, not to its distance from the origin.
 #[inline(always)]
 pub(crate) fn middle(tree: &Bvh<'_>) -> Vec3 {
     (tree.scale().low + tree.scale().high) * 0.5

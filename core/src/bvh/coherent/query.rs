@@ -20,25 +20,24 @@ use glam::Vec3;
 pub struct CoherentClosest {
     /// The answer of [`Bvh::closest_point`], with the same bits. `work` is that of this query.
     pub closest: ClosestPoint,
-    /// While the query is no farther than this from where it is now, input units,
-    /// [`ClosestPoint::triangle`] remains the closest triangle of the input mesh. Rounded down. 0
-    /// if that is not known: on edges and vertices, after a jump, and where it would be less than
-    /// the last step.
+    /// Within this distance of the query, in input units, [`ClosestPoint::triangle`] stays the
+    /// closest triangle of the input mesh. Rounded down. 0 if unknown: on edges and vertices, after
+    /// a jump, and where it would be less than the last step.
     pub safe_radius: f32,
 }
 
-/// A query that moves: it remembers what the last answers ruled out.
+/// A query that moves. It remembers which parts of the mesh the last answers ruled out.
 ///
 /// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface,
 /// each with a lower bound of its distance. A bound less the path length since then stays a bound.
-/// So a query looks only at leaves that may have come near enough. `N` = 128 is enough for steps of
-/// a thousandth of the model. RAM: 8·`N` bytes and about 800, for 32 planes that part the query
+/// So a query visits only leaves that may have come near enough. `N` = 128 is enough for steps of a
+/// thousandth of the model. RAM: 8·`N` bytes and about 800 for 32 planes that separate the query
 /// from the leaves around.
 ///
-/// Where steps are so long that nothing is won, it asks the plain query for a while.
+/// Where steps are so long that the front does not pay, it asks the plain query for a while.
 ///
-/// It is about one tree at a time. Asked about another it begins anew. Its lifetime makes sure that
-/// bytes do not change behind its back.
+/// It belongs to one tree at a time and begins anew with another. It borrows the blob's bytes, so
+/// they cannot change between queries.
 #[derive(Clone, Debug)]
 pub struct CoherentQuery<'t, const N: usize = 128> {
     memory: Memory,
@@ -54,7 +53,7 @@ impl<const N: usize> Default for CoherentQuery<'_, N> {
 }
 
 impl<'t, const N: usize> CoherentQuery<'t, N> {
-    /// A query that knows nothing yet. May initialise a `static`.
+    /// A query without memory of earlier answers. May initialise a `static`.
     pub const fn new() -> Self {
         CoherentQuery {
             memory: Memory::EMPTY,
@@ -64,21 +63,21 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
         }
     }
 
-    /// Forgets everything. No answer depends on it.
+    /// Forgets all earlier answers. No later answer changes.
     pub fn reset(&mut self) {
         self.memory = Memory::EMPTY;
     }
 
-    /// [`Bvh::closest_point`], with the same bits in `distance`, `point` and `triangle`, and the
-    /// less work the less the query moved.
+    /// [`Bvh::closest_point`] with the same bits in `distance`, `point` and `triangle`. The less
+    /// the query moved, the less work it takes.
     ///
-    /// With a tolerance in `budget` it is that function. A step budget bounds the search on the
-    /// front and, where that was not enough, the plain query after it: at most twice as many nodes.
-    /// The answer then may be exact where the plain query's is not.
+    /// With a tolerance in `budget` it is that method. Steps bound the search on the front, and the
+    /// plain query after it if that was not enough: together at most twice as many nodes. So the
+    /// answer may be exact where the plain query's is not.
     ///
-    /// Cost: within [`CoherentClosest::safe_radius`] of the last answer one triangle. For steps of
-    /// 3e-4 of the model's diagonal one to three leaves and now and then a node. For jumps that of
-    /// the plain query.
+    /// Cost: one triangle within [`CoherentClosest::safe_radius`] of the last answer. One to three
+    /// leaves and sometimes a node for steps of 3e-4 of the model's diagonal. The plain query's for
+    /// jumps.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, CoherentQuery, Scratch};
@@ -106,42 +105,42 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
     }
 }
 
-/// Entries stay active while their keys are within so many steps of the answer: so often the rest
-/// of the front is looked through.
+/// Entries stay active while their keys are within this many steps of the answer. So the inactive
+/// ones are read about once in as many queries.
 const AHEAD: f32 = 8.0;
-/// Cost of any query, beside nodes and leaves.
+/// Cost of a query beside its nodes and leaves.
 const BASE: u32 = 4;
-/// Plain queries' worth of debt that a session makes before it rests.
+/// Debt at which a coherent query rests, in plain queries.
 const CREDIT: u32 = 4;
-/// Plain queries that it then asks, the first time and at most.
+/// Plain queries of the first rest and of the longest.
 const REST: (u32, u32) = (8, 256);
-/// A rest ends early after this many steps in a row, each this many times shorter than the one at
-/// which it began.
+/// A rest ends early after this many steps in a row that are [`SHORTER`] than the one at which it
+/// began.
 const WAKE: u32 = 3;
-/// See [`WAKE`].
+/// Ratio of two steps from which on the second counts as much shorter.
 const SHORTER: f32 = 8.0;
-/// Queries followed without debt after which the past is forgiven.
+/// After this many queries in a row without debt the next rest is a first one again.
 const RELIABLE: u32 = 64;
 
 /// Whether the front pays. Cost is counted in half leaves: about 250 instructions without vectors,
-/// 30 ns with them. A session's count half as much again, for with vectors they take as long: what
-/// it does next hangs on the leaf before, where a descent guesses. The rule is the same on every
-/// target, so that what is answered is.
+/// 30 ns with them. Half leaves of the front count one and a half times: with vectors they take
+/// that long, because each step has to wait for the leaf before it. The rule is the same on every
+/// target, so the answers are too.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
-    /// What a plain query costs here; 0 if none was asked yet.
+    /// Cost of a plain query here. 0 before the first.
     plain: u32,
-    /// What following has cost more than plain queries would have, lately.
+    /// Excess of the front's cost over that of plain queries, lately.
     debt: u32,
-    /// Plain queries to come before following is tried again.
+    /// Plain queries left in this rest.
     resting: u32,
-    /// How many the next time.
+    /// Plain queries of the next rest.
     rest: u32,
-    /// Length of the step at which following was given up, and how many much shorter ones have
-    /// come one after the other since.
+    /// Length of the step at which this rest began, and the number of much shorter ones in a row
+    /// since.
     too_long: f32,
     short: u32,
-    /// Queries that were followed without debt since.
+    /// Queries from the front in a row without debt.
     good: u32,
 }
 
@@ -149,7 +148,7 @@ impl Pace {
     const EMPTY: Pace =
         Pace { plain: 0, debt: 0, resting: 0, rest: REST.0, too_long: 0.0, short: 0, good: 0 };
 
-    /// Whether to follow.
+    /// Whether to ask the front.
     #[inline(always)]
     fn follows(&mut self, step: f32) -> bool {
         if self.resting > 0 {
@@ -160,7 +159,7 @@ impl Pace {
         self.plain > 0
     }
 
-    /// A query was followed.
+    /// Counts a query from the front.
     #[inline(always)]
     fn spend(&mut self, cost: u32, step: f32) {
         let cost = cost + cost / 2;
@@ -176,7 +175,7 @@ impl Pace {
         }
     }
 
-    /// A plain query was asked.
+    /// Counts a plain query.
     #[inline(always)]
     fn plain_query(&mut self, work: &Work) {
         let cost = BASE + work.splits + work.splits / 3 + work.triangles * 2 / 7;
@@ -184,15 +183,15 @@ impl Pace {
     }
 }
 
-/// All of a session but the front's entries.
+/// The state of a coherent query, without the front's entries.
 #[derive(Clone, Copy, Debug)]
 struct Memory {
-    /// Where the tree's nodes lie, and how many: which tree it is.
+    /// Address and number of the tree's nodes, which identify the tree.
     of: (usize, u32),
     extent: Extent,
     planes: Planes,
     last: Last,
-    /// Where the last plain query found its answer.
+    /// Leaf of the last plain query's answer.
     hint: Hint,
     pace: Pace,
 }
@@ -202,15 +201,15 @@ struct Memory {
 struct Last {
     /// The query, grid units.
     p: Vec3,
-    /// Whether the first entry of the front is its leaf.
+    /// Whether the front's first entry is the answer's leaf.
     known: bool,
-    /// Its triangle's place in the leaf, and number in the input file.
+    /// The triangle's place in the leaf, and its number in the input file.
     lane: usize,
     child: Child,
     triangle: Option<u32>,
-    /// If it was the plain query's: the surface is not farther than this, grid units.
+    /// Of a plain query's answer: upper bound of the distance, grid units.
     reach: f32,
-    /// No other triangle has a lesser key; 0 if that was not found out.
+    /// No other triangle has a lesser key. 0 if unknown.
     second: f32,
 }
 
@@ -269,7 +268,7 @@ impl Memory {
                 Err(Gap::Lost) => self.extent = Extent::EMPTY,
             }
         } else {
-            // Keys are worth nothing without the path that they were found on.
+            // Keys count only with the path length at which they were found.
             self.extent = Extent::EMPTY;
             (self.last.known, self.last.second) = (false, 0.0);
         }

@@ -7,7 +7,7 @@
 //! | `view` | [`Bvh`]: nodes, links, boxes and source numbers where they lie |
 //! | `leaf` | [`FanLeaf`]: one or two fans where they lie |
 //! | `cone` | the bytes of a leaf's normal cone |
-//! | `check` | what `Bvh::open` makes sure of |
+//! | `check` | the check of `Bvh::open` |
 
 mod check;
 mod cone;

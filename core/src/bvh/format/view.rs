@@ -187,7 +187,7 @@ impl Links {
 }
 
 impl Bvh<'_> {
-    /// Scratch entries with which no question about one point or one segment can end for want of
+    /// With this many scratch entries no question about one point or one segment ends for lack of
     /// memory.
     #[inline]
     pub fn scratch_entries(&self) -> usize {

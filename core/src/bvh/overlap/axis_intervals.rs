@@ -2,7 +2,7 @@
 //! other's.
 //!
 //! All boxes of a tree have the same axes, so these are the face normals of every pair of boxes.
-//! The nine products of edges, which would make the test exact, part few boxes more (van den
+//! The nine products of edges would make the test exact, but separate few boxes more (van den
 //! Bergen, *Efficient Collision Detection of Complex Deformable Models using AABB Trees*, 1997).
 
 use super::relative_pose::{DIRECTIONS, Side};
@@ -90,7 +90,7 @@ fn along(
 /// Pairs of children whose intervals meet along every direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pairs {
-    /// A byte for each of the first node's, a bit in it for each of the second's.
+    /// A byte for each child of the first node, a bit in it for each child of the second.
     pub(crate) bits: [u32; 2],
     /// The pair that overlaps most along the direction of its least overlap: where a search for
     /// contact should begin.
@@ -124,8 +124,8 @@ pub(crate) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, lanes: u32)
     pairs
 }
 
-/// By how much child `i` of the first overlaps each child of the second, along the direction where
-/// that is least; negative if it is apart.
+/// Least overlap, over the directions, of child `i` of the first node with each child of the
+/// second. Negative if they are apart.
 #[inline(always)]
 pub(crate) fn wide(a: &AxisIntervals, b: &AxisIntervals, i: usize) -> [f32; WIDTH] {
     let i = i & (WIDTH - 1);
@@ -139,7 +139,7 @@ pub(crate) fn wide(a: &AxisIntervals, b: &AxisIntervals, i: usize) -> [f32; WIDT
     in_memory(depths)
 }
 
-/// The same, the wanted alone, and no further than they are apart.
+/// The same for the wanted children alone. It stops at the first direction that separates them.
 #[inline(always)]
 pub(crate) fn narrow(a: &AxisIntervals, b: &AxisIntervals, i: usize, lanes: u32) -> [f32; WIDTH] {
     let mut depths = [-1f32; WIDTH];

@@ -1,9 +1,9 @@
 //! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet
 //! leaves.
 //!
-//! A pair of nodes is settled at once for all pairs of their children, as 64 bits. An entry of the
-//! stack is two scratch entries: the two nodes, and with each 32 of the bits. The bits are a byte
-//! for each child of the first node, a bit in it for each child of the second.
+//! All pairs of children of two nodes are tested at once and give 64 bits: a byte for each child of
+//! the first node, a bit in it for each child of the second. An entry of the stack is two scratch
+//! entries, each with one node and 32 of the bits.
 
 use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;
@@ -13,12 +13,12 @@ use crate::bvh::format::{Bvh, BvhChild};
 use crate::geom::{Contact, Pose};
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
-/// Where two triangles are: node, child and lane in each tree.
+/// Places of two triangles: node, child and lane in each tree.
 pub(crate) type Place = [[u32; 3]; 2];
 
-/// What a question does with pairs of triangles that meet or may meet.
+/// A question's visitor for pairs of triangles that meet or may meet.
 pub(crate) trait Collect {
-    /// Whether to go on; `None` if a tree is not one that was opened.
+    /// Whether to go on. `None` says that a tree is unchecked.
     fn pair(&mut self, place: Place, contact: Contact) -> Option<bool>;
 }
 
@@ -30,10 +30,10 @@ fn size(tree: &Bvh<'_>, node: u32) -> Option<f32> {
     Some(x + y + z)
 }
 
-/// How many times larger a node has to be to be opened alone.
+/// A node that is larger by this factor is opened alone.
 const LARGER: f32 = 4.0;
 
-/// Visits every pair of leaves whose boxes meet; says why it missed some, if it did.
+/// Visits every pair of leaves whose boxes meet. Returns why it missed some.
 #[inline(always)]
 pub(crate) fn descend(
     [a, b]: [&Bvh<'_>; 2],
@@ -77,7 +77,7 @@ pub(crate) fn descend(
                 }
             }
         }
-        // The next pair of which one can be opened; pairs of leaves are looked at on the way.
+        // The next pair with a node to open. Pairs of leaves on the way are visited.
         loop {
             let Some((parents, lanes)) = next.take().or_else(|| take(stack, &mut waiting)) else {
                 return Ok((missed, work));
@@ -138,7 +138,7 @@ fn without([low, high]: [u32; 2], [i, j]: [u32; 2]) -> [u32; 2] {
     if i < 4 { [low & !bit, high] } else { [low, high & !bit] }
 }
 
-/// Which of two children to open: both, unless one is a leaf or much the smaller.
+/// Which of two children to open: both, unless one is a leaf or much smaller.
 #[inline(always)]
 fn opened(
     a: &Bvh<'_>,
@@ -176,7 +176,7 @@ fn open(
     Some(pairs(&first, &second, rows, lanes))
 }
 
-/// Looks at a pair of leaves; whether to go on.
+/// Visits a pair of leaves. `true` to go on.
 #[inline(always)]
 #[allow(clippy::too_many_arguments, reason = "the descent's state, inlined")]
 fn leaves(

@@ -1,5 +1,5 @@
-//! Two leaves: which of their triangles may meet, then each such pair, in f32, and where that
-//! leaves it open in f64.
+//! Two leaves: which of their triangles may meet, then each of these pairs in f32, and in f64 where
+//! f32 cannot decide.
 
 use super::relative_pose::RelativePose;
 use crate::bvh::format::FanLeaf;
@@ -8,8 +8,8 @@ use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 use crate::query::Work;
 
-/// Places for a leaf's vertices: two centres and the ring, and some to spare so that eight are
-/// read at shift 1.
+/// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
+/// shift 1.
 pub(crate) const SLOTS: usize = 12;
 
 /// Slot of the first ring vertex.
@@ -35,7 +35,7 @@ impl Corners {
         let mut at = [[0.0; SLOTS]; 3];
         let used = (RING + triangles + 1).min(SLOTS);
         for (at, stored) in at.iter_mut().zip(leaf.stored_vertices()) {
-            // What is not in use may not count as far away.
+            // Slots not in use must not count as far away.
             *at = [stored[0]; SLOTS];
             at.iter_mut().zip(stored).take(used).for_each(|(x, stored)| *x = stored);
         }
@@ -80,8 +80,8 @@ struct Facets {
 }
 
 impl Facets {
-    /// Of the triangles `wanted`; others may mean nothing. `far` is the largest 1-norm of a vertex
-    /// of either leaf, `shift` what a difference of two may be off by.
+    /// Only the planes of the triangles `wanted` are set. `far` is the largest 1-norm of a vertex
+    /// of either leaf, `shift` the error of a difference of two.
     #[inline(always)]
     fn of(corners: &Corners, wanted: u32, far: f32, shift: f32) -> Option<Facets> {
         let first = LANES_BELOW.get(corners.turn)?;
@@ -106,8 +106,7 @@ impl Facets {
         Some(facets)
     }
 
-    /// On which sides of these planes, those `wanted`, the other leaf's vertices certainly lie;
-    /// nothing of other planes.
+    /// On which side of each plane `wanted` each vertex of the other leaf certainly lies.
     #[inline(always)]
     fn sides(&self, wanted: u32, other: &Corners) -> Sides {
         let [nx, ny, nz] = &self.normal;
@@ -141,7 +140,7 @@ impl Facets {
     }
 }
 
-/// For each vertex of a leaf the planes of the other one's triangles that it is above of, and those
+/// For each vertex of a leaf the planes of the other leaf's triangles that it is above, and those
 /// that it is below.
 struct Sides {
     above: [u32; SLOTS],
@@ -210,8 +209,7 @@ impl Extent {
         axes.into_iter().any(|((from, to), (low, high))| greater(low - to, from - high) > doubt)
     }
 
-    /// Which of the first `count` boxes, of those `wanted`, are not farther than `doubt` along any
-    /// axis.
+    /// Which of the first `count` boxes, among those `wanted`, are within `doubt` along every axis.
     #[inline(always)]
     fn near(&self, boxes: &Boxes, count: usize, wanted: u32, doubt: f32) -> u32 {
         let mut bits = wanted & u32::MAX >> (32 - count.clamp(1, WIDTH));
@@ -261,7 +259,7 @@ pub(crate) struct LeafPair<'a> {
     leaves: [FanLeaf<'a>; 2],
     a: Corners,
     b: Corners,
-    /// Where the first leaf's vertices lie to the second's planes, and the other way.
+    /// On which sides of the second leaf's planes the first leaf's vertices lie, and the reverse.
     sides: [Sides; 2],
 }
 
@@ -289,8 +287,8 @@ impl<'a> LeafPair<'a> {
         LeafPair { place, leaves: [*a, *b], a: first, b: second, sides: [none(), none()] }
     }
 
-    /// Pairs that neither a coordinate nor the plane of a triangle parts: for each triangle of the
-    /// first leaf the other's.
+    /// Pairs that no coordinate and no triangle's plane separates: for each triangle of the first
+    /// leaf those of the second.
     #[inline(always)]
     pub(crate) fn candidates(&mut self) -> Option<[u32; WIDTH]> {
         let near = self.side_by_side()?;
@@ -324,8 +322,8 @@ impl<'a> LeafPair<'a> {
     /// Pairs whose boxes along the axes meet.
     #[inline(always)]
     fn side_by_side(&self) -> Option<[u32; WIDTH]> {
-        // As each vertex may be off; differences are compared, not sums, so that no rounding comes
-        // in but their own, which is less than the excess of `doubt`.
+        // Each vertex may be off. Differences are compared, not sums, so only their own rounding
+        // counts. It is less than the excess of `doubt`.
         let doubt = self.place.doubt + self.place.doubt;
         let (whole, other) = (self.a.extent(), self.b.extent());
         let mut near = [0u32; WIDTH];
@@ -346,7 +344,7 @@ impl<'a> LeafPair<'a> {
         Some(near)
     }
 
-    /// What is known of triangle `i` of the first leaf and `j` of the second.
+    /// Whether triangle `i` of the first leaf and `j` of the second meet.
     #[inline(never)]
     pub(crate) fn settle(&self, i: usize, j: usize, work: &mut Work) -> Contact {
         work.triangles = work.triangles.saturating_add(1);

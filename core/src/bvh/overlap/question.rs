@@ -9,7 +9,8 @@ use crate::query::{Budget, Ended, QueryError, ScratchEntry, Undecided, Verdict, 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {
     /// `Yes`: the surfaces of the input meshes meet. `No`: they have no common point. Undecided for
-    /// [`Resolution`](Undecided::Resolution): they come too near to each other for what is stored.
+    /// [`Resolution`](Undecided::Resolution): they come nearer to each other than the stored meshes
+    /// can tell.
     pub verdict: Verdict,
     /// With `Yes` two triangles that meet, the first mesh's first. With an undecided
     /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input
@@ -34,7 +35,7 @@ impl TrianglePair {
     pub const EMPTY: TrianglePair = TrianglePair { triangles: [u32::MAX; 2], is_certain: false };
 }
 
-/// How a search for all pairs went.
+/// All pairs that meet or may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlaps {
     /// Pairs in the slice.
@@ -50,25 +51,26 @@ pub struct Overlaps {
 }
 
 impl Bvh<'_> {
-    /// Scratch entries with which no overlap can end for want of memory. Every pair of entries is
+    /// With this many scratch entries no overlap ends for lack of memory. Every pair of entries is
     /// deeper in one of the trees, and no tree has more than 64 levels.
     pub const OVERLAP_ENTRIES: usize = 256;
 
     /// Whether the surface of `other`, moved by `pose` from its frame to this tree's (both in input
     /// units), meets the surface of this tree.
     ///
-    /// Both verdicts are proved, of the input meshes as they were after repair, whatever grids did
-    /// to vertices. The numbers of the pose are taken as they are, in real arithmetic. Surfaces
-    /// that touch without passing through each other are undecided, and so are surfaces within
-    /// rounding and the surface errors of it. Two triangles without area are never proved
-    /// to meet. Surfaces alone count: of closed meshes one may lie inside the other, which
-    /// [`signed_distance`](Bvh::signed_distance) of a vertex decides.
+    /// Both verdicts are proved for the input meshes as they were after repair, even if a grid
+    /// moved vertices. The pose's numbers are taken as exact. Surfaces that touch without passing
+    /// through each other are undecided, and so are surfaces nearer than rounding and the surface
+    /// errors. Two triangles without area are never proved to meet. Only surfaces count: one
+    /// closed mesh may lie inside the other. [`signed_distance`](Bvh::signed_distance) of a vertex
+    /// decides that.
     ///
-    /// It ends at the first pair that is proved to meet. Which pair that is does not depend on the
-    /// target. `scratch`: [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter
-    /// one may leave the question undecided. Of the budget only `steps` matters: pairs of nodes.
+    /// It ends at the first pair that is proved to meet: the same pair on every target. `scratch`:
+    /// [`OVERLAP_ENTRIES`](Bvh::OVERLAP_ENTRIES) are always enough. A shorter one may leave the
+    /// question undecided. Of the budget only `steps` matters: pairs of nodes.
     ///
-    /// Cost: everything near the other surface. On scanned parts some dozens of pairs of nodes.
+    /// Cost: in proportion to the surface that is near the other. Some dozens of pairs of nodes on
+    /// scanned parts.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Pose, Scratch, Verdict};
@@ -109,7 +111,7 @@ impl Bvh<'_> {
     /// meet, into `pairs`.
     ///
     /// Arguments, errors and degenerate cases as for [`overlap`](Bvh::overlap). Every pair is found
-    /// once. The order is that of the search and the same on every target. Cost: everything along
+    /// once. The order is that of the search and the same on every target. Cost: in proportion to
     /// the curves where the surfaces meet.
     ///
     /// ```

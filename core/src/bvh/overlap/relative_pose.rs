@@ -1,8 +1,9 @@
-//! Two trees in one frame: how the second one lies to the first.
+//! Two trees in one frame: the pose of the second in the frame of the first.
 //!
-//! Lengths are in *common units*: the larger one's grid units, so that nothing grows when numbers
-//! are brought there. The frame is the first one's, its origin that of the first one's grid, so
-//! that a mesh far from its own origin costs no precision. See `core/docs/rounding.md` §11.
+//! Lengths are in *common units*: the grid units of the tree with the larger ones, so that no
+//! number grows when it is converted. The frame is the first tree's, with the origin of the first
+//! tree's grid, so that a mesh far from its own origin costs no precision. See
+//! `core/docs/rounding.md` §11.
 
 use crate::bvh::format::Bvh;
 use crate::geom::Pose;
@@ -15,11 +16,11 @@ use crate::query::QueryError;
 /// Directions along which boxes are compared: the axes of both trees' boxes.
 pub(crate) const DIRECTIONS: usize = 6;
 
-/// Largest ratio of the trees' grid units, 2^40: then the smaller model is a point for all that the
-/// larger one can tell.
+/// Largest ratio of the trees' grid units, 2^40. There the smaller model is a point to the larger
+/// one.
 const RATIO: i32 = 40;
 
-/// A tree as the directions see it.
+/// A tree's frame along the directions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
     /// A place `q` of this tree, in its grid units from `origin`, is at `rows[d]·q + shift[d]`
@@ -28,13 +29,13 @@ pub(crate) struct Side {
     pub(crate) shift: [f32; DIRECTIONS],
     /// Origin of the tree's grid.
     pub(crate) origin: [f32; 3],
-    /// By how much intervals are made longer on both ends.
+    /// Intervals are made longer by this at both ends.
     pub(crate) grow: [f32; DIRECTIONS],
-    /// Common units of a grid unit.
+    /// Common units in one grid unit.
     pub(crate) unit: f32,
 }
 
-/// Where both trees are.
+/// The pose of both trees in common units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativePose {
     pub(crate) sides: [Side; 2],
@@ -42,7 +43,7 @@ pub(crate) struct RelativePose {
     pub(crate) matrix: [[f32; 3]; 3],
     pub(crate) shift: [f32; 3],
     pub(crate) shift_exact: [f64; 3],
-    /// What a vertex is off by at most as computed, surface errors included: in f32, and in f64.
+    /// Greatest error of a computed vertex, surface errors included: in f32, and in f64.
     pub(crate) doubt: f32,
     pub(crate) doubt_exact: f64,
 }
@@ -52,7 +53,7 @@ fn origin(tree: &Bvh<'_>) -> [f64; 3] {
     if tree.header().is_f32() { [0.0; 3] } else { tree.header().grid_origin.map(f64::from) }
 }
 
-/// How far a tree's box reaches from its origin along each axis, grid units, and one more for boxes
+/// Extent of a tree's box from its origin along each axis, in grid units, and one more for boxes
 /// without extent.
 fn reach(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (low, high) = (tree.scale().low, tree.scale().high);
@@ -77,7 +78,7 @@ fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 impl RelativePose {
-    /// `None`: the trees are so far from each other that nothing has to be looked at.
+    /// `None`: the trees are so far from each other that no pair can meet.
     pub(crate) fn new(
         a: &Bvh<'_>,
         b: &Bvh<'_>,
@@ -121,7 +122,7 @@ impl RelativePose {
         let directions = [x, y, z, c0, c1, c2];
         let back = directions.map(|d| columns.map(|column| dot(column, d)));
         let away = directions.map(|d| dot(d, shift_exact));
-        // What a moved vertex, or the way to it, comes to along an axis.
+        // Greatest size of a moved vertex, or of the way to it, along an axis.
         let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
             most(row, reach_b)
                 + reach_a.get(axis).copied().unwrap_or(0.0)
@@ -144,7 +145,7 @@ impl RelativePose {
             *grow = ((both + away.abs()) * (OVERLAP_INTERVAL * f64::from(U32)) + error) as f32
                 * (1.0 + 2.0 * U32);
         }
-        // What is not a number is not in range either.
+        // NaN is out of range too.
         let is_in_range = far + errors <= OVERLAP_FARTHEST;
         if !is_in_range {
             return Err(QueryError::PoseOutOfDomain);
@@ -176,8 +177,9 @@ impl RelativePose {
     }
 }
 
-/// By how much a matrix makes lengths longer at most: the square of its 2-norm is that of its
-/// product with its transpose, which is at most the largest sum of a row of that; of a rotation 1.
+/// Greatest factor by which a matrix makes lengths longer. The square of its 2-norm is the 2-norm
+/// of its product with its transpose, which is at most that product's largest row sum. 1 for a
+/// rotation.
 fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
     let mut most = 0f64;
     for a in rows {

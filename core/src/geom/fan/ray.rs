@@ -13,7 +13,7 @@
 //! 3.3 must let a product of 0 pass. A segment in a triangle's plane, which 3.3 drops, is decided
 //! here.
 //!
-//! What rounding and the surface error leave open: `core/docs/rounding.md` §9.
+//! Margins for rounding and the surface error: `core/docs/rounding.md` §9.
 
 use super::lanes::WIDTH;
 use crate::num::tolerance::{
@@ -40,7 +40,7 @@ pub struct FanRay {
     end: f32,
 }
 
-/// Where a segment meets a triangle.
+/// A common point of a segment and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// The parameter, if `stored`.
@@ -127,13 +127,13 @@ impl FanRay {
         self.origin
     }
 
-    /// How much of the third coordinate to take from the first two.
+    /// Multiples of the third coordinate to subtract from the first two.
     #[inline(always)]
     pub fn shear(&self) -> [f32; 2] {
         self.shear
     }
 
-    /// What an edge function may be off by, in units of the edge's 1-norm.
+    /// Error of an edge function, in units of the edge's 1-norm.
     #[inline(always)]
     pub fn doubt(&self) -> f32 {
         self.doubt
@@ -358,7 +358,7 @@ fn less(a: f32, b: f32) -> f32 {
 ///
 /// `centres` and `ring` are shadows of vertices, `turn` is where the second fan begins (at the
 /// ring's end or later: nowhere). A spoke serves the triangles on both sides, and the outer edge is
-/// looked at only if the spokes leave the triangle open.
+/// computed only if the spokes leave the triangle open.
 #[inline(always)]
 pub fn ray_leaf(
     ray: &FanRay,

@@ -1,4 +1,4 @@
-//! What `open` makes sure of in the contents of the sections, so that queries need not.
+//! The check of the sections' contents in [`Hull::open`].
 
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
 use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING};
@@ -9,8 +9,8 @@ use crate::geom::Aabb;
 
 impl<'a> Hull<'a> {
     /// Opens the hull hierarchy of a blob where it lies and checks all of it: CRCs, every index,
-    /// every coordinate, every order that the queries rely on. Any bytes are safe to open. Other
-    /// sections are not looked at, so that the code that checks them is not linked.
+    /// every coordinate, every order that the queries rely on. Any bytes are safe to open. It reads
+    /// no other sections, so that the code that checks them is not linked.
     ///
     /// Cost: linear in the hierarchy, no allocation; once per start. Alignment of `bytes` does not
     /// matter.
@@ -123,7 +123,7 @@ impl Hull<'_> {
         self.check_cover()
     }
 
-    /// A blob without a hull hierarchy says nothing of one.
+    /// Without a hull hierarchy all header fields about it are 0.
     pub(crate) fn check_absent(&self) -> Result<(), OpenError> {
         let h = &self.header;
         let counts = [
@@ -196,8 +196,8 @@ impl Hull<'_> {
         Ok(())
     }
 
-    /// Every vertex lies in the hull's box: which makes it finite, and the rounding margins of
-    /// queries true.
+    /// Every vertex lies in the hull's box. So it is finite, and the rounding margins of queries
+    /// hold.
     fn check_vertices(&self) -> Result<(), OpenError> {
         let bounds = Aabb::of(self.header.hull_box);
         for index in 0..self.header.vertices {
@@ -244,8 +244,8 @@ impl Hull<'_> {
         Ok(())
     }
 
-    /// Everything a split names exists before it, and "splits with" is its inverse: so dependencies
-    /// have no cycle.
+    /// Every vertex that a split names exists before it, and "splits with" is the inverse. So
+    /// dependencies have no cycle.
     fn check_splits(&self) -> Result<(), OpenError> {
         for index in 0..self.header.splits {
             let bad = OpenError::Record { section: SectionKind::Splits, index };
@@ -279,12 +279,12 @@ impl Hull<'_> {
         Ok(())
     }
 
-    /// Children come after their parent and belong to it alone: so a descent ends, in time linear
-    /// in the tree.
+    /// Children come after their parent and belong to it alone. So a descent ends in time linear in
+    /// the tree.
     ///
-    /// No memory is at hand to mark nodes as seen. The format makes up for it: within each level
-    /// child groups stand in the order of their parents, so that one pass for each level sees
-    /// every group begin where the one before it ended.
+    /// There is no memory to mark visited nodes. But within each level the format orders child
+    /// groups as their parents, so that one pass for each level finds every group at the end of the
+    /// one before it.
     fn check_cover(&self) -> Result<(), OpenError> {
         let node = |index: u32| {
             self.node(NodeIdx(index))

@@ -1,4 +1,4 @@
-//! Where everything stands in the sections of the hull hierarchy.
+//! Sizes, limits and offsets in the sections of the hull hierarchy.
 
 /// Bytes of one record of the level table.
 pub const LEVEL_BYTES: usize = 24;

@@ -5,7 +5,7 @@
 //! | `layout` | sizes and limits of the sections |
 //! | `index` | one type for each kind of index |
 //! | `view` | the tables where they lie |
-//! | `check` | what opening makes sure of |
+//! | `check` | the check of `Hull::open` |
 
 mod check;
 mod index;

@@ -2,8 +2,8 @@
 //!
 //! If [`Hull::open`] returned `Ok`, then every index that the blob stores is in range, every ring
 //! vertex exists before its split, every child of a cover node comes after it, and every coordinate
-//! is finite. The accessors still return `Option`: an index past the end gives `None` (or, where
-//! its byte offset wraps on a 32-bit target, some record), and no path can panic.
+//! is finite. Accessors return `Option` all the same. An index past the end gives `None` (or some
+//! record, where its byte offset wraps on a 32-bit target). No path can panic.
 
 use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
 use super::layout::{LEAF_FLAG, LEVEL_BYTES, level};
@@ -41,7 +41,7 @@ pub(crate) enum Vertices<'a> {
 }
 
 impl<'a> Vertices<'a> {
-    /// The section's bytes as records; what is left over past the last one is not reached.
+    /// The section's bytes as records. Bytes past the last whole record are not read.
     pub(crate) fn new(format: VertexFormat, bytes: &'a [u8]) -> Self {
         match format {
             VertexFormat::F32 => Vertices::F32(bytes.as_chunks().0),
@@ -108,7 +108,7 @@ impl Split<'_> {
         self.len
     }
 
-    /// Ring vertex `i`, `i ≤ ring_len`, the last standing for the first.
+    /// Ring vertex `i`, `i ≤ ring_len`. The last is the first again.
     #[inline(always)]
     pub fn ring(&self, i: usize) -> Option<VertIdx> {
         let i = if i == self.len { 0 } else { i };
@@ -151,7 +151,7 @@ pub struct Node {
     pub corners: [VertIdx; 3],
     /// Radius of the sphere that sweeps it, local frame.
     pub radius: f32,
-    /// What is below.
+    /// Its children.
     pub children: Children,
 }
 
@@ -172,7 +172,7 @@ pub enum Children {
         /// How many.
         count: u32,
     },
-    /// Cut off with the finer levels: the swept triangle is all that is known.
+    /// Cut off with the finer levels: only the swept triangle bounds the surface.
     Cut,
 }
 
@@ -182,7 +182,7 @@ pub enum Children {
 pub struct Level {
     /// Triangles of the hull.
     pub faces: u32,
-    /// Splits that make it out of the base hull.
+    /// Splits that make it from the base hull.
     pub splits: u32,
     /// Cover nodes that a blob cut after this level keeps.
     pub nodes: u32,
@@ -205,7 +205,7 @@ fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
 }
 
 impl Hull<'_> {
-    /// Scratch entries with which no question on the cover tree can end for want of memory.
+    /// With this many scratch entries no question on the cover tree ends for lack of memory.
     pub fn scratch_entries(&self) -> usize {
         self.header.queue_capacity as usize
     }
@@ -226,8 +226,8 @@ impl Hull<'_> {
         self.header.surface_triangles
     }
 
-    /// No point of the input surface is farther than this from the stored surface, nor the other
-    /// way round. Input units, rounded up.
+    /// No point of the input surface is farther than this from the stored surface, nor the reverse.
+    /// Input units, rounded up.
     pub fn surface_error(&self) -> f32 {
         up_to_f32(f64::from(self.header.surface_error) * self.scale())
     }
@@ -298,7 +298,7 @@ impl<'a> Hull<'a> {
     #[inline(always)]
     pub fn positions(&self, [a, b, c]: [VertIdx; 3]) -> Option<[Vec3; 3]> {
         if let Vertices::F32(records) = self.vertices {
-            // One look at the format for three corners: this is the innermost loop of every query.
+            // Reads the format once for three corners: this is the innermost loop of every query.
             return Some([
                 single(records.get(a.usize())?),
                 single(records.get(b.usize())?),
@@ -389,8 +389,8 @@ impl<'a> Hull<'a> {
     }
 
     /// Certified radius of a triangle of any level, local frame: base triangles first, then those
-    /// of each split ([`Split::first_triangle`]). The triangle swept by it contains the surface
-    /// that it stands for; infinite where it stands for none.
+    /// of each split ([`Split::first_triangle`]). The triangle swept by it contains its part of the
+    /// surface. Infinite if it has no part.
     #[inline(always)]
     pub fn radius(&self, triangle: u32) -> Option<f32> {
         self.radii.u8(triangle as usize).map(|code| Radius8(code).get())

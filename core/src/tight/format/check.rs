@@ -1,4 +1,4 @@
-//! Opening the tight hulls of a blob, and what is made sure of.
+//! Opening the tight hulls of a blob, and the check.
 
 use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED, field};
 use super::view::{TightHulls, read};
@@ -9,8 +9,8 @@ use crate::num::Radius16;
 
 impl<'a> TightHulls<'a> {
     /// Opens the tight hulls of a blob where they lie, and checks all of them: CRCs, each tree,
-    /// each distance. Any bytes are safe to open. Other sections are not looked at, so that the
-    /// code that checks them is not linked.
+    /// each distance. Any bytes are safe to open. It reads no other sections, so that the code that
+    /// checks them is not linked.
     ///
     /// Cost: linear in the hulls; no allocation; once per start. Alignment of `bytes` does not
     /// matter.
@@ -23,7 +23,7 @@ impl<'a> TightHulls<'a> {
         Ok(hulls)
     }
 
-    /// The hulls of bytes that were opened before.
+    /// The hulls of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<TightHulls<'a>, OpenError> {
         TightHulls::place(bytes, false)
     }
@@ -59,8 +59,7 @@ impl<'a> TightHulls<'a> {
         for (index, bytes) in (0u32..).zip(self.records) {
             let bad = OpenError::Record { section: SectionKind::TightHulls, index };
             let (place, record) = read(bytes).ok_or(bad)?;
-            // Hulls follow each other; what is between them is shorter than the alignment, and
-            // zero.
+            // Hulls follow each other. Bytes between them are zeros, fewer than the alignment.
             let start = end.next_multiple_of(SECTION_ALIGNMENT);
             let gap = self.data.slice(end, start - end).ok_or(bad)?;
             if place.offset as usize != start || gap.iter().any(|&byte| byte != 0) {

@@ -1,4 +1,4 @@
-//! Where everything stands in the section of the tight hulls.
+//! Sizes, flags and offsets in the section of the tight hulls.
 
 /// Bytes of the header of the tight hulls.
 pub const TIGHT_BYTES: usize = 8;

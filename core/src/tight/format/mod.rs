@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `layout` | sizes and flags of the section |
 //! | `view` | the hulls where they lie |
-//! | `check` | what `TightHulls::open` makes sure of |
+//! | `check` | the check of `TightHulls::open` |
 
 mod check;
 pub mod layout;

@@ -3,14 +3,14 @@
 //!
 //! If [`TightHulls::open`] returned `Ok`, then every hull's tree is one that [`Bvh::open`]
 //! accepts, has as many triangles as the hull has faces, and every distance is finite and at least
-//! 0. Accessors still return `Option`, and no path can panic.
+//! 0. Accessors return `Option` all the same. No path can panic.
 
 use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED, record};
 use crate::bvh::format::Bvh;
 use crate::format::Bytes;
 use crate::num::Radius16;
 
-/// What the table says of a tight hull. Lengths are in input units.
+/// The record of a tight hull. Lengths are in input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TightRecord {
     /// Faces.
@@ -19,7 +19,8 @@ pub struct TightRecord {
     pub slack: f32,
     /// No point of the mesh is farther than this from the hull.
     pub depth: f32,
-    /// Volume beyond that of the mesh as a part of it; 0 if the mesh bounds no volume.
+    /// Excess of the hull's volume over the mesh's, divided by the mesh's. 0 if the mesh bounds no
+    /// volume.
     pub void_ratio: f32,
 }
 
@@ -32,8 +33,8 @@ pub struct TightHulls<'a> {
     pub(crate) data: Bytes<'a>,
 }
 
-/// A tight hull: a closed surface of few triangles that encloses the mesh, and bounds of how far
-/// the mesh is from it.
+/// A tight hull: a closed surface of few triangles that encloses the mesh, and bounds of its
+/// distance from the mesh.
 ///
 /// Its [box tree](Self::bvh) answers every question about the hull itself: whether two hulls
 /// [overlap](Bvh::overlap), where a segment [enters](Bvh::first_hit). Its own methods answer about
@@ -46,7 +47,7 @@ pub struct TightHull<'a> {
     pub(crate) bytes: &'a [u8],
 }
 
-/// Where the parts of a hull lie in the section.
+/// Places of a hull's parts in the section.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) offset: u32,
@@ -67,7 +68,8 @@ pub(crate) fn read(record: &[u8; TIGHT_HULL_BYTES]) -> Option<(Place, TightRecor
 }
 
 impl TightRecord {
-    /// The record's bytes; the hull's blob lies at `offset` in the section and has so many `bytes`.
+    /// Writes the record. The hull's blob lies at `offset` in the section and has this many
+    /// `bytes`.
     pub fn write(&self, offset: u32, bytes: u32) -> [u8; TIGHT_HULL_BYTES] {
         let lengths = [self.slack, self.depth, self.void_ratio].map(f32::to_bits);
         let words = [offset, bytes, self.faces].into_iter().chain(lengths);
@@ -88,12 +90,12 @@ impl<'a> TightHulls<'a> {
         self.flags & TIGHT_NESTED != 0
     }
 
-    /// What the table says, coarse to fine.
+    /// The records, coarse to fine.
     pub fn records(&self) -> impl Iterator<Item = TightRecord> + 'a {
         self.records.iter().filter_map(|record| read(record).map(|(_, record)| record))
     }
 
-    /// Hull `index`, 0 being the coarsest. Cost: some thousand instructions; keep the hull, not its
+    /// Hull `index`, 0 being the coarsest. Cost: some thousand instructions. Keep the hull, not its
     /// number.
     pub fn get(&self, index: u32) -> Option<TightHull<'a>> {
         let (place, record) = read(self.records.get(index as usize)?)?;
@@ -121,17 +123,17 @@ impl<'a> TightHull<'a> {
         &self.bvh
     }
 
-    /// Scratch entries with which no question about one point can end for want of memory.
+    /// With this many scratch entries no question about one point ends for lack of memory.
     pub fn scratch_entries(&self) -> usize {
         self.bvh.scratch_entries()
     }
 
-    /// The hull as a blob of its own: a box tree, without what is known of the mesh.
+    /// The hull as a blob of its own: a box tree, without the distances to the mesh.
     pub fn bytes(&self) -> &'a [u8] {
         self.bytes
     }
 
-    /// What the table says of it.
+    /// Its record.
     pub fn record(&self) -> &TightRecord {
         &self.record
     }

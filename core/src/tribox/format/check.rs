@@ -1,4 +1,4 @@
-//! Opening the tribox hierarchy of a blob, and what is made sure of.
+//! Opening the tribox hierarchy of a blob, and the check.
 
 use super::layout::{
     MAX_TRIBOX_DEPTH, MAX_TRIBOXES, TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOXES_BYTES, level,
@@ -13,8 +13,8 @@ use crate::tribox::directions::FACES;
 /// closure and boundary are exact in f32.
 const MAX_ORIGIN: i32 = 1 << 18;
 
-/// Greatest parameter, input units: that of a diagonal where coordinates are at the end of
-/// [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN), and some.
+/// Greatest parameter, input units: somewhat above that of a diagonal for coordinates at the end of
+/// [`Tribox::DOMAIN`](crate::tribox::Tribox::DOMAIN).
 const MAX_PARAMETER: f64 = (1u128 << 122) as f64;
 
 /// Numbers between which parameters bound differences: x, −x, y, −y, z, −z.
@@ -79,8 +79,8 @@ fn is_tight(planes: &[i32; FACES]) -> bool {
 
 impl<'a> Triboxes<'a> {
     /// Opens the tribox hierarchy of a blob where it lies, and checks all of it: CRC, every link,
-    /// every parameter. Any bytes are safe to open. Other sections are not looked at, so that
-    /// the code that checks them is not linked.
+    /// every parameter. Any bytes are safe to open. It reads no other sections, so that the code
+    /// that checks them is not linked.
     ///
     /// Cost: linear in the nodes but for walks to the root, some thousand instructions a node; no
     /// allocation; once per start. Alignment of `bytes` does not matter.
@@ -93,7 +93,7 @@ impl<'a> Triboxes<'a> {
         Ok(triboxes)
     }
 
-    /// The triboxes of bytes that were opened before.
+    /// The triboxes of bytes that were checked before.
     pub(crate) fn view(bytes: &'a [u8]) -> Result<Triboxes<'a>, OpenError> {
         Triboxes::place(bytes, false)
     }
@@ -191,8 +191,8 @@ impl<'a> Triboxes<'a> {
         Ok(())
     }
 
-    /// Each split splits one node, which was there before, and which names it: so there is no
-    /// cycle, and no node has two parents.
+    /// Each split splits one node with a lesser number, and that node names the split. So there is
+    /// no cycle, and no node has two parents.
     fn check_splits(&self) -> Result<(), OpenError> {
         let bad = |index: u32| OpenError::Record { section: SectionKind::Triboxes, index };
         for index in 0..self.node_count() {
@@ -201,7 +201,7 @@ impl<'a> Triboxes<'a> {
                 .splits
                 .get(usize::from(split))
                 .map(|bytes| u32::from(u16::from_le_bytes(*bytes)));
-            // Of no split, or of one that has this node and comes after it.
+            // The node is not split, or by a later split that names it.
             let sound = match named {
                 None => split == UNSPLIT,
                 Some(node) => node == index && index <= 2 * u32::from(split),
@@ -209,7 +209,7 @@ impl<'a> Triboxes<'a> {
             if !sound {
                 return Err(bad(index));
             }
-            // Nodes whose parent does not name the split would be beyond any descent.
+            // A descent would never reach nodes whose parent does not name the split.
             if let Some(parent) = self.parent(index) {
                 let names =
                     self.split_of(parent).is_some_and(|split| u32::from(split) == (index - 1) / 2);

@@ -1,4 +1,4 @@
-//! Where everything stands in the section of the triboxes.
+//! Sizes, limits, flags and offsets in the section of the triboxes.
 
 /// Bytes of the header of the tribox hierarchy.
 pub const TRIBOXES_BYTES: usize = 32;

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `layout` | sizes and limits of the section |
 //! | `view` | the hierarchy where it lies |
-//! | `check` | what `Triboxes::open` makes sure of |
+//! | `check` | the check of `Triboxes::open` |
 
 mod check;
 pub mod layout;

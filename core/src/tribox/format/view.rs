@@ -3,8 +3,8 @@
 //! If [`Triboxes::open`] returned `Ok`, then every node but the root is the child of exactly one
 //! node, which has a lesser number and whose parameters hold the child's, no node is more than
 //! [`MAX_TRIBOX_DEPTH`](super::layout::MAX_TRIBOX_DEPTH) splits deep, and every node's planes touch
-//! what is between them, so that its [boundary](Tribox::boundary) is exact. Accessors still return
-//! `Option`, and no path can panic.
+//! what is between them, so that its [boundary](Tribox::boundary) is exact. Accessors return
+//! `Option` all the same. No path can panic.
 
 use super::layout::{
     TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES, TRIBOXES_SOLID, field,
@@ -16,10 +16,10 @@ use crate::num::Radius16;
 use crate::tribox::bounds::Tribox;
 use crate::tribox::directions::{DIRECTIONS, FACES};
 
-/// Says that no split splits a node.
+/// Mark of a node that no split splits.
 pub(crate) const UNSPLIT: u16 = u16::MAX;
 
-/// What the hierarchy's header says.
+/// The hierarchy's header.
 ///
 /// *Units* are units of the triboxes' grid: local frame divided by `2^grid_exponent`. Parameter k
 /// of a node is its stored i16 plus direction k · `grid_origin`.
@@ -92,8 +92,8 @@ pub struct TriboxLevel {
     /// Formula (10) of the paper: no point of a tribox is farther than this from the convex hull
     /// of what it holds.
     pub error: f32,
-    /// The triboxes' volume over the solid's, less 1; 0 if the mesh bounds no solid. May be
-    /// negative where parts of the mesh overlap.
+    /// The triboxes' volume divided by the solid's, less 1. 0 if the mesh bounds no solid. May be
+    /// negative if parts of the mesh overlap.
     pub void_ratio: f32,
 }
 
@@ -178,8 +178,8 @@ impl<'a> Triboxes<'a> {
         self.planes_in_units(node).map(|planes| planes.map(|plane| plane as f32 * self.unit))
     }
 
-    /// A node's tribox, input units; exactly as stored. It holds the part of the mesh, and of the
-    /// solid, that is its own in real arithmetic. Tight.
+    /// A node's tribox, input units, exactly as stored and tight. In real arithmetic it holds the
+    /// node's part of the mesh and of the solid.
     #[inline]
     pub fn node(&self, node: u32) -> Option<Tribox> {
         let planes = self.planes(node)?;
@@ -225,22 +225,22 @@ impl<'a> Triboxes<'a> {
         Some(Radius16(u16::from_le_bytes(*bytes)).get())
     }
 
-    /// A length, rounded up where f32 ends.
+    /// A length, rounded up at the end of f32's range.
     fn in_input_units(&self, local: f32) -> f32 {
         let length = local * self.local;
         // Below f32's normal range the product may have been rounded down.
         if local > 0.0 && length < f32::MIN_POSITIVE { length.next_up() } else { length }
     }
 
-    /// Nodes that are not split, with their triboxes: together they hold the mesh. By rising
-    /// number. Cost: a look at each node.
+    /// Nodes that are not split, with their triboxes, by rising number. Together they hold the
+    /// mesh. Cost: in proportion to all nodes.
     pub fn leaves(self) -> impl Iterator<Item = (u32, Tribox)> + 'a {
         (0..self.node_count())
             .filter(move |&node| self.children(node).is_none())
             .filter_map(move |node| self.node(node).map(|tribox| (node, tribox)))
     }
 
-    /// The same hierarchy with at most so many leaves, at least one: as if no more splits were
+    /// The same hierarchy with at most `leaves` leaves, at least one, as if no more splits were
     /// stored.
     #[must_use]
     pub fn coarser(&self, leaves: u32) -> Triboxes<'a> {

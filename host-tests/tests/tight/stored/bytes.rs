@@ -4,7 +4,7 @@ use super::{mesh, of, options};
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit::assemble;
 use meshsweep::tight::chain;
-use meshsweep_core::{Blob, Bvh, Hull, OpenError, SectionKind, TightHulls};
+use meshsweep_core::{Blob, Bvh, OpenError, SectionKind, TightHulls};
 use meshsweep_host_tests::corrupt::{
     assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
 };
@@ -35,7 +35,7 @@ fn edited(edit: impl FnOnce(&mut [u8])) -> Result<(), OpenError> {
     edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
     seal(&mut bytes);
     let result = open(&bytes);
-    assert_eq!(Hull::open(&bytes).map(|_| ()), result, "a model is as strict");
+    assert_eq!(Blob::open(&bytes).map(|_| ()), result, "the whole blob is as strict");
     result
 }
 
