@@ -8,6 +8,7 @@ pub mod fuzz_targets;
 pub mod generate;
 pub mod golden;
 pub mod oracle;
+pub mod picture;
 pub mod scene;
 pub mod workload;
 
