@@ -26,8 +26,10 @@ pub type Face = Vec<DVec3>;
 pub struct Panel {
     /// Printed above it.
     pub title: String,
-    /// Drawn grey and whole. Both sides of a face show, as a mesh may be open.
+    /// Drawn grey.
     pub solid: Vec<Face>,
+    /// Whether the solid is closed: then only fronts show.
+    pub is_closed: bool,
     /// Drawn over it: fronts as blue glass with edges.
     pub glass: Vec<Face>,
     /// Drawn over it: fronts as blue walls with edges.
@@ -73,10 +75,16 @@ pub fn part(fixtures: &Path) -> Result<String, String> {
     let mesh = || faces(&subject.mesh);
     let count = subject.mesh.triangles.len();
     let panels = [
-        Panel { title: format!("{count} triangles"), solid: mesh(), ..Panel::default() },
+        Panel {
+            title: format!("{count} triangles"),
+            solid: mesh(),
+            is_closed: true,
+            ..Panel::default()
+        },
         Panel {
             title: format!("a tight hull of {} faces", hull.triangles.len()),
             solid: mesh(),
+            is_closed: true,
             glass: faces(&hull),
             ..Panel::default()
         },
@@ -109,7 +117,7 @@ pub fn svg(rows: &[Vec<Panel>]) -> String {
         for (column, panel) in (0i32..).zip(panels) {
             let _ =
                 writeln!(out, "<g transform=\"translate({} {})\">", PANEL * column, PANEL * row);
-            view.solid(&mut out, &panel.solid);
+            view.solid(&mut out, &panel.solid, panel.is_closed);
             view.blue(&mut out, &panel.walls, "#9cc4dd", 1.0);
             view.blue(&mut out, &panel.glass, "#0072b2", 0.22);
             let _ = writeln!(out, "<text x=\"32\" y=\"52\">{}</text>\n</g>", panel.title);
@@ -197,9 +205,12 @@ impl View {
 
     /// Faces that follow each other in one grey share a path. A stroke of the same grey hides the
     /// seams.
-    fn solid(&self, out: &mut String, faces: &[Face]) {
+    fn solid(&self, out: &mut String, faces: &[Face], is_closed: bool) {
         let mut last = None;
         for Seen { facing, corners } in self.seen(faces) {
+            if is_closed && facing <= 0.0 {
+                continue;
+            }
             let grey = (DARK + STEP * (STEPS * facing.abs()).round()) as u8;
             if last != Some(grey) {
                 let end = if last.is_some() { "\"/>\n" } else { "" };
