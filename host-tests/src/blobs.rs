@@ -9,7 +9,7 @@ use meshsweep::cut::cut;
 use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
-use meshsweep_core::Hull;
+use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
 use meshsweep_suite::ask::{Refused, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
@@ -178,7 +178,19 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
         ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut lines);
     }
     ran.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))?;
-    Ok(lines.0 + "done\n")
+    let entries = Opened::open(blob).map_or(0, |opened| scratch_entries(&opened));
+    Ok(lines.0 + &format!("needs {}\ndone\n", entries * size_of::<ScratchEntry>()))
+}
+
+/// Entries that no query to the blob's structures outgrows.
+fn scratch_entries(blob: &Opened<'_>) -> usize {
+    let all = [
+        blob.bvh().map(|bvh| bvh.scratch_entries()),
+        blob.hull().map(|hull| hull.scratch_entries()),
+        blob.triboxes().map(|triboxes| triboxes.scratch_entries()),
+        blob.tight_hulls().map(|hulls| hulls.finest().map_or(0, |hull| hull.scratch_entries())),
+    ];
+    all.into_iter().flatten().max().unwrap_or(0)
 }
 
 struct Lines(String);

@@ -192,7 +192,7 @@ fn lint(cross: &Cross, course: &Course) -> Result<(), String> {
 
 /// `cargo SUBCOMMAND` for these images.
 fn cargo(cross: &Cross, subcommand: &str, profile: Profile) -> std::process::Command {
-    let mut command = images::cargo(cross, subcommand, BOARD.target, profile);
+    let mut command = images::cargo(cross, subcommand, &[BOARD.target], profile);
     command.current_dir(workspace::root().join("host-tests/lab/rival-firmware"));
     command.env("CARGO_TARGET_DIR", folder(cross));
     if matches!(cross, Cross::Debian { .. }) {

@@ -44,6 +44,16 @@ impl Blob {
     pub const VARIANTS: [Self; 5] =
         [hull("grid16"), hull("grid24"), hull("cut"), tree("single_tree"), tree("soup_tree")];
 
+    /// The blob of a name.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn named(name: &str) -> Result<Self, String> {
+        let standard = [Flash::Small, Flash::Large].into_iter().flat_map(Self::standard);
+        let mut all = standard.chain(Self::VARIANTS);
+        all.find(|blob| blob.name == name).ok_or_else(|| format!("no blob `{name}`"))
+    }
+
     /// How the image is optimised for a part with so much flash. All questions to a box tree,
     /// compiled for speed, are more than 256 KiB.
     #[must_use]

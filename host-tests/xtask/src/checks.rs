@@ -43,6 +43,16 @@ pub fn run(steps: &mut Steps) {
     });
 }
 
+/// Lints and tests of the laboratory, whose peers take longer to build than the library.
+pub fn of_lab(steps: &mut Steps) {
+    let package = ["--package", "meshsweep-lab"];
+    steps.run("lints of the laboratory", || {
+        let mut command = cargo(&["clippy", "--quiet", "--all-targets"]);
+        process::run(command.args(package).args(["--", "-D", "warnings"]))
+    });
+    steps.run("tests of the laboratory", || process::run(cargo(&["test"]).args(package)));
+}
+
 /// Hands the words to the laboratory, which is built as users build the library.
 pub fn lab(words: &[&str]) -> ExitCode {
     let mut command = cargo(&["run", "--quiet", "--release", "--package", "meshsweep-lab", "--"]);

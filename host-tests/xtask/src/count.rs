@@ -3,12 +3,14 @@
 //! Times on a busy machine are noise; instructions are not. The host's program runs in the
 //! simulator twice, with different numbers of queries: the difference is the queries' alone.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::host;
 use crate::process;
 use crate::steps::Steps;
 use crate::table::{Cell, Table, fixed};
+use crate::tables;
 use crate::valgrind::Valgrind;
 
 /// Questions by their words on the host program's command line.
@@ -49,16 +51,22 @@ const LIMITS: [(&str, f64); 6] = [
 const QUERIES: [u32; 2] = [500, 2500];
 
 /// Costs of one query, in mean.
-struct Each {
-    instructions: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct Each {
+    /// Instructions.
+    pub instructions: f64,
     nodes: f64,
     leaves: f64,
 }
 
+/// Counted questions by their words.
+pub type Counts = BTreeMap<&'static str, Each>;
+
 /// Counts all questions and prints the table.
 pub fn run(steps: &mut Steps) {
-    let Some(valgrind) = Valgrind::find() else { return };
-    let Some(program) = steps.run("the host's program", host::optimised) else { return };
+    let limited = LIMITS.iter().map(|(question, _)| *question);
+    let all: Vec<&'static str> = QUESTIONS.into_iter().chain(limited).collect();
+    let Some(counts) = counted(steps, &all) else { return };
     let columns = ["question", "instructions"];
     let mut table = Table::new(
         "instructions",
@@ -66,9 +74,7 @@ pub fn run(steps: &mut Steps) {
         &columns,
     );
     for question in QUESTIONS {
-        let counted =
-            steps.run(&format!("count {question}"), || each(&valgrind, &program, question));
-        let cell = counted.map_or(Cell::Empty, |each| fixed(each.instructions, 0));
+        let cell = counts.get(question).map_or(Cell::Empty, |each| fixed(each.instructions, 0));
         table.push(vec![Cell::from(question), cell]);
     }
     table.note(
@@ -79,25 +85,44 @@ pub fn run(steps: &mut Steps) {
         "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
     );
     say!("{}", table.text());
-    check_lanes(steps);
+    check_lanes(steps, &counts);
 }
 
-/// That node and leaf take few enough instructions to be vector code. Skipped, with a line that
-/// says so, where nothing can be counted.
-pub fn check_lanes(steps: &mut Steps) {
+/// What a test counts: the questions of lanes and of tables.
+pub fn for_test(steps: &mut Steps) -> Option<Counts> {
+    let limited = LIMITS.iter().map(|(question, _)| *question);
+    counted(steps, &limited.chain(tables::QUESTIONS).collect::<Vec<_>>())
+}
+
+/// Counts questions, on all cores. `None`, with a line that says so, where nothing can be counted.
+fn counted(steps: &mut Steps, questions: &[&'static str]) -> Option<Counts> {
+    let valgrind = Valgrind::find()?;
+    let program = steps.run("the host's program, optimised", host::optimised)?;
+    let mut questions = questions.to_vec();
+    questions.sort_unstable();
+    questions.dedup();
+    steps.run("count instructions", || {
+        let all = process::parallel(&questions, |question| each(&valgrind, &program, question));
+        let pairs = questions.iter().zip(all);
+        pairs.map(|(question, (each, _))| Ok((*question, each?))).collect()
+    })
+}
+
+/// That node and leaf take few enough instructions to be vector code.
+pub fn check_lanes(steps: &mut Steps, counts: &Counts) {
     if cfg!(not(target_arch = "x86_64")) {
         say!("── lanes are vectors\n   skipped: the limits are those of x86-64");
         return;
     }
-    let Some(valgrind) = Valgrind::find() else { return };
-    let Some(program) = steps.run("the host's program", host::optimised) else { return };
     steps.run("lanes are vectors", || {
         let columns =
             ["question", "instructions a query", "nodes", "leaves", "instructions each", "limit"];
         let mut table = Table::new("lanes", "Instructions a node or leaf, this machine", &columns);
         let mut beyond = Vec::new();
         for (question, limit) in LIMITS {
-            let Each { instructions, nodes, leaves } = each(&valgrind, &program, question)?;
+            let each =
+                counts.get(question).ok_or_else(|| format!("`{question}` is not counted"))?;
+            let Each { instructions, nodes, leaves } = *each;
             let cost = instructions / (nodes + leaves);
             if cost > limit {
                 beyond.push(format!(
@@ -120,18 +145,18 @@ pub fn check_lanes(steps: &mut Steps) {
 
 /// The difference of two runs.
 fn each(valgrind: &Valgrind, program: &Path, question: &str) -> Result<Each, String> {
-    let [few, many] = QUERIES.map(|queries| counted(valgrind, program, question, queries));
-    let ([few, more_nodes, more_triangles, a_leaf], [many, nodes, triangles, _]) = (few?, many?);
+    let [few, many] = QUERIES.map(|queries| simulated(valgrind, program, question, queries));
+    let ([few, few_nodes, few_triangles, a_leaf], [many, nodes, triangles, _]) = (few?, many?);
     let each = |many: f64, few: f64| (many - few) / f64::from(QUERIES[1] - QUERIES[0]);
     Ok(Each {
         instructions: each(many, few),
-        nodes: each(nodes, more_nodes),
-        leaves: each(triangles, more_triangles) / a_leaf,
+        nodes: each(nodes, few_nodes),
+        leaves: each(triangles, few_triangles) / a_leaf,
     })
 }
 
 /// Instructions of a run, nodes and triangles that its queries looked at, and triangles of a leaf.
-fn counted(
+fn simulated(
     valgrind: &Valgrind,
     program: &Path,
     question: &str,

@@ -88,8 +88,9 @@ impl Cross {
         Ok(Self::Debian { linker: linker(&rust)?, rust })
     }
 
-    /// `cargo SUBCOMMAND --target TARGET`, at home in the firmware's workspace.
-    pub fn cargo(&self, subcommand: &str, target: &str) -> Command {
+    /// `cargo SUBCOMMAND --target TARGET...`, at home in the firmware's workspace.
+    #[must_use]
+    pub fn cargo(&self, subcommand: &str, targets: &[&str]) -> Command {
         let mut command = match self {
             Self::Installed => Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into())),
             Self::Debian { rust, linker } => {
@@ -101,14 +102,19 @@ impl Cross {
                 command.env("RUSTC", rust.path("usr/bin/rustc"));
                 // Building std is not stable yet, and there is no other way to it without rustup.
                 command.env("RUSTC_BOOTSTRAP", "1");
-                let variable = target.replace(['-', '.'], "_").to_uppercase();
-                command.env(format!("CARGO_TARGET_{variable}_LINKER"), linker);
+                for target in targets {
+                    let variable = target.replace(['-', '.'], "_").to_uppercase();
+                    command.env(format!("CARGO_TARGET_{variable}_LINKER"), linker);
+                }
                 command
             }
         };
         // Flags for the host, such as a target CPU, would be wrong here.
         command.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS");
-        command.args([subcommand, "--target", target]);
+        command.arg(subcommand);
+        for target in targets {
+            command.args(["--target", target]);
+        }
         if matches!(self, Self::Debian { .. }) {
             command.arg("-Zbuild-std=core");
         }

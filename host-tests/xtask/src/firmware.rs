@@ -1,12 +1,13 @@
 //! The firmware's part: same bits on every board, no panic, sizes and costs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::blobs::Blob;
 use crate::boards::{BOARDS, Board};
 use crate::cost::{self, Added, Measured, Row};
 use crate::cross::Cross;
 use crate::images::{self, Profile};
+use crate::process;
 use crate::qemu::Qemu;
 use crate::reading::Reading;
 use crate::steps::Steps;
@@ -26,59 +27,108 @@ pub fn setup(steps: &mut Steps) -> Option<Tools> {
     Some(Tools { cross: cross?, qemu: qemu? })
 }
 
+/// An image of the suite, built for one board.
+struct Image {
+    board: Board,
+    blob: Blob,
+    file: PathBuf,
+}
+
 /// Runs all of it; prints the table, and writes it to `json`.
-pub fn run(steps: &mut Steps, tools: &Tools, json: Option<&Path>) {
+pub fn run(steps: &mut Steps, tools: &Tools, json: Option<&Path>) -> Vec<Row> {
+    let Tools { cross, qemu } = tools;
     if steps.run("the host's answers", blobs::write).is_none() {
-        return;
+        return Vec::new();
     }
-    let rows: Vec<Row> = BOARDS.iter().map(|board| on_board(steps, tools, board)).collect();
+    let Some(images) = steps.run("images of the suite", || suites(cross)) else {
+        return Vec::new();
+    };
+    // The emulator runs while the other images are built.
+    let readings = std::thread::scope(|scope| {
+        let readings = scope.spawn(|| {
+            process::parallel(&images, |Image { board, blob, file }| {
+                asked(qemu, board, file, &blob.expected()?)
+            })
+        });
+        built(steps, cross);
+        readings.join().unwrap_or_default()
+    });
+    let mut rows: Vec<Row> = BOARDS
+        .iter()
+        .map(|board| Row { board: *board, readings: Vec::new(), added: Vec::new() })
+        .collect();
+    for (Image { board, blob, .. }, (reading, seconds)) in images.iter().zip(readings) {
+        let name = format!("{}: the host's bits, {}", board.cpu, blob.name);
+        let reading = steps.ended(&name, seconds, reading);
+        let row = rows.iter_mut().find(|row| row.board.cpu == board.cpu);
+        if let (Some(reading), Some(row)) = (reading, row)
+            && Blob::standard(board.flash).contains(blob)
+        {
+            let profile = blob.profile(board.flash);
+            row.readings.push(Measured { blob: blob.name, profile, reading });
+        }
+    }
+    for row in &mut rows {
+        let name = format!("{}: sizes", row.board.cpu);
+        row.added = steps.run(&name, || sizes(cross, &row.board)).unwrap_or_default();
+    }
     say!("{}", cost::text(&rows));
     if let Some(file) = json {
         steps.run("write the table", || cost::write_json(&rows, file));
     }
+    rows
 }
 
-fn on_board(steps: &mut Steps, tools: &Tools, board: &Board) -> Row {
-    let Tools { cross, qemu } = tools;
-    let step = |what: &str| format!("{}: {what}", board.cpu);
-    let standard = Blob::standard(board.flash);
-    let mut readings = Vec::new();
-    for blob in standard {
-        let name = step(&format!("the host's bits, {}", blob.name));
-        let reading = steps.run(&name, || compared(cross, qemu, board, blob));
-        readings.extend(reading.map(|reading| Measured {
-            blob: blob.name,
-            profile: blob.profile(board.flash),
-            reading,
-        }));
-    }
-    for variant in Blob::VARIANTS {
-        let name = format!("the host's bits, {}", variant.name);
-        steps.run(&step(&name), || compared(cross, qemu, board, variant).map(drop));
-    }
+/// Lints, proofs, and the images whose size is measured.
+fn built(steps: &mut Steps, cross: &Cross) {
+    let targets = BOARDS.map(|board| board.target);
     if cross.has_clippy() {
-        steps.run(&step("lints"), || images::lint(cross, board.target, &standard[0].file()));
+        let [any, ..] = Blob::VARIANTS;
+        steps.run("lints of the images", || images::lint(cross, &targets, &any.file()));
     }
     for profile in Profile::ALL {
-        steps.run(&step(&format!("no panic, {}", profile.name())), || {
-            proof::holds(cross, board.target, profile)
-        });
+        let name = format!("no panic, {}", profile.name());
+        steps.run(&name, || proof::holds(cross, &targets, profile));
     }
-    steps.run(&step("a panic is noticed"), || {
-        proof::notices_a_panic(cross, board.target, Profile::Release)
-    });
-    let added = steps.run(&step("sizes"), || sizes(cross, board)).unwrap_or_default();
-    Row { board: *board, readings, added }
+    for board in BOARDS {
+        let name = format!("{}: a panic is noticed", board.cpu);
+        steps.run(&name, || proof::notices_a_panic(cross, board.target, Profile::Release));
+    }
+    for profile in Profile::ALL {
+        let names = size_images();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let name = format!("images for sizes, {}", profile.name());
+        steps.run(&name, || images::sizes(cross, &targets, profile, &names));
+    }
 }
 
-/// Runs the suite on a board; its answers are the host's bit by bit, or it is an error.
-fn compared(cross: &Cross, qemu: &Qemu, board: &Board, blob: Blob) -> Result<Reading, String> {
-    let profile = blob.profile(board.flash);
-    let image = images::suite(cross, board.target, profile, blob.image, &blob.file())?;
-    asked(qemu, board, &image, &blob.expected()?)
+/// Builds all images of the suite: one command for each blob and all boards that are asked about
+/// it.
+fn suites(cross: &Cross) -> Result<Vec<Image>, String> {
+    let mut asked: Vec<(Blob, Profile, Vec<Board>)> = Vec::new();
+    for board in BOARDS {
+        for blob in Blob::standard(board.flash).into_iter().chain(Blob::VARIANTS) {
+            let profile = blob.profile(board.flash);
+            match asked.iter_mut().find(|(b, p, _)| (*b, *p) == (blob, profile)) {
+                Some((.., boards)) => boards.push(board),
+                None => asked.push((blob, profile, vec![board])),
+            }
+        }
+    }
+    let mut images = Vec::new();
+    for (blob, profile, boards) in asked {
+        let targets: Vec<&str> = boards.iter().map(|board| board.target).collect();
+        let files = images::suite(cross, &targets, profile, blob.image, &blob.file())?;
+        let built = boards.into_iter().zip(files);
+        images.extend(built.map(|(board, file)| Image { board, blob, file }));
+    }
+    Ok(images)
 }
 
-/// The same for any blob: `expected` is what the host printed.
+/// Runs the suite about any blob on a board. Its answers are `expected`, the host's, bit by bit.
+///
+/// # Errors
+/// Other bits, or an image that does not build or end.
 pub fn reading(
     tools: &Tools,
     board: &Board,
@@ -86,8 +136,9 @@ pub fn reading(
     blob: &Path,
     expected: &str,
 ) -> Result<Reading, String> {
-    let image = images::suite(&tools.cross, board.target, Profile::Release, image, blob)?;
-    asked(&tools.qemu, board, &image, &Reading::parse(expected, None)?)
+    let files = images::suite(&tools.cross, &[board.target], Profile::Release, image, blob)?;
+    let file = files.first().ok_or("no image")?;
+    asked(&tools.qemu, board, file, &Reading::parse(expected, None)?)
 }
 
 fn asked(qemu: &Qemu, board: &Board, image: &Path, expected: &Reading) -> Result<Reading, String> {
@@ -96,27 +147,31 @@ fn asked(qemu: &Qemu, board: &Board, image: &Path, expected: &Reading) -> Result
     Ok(reading)
 }
 
+/// Questions whose code is measured, each by an image of its own.
+const QUESTIONS: [&str; 11] = [
+    "open",
+    "closest",
+    "segment",
+    "outer",
+    "tree_open",
+    "tree_closest",
+    "tree_alone",
+    "tree_segment",
+    "tree_session",
+    "triboxes",
+    "tight",
+];
+
+/// The image that asks nothing, then one for each question.
+fn size_images() -> Vec<String> {
+    ["empty"].iter().chain(&QUESTIONS).map(|question| format!("size_{question}")).collect()
+}
+
 fn sizes(cross: &Cross, board: &Board) -> Result<Vec<Added>, String> {
-    const QUESTIONS: [&str; 11] = [
-        "open",
-        "closest",
-        "segment",
-        "outer",
-        "tree_open",
-        "tree_closest",
-        "tree_alone",
-        "tree_segment",
-        "tree_session",
-        "triboxes",
-        "tight",
-    ];
     let mut added = Vec::new();
     for profile in Profile::ALL {
-        let names = QUESTIONS.map(|question| format!("size_{question}"));
-        let names: Vec<&str> =
-            std::iter::once("size_empty").chain(names.iter().map(String::as_str)).collect();
-        let images = images::sizes(cross, board.target, profile, &names)?;
-        let sizes = images.iter().map(|image| elf::size(image)).collect::<Result<Vec<_>, _>>()?;
+        let size = |name: &String| elf::size(&images::image(cross, board.target, profile, name));
+        let sizes = size_images().iter().map(size).collect::<Result<Vec<_>, _>>()?;
         if let [empty, others @ ..] = sizes.as_slice() {
             added.extend(QUESTIONS.iter().zip(others).map(|(question, size)| {
                 let size = size.beyond(*empty);

@@ -3,12 +3,13 @@
 //! ```text
 //! checks (fmt, clippy, tests, docs)
 //! host (the program of host-tests: blobs, expected answers, fixtures, counted questions)
-//! count ──── valgrind (callgrind) on host
+//! count ──── valgrind (callgrind) on host ─┐
+//!                                          ├─ tables (those of the documents)
 //! firmware ─┬ images ─ cross ───────┬─ toolbox (Debian packages, unpacked aside)
 //!           ├ qemu ─────────────────┘
 //!           ├ reading (what an image printed) ─ compared with the host's own run
 //!           ├ proof   (no panic left)
-//!           └ elf     (sizes) ─ cost
+//!           └ elf     (sizes) ─ cost ─────────┘
 //! ```
 
 #[macro_use]
@@ -30,6 +31,7 @@ pub mod qemu;
 pub mod reading;
 pub mod steps;
 pub mod table;
+pub mod tables;
 pub mod toolbox;
 pub mod valgrind;
 pub mod workspace;

@@ -4,15 +4,18 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use meshsweep_xtask::steps::Steps;
+use meshsweep_xtask::tables::Facts;
 use meshsweep_xtask::valgrind::Valgrind;
-use meshsweep_xtask::{checks, count, firmware, host, say};
+use meshsweep_xtask::{checks, count, firmware, host, say, tables};
 
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
+cargo xtask test lab                the laboratory's own lints and tests
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
-cargo xtask picture                 draws fixtures/part.svg anew, the picture of README.md
+cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
+cargo xtask tables                  writes the documents' tables of bytes and instructions anew
 cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
@@ -34,11 +37,15 @@ fn main() -> ExitCode {
             // First, because a new machine fails here, and the message tells the remedy.
             let tools = firmware::setup(&mut steps);
             checks::run(&mut steps);
-            count::check_lanes(&mut steps);
-            if let Some(tools) = tools {
-                firmware::run(&mut steps, &tools, None);
+            let counts = count::for_test(&mut steps);
+            if let Some(counts) = &counts {
+                count::check_lanes(&mut steps, counts);
             }
+            let run = |tools| firmware::run(&mut steps, &tools, None);
+            let rows = tools.map(run).unwrap_or_default();
+            tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
         }
+        ["test", "lab"] => checks::of_lab(&mut steps),
         ["firmware", rest @ ..] => {
             let json = match rest {
                 [] => None,
@@ -51,6 +58,14 @@ fn main() -> ExitCode {
         }
         [word @ ("fixtures" | "picture")] => {
             steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));
+        }
+        ["tables"] => {
+            let tools = firmware::setup(&mut steps);
+            let counts = count::for_test(&mut steps);
+            let run = |tools| firmware::run(&mut steps, &tools, None);
+            let rows = tools.map(run).unwrap_or_default();
+            let facts = Facts { counts: counts.as_ref(), rows: &rows };
+            steps.run("tables of the documents", || tables::write(&facts));
         }
         ["count"] => count::run(&mut steps),
         ["measure" | "race" | "rival", ..] => return checks::lab(&words),

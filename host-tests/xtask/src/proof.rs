@@ -46,30 +46,39 @@ const QUESTIONS: [&str; 34] = [
     "ask_tight_is_within",
 ];
 
-/// Links the proof image.
-pub fn holds(cross: &Cross, target: &str, profile: Profile) -> Result<(), String> {
-    let mut command = images::cargo(cross, "build", target, profile);
+/// Links the proof image for each target.
+///
+/// # Errors
+/// A query can panic, or the image lacks a question.
+pub fn holds(cross: &Cross, targets: &[&str], profile: Profile) -> Result<(), String> {
+    let mut command = images::cargo(cross, "build", targets, profile);
     let output = process::output(command.args(["--bin", "proof"]))?;
     if !output.status.success() {
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        return Err(if message.contains(UNDEFINED) {
-            places(cross, target, profile)
-        } else {
-            message
-        });
+        if !message.contains(UNDEFINED) {
+            return Err(message);
+        }
+        let told =
+            targets.iter().map(|target| format!("{target}: {}", places(cross, target, profile)));
+        return Err(told.collect::<Vec<_>>().join("\n"));
     }
-    let image = images::image(cross, target, profile, "proof");
-    for question in QUESTIONS {
-        if !elf::defines(&image, question)? {
-            return Err(format!("the proof image does not contain `{question}`"));
+    for target in targets {
+        let image = images::image(cross, target, profile, "proof");
+        for question in QUESTIONS {
+            if !elf::defines(&image, question)? {
+                return Err(format!("{target}: the proof image does not contain `{question}`"));
+            }
         }
     }
     Ok(())
 }
 
-/// Puts a panic into a query: the image must fail to link, for that reason and at that place.
+/// Puts a panic into a query: the image must fail to link, for that reason.
+///
+/// # Errors
+/// The image links, or fails for another reason.
 pub fn notices_a_panic(cross: &Cross, target: &str, profile: Profile) -> Result<(), String> {
-    let mut command = images::cargo(cross, "build", target, profile);
+    let mut command = images::cargo(cross, "build", &[target], profile);
     let output = process::output(command.args(["--bin", "proof", "--features", "inject_panic"]))?;
     let message = String::from_utf8_lossy(&output.stderr);
     if output.status.success() {
@@ -83,7 +92,7 @@ pub fn notices_a_panic(cross: &Cross, target: &str, profile: Profile) -> Result<
 
 /// Where the panics come from: read from an image that is allowed to have them.
 fn places(cross: &Cross, target: &str, profile: Profile) -> String {
-    let mut command = images::cargo(cross, "build", target, profile);
+    let mut command = images::cargo(cross, "build", &[target], profile);
     let built = process::capture(command.args(["--bin", "proof", "--features", "name_panics"]));
     let found =
         built.and_then(|_| elf::panic_places(&images::image(cross, target, profile, "proof")));

@@ -39,8 +39,10 @@ pub struct Reading {
     pub blocks: Vec<Block>,
     /// Costs in the order of asking.
     pub costs: Vec<Cost>,
-    /// Bytes of memory that the caller hands to queries.
+    /// Bytes of memory that the image hands to queries.
     pub scratch: u32,
+    /// Bytes of scratch that no query outgrows, as the blob says.
+    pub needs: u32,
 }
 
 impl Reading {
@@ -56,6 +58,7 @@ impl Reading {
             match words.as_slice() {
                 ["blob", bytes, hash] => reading.blob = format!("{bytes} {hash}"),
                 ["scratch", bytes] => reading.scratch = number(bytes)?,
+                ["needs", bytes] => reading.needs = number(bytes)?,
                 ["calibration", instructions, ticks] => {
                     let board = board.ok_or("the host has no counter")?;
                     check_rate(number(instructions)?, number(ticks)?, board)?;
@@ -95,6 +98,14 @@ impl Reading {
         } else {
             Err(format!("the image stopped before it was done:\n{printed}"))
         }
+    }
+
+    /// Bytes of the blob.
+    ///
+    /// # Errors
+    /// The reading has no line of it.
+    pub fn bytes(&self) -> Result<u64, String> {
+        number(self.blob.split(' ').next().unwrap_or_default())
     }
 
     /// Compares the bits of all answers with another run's.

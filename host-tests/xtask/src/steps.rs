@@ -3,11 +3,15 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// What was run so far.
+/// Steps from which on the summary lists the times.
+const MANY: usize = 8;
+
+/// The steps so far.
 #[derive(Debug, Default)]
 pub struct Steps {
     passed: usize,
     failed: Vec<String>,
+    times: Vec<(String, f64)>,
 }
 
 impl Steps {
@@ -23,7 +27,12 @@ impl Steps {
         say!("── {name}");
         let begun = Instant::now();
         let result = step();
-        let seconds = begun.elapsed().as_secs_f64();
+        self.ended(name, begun.elapsed().as_secs_f64(), result)
+    }
+
+    /// A step that ran beside others.
+    pub fn ended<T>(&mut self, name: &str, seconds: f64, result: Result<T, String>) -> Option<T> {
+        self.times.push((name.to_owned(), seconds));
         match result {
             Ok(value) => {
                 say!("   {name}: ok ({seconds:.1} s)");
@@ -40,6 +49,12 @@ impl Steps {
 
     /// Prints the summary; the exit code tells whether every step passed.
     pub fn finish(self) -> ExitCode {
+        if self.times.len() >= MANY {
+            say!("\nseconds  step");
+            for (name, seconds) in self.times.iter().filter(|(_, seconds)| *seconds >= 1.0) {
+                say!("{seconds:>7.1}  {name}");
+            }
+        }
         for name in &self.failed {
             say!("failed: {name}");
         }

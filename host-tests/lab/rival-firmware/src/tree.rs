@@ -1,7 +1,9 @@
 //! The box tree as a program would use it: the blob read where it lies, stacks that the caller
 //! owns.
 
-use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Facing, FirstHit, OpenError, ScratchEntry};
+use meshsweep_core::{
+    Budget, Bvh, ClosestPoint, CoherentQuery, Facing, FirstHit, OpenError, ScratchEntry,
+};
 
 /// Entries of the stack: what trees of so many triangles ask for, and some more.
 const STACK: usize = 64;
@@ -48,7 +50,7 @@ impl BoxTree {
     pub fn follow(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
         Some(
             self.session
-                .closest_point(&self.tree, point, &Budget::EXACT, &mut self.stack)
+                .closest_point(&self.tree, point, Budget::EXACT, &mut self.stack)
                 .ok()?
                 .closest,
         )

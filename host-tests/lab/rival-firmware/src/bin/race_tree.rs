@@ -7,8 +7,8 @@ mod carried;
 #[path = "../tree.rs"]
 mod tree;
 
-use meshsweep_core::internal::num::root;
 use meshsweep_core::ClosestPoint;
+use meshsweep_core::internal::num::sqrt_approx;
 use meshsweep_rival_firmware::race::{self, Engine};
 use tree::BoxTree;
 
@@ -32,7 +32,7 @@ impl Engine for Asked {
     fn distance(point: [f32; 3], closest: &Option<ClosestPoint>) -> f32 {
         let Some(closest) = closest else { return f32::NAN };
         let [x, y, z]: [f32; 3] = core::array::from_fn(|axis| point[axis] - closest.point[axis]);
-        root(x * x + y * y + z * z)
+        sqrt_approx(x * x + y * y + z * z)
     }
 
     fn first_hit(&mut self, a: [f32; 3], b: [f32; 3]) -> Option<f32> {

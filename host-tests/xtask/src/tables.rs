@@ -1,0 +1,328 @@
+//! Tables of the documents, between `<!-- table: NAME -->` and `<!-- end -->`: written by
+//! `cargo xtask tables`, compared by `cargo xtask test`.
+//!
+//! Only numbers that repeat are here: bytes and instructions. Bytes have to be equal. Instructions
+//! and code sizes depend on the compiler too, so they may differ by 2 %.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::blobs::Blob;
+use crate::cost::Row;
+use crate::count::Counts;
+use crate::images::Profile;
+use crate::steps::Steps;
+use crate::workspace;
+
+/// Documents with such tables.
+const DOCUMENTS: [&str; 5] = [
+    "README.md",
+    "core/DESIGN.md",
+    "core/docs/guide.md",
+    "core/docs/measured.md",
+    "host-tests/README.md",
+];
+
+/// Questions that a table needs counted.
+pub const QUESTIONS: [&str; 6] = [
+    "tree bracket.stl far",
+    "tree bracket.stl near",
+    "tree bracket.stl first_hit",
+    "far",
+    "near",
+    "first_hit",
+];
+
+/// Part by which a count may differ from the written one.
+const TOLERANCE: f64 = 0.02;
+
+/// Everything that tables are made of.
+pub struct Facts<'a> {
+    /// Instructions on this machine.
+    pub counts: Option<&'a Counts>,
+    /// The boards' rows; none if there are no boards.
+    pub rows: &'a [Row],
+}
+
+/// A cell and whether its numbers have to be equal.
+struct Cell {
+    text: String,
+    is_exact: bool,
+}
+
+fn words(text: impl Into<String>) -> Cell {
+    Cell { text: text.into(), is_exact: true }
+}
+
+fn bytes(count: u64) -> Cell {
+    words(thousands(count))
+}
+
+fn about(counts: &[f64]) -> Cell {
+    let texts: Vec<String> = counts.iter().map(|count| thousands(count.round() as u64)).collect();
+    Cell { text: texts.join(" / "), is_exact: false }
+}
+
+/// `1234567` as `1,234,567`.
+fn thousands(count: u64) -> String {
+    let digits = count.to_string();
+    let first = (digits.len() - 1) % 3 + 1;
+    let mut text = digits[..first].to_owned();
+    for group in digits.as_bytes()[first..].chunks(3) {
+        text.push(',');
+        text.extend(group.iter().map(|digit| char::from(*digit)));
+    }
+    text
+}
+
+/// The table of a name: heading and rows. `None` where the facts for it are missing.
+fn table(name: &str, facts: &Facts<'_>) -> Result<Option<Vec<Vec<Cell>>>, String> {
+    let columns = |names: &[&str]| names.iter().map(|name| words(*name)).collect::<Vec<Cell>>();
+    let mut lines = Vec::new();
+    match name {
+        "structures" => {
+            let Some(counts) = facts.counts else { return Ok(None) };
+            lines.push(columns(&[
+                "structure",
+                "bytes of the blob",
+                "scratch, bytes",
+                "instructions of a closest point, far / near",
+                "of a first hit",
+            ]));
+            for (title, blob, prefix) in [
+                ("box tree, `--for closest,segment`", "bracket_tree", "tree bracket.stl "),
+                ("hull hierarchy, `--for hull`", "bracket", ""),
+            ] {
+                let expected = Blob::named(blob)?.expected()?;
+                let count = |kind: &str| {
+                    let question = format!("{prefix}{kind}");
+                    let each = counts.get(question.as_str());
+                    each.map(|each| each.instructions).ok_or(format!("no count of `{question}`"))
+                };
+                lines.push(vec![
+                    words(title),
+                    bytes(expected.bytes()?),
+                    bytes(expected.needs.into()),
+                    about(&[count("far")?, count("near")?]),
+                    about(&[count("first_hit")?]),
+                ]);
+            }
+        }
+        "firmware_bvh" => {
+            let kinds = ["closest_far", "closest_near", "first_hit", "within", "signed"];
+            lines.push(columns(&[
+                "box tree",
+                "closest, far",
+                "closest, near",
+                "first hit",
+                "closer than d",
+                "signed",
+                "code of closest point, bytes",
+            ]));
+            lines.extend(on_boards(facts.rows, 1, &kinds, "tree_alone")?);
+        }
+        "firmware_hull" => {
+            let kinds = ["closest_far", "closest_near", "first_hit", "outer_hits"];
+            lines.push(columns(&[
+                "hull hierarchy",
+                "closest, far",
+                "closest, near",
+                "first hit",
+                "outer hits",
+                "code of closest point and opening, bytes",
+            ]));
+            lines.extend(on_boards(facts.rows, 0, &kinds, "closest")?);
+        }
+        _ => return Err(format!("no command writes a table `{name}`")),
+    }
+    Ok((lines.len() > 1).then_some(lines))
+}
+
+/// A line for each board: mean instructions of questions to one of its standard blobs, and the code
+/// of one question.
+fn on_boards(
+    rows: &[Row],
+    standard: usize,
+    kinds: &[&str],
+    code: &str,
+) -> Result<Vec<Vec<Cell>>, String> {
+    let line = |row: &Row| {
+        let blob = Blob::standard(row.board.flash)[standard].name;
+        let measured = row.readings.iter().find(|measured| measured.blob == blob);
+        let measured = measured.ok_or_else(|| format!("{}: no {blob}", row.board.cpu))?;
+        let mut line = vec![words(row.board.cpu)];
+        for kind in kinds {
+            let cost = measured.reading.costs.iter().find(|cost| cost.kind == *kind);
+            line.push(about(&[cost.ok_or_else(|| format!("{blob}: no {kind}"))?.mean]));
+        }
+        let added = row
+            .added
+            .iter()
+            .find(|added| added.question == code && added.profile == Profile::Release);
+        let size = added.ok_or_else(|| format!("{}: no size of {code}", row.board.cpu))?.size;
+        line.push(about(&[(size.text + size.rodata) as f64]));
+        Ok(line)
+    };
+    rows.iter().map(line).collect()
+}
+
+/// Writes all tables anew.
+///
+/// # Errors
+/// A document that cannot be written, or a table that no command writes.
+pub fn write(facts: &Facts<'_>) -> Result<(), String> {
+    for (path, text) in documents()? {
+        let mut out = String::new();
+        for part in parts(&text) {
+            match part {
+                Part::Prose(prose) => out.push_str(prose),
+                Part::Table { name, written } => match table(name, facts)? {
+                    Some(lines) => out.push_str(&markdown(&lines)),
+                    None => {
+                        say!("   {}: no facts for table {name}", path.display());
+                        out.push_str(written);
+                    }
+                },
+            }
+        }
+        fs::write(&path, out).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Compares all tables with the facts; a table whose facts are missing is passed over.
+pub fn check(steps: &mut Steps, facts: &Facts<'_>) {
+    steps.run("tables of the documents", || {
+        let mut stale = Vec::new();
+        for (path, text) in documents()? {
+            for part in parts(&text) {
+                let Part::Table { name, written } = part else { continue };
+                let Some(lines) = table(name, facts)? else {
+                    say!("   table {name}: nothing to compare it with");
+                    continue;
+                };
+                if let Err(reason) = compare(written, &lines) {
+                    stale.push(format!("{}: table {name}: {reason}", path.display()));
+                }
+            }
+        }
+        if stale.is_empty() {
+            return Ok(());
+        }
+        Err(format!("{}\nremedy: `cargo xtask tables`", stale.join("\n")))
+    });
+}
+
+fn documents() -> Result<Vec<(PathBuf, String)>, String> {
+    let read = |name: &&str| {
+        let path: PathBuf = workspace::root().join(Path::new(name));
+        let text = fs::read_to_string(&path);
+        text.map(|text| (path, text)).map_err(|error| format!("{name}: {error}"))
+    };
+    DOCUMENTS.iter().map(read).collect()
+}
+
+/// A piece of a document. Markers belong to the prose.
+enum Part<'a> {
+    Prose(&'a str),
+    Table { name: &'a str, written: &'a str },
+}
+
+fn parts(text: &str) -> Vec<Part<'_>> {
+    const BEGIN: &str = "<!-- table: ";
+    const CLOSE: &str = " -->\n";
+    const END: &str = "<!-- end -->";
+    let mut parts = Vec::new();
+    let mut rest = text;
+    while let Some((name, table, begun, ended)) = (|| {
+        let begin = rest.find(BEGIN)? + BEGIN.len();
+        let close = begin + rest[begin..].find(CLOSE)?;
+        let begun = close + CLOSE.len();
+        let ended = begun + rest[begun..].find(END)?;
+        Some((&rest[begin..close], &rest[begun..ended], begun, ended))
+    })() {
+        parts.push(Part::Prose(&rest[..begun]));
+        parts.push(Part::Table { name, written: table });
+        rest = &rest[ended..];
+    }
+    parts.push(Part::Prose(rest));
+    parts
+}
+
+fn markdown(lines: &[Vec<Cell>]) -> String {
+    let mut out = String::new();
+    for (index, line) in lines.iter().enumerate() {
+        let texts: Vec<&str> = line.iter().map(|cell| cell.text.as_str()).collect();
+        out.push_str(&format!("| {} |\n", texts.join(" | ")));
+        if index == 0 {
+            out.push_str(&format!("|{}\n", " --- |".repeat(line.len())));
+        }
+    }
+    out
+}
+
+/// The first difference that counts.
+fn compare(written: &str, lines: &[Vec<Cell>]) -> Result<(), String> {
+    let rows: Vec<Vec<&str>> = written
+        .lines()
+        .filter(|line| !line.starts_with("| ---"))
+        .map(|line| line.trim().trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
+    if rows.len() != lines.len() {
+        return Err(format!("{} lines, not {}", rows.len(), lines.len()));
+    }
+    for (row, line) in rows.iter().zip(lines) {
+        if row.len() != line.len() {
+            return Err(format!("{} columns, not {}", row.len(), line.len()));
+        }
+        for (there, here) in row.iter().zip(line) {
+            let is_same = *there == here.text || (!here.is_exact && is_near(there, &here.text));
+            if !is_same {
+                return Err(format!("`{there}`, now `{}`", here.text));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether the numbers of two texts differ by no more than the tolerance.
+fn is_near(there: &str, here: &str) -> bool {
+    let numbers = |text: &str| -> Option<Vec<f64>> {
+        text.split('/').map(|number| number.trim().replace(',', "").parse().ok()).collect()
+    };
+    let (Some(there), Some(here)) = (numbers(there), numbers(here)) else { return false };
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= TOLERANCE * b;
+    there.len() == here.len() && there.iter().zip(&here).all(near)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Part, about, bytes, compare, markdown, parts, thousands, words};
+
+    #[test]
+    fn counts_may_drift_and_bytes_may_not() {
+        let lines = |count: u64, counts: &[f64]| {
+            vec![vec![words("what"), words("bytes")], vec![bytes(count), about(counts)]]
+        };
+        let written = markdown(&lines(27_524, &[1000.0, 2000.0]));
+        assert_eq!(written, "| what | bytes |\n| --- | --- |\n| 27,524 | 1,000 / 2,000 |\n");
+        assert_eq!(compare(&written, &lines(27_524, &[1015.0, 1970.0])), Ok(()));
+        assert!(compare(&written, &lines(27_524, &[1030.0, 2000.0])).is_err());
+        assert!(compare(&written, &lines(27_525, &[1000.0, 2000.0])).is_err());
+        assert_eq!([0, 999, 1000, 1_234_567].map(thousands), ["0", "999", "1,000", "1,234,567"]);
+    }
+
+    #[test]
+    fn a_document_falls_into_prose_and_tables() {
+        let text = "a\n<!-- table: t -->\n| x |\n<!-- end -->\nb\n";
+        let parts = parts(text);
+        assert!(matches!(parts[1], Part::Table { name: "t", written: "| x |\n" }));
+        let whole: String = parts
+            .iter()
+            .map(|part| match part {
+                Part::Prose(text) | Part::Table { written: text, .. } => *text,
+            })
+            .collect();
+        assert_eq!(whole, text);
+    }
+}
