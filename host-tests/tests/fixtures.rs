@@ -66,6 +66,17 @@ fn committed_hulls_are_what_the_builder_makes() {
 }
 
 #[test]
+fn the_core_packs_the_same_blobs() {
+    for name in ["bracket.msw", "groove.msw", "hulls.msw", "torus.msw"] {
+        let packed = read(&format!("../core/fixtures/{name}"));
+        assert!(
+            packed == read(name),
+            "core/fixtures/{name} is out of date: run `cargo xtask fixtures`"
+        );
+    }
+}
+
+#[test]
 fn answers_have_the_committed_bits() {
     let here = hull_answers("bracket.msw", &read("bracket.msw")).expect("opens")
         + &tree_answers("groove.msw", &read("groove.msw")).expect("opens")
