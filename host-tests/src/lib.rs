@@ -8,10 +8,12 @@ pub mod fuzz_targets;
 pub mod generate;
 pub mod golden;
 pub mod oracle;
+pub mod picture;
 pub mod scene;
 pub mod workload;
 
-/// The Rust blocks of `README.md`, run as tests.
+/// The Rust of `README.md`, run unchanged. Its path of a fixture starts in this folder, which is
+/// why `fixtures` is a link here.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 mod readme {}

@@ -218,13 +218,3 @@ fn tree_blob(
     let mesh = Mesh::new(positions.to_vec(), triangles.to_vec());
     build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options).0.to_bytes()
 }
-
-/// A value with some fields set: option structs of the library cannot be written as literals here.
-#[macro_export]
-macro_rules! with {
-    ($base:expr, $($field:ident: $value:expr),+ $(,)?) => {{
-        let mut all = $base;
-        $(all.$field = $value;)+
-        all
-    }};
-}

@@ -25,6 +25,15 @@ fn committed_tree_is_what_the_builder_makes() {
 }
 
 #[test]
+fn committed_picture_is_drawn_anew() {
+    let drawn = meshsweep_host_tests::picture::part(&folder()).expect("the hulls are there");
+    assert!(
+        read("part.svg") == drawn.as_bytes(),
+        "fixtures/part.svg is out of date: run `cargo xtask picture`"
+    );
+}
+
+#[test]
 fn committed_tree_opens_with_every_triangle_and_every_section() {
     let bytes = read("groove.msw");
     let tree = Bvh::open(&bytes).expect("opens");

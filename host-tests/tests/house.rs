@@ -21,13 +21,14 @@ const CORE: [(&str, &[&str]); 10] = [
 
 /// Folders that all structures of the builder may use.
 const BENEATH: &[&str] =
-    &["counted", "emit", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
+    &["counted", "emit", "error", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
 
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted`
-/// prints numbers. `cut` is above: it knows all structures.
-const BUILDER: [(&str, &[&str]); 13] = [
+/// prints numbers, `error` says why there is no blob. `cut` is above: it knows all structures.
+const BUILDER: [(&str, &[&str]); 14] = [
     ("counted", &[]),
     ("emit", &[]),
+    ("error", &[]),
     ("lp", &[]),
     ("mesh", &["counted"]),
     ("surface", &["counted", "lp", "mesh"]),
@@ -38,7 +39,10 @@ const BUILDER: [(&str, &[&str]); 13] = [
     ("tight", BENEATH),
     ("tribox", BENEATH),
     ("curve", BENEATH),
-    ("cut", &["counted", "emit", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"]),
+    (
+        "cut",
+        &["counted", "emit", "error", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
+    ),
 ];
 
 /// A module's path from its crate's root: `["bvh", "node"]`.
@@ -309,21 +313,19 @@ fn visibility(line: &str) -> (bool, &str) {
 /// The name of an item that a line begins to define.
 fn defined(line: &str) -> Option<String> {
     let mut words = line.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '!'));
-    loop {
-        match words.next()? {
-            "const" | "unsafe" | "extern" | "async" => {
-                // `const fn` and `const NAME` alike: the next word decides.
-                let next = words.next()?;
-                if next != "fn" {
-                    return Some(next.to_owned()).filter(|name| !name.is_empty());
-                }
-                return words.next().map(str::to_owned);
+    match words.next()? {
+        "const" | "unsafe" | "extern" | "async" => {
+            // `const fn` and `const NAME` alike: the next word decides.
+            let next = words.next()?;
+            if next != "fn" {
+                return Some(next.to_owned()).filter(|name| !name.is_empty());
             }
-            "fn" | "struct" | "enum" | "trait" | "type" | "static" | "union" | "macro_rules!" => {
-                return words.find(|word| !word.is_empty()).map(str::to_owned);
-            }
-            _ => return None,
+            words.next().map(str::to_owned)
         }
+        "fn" | "struct" | "enum" | "trait" | "type" | "static" | "union" | "macro_rules!" => {
+            words.find(|word| !word.is_empty()).map(str::to_owned)
+        }
+        _ => None,
     }
 }
 

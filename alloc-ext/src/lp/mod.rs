@@ -63,7 +63,7 @@ use glam::DVec3;
 pub use half_space::HalfSpace;
 use insertion::insert;
 pub use interval::Interval;
-use plane::Plane;
+use line::Plane;
 use tolerance::DESCENT;
 
 /// What a program came to.

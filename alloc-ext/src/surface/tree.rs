@@ -76,40 +76,6 @@ const FRONTIER: usize = 6;
 /// Seven entries wait at each of the eleven depths that 2^31 items have.
 const DEPTH: usize = 96;
 
-/// A search of the tree.
-pub(crate) trait Visitor {
-    /// The lanes whose boxes the search looks into, one bit each.
-    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32;
-
-    /// An item whose box was looked into; false ends the search.
-    fn item(&mut self, item: usize) -> bool;
-}
-
-/// The boxes of a node, as a [`Visitor`] sees them.
-#[derive(Clone, Copy)]
-pub(crate) struct NodeBoxes<'a> {
-    tree: &'a StaticTree,
-    node: &'a Node,
-}
-
-impl NodeBoxes<'_> {
-    /// The lanes whose boxes a probe reaches.
-    #[inline]
-    pub fn reached(self, probe: &Probe) -> u32 {
-        probe.hits(self.node)
-    }
-
-    /// The lanes whose boxes pass `keep`. The boxes are in the mesh's frame, larger by rounding.
-    #[inline]
-    pub fn kept(self, keep: impl Fn(&Bounds) -> bool) -> u32 {
-        let Self { tree, node } = self;
-        (0..WIDTH).fold(0, |lanes, lane| {
-            let passes = node.half[0][lane] >= 0.0 && keep(&tree.in_mesh_frame(node, lane));
-            lanes | u32::from(passes) << lane
-        })
-    }
-}
-
 impl StaticTree {
     /// Of items with these boxes. Cost: n log n.
     pub fn new(boxes: &[Bounds]) -> Self {
@@ -211,29 +177,34 @@ impl StaticTree {
         }
     }
 
-    /// Runs a search below a frontier; whether it was not ended.
+    /// Calls `item` with the items below nodes whose boxes pass, until it returns false; whether it
+    /// never did. `lanes` gives the lanes of a node that pass, one bit each. `state` belongs to
+    /// both.
     #[inline]
-    pub fn visit(&self, near: &Frontier, visitor: &mut impl Visitor) -> bool {
-        near.0.iter().all(|&root| self.visit_below(root, visitor))
-    }
-
-    #[inline]
-    fn visit_below(&self, root: u32, visitor: &mut impl Visitor) -> bool {
+    fn visit<S>(
+        &self,
+        near: &[u32],
+        state: &mut S,
+        lanes: impl Fn(&S, &Node) -> u32,
+        mut item: impl FnMut(&mut S, usize) -> bool,
+    ) -> bool {
         let mut stack = [0u32; DEPTH];
-        stack[0] = root;
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let node = &self.nodes[stack[height] as usize];
-            let mut lanes = visitor.lanes(NodeBoxes { tree: self, node });
-            while lanes != 0 {
-                let entry = node.entry[lanes.trailing_zeros() as usize];
-                lanes &= lanes - 1;
-                if entry & ITEM == 0 {
-                    stack[height] = entry;
-                    height += 1;
-                } else if !visitor.item((entry ^ ITEM) as usize) {
-                    return false;
+        for &root in near {
+            stack[0] = root;
+            let mut height = 1;
+            while height > 0 {
+                height -= 1;
+                let node = &self.nodes[stack[height] as usize];
+                let mut lanes = lanes(state, node);
+                while lanes != 0 {
+                    let entry = node.entry[lanes.trailing_zeros() as usize];
+                    lanes &= lanes - 1;
+                    if entry & ITEM == 0 {
+                        stack[height] = entry;
+                        height += 1;
+                    } else if !item(state, (entry ^ ITEM) as usize) {
+                        return false;
+                    }
                 }
             }
         }
@@ -243,7 +214,7 @@ impl StaticTree {
     /// Calls `visit` with every item whose box meets `bounds`, and perhaps with others that are
     /// next to it, until it returns false; whether it never did.
     pub fn visit_meeting(&self, bounds: &Bounds, visit: impl FnMut(usize) -> bool) -> bool {
-        self.visit_below(0, &mut Reached { probe: self.probe(bounds, &[]), visit })
+        self.visit_reached(bounds, &[], visit)
     }
 
     /// As [`visit_meeting`](Self::visit_meeting), with the items whose boxes also reach planes.
@@ -251,21 +222,29 @@ impl StaticTree {
         &self,
         bounds: &Bounds,
         planes: &[Plane],
-        visit: impl FnMut(usize) -> bool,
+        mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
-        self.visit_below(0, &mut Reached { probe: self.probe(bounds, planes), visit })
+        let mut probe = self.probe(bounds, planes);
+        self.visit(&[0], &mut probe, Probe::hits, |_, item| visit(item))
     }
 
     /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and
-    /// perhaps with others, until it returns false; whether it never did.
+    /// perhaps with others, until it returns false; whether it never did. `keep` sees boxes in the
+    /// mesh's frame, larger by rounding.
     #[inline]
     pub fn visit_kept(
         &self,
         near: &Frontier,
         keep: impl Fn(&Bounds) -> bool,
-        visit: impl FnMut(usize) -> bool,
+        mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
-        self.visit(near, &mut Kept { keep, visit })
+        let lanes = |_: &(), node: &Node| {
+            (0..WIDTH).fold(0, |lanes, lane| {
+                let passes = node.half[0][lane] >= 0.0 && keep(&self.in_mesh_frame(node, lane));
+                lanes | u32::from(passes) << lane
+            })
+        };
+        self.visit(&near.0, &mut (), lanes, |(), item| visit(item))
     }
 
     /// Calls `visit` with every item below a frontier whose box a probe reaches. The plane that it
@@ -274,10 +253,15 @@ impl StaticTree {
     pub fn visit_raising(
         &self,
         near: &Frontier,
-        probe: Probe,
-        visit: impl FnMut(usize) -> Option<Plane>,
+        mut probe: Probe,
+        mut visit: impl FnMut(usize) -> Option<Plane>,
     ) {
-        self.visit(near, &mut Raising { tree: self, probe, visit });
+        self.visit(&near.0, &mut probe, Probe::hits, |probe, item| {
+            if let Some(plane) = visit(item) {
+                self.raise(probe, &plane);
+            }
+            true
+        });
     }
 
     /// The item of the least squared distance, as `distance_sq` gives it, and that square; the
@@ -328,73 +312,14 @@ impl StaticTree {
     }
 }
 
-/// Every item whose box a probe reaches.
-struct Reached<F> {
-    probe: Probe,
-    visit: F,
-}
-
-impl<F: FnMut(usize) -> bool> Visitor for Reached<F> {
-    #[inline]
-    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32 {
-        boxes.reached(&self.probe)
-    }
-
-    #[inline]
-    fn item(&mut self, item: usize) -> bool {
-        (self.visit)(item)
-    }
-}
-
-/// Every item whose box passes a test.
-struct Kept<K, F> {
-    keep: K,
-    visit: F,
-}
-
-impl<K: Fn(&Bounds) -> bool, F: FnMut(usize) -> bool> Visitor for Kept<K, F> {
-    #[inline]
-    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32 {
-        boxes.kept(&self.keep)
-    }
-
-    #[inline]
-    fn item(&mut self, item: usize) -> bool {
-        (self.visit)(item)
-    }
-}
-
-/// Every item whose box a probe reaches that rises with the items.
-struct Raising<'a, F> {
-    tree: &'a StaticTree,
-    probe: Probe,
-    visit: F,
-}
-
-impl<F: FnMut(usize) -> Option<Plane>> Visitor for Raising<'_, F> {
-    #[inline]
-    fn lanes(&self, boxes: NodeBoxes<'_>) -> u32 {
-        boxes.reached(&self.probe)
-    }
-
-    #[inline]
-    fn item(&mut self, item: usize) -> bool {
-        if let Some(plane) = (self.visit)(item) {
-            self.tree.raise(&mut self.probe, &plane);
-        }
-        true
-    }
-}
-
 impl Node {
     /// For each lane the square of a distance, in the tree's frame, that no point of its box is
     /// nearer than.
     fn distances_sq(&self, p: DVec3) -> [f64; WIDTH] {
-        let p = p.to_array();
         let mut sum = [0.0; WIDTH];
-        for axis in 0..3 {
+        for (axis, p) in p.to_array().into_iter().enumerate() {
             for (lane, sum) in sum.iter_mut().enumerate() {
-                let off = (f64::from(self.middle[axis][lane]) - p[axis]).abs()
+                let off = (f64::from(self.middle[axis][lane]) - p).abs()
                     - f64::from(self.half[axis][lane])
                     - SLACK;
                 let off = if off > 0.0 { off } else { 0.0 };

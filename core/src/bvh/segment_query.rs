@@ -76,8 +76,8 @@ impl SegmentQuery {
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
-        // One grid unit is added to the distance: the origin of a node that is flat, or thinner than
-        // a grid unit, is an integer.
+        // One grid unit is added to the distance: the origin of a node that is flat, or thinner
+        // than a grid unit, is an integer.
         let margin = |far: f32| surface + (BOX_ENTRY * U32 * far + BOX_ENTRY * U32);
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };

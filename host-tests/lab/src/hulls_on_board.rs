@@ -1,10 +1,10 @@
 //! Tight hulls on a Cortex-M4F: bytes, memory, and instructions of a conservative "closer than d?",
 //! by the number of faces.
 
+use meshsweep_core::{Blob, TightHulls};
 use std::path::Path;
 
 use meshsweep::tight::{ChainOptions, chain, cut};
-use meshsweep_core::{Blob, TightHulls};
 use meshsweep_host_tests::blobs::expected;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_lab::measure::tight::FACES;

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! host fixtures           writes fixtures/ anew
+//! host picture            draws fixtures/part.svg anew
 //! host blobs FOLDER       writes the firmware's blobs, each beside this machine's answers
 //! host ask QUESTION N     asks the first N queries of a question, for a simulator that counts
 //! ```
@@ -9,7 +10,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use meshsweep_host_tests::{blobs, counted, golden};
+use meshsweep_host_tests::{blobs, counted, golden, picture};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -17,13 +18,16 @@ fn main() -> ExitCode {
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures");
     let result = match words.as_slice() {
         ["fixtures"] => golden::write(&fixtures),
+        ["picture"] => picture::write(&fixtures),
         ["blobs", folder] => blobs::write(Path::new(folder)),
         ["ask", question, queries] => queries
             .parse()
             .map_err(|_| format!("`{queries}` is not a number"))
             .and_then(|queries| counted::ask(&fixtures, question, queries))
             .map(|line| println!("{line}")),
-        _ => Err("host fixtures | host blobs FOLDER | host ask QUESTION N".to_owned()),
+        _ => {
+            Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N".to_owned())
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -40,7 +40,7 @@ fn interval_contains_the_true_distance_on_every_mesh() {
         let mut rng = Rng::new(11);
         for p in scene.points(POINTS, &mut rng) {
             let answer = ask(&model, p, &Budget::EXACT, 4096);
-            contains(&scene, p, &answer, truth(&scene, p));
+            contains(scene, p, &answer, truth(scene, p));
             assert_eq!(answer.ended, Ended::Exact, "{}", scene.name);
         }
     }
@@ -91,7 +91,7 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
             );
             // The named triangle is one of the nearest.
             let named = distance_to_triangle(p, scene.corners(triangle));
-            let nearest = truth(&scene, p);
+            let nearest = truth(scene, p);
             let slack = 2.0 * stored + 1e-13 * (scene.reach() + named.upper);
             assert!(
                 named.lower <= nearest.upper + slack,
@@ -161,11 +161,11 @@ fn queue_of_the_named_capacity_never_overflows_and_any_longer_one_answers_alike(
         let capacity = model.scratch_entries();
         let mut rng = Rng::new(14);
         for p in scene.points(POINTS / 2, &mut rng) {
-            let nearest = truth(&scene, p);
+            let nearest = truth(scene, p);
             let answers = [10_000, 0, 1, 3, 7, 12, 20, 40, 90]
                 .map(|n| ask(&model, p, &Budget::EXACT, capacity + n));
             for answer in answers {
-                contains(&scene, p, &answer, nearest);
+                contains(scene, p, &answer, nearest);
                 assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
                 let same =
                     |a: &ClosestPoint| (a.triangle, a.point, a.distance.lower, a.distance.upper);
@@ -182,10 +182,10 @@ fn short_queue_still_contains_the_truth() {
         let model = scene.model();
         let mut rng = Rng::new(15);
         for p in scene.points(POINTS / 2, &mut rng) {
-            let nearest = truth(&scene, p);
+            let nearest = truth(scene, p);
             for length in [1, 2, 3, 8] {
                 let answer = ask(&model, p, &Budget::EXACT, length);
-                contains(&scene, p, &answer, nearest);
+                contains(scene, p, &answer, nearest);
                 assert!(matches!(answer.ended, Ended::Exact | Ended::Scratch), "{answer:?}");
                 overflowed += u32::from(answer.ended == Ended::Scratch);
             }
@@ -201,17 +201,17 @@ fn early_stop_still_contains_the_truth() {
         let size = scene.size();
         let mut rng = Rng::new(16);
         for p in scene.points(POINTS / 4, &mut rng) {
-            let nearest = truth(&scene, p);
+            let nearest = truth(scene, p);
             for steps in [0, 1, 2, 5, 20, 100] {
                 for length in [1, 4096] {
                     let answer = ask(&model, p, &Budget::EXACT.with_steps(steps), length);
-                    contains(&scene, p, &answer, nearest);
+                    contains(scene, p, &answer, nearest);
                     assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {
                 let answer = ask(&model, p, &Budget::EXACT.with_relative(relative), 4096);
-                contains(&scene, p, &answer, nearest);
+                contains(scene, p, &answer, nearest);
                 let (lower, upper) =
                     (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {
@@ -224,7 +224,7 @@ fn early_stop_still_contains_the_truth() {
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
                 let answer = ask(&model, p, &Budget::EXACT.with_absolute(absolute), 4096);
-                contains(&scene, p, &answer, nearest);
+                contains(scene, p, &answer, nearest);
                 let (lower, upper) =
                     (f64::from(answer.distance.lower), f64::from(answer.distance.upper));
                 if answer.ended == Ended::Tolerance && surface_error(&model) == 0.0 {

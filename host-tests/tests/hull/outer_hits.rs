@@ -63,7 +63,7 @@ fn first_outer_hit_is_the_first_hit() {
         let mut rng = Rng::new(31);
         let mut asked = 0;
         for _ in 0..200 {
-            let segment = from_outside(&scene, &mut rng);
+            let segment = from_outside(scene, &mut rng);
             let (outer, hits) = ask(&model, segment, Search::First, (words, 1024));
             if outer.starts_inside {
                 continue;
@@ -98,7 +98,7 @@ fn outer_search_names_only_true_hits_and_the_first_of_all() {
         let words = model.refined_words();
         let mut rng = Rng::new(32);
         for _ in 0..100 {
-            let segment = from_outside(&scene, &mut rng);
+            let segment = from_outside(scene, &mut rng);
             let (outer, hits) = ask(&model, segment, Search::Outer, (words, 1024));
             if outer.starts_inside {
                 continue;

@@ -102,11 +102,11 @@ fn first_hit_never_misses_and_never_invents() {
     for scene in exact() {
         let model = scene.model();
         let mut rng = Rng::new(21);
-        for segment in segments(&scene, 300, &mut rng) {
-            let contacts = truth(&scene, segment);
+        for segment in segments(scene, 300, &mut rng) {
+            let contacts = truth(scene, segment);
             let answer = ask(&model, segment, &Budget::EXACT, 4096);
             assert_eq!(answer.ended, Ended::Exact);
-            check_first(&scene, segment, &answer, &contacts);
+            check_first(scene, segment, &answer, &contacts);
             hits += usize::from(!contacts.is_empty());
         }
     }
@@ -118,10 +118,10 @@ fn on_a_moved_surface_a_hit_is_within_its_error() {
     for scene in all().iter().filter(|s| surface_error(&s.model()) > 0.0) {
         let model = scene.model();
         let mut rng = Rng::new(26);
-        for segment in segments(&scene, 300, &mut rng) {
-            let contacts = truth(&scene, segment);
+        for segment in segments(scene, 300, &mut rng) {
+            let contacts = truth(scene, segment);
             let answer = ask(&model, segment, &Budget::EXACT, 4096);
-            check_first(&scene, segment, &answer, &contacts);
+            check_first(scene, segment, &answer, &contacts);
             if let Some(hit) = answer.hit {
                 let corners = scene.corners(hit.triangle.expect("a whole blob"));
                 let gap = gap_to_triangle(segment.0, segment.1, corners);
@@ -142,16 +142,16 @@ fn stopping_early_or_short_memory_never_says_clear() {
         let model = scene.model();
         let capacity = model.scratch_entries();
         let mut rng = Rng::new(22);
-        for segment in segments(&scene, 60, &mut rng) {
-            let contacts = truth(&scene, segment);
+        for segment in segments(scene, 60, &mut rng) {
+            let contacts = truth(scene, segment);
             for steps in [0, 1, 5, 30] {
                 let answer = ask(&model, segment, &Budget::EXACT.with_steps(steps), 64);
-                check_first(&scene, segment, &answer, &contacts);
+                check_first(scene, segment, &answer, &contacts);
             }
             let exact = ask(&model, segment, &Budget::EXACT, 10_000);
             for length in [1, 2, 5, capacity, capacity + 1, capacity + 12, capacity + 50] {
                 let answer = ask(&model, segment, &Budget::EXACT, length);
-                check_first(&scene, segment, &answer, &contacts);
+                check_first(scene, segment, &answer, &contacts);
                 if length >= capacity {
                     assert_eq!(answer.ended, exact.ended);
                     assert_ne!(answer.ended, Ended::Scratch);
@@ -172,8 +172,8 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
     for scene in exact() {
         let model = scene.model();
         let mut rng = Rng::new(23);
-        for segment in segments(&scene, 200, &mut rng) {
-            let contacts = truth(&scene, segment);
+        for segment in segments(scene, 200, &mut rng) {
+            let contacts = truth(scene, segment);
             let mut hits = vec![Hit::EMPTY; scene.triangles.len()];
             let mut queue = vec![ScratchEntry::EMPTY; model.scratch_entries()];
             let found = model
@@ -193,7 +193,7 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
             for (hit, &triangle) in hits.iter().zip(&named) {
                 let gap = gap_to_triangle(segment.0, segment.1, scene.corners(triangle));
                 assert!(
-                    gap <= touch(&scene, segment),
+                    gap <= touch(scene, segment),
                     "{}: {segment:?}: {hit:?} is {gap:e} away",
                     scene.name
                 );
@@ -204,7 +204,7 @@ fn all_hits_are_exactly_the_triangles_that_meet_the_segment() {
                     // Where segment and triangle are nearly parallel the crossing is
                     // ill-conditioned in f64.
                     let steep = crossing_angle(segment, scene.corners(triangle));
-                    let lengths = touch(&scene, segment) / length(segment).max(f64::MIN_POSITIVE);
+                    let lengths = touch(scene, segment) / length(segment).max(f64::MIN_POSITIVE);
                     assert!(
                         off <= width + 1.2e-7 + lengths / steep,
                         "{}: {segment:?}: {hit:?} {c:?}",

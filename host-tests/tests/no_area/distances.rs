@@ -74,13 +74,13 @@ fn verdicts_of_being_within_a_distance_are_true() {
                 let within = tree.within(p, distance, Budget::EXACT, &mut stack);
                 let verdict = within.expect("a distance").verdict;
                 let wrong = match verdict {
-                    Verdict::Yes { .. } => !is_near,
+                    Verdict::Yes => !is_near,
                     Verdict::No => is_near,
                     Verdict::Undecided(_) => false,
                 };
                 assert!(!wrong, "{}: {p:?} within {distance:e}: {verdict:?}", scene.name);
                 seen[match verdict {
-                    Verdict::Yes { .. } => 0,
+                    Verdict::Yes => 0,
                     Verdict::No => 1,
                     Verdict::Undecided(_) => 2,
                 }] += 1;

@@ -8,7 +8,6 @@ use meshsweep::mesh::{Input, Mesh, MeshError, require_closed_manifold};
 use meshsweep::tight::{self, ChainOptions, hull_mesh};
 use meshsweep::tribox;
 use meshsweep_core::{Budget, Hull, ScratchEntry, TightHulls, Triboxes, Verdict};
-use meshsweep_host_tests::with;
 use std::cmp::Ordering::{Greater, Less};
 
 const KINDS: [Kind; 2] = [Kind::Grid, Kind::Snapped];

@@ -1,14 +1,13 @@
 //! Tight hulls enclose what they were made of: proved from the two surfaces alone, by a checker
 //! that shares no code with the builder.
 
-use meshsweep_host_tests::with;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;
 
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, RawMesh, Wire, read_bytes, repair};
-use meshsweep::wrap::{
+use meshsweep::tight::{
     Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, split_components, wrap,
 };
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};

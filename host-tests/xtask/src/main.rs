@@ -12,6 +12,7 @@ cargo xtask setup                   makes sure of the cross targets, of QEMU and
 cargo xtask test                    setup, then everything that has to hold
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
+cargo xtask picture                 draws fixtures/part.svg anew, the picture of README.md
 cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
@@ -48,8 +49,8 @@ fn main() -> ExitCode {
                 firmware::run(&mut steps, &tools, json);
             }
         }
-        ["fixtures"] => {
-            steps.run("fixtures", || host::run(&["fixtures"]).map(|text| say!("{text}")));
+        [word @ ("fixtures" | "picture")] => {
+            steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));
         }
         ["count"] => count::run(&mut steps),
         ["measure" | "race" | "rival", ..] => return checks::lab(&words),

@@ -14,10 +14,11 @@
 //!
 //! All is floating point. The editor proves or refuses the result.
 
-use super::star::{Frame, StarFace};
+use super::mesh_planes::Trial;
+use super::star::StarFace;
 use crate::lp::HalfSpace;
-use crate::surface::{Bounds, Frontier, Plane};
-use crate::tight::proof::{Clearance, Nearest, Obstacle, Tetrahedron, Triangle};
+use crate::surface::{Bounds, Plane};
+use crate::tight::proof::{Clearance, Nearest, Tetrahedron, Triangle};
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 use std::cell::Cell;
@@ -29,16 +30,13 @@ const LIGHT: f64 = 1e-6;
 const LEAST_CLEARANCE: f64 = 0.5;
 
 /// A new face, the tetrahedron that its vertex sweeps, and the planes found for it so far.
-pub(crate) struct FaceMargin<'a> {
-    obstacle: &'a Obstacle,
-    frame: &'a Frame,
+pub(super) struct FaceMargin<'a> {
+    trial: &'a Trial<'a>,
     ring: [DVec3; 2],
     /// The new face: its vertex first.
     face: Triangle,
     normal: DVec3,
     tetrahedron: Tetrahedron,
-    clearance: f64,
-    tolerance: f64,
     /// The highest touching plane, and a plane parallel to it through the ball's centre. Higher
     /// balls have their centres above the second plane.
     touching: Cell<Option<(Plane, Plane)>>,
@@ -51,39 +49,32 @@ pub(crate) struct FaceMargin<'a> {
 }
 
 impl<'a> FaceMargin<'a> {
-    /// Of a star's face with a ring edge, for a vertex at `x`. `clearance` is in the mesh's unit.
-    /// Heights up to `tolerance` are rounding.
-    pub fn new(
-        obstacle: &'a Obstacle,
-        frame: &'a Frame,
-        old: &StarFace,
-        ring: [DVec3; 2],
-        x: DVec3,
-        clearance: f64,
-        tolerance: f64,
-    ) -> Self {
+    /// Of a star's face with a ring edge.
+    pub fn new(trial: &'a Trial<'a>, old: &StarFace, ring: [DVec3; 2]) -> Self {
+        let x = trial.x;
         let face = [x, ring[0], ring[1]];
         Self {
-            obstacle,
-            frame,
+            trial,
             ring,
             face,
             normal: (ring[0] - x).cross(ring[1] - x).normalize_or_zero(),
             tetrahedron: Tetrahedron::new(&old.corners, x),
-            clearance,
-            tolerance,
             touching: Cell::new(None),
-            height: Cell::new(tolerance),
+            height: Cell::new(trial.tolerance()),
             pushing: Cell::new(None),
             distance: Cell::new(f64::INFINITY),
         }
     }
 
+    fn margin(&self) -> f64 {
+        self.trial.obstacle.margin()
+    }
+
     /// The highest touching plane of the vertices of the mesh that are in the way.
-    pub fn plane_over_vertices(&self, near: &Frontier) -> Option<HalfSpace> {
-        let far = self.obstacle.margin() + self.clearance;
-        self.obstacle.visit_points(
-            near,
+    pub fn plane_over_vertices(&self) -> Option<HalfSpace> {
+        let far = self.margin() + self.trial.clearance;
+        self.trial.obstacle.visit_points(
+            &self.trial.near[0],
             |of| self.may_hold_vertex(of),
             |q| {
                 // All of the tetrahedron is above the new face.
@@ -109,9 +100,9 @@ impl<'a> FaceMargin<'a> {
     }
 
     /// The highest touching plane of the triangles that are in the way, if no vertex is.
-    pub fn plane_over_triangles(&self, near: &Frontier) -> Option<HalfSpace> {
-        self.obstacle.visit_triangles(
-            near,
+    pub fn plane_over_triangles(&self) -> Option<HalfSpace> {
+        self.trial.obstacle.visit_triangles(
+            &self.trial.near[1],
             |of| self.rises_to(of) && self.tetrahedron.may_meet(of),
             |triangle| {
                 if !triangle.iter().all(|&q| self.is_lower(q)) {
@@ -123,11 +114,11 @@ impl<'a> FaceMargin<'a> {
     }
 
     /// The pushing plane of the nearest triangle beside the face, if nothing is cut off.
-    pub fn pushing_plane(&self, near: &Frontier) -> Option<HalfSpace> {
-        let clearance = Clearance::new(self.obstacle.margin() + LEAST_CLEARANCE * self.clearance);
+    pub fn pushing_plane(&self) -> Option<HalfSpace> {
+        let clearance = Clearance::new(self.margin() + LEAST_CLEARANCE * self.trial.clearance);
         let bounds = Bounds::of(&self.face);
-        self.obstacle.visit_triangles(
-            near,
+        self.trial.obstacle.visit_triangles(
+            &self.trial.near[1],
             |of| !clearance.separates_box(&self.face, &bounds, self.normal, of),
             |triangle| {
                 if clearance.separates_quickly(&self.face, self.normal, triangle) {
@@ -148,7 +139,7 @@ impl<'a> FaceMargin<'a> {
 
     /// Whether a box may hold a vertex that is in the way.
     fn may_hold_vertex(&self, of: &Bounds) -> bool {
-        let margin = self.obstacle.margin() + self.clearance;
+        let margin = self.margin() + self.trial.clearance;
         self.rises_to(of) && self.tetrahedron.may_come_near(of, margin)
     }
 
@@ -158,7 +149,7 @@ impl<'a> FaceMargin<'a> {
     }
 
     fn is_near(&self, distance: f64, weight: f64) -> bool {
-        distance < self.obstacle.margin() + LEAST_CLEARANCE * weight * self.clearance
+        distance < self.margin() + LEAST_CLEARANCE * weight * self.trial.clearance
     }
 
     /// Pushes the face's nearest point away from a triangle's.
@@ -170,12 +161,12 @@ impl<'a> FaceMargin<'a> {
         {
             return;
         }
-        let away = if distance > self.tolerance { (p - q) / distance } else { self.normal };
-        let [_, a, b] = self.face.map(|corner| self.frame.local(corner));
-        let rest = a * weights[1] + b * weights[2] - self.frame.local(q);
-        let radius = self.frame.radius;
-        let offset = (self.obstacle.margin() / radius - away.dot(rest)) / weights[0]
-            + self.clearance / radius;
+        let away = if distance > self.trial.tolerance() { (p - q) / distance } else { self.normal };
+        let [_, a, b] = self.face.map(|corner| self.trial.frame.local(corner));
+        let rest = a * weights[1] + b * weights[2] - self.trial.frame.local(q);
+        let radius = self.trial.frame.radius;
+        let offset =
+            (self.margin() / radius - away.dot(rest)) / weights[0] + self.trial.clearance / radius;
         self.distance.set(distance);
         self.pushing.set(Some(HalfSpace { normal: away, offset }));
     }
@@ -188,8 +179,8 @@ impl<'a> FaceMargin<'a> {
         let normal = edge.cross(q - a);
         let length = normal.length();
         let from_edge = length / edge.length();
-        let sine = self.obstacle.margin() / from_edge;
-        if !(from_edge > 10.0 * self.tolerance && sine < 1.0) {
+        let sine = self.margin() / from_edge;
+        if !(from_edge > 10.0 * self.trial.tolerance() && sine < 1.0) {
             return;
         }
         let normal = normal / length;
@@ -198,19 +189,19 @@ impl<'a> FaceMargin<'a> {
         let normal = normal * (1.0 - sine * sine).sqrt() + out * sine;
         let above = normal.dot(a - self.face[0]);
         if above > self.height.get()
-            && (anyway || self.tetrahedron.holds(q + normal * self.obstacle.margin()))
+            && (anyway || self.tetrahedron.holds(q + normal * self.margin()))
         {
             self.height.set(above);
             let offset = normal.dot(a);
-            let centres = Plane { normal, offset: offset - self.obstacle.margin() };
+            let centres = Plane { normal, offset: offset - self.margin() };
             self.touching.set(Some((Plane { normal, offset }, centres)));
         }
     }
 
     fn touching(&self) -> Option<HalfSpace> {
         self.touching.get().map(|(plane, _)| {
-            let offset = plane.normal.dot(self.frame.local(self.ring[0]))
-                + self.clearance / self.frame.radius;
+            let offset = plane.normal.dot(self.trial.frame.local(self.ring[0]))
+                + self.trial.clearance / self.trial.frame.radius;
             HalfSpace { normal: plane.normal, offset }
         })
     }

@@ -6,7 +6,8 @@
 //! | `shell.rs` | [`Shell`]: the hull's surface, with boxes of its faces |
 //! | `star.rs` | [`StarFace`]: a face of the star that an edit replaces |
 //! | `placement.rs` | the linear program that places the vertex of a star |
-//! | `margin_planes.rs` | planes of that program where the hull keeps a margin |
+//! | `mesh_planes.rs` | planes of that program that keep new faces above the mesh |
+//! | `margin_planes.rs` | the same where the hull keeps a margin |
 //! | `vertex.rs` | moves one vertex |
 //! | `collapse.rs` | edge collapses, cheapest first |
 //! | `exchange.rs` | edge splits, and a split exchanged for a collapse |
@@ -24,6 +25,7 @@ mod flip;
 mod kick;
 mod margin_planes;
 mod memo;
+mod mesh_planes;
 mod placement;
 mod rounding;
 mod shell;

@@ -14,12 +14,13 @@
 //! All is floating point. The editor proves or refuses the place that is found here.
 
 use super::margin_planes::FaceMargin;
+use super::mesh_planes::Trial;
 use super::star::{Frame, StarFace, corners, radius};
+use super::tolerance::ROUNDING;
 use crate::lp::{HalfSpace, minimise_bounded};
-use crate::surface::{Bounds, Frontier, Plane};
-use crate::tight::proof::{Obstacle, Tetrahedron};
+use crate::surface::{Bounds, Frontier};
+use crate::tight::proof::Obstacle;
 use glam::DVec3;
-use std::cell::Cell;
 
 /// The objective of a placement besides least volume.
 #[derive(Clone, Copy, Debug)]
@@ -34,9 +35,6 @@ pub(crate) struct PlacementObjective {
 
 /// Most programs for one star.
 const ROUNDS: usize = 25;
-
-/// Heights below this part of the star's radius are rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// Buffers of the programs, kept to save allocations, and counters of work.
 #[derive(Clone, Debug, Default)]
@@ -90,13 +88,10 @@ impl Placer {
             // Vertices of the mesh are cheap to look for and find nearly every plane. Edges are
             // looked for once no vertex is in the way.
             let near = if bounds.with(x) == bounds { &near } else { &everywhere };
-            let search = |edges: bool| Search { obstacle, near, edges };
-            let mut clear = [false, true]
-                .into_iter()
-                .all(|edges| self.cut(star, &frame, x, clearance, &search(edges)));
-            if margin > 0.0 && clear {
-                clear = self.push_apart(star, &frame, x, clearance, &search(true));
-            }
+            let trial = Trial { obstacle, near, frame: &frame, x, clearance };
+            let clear = self.cut(star, &trial, false)
+                && self.cut(star, &trial, true)
+                && (margin <= 0.0 || self.push_apart(star, &trial));
             if clear {
                 return Some(x);
             }
@@ -135,42 +130,26 @@ impl Placer {
         (area > 0.0).then(|| direction / area)
     }
 
-    /// Adds a plane for every new face that has mesh in front of it; whether there was none.
-    fn cut(
-        &mut self,
-        star: &[StarFace],
-        frame: &Frame,
-        x: DVec3,
-        clearance: f64,
-        search: &Search<'_>,
-    ) -> bool {
-        let tolerance = ROUNDING * frame.radius;
-        let margin = search.obstacle.margin();
+    /// Adds a plane for every new face that has mesh in front of it, by the mesh's edges too or by
+    /// its vertices only; whether there was none.
+    fn cut(&mut self, star: &[StarFace], trial: &Trial<'_>, edges: bool) -> bool {
         let mut clear = true;
         for (face, cut) in star.iter().zip(&mut self.cuts) {
-            let rises = face.normal.dot(x - face.corners[0]) >= -tolerance;
+            let rises = face.normal.dot(trial.x - face.corners[0]) >= -trial.tolerance();
             let found = match face.ring {
                 // A face that rises cuts nothing off, but it may turn towards mesh that it has to
                 // keep the margin from.
-                Some(ring) if margin > 0.0 => {
-                    let face_margin = FaceMargin::new(
-                        search.obstacle,
-                        frame,
-                        face,
-                        ring,
-                        x,
-                        clearance,
-                        tolerance,
-                    );
-                    if search.edges {
-                        face_margin.plane_over_triangles(&search.near[1])
+                Some(ring) if trial.obstacle.margin() > 0.0 => {
+                    let face_margin = FaceMargin::new(trial, face, ring);
+                    if edges {
+                        face_margin.plane_over_triangles()
                     } else {
-                        face_margin.plane_over_vertices(&search.near[0])
+                        face_margin.plane_over_vertices()
                     }
                 }
                 _ if rises => None,
-                Some(ring) => turned(face, ring, frame, x, clearance / frame.radius, search),
-                None => raised(face, frame, x, (margin + clearance) / frame.radius, search),
+                Some(ring) => trial.turned(face, ring, edges),
+                None => trial.raised(face, edges),
             };
             if found.is_some() {
                 *cut = found;
@@ -181,105 +160,12 @@ impl Placer {
     }
 
     /// Adds a plane for every new face that has mesh near its side; whether there was none.
-    fn push_apart(
-        &mut self,
-        star: &[StarFace],
-        frame: &Frame,
-        x: DVec3,
-        clearance: f64,
-        search: &Search<'_>,
-    ) -> bool {
+    fn push_apart(&mut self, star: &[StarFace], trial: &Trial<'_>) -> bool {
         let before = self.pushes.len();
         for face in star {
             let Some(ring) = face.ring else { continue };
-            let tolerance = ROUNDING * frame.radius;
-            let face_margin =
-                FaceMargin::new(search.obstacle, frame, face, ring, x, clearance, tolerance);
-            self.pushes.extend(face_margin.pushing_plane(&search.near[1]));
+            self.pushes.extend(FaceMargin::new(trial, face, ring).pushing_plane());
         }
         self.pushes.len() == before
-    }
-}
-
-/// The plane about a ring edge that keeps the new face above the mesh below the old face;
-/// `clearance` is in the frame's unit.
-fn turned(
-    face: &StarFace,
-    [a, b]: [DVec3; 2],
-    frame: &Frame,
-    x: DVec3,
-    clearance: f64,
-    search: &Search<'_>,
-) -> Option<HalfSpace> {
-    let edge = b - a;
-    let tolerance = ROUNDING * frame.radius;
-    let least = 10.0 * tolerance * edge.length();
-    let height = Cell::new(tolerance);
-    let turned = |q: DVec3| {
-        let normal = edge.cross(q - a);
-        let length = normal.length();
-        // A point on the edge gives no plane.
-        if length <= least {
-            return None;
-        }
-        let normal = normal / length;
-        let above = normal.dot(a - x);
-        (above > height.get()).then(|| {
-            height.set(above);
-            Plane { normal, offset: normal.dot(a) }
-        })
-    };
-    search.highest(&Tetrahedron::new(&face.corners, x), turned).map(|plane| {
-        let offset = plane.normal.dot(frame.local(a)) + clearance;
-        HalfSpace { normal: plane.normal, offset }
-    })
-}
-
-/// The plane that keeps a vertex above the mesh below a face that vanishes; `clearance` is in the
-/// frame's unit.
-fn raised(
-    face: &StarFace,
-    frame: &Frame,
-    x: DVec3,
-    clearance: f64,
-    search: &Search<'_>,
-) -> Option<HalfSpace> {
-    let below = face.normal.dot(x);
-    let height = Cell::new(ROUNDING * frame.radius);
-    let raised = |q: DVec3| {
-        let offset = face.normal.dot(q);
-        (offset - below > height.get()).then(|| {
-            height.set(offset - below);
-            Plane { normal: face.normal, offset }
-        })
-    };
-    search.highest(&Tetrahedron::new(&face.corners, x), raised).map(|plane| {
-        let normal = plane.normal;
-        let offset = normal.dot(frame.local(x)) + height.get() / frame.radius + clearance;
-        HalfSpace { normal, offset }
-    })
-}
-
-/// Where planes are looked for.
-struct Search<'a> {
-    obstacle: &'a Obstacle,
-    near: &'a [Frontier; 2],
-    /// Whether edges of the mesh are looked for, or only its vertices.
-    edges: bool,
-}
-
-impl Search<'_> {
-    /// The last plane that `raise` returned for points of the mesh in a tetrahedron. Each plane
-    /// must be above the one before, so that points below it need not be visited.
-    fn highest(
-        &self,
-        tetrahedron: &Tetrahedron,
-        raise: impl Fn(DVec3) -> Option<Plane>,
-    ) -> Option<Plane> {
-        if self.edges {
-            self.obstacle.highest_piece(&self.near[1], tetrahedron, raise)
-        } else {
-            self.obstacle.highest_point(&self.near[0], tetrahedron, raise)
-        }
     }
 }

@@ -12,3 +12,6 @@ pub(super) const GAIN: f64 = 1e-6;
 /// Least part of the hull's volume that a flip or an exchange gains: more than the rounding of the
 /// volume's sum.
 pub(super) const LEAST_GAIN: f64 = 1e-9;
+
+/// Heights below this part of a star's radius are rounding.
+pub(super) const ROUNDING: f64 = 1e-12;

@@ -2,6 +2,7 @@
 
 use super::distances::{Distances, distances};
 use super::section::{Stored, sections};
+use crate::bvh::TreeOptions;
 use crate::emit::Sections;
 use crate::mesh::Input;
 use crate::surface::VertexBits;
@@ -106,6 +107,15 @@ impl ChainOptions {
             faces.push(FACES);
         }
         faces.into_iter().map(Goal::Faces).collect()
+    }
+
+    fn of_tree(&self) -> TreeOptions {
+        TreeOptions {
+            closest: self.closest,
+            segments: self.segments,
+            single: matches!(self.vertex_bits, VertexBits::Grid24 | VertexBits::F32),
+            ..TreeOptions::default()
+        }
     }
 
     fn of_hull(&self, goal: Goal) -> Options {
@@ -217,7 +227,9 @@ pub fn chain(
         .map(|(hull, report)| {
             // The rounding of the mesh when it was read adds to the hull's distance from the input.
             hull.mesh.rounding = mesh.rounding;
-            let stored = Stored::new(&hull.mesh, moved, report, options);
+            let void = report.void.unwrap_or(0.0);
+            let stored =
+                Stored::new(&hull.mesh, moved, &report.distances, void, &options.of_tree());
             report.bytes = stored.bytes();
             stored
         })

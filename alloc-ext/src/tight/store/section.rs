@@ -1,10 +1,10 @@
 //! The bytes of the section: writing, cutting, and reading a hull back.
 
-use super::chain::{ChainOptions, HullReport};
+use super::distances::Distances;
 use crate::bvh::{self, TreeOptions};
 use crate::emit::Sections;
 use crate::mesh::{Input, Mesh};
-use crate::surface::{VertexBits, scale_exponent};
+use crate::surface::scale_exponent;
 use glam::Vec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::TightRecord;
@@ -24,14 +24,16 @@ pub(super) struct Stored {
 }
 
 impl Stored {
+    /// A hull, the distance that the vertices of its mesh were moved, its distances, its void or 0,
+    /// and the options of its tree.
     pub(super) fn new(
         hull: &Mesh,
         moved: f64,
-        report: &HullReport,
-        options: &ChainOptions,
+        distances: &Distances,
+        void: f64,
+        options: &TreeOptions,
     ) -> Stored {
         let blob = hull_tree(hull, moved, options);
-        let distances = &report.distances;
         let slacks =
             distances.slacks.iter().flat_map(|&slack| Radius16::round_up(slack).0.to_le_bytes());
         let record = TightRecord {
@@ -39,7 +41,7 @@ impl Stored {
             slack: up_to_f32(distances.slack.upper),
             depth: up_to_f32(distances.depth.upper),
             // A mesh of very little volume may give a ratio beyond the range of f32.
-            void_ratio: report.void.map_or(0.0, |void| void.min(f64::from(f32::MAX)) as f32),
+            void_ratio: void.min(f64::from(f32::MAX)) as f32,
         };
         Stored { record, blob, slacks: slacks.collect() }
     }
@@ -50,21 +52,15 @@ impl Stored {
     }
 }
 
-/// The blob of the hull's tree, on a grid of 16 bits if that moves no vertex.
-fn hull_tree(hull: &Mesh, moved: f64, options: &ChainOptions) -> Vec<u8> {
-    let build = |is_f32: bool, moved: f64, rounding: f64| {
+/// The blob of the hull's tree, in single precision if a grid of 16 bits moves a vertex.
+fn hull_tree(hull: &Mesh, moved: f64, options: &TreeOptions) -> Vec<u8> {
+    let of = |single: bool, moved: f64, rounding: f64| {
         let hull = Mesh { rounding, ..hull.clone() };
-        let options = TreeOptions {
-            closest: options.closest,
-            segments: options.segments,
-            single: is_f32,
-            ..Default::default()
-        };
+        let options = TreeOptions { single, ..*options };
         bvh::build(Input { moved, ..hull.as_input() }, &options).0
     };
-    let wide = matches!(options.vertex_bits, VertexBits::Grid24 | VertexBits::F32);
-    let is_f32 = wide || build(false, 0.0, 0.0).header.surface_error > 0.0;
-    build(is_f32, moved, hull.rounding).to_bytes()
+    let single = options.single || of(false, 0.0, 0.0).header.surface_error > 0.0;
+    of(single, moved, hull.rounding).to_bytes()
 }
 
 /// The section of a chain of hulls.

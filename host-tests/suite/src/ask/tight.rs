@@ -191,7 +191,7 @@ pub fn is_within(
     match timed(clock, || hulls.finest.within(point, distance, Budget::EXACT, &mut scratch.stack)) {
         Ok(answer) => {
             fold.word(match answer.verdict {
-                Verdict::Yes { .. } => 1,
+                Verdict::Yes => 1,
                 Verdict::No => 2,
                 Verdict::Undecided(_) => 3,
             });

@@ -37,8 +37,8 @@ fn certain_ones_are_within_and_none_that_is_within_is_missing() {
         for p in scene.points(24, &mut Rng::new(51)) {
             let truths: Vec<_> =
                 (0..scene.triangles.len() as u32).map(|t| scene.truth_of(p, t)).collect();
-            for d in distances(&scene, p) {
-                let (answer, out) = ask(&scene, p, d, truths.len() + 1, &Budget::EXACT, STACK);
+            for d in distances(scene, p) {
+                let (answer, out) = ask(scene, p, d, truths.len() + 1, &Budget::EXACT, STACK);
                 let name = &scene.name;
                 assert_eq!(
                     (answer.dropped, answer.ended),
@@ -81,10 +81,10 @@ fn certain_ones_are_within_and_none_that_is_within_is_missing() {
 fn what_does_not_fit_is_counted_and_the_closest_are_kept() {
     for scene in all() {
         for p in scene.points(12, &mut Rng::new(52)) {
-            for d in distances(&scene, p) {
-                let (all, most) = ask(&scene, p, d, scene.triangles.len(), &Budget::EXACT, STACK);
+            for d in distances(scene, p) {
+                let (all, most) = ask(scene, p, d, scene.triangles.len(), &Budget::EXACT, STACK);
                 for n in [0, 1, 3, 10] {
-                    let (answer, out) = ask(&scene, p, d, n, &Budget::EXACT, STACK);
+                    let (answer, out) = ask(scene, p, d, n, &Budget::EXACT, STACK);
                     assert_eq!(
                         answer.stored + answer.dropped as usize,
                         all.stored,
@@ -104,10 +104,10 @@ fn short_stacks_and_few_steps_store_only_what_is_within() {
     let mut cut = 0;
     for scene in all() {
         for p in scene.points(12, &mut Rng::new(53)) {
-            for d in distances(&scene, p) {
+            for d in distances(scene, p) {
                 for (steps, entries) in [(u32::MAX, 1), (u32::MAX, 9), (0, 9), (2, STACK)] {
                     let (answer, out) =
-                        ask(&scene, p, d, 16, &Budget::EXACT.with_steps(steps), entries);
+                        ask(scene, p, d, 16, &Budget::EXACT.with_steps(steps), entries);
                     for near in out.iter().take(answer.certain) {
                         assert!(
                             scene.truth_of(p, near.triangle()).lower <= f64::from(d),

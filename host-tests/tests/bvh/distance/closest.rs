@@ -27,7 +27,7 @@ fn interval_contains_the_true_distance_on_every_mesh() {
         let tree = scene.bvh();
         for p in scene.points(POINTS, &mut Rng::new(11)) {
             let answer = ask(&tree, p, &Budget::EXACT, STACK);
-            contains(&scene, p, &answer, scene.truth(p));
+            contains(scene, p, &answer, scene.truth(p));
             assert_eq!(answer.ended, Ended::Exact, "{}", scene.name);
         }
     }
@@ -40,7 +40,7 @@ fn exact_interval_is_as_wide_as_the_stored_surface_and_rounding() {
         for p in scene.points(POINTS, &mut Rng::new(12)) {
             let answer = ask(&tree, p, &Budget::EXACT, STACK);
             let width = f64::from(answer.distance.upper) - f64::from(answer.distance.lower);
-            let allowed = allowed_width(&scene, f64::from(answer.distance.upper));
+            let allowed = allowed_width(scene, f64::from(answer.distance.upper));
             assert!(
                 width <= allowed,
                 "{}: {p:?}: {answer:?} is {width:e} wide, {allowed:e} allowed",
@@ -60,7 +60,7 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
             let rounding = 8.0 * f64::from(f32::EPSILON) * scene.reach();
             let off = distance_to_triangle(answer.point, named).lower;
             assert!(
-                off <= rounding + surface_error(&scene),
+                off <= rounding + surface_error(scene),
                 "{}: {p:?}: {answer:?} is {off:e} off",
                 scene.name
             );
@@ -159,20 +159,20 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
             let truth = scene.truth(p);
             for entries in [1, 2, 3, 8, 16, STACK] {
                 let answer = ask(&tree, p, &Budget::EXACT, entries);
-                contains(&scene, p, &answer, truth);
+                contains(scene, p, &answer, truth);
                 overflowed += u32::from(answer.ended == Ended::Scratch);
                 for steps in [0, 1, 2, 5, 20] {
                     let answer = ask(&tree, p, &Budget::EXACT.with_steps(steps), entries);
-                    contains(&scene, p, &answer, truth);
+                    contains(scene, p, &answer, truth);
                     assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {
                 let answer = ask(&tree, p, &Budget::EXACT.with_relative(relative), STACK);
-                contains(&scene, p, &answer, truth);
+                contains(scene, p, &answer, truth);
                 let boxes = boxes(&answer);
                 let allowed = f64::from(answer.distance.lower) * f64::from(relative)
-                    + (allowed_width(&scene, f64::from(answer.distance.upper)) + boxes)
+                    + (allowed_width(scene, f64::from(answer.distance.upper)) + boxes)
                         * (1.0 + f64::from(relative));
                 assert!(
                     f64::from(answer.distance.upper) - f64::from(answer.distance.lower)
@@ -183,9 +183,9 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
                 let answer = ask(&tree, p, &Budget::EXACT.with_absolute(absolute), STACK);
-                contains(&scene, p, &answer, truth);
+                contains(scene, p, &answer, truth);
                 let allowed = f64::from(absolute)
-                    + allowed_width(&scene, f64::from(answer.distance.upper))
+                    + allowed_width(scene, f64::from(answer.distance.upper))
                     + boxes(&answer);
                 assert!(
                     f64::from(answer.distance.upper) - f64::from(answer.distance.lower) <= allowed,

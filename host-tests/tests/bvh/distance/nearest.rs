@@ -49,10 +49,10 @@ fn check(scene: &Scene, p: [f32; 3], truths: &[Bounded], answer: &KNearest, out:
 fn intervals_hold_and_the_rest_is_farther() {
     for scene in all() {
         for p in scene.points(24, &mut Rng::new(41)) {
-            let truths = truths(&scene, p);
+            let truths = truths(scene, p);
             for n in [1, 2, 7, 40, scene.triangles.len() + 3] {
-                let (answer, out) = ask(&scene, p, n, &Budget::EXACT, STACK);
-                check(&scene, p, &truths, &answer, &out);
+                let (answer, out) = ask(scene, p, n, &Budget::EXACT, STACK);
+                check(scene, p, &truths, &answer, &out);
                 assert_eq!(answer.ended, Ended::Exact);
                 assert_eq!(out.len(), n.min(truths.len()), "{}: {p:?}", scene.name);
                 assert!(
@@ -74,7 +74,7 @@ fn intervals_hold_and_the_rest_is_farther() {
                 }
                 // As close as the last one stored, but for what f32 and the grid cannot tell.
                 if let (Some(last), true) = (out.last(), n < truths.len()) {
-                    let slack = allowed_width(&scene, f64::from(last.distance().upper));
+                    let slack = allowed_width(scene, f64::from(last.distance().upper));
                     assert!(
                         f64::from(answer.rest_lower) >= f64::from(last.distance().upper) - slack,
                         "{}: {p:?}: {answer:?} {last:?}",
@@ -92,7 +92,7 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
         for p in scene.points(48, &mut Rng::new(42)) {
             let closest =
                 scene.bvh().closest_point(p, Budget::EXACT, &mut stack(STACK)).expect("finite");
-            let (_, most) = ask(&scene, p, 20, &Budget::EXACT, STACK);
+            let (_, most) = ask(scene, p, 20, &Budget::EXACT, STACK);
             assert_eq!(
                 (Some(most[0].triangle()), most[0].distance().upper),
                 (closest.triangle, closest.distance.upper),
@@ -101,7 +101,7 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
             );
             for n in 1..most.len() {
                 assert_eq!(
-                    ask(&scene, p, n, &Budget::EXACT, STACK).1,
+                    ask(scene, p, n, &Budget::EXACT, STACK).1,
                     most[..n],
                     "{}: {p:?}",
                     scene.name
@@ -115,9 +115,9 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
 fn witnesses_lie_on_their_triangles() {
     for scene in all() {
         for p in scene.points(24, &mut Rng::new(43)) {
-            for near in ask(&scene, p, 12, &Budget::EXACT, STACK).1 {
+            for near in ask(scene, p, 12, &Budget::EXACT, STACK).1 {
                 let off = distance_to_triangle(near.point(), scene.corners(near.triangle())).lower;
-                let allowed = surface_error(&scene) + 8.0 * f64::from(f32::EPSILON) * scene.reach();
+                let allowed = surface_error(scene) + 8.0 * f64::from(f32::EPSILON) * scene.reach();
                 assert!(off <= allowed, "{}: {p:?}: {near:?} is {off:e} off", scene.name);
             }
         }
@@ -147,14 +147,13 @@ fn short_stacks_and_few_steps_leave_true_bounds() {
     let mut cut = 0;
     for scene in all() {
         for p in scene.points(24, &mut Rng::new(44)) {
-            let truths = truths(&scene, p);
+            let truths = truths(scene, p);
             for n in [1, 5] {
                 for (steps, entries) in
                     [(u32::MAX, 1), (u32::MAX, 2), (u32::MAX, 9), (0, 9), (1, STACK), (4, STACK)]
                 {
-                    let (answer, out) =
-                        ask(&scene, p, n, &Budget::EXACT.with_steps(steps), entries);
-                    check(&scene, p, &truths, &answer, &out);
+                    let (answer, out) = ask(scene, p, n, &Budget::EXACT.with_steps(steps), entries);
+                    check(scene, p, &truths, &answer, &out);
                     cut += u32::from(answer.ended != Ended::Exact);
                 }
             }

@@ -61,10 +61,10 @@ fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
         assert!(scene.bvh().header().is_closed(), "{}", scene.name);
         let (mut undefined, mut clear) = (0, 0);
         for p in scene.points(480, &mut Rng::new(61)) {
-            let answer = ask(&scene, p, &Budget::EXACT, STACK);
-            let defined = check(&scene, p, 1, &answer);
+            let answer = ask(scene, p, &Budget::EXACT, STACK);
+            let defined = check(scene, p, 1, &answer);
             let truth = scene.truth(p);
-            if truth.lower > allowed_width(&scene, truth.upper) {
+            if truth.lower > allowed_width(scene, truth.upper) {
                 clear += 1;
                 undefined += u32::from(!defined);
                 let ended = if defined { Ended::Exact } else { Ended::Resolution };
@@ -123,7 +123,7 @@ fn sharp_edges_and_tips_have_a_side() {
                 let vertex = scene.positions[i % scene.positions.len()];
                 let d = rng.direction();
                 let p: [f32; 3] = std::array::from_fn(|k| vertex[k] + d[k] * size * 1e-3);
-                defined += u32::from(check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK)));
+                defined += u32::from(check(scene, p, 1, &ask(scene, p, &Budget::EXACT, STACK)));
             }
             // Near the tip of a spire opposite walls are nearer to each other than rounding tells
             // apart.
@@ -270,7 +270,7 @@ fn distance_is_the_closest_points() {
         let tree = scene.bvh();
         for p in scene.points(60, &mut Rng::new(68)) {
             let (signed, closest) = (
-                ask(&scene, p, &Budget::EXACT, STACK).closest,
+                ask(scene, p, &Budget::EXACT, STACK).closest,
                 tree.closest_point(p, Budget::EXACT, &mut stack(STACK)).expect("finite"),
             );
             assert_eq!(
@@ -282,7 +282,7 @@ fn distance_is_the_closest_points() {
             let off = (f64::from(signed.distance.lower) - f64::from(closest.distance.lower)).abs();
             // The plain query lets its certificates fall short by 2^-19 of the distance.
             assert!(
-                off <= 2e-6 * f64::from(signed.distance.upper) + allowed_width(&scene, 0.0),
+                off <= 2e-6 * f64::from(signed.distance.upper) + allowed_width(scene, 0.0),
                 "{}: {p:?}",
                 scene.name
             );
@@ -298,8 +298,8 @@ fn short_stacks_and_few_steps_leave_the_side_open_or_right() {
             for (steps, entries) in
                 [(u32::MAX, 1), (u32::MAX, 4), (u32::MAX, 12), (0, 9), (3, STACK), (8, STACK)]
             {
-                let answer = ask(&scene, p, &Budget::EXACT.with_steps(steps), entries);
-                undefined += u32::from(!check(&scene, p, 1, &answer));
+                let answer = ask(scene, p, &Budget::EXACT.with_steps(steps), entries);
+                undefined += u32::from(!check(scene, p, 1, &answer));
                 assert!(answer.closest.work.splits <= steps);
             }
         }

@@ -46,10 +46,10 @@ fn verdict_is_true_and_unknown_only_next_to_the_distance() {
             let truth = scene.truth(p);
             for factor in [0.0, 0.5, 0.99, 0.999_999, 1.0, 1.000_001, 1.01, 2.0, 1e6] {
                 let d = (truth.upper * factor).min(3e38) as f32;
-                let answer = ask(&scene, p, d, &Budget::EXACT, STACK);
-                if !check(&scene, p, d, truth, answer) {
+                let answer = ask(scene, p, d, &Budget::EXACT, STACK);
+                if !check(scene, p, d, truth, answer) {
                     let off = (truth.upper - f64::from(d)).abs();
-                    let allowed = allowed_width(&scene, truth.upper);
+                    let allowed = allowed_width(scene, truth.upper);
                     assert!(
                         off <= allowed,
                         "{}: {p:?}: unknown at {d:e}, {off:e} off {truth:?}",
@@ -73,8 +73,8 @@ fn a_short_stack_or_few_steps_never_make_a_wrong_verdict() {
                 for (steps, entries) in
                     [(u32::MAX, 1), (u32::MAX, 3), (0, STACK), (1, STACK), (3, 8)]
                 {
-                    let answer = ask(&scene, p, d, &Budget::EXACT.with_steps(steps), entries);
-                    unknown += u32::from(!check(&scene, p, d, truth, answer));
+                    let answer = ask(scene, p, d, &Budget::EXACT.with_steps(steps), entries);
+                    unknown += u32::from(!check(scene, p, d, truth, answer));
                     assert!(answer.work.splits <= steps);
                 }
             }

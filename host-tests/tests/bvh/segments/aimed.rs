@@ -18,8 +18,8 @@ fn prove(count: usize, seed: u64, segment: impl Fn(&Scene, &mut Rng) -> [Point; 
     for scene in all() {
         let rng = &mut Rng::new(seed);
         for _ in 0..count {
-            let [a, b] = segment(&scene, rng);
-            for tally in asker.prove(&scene, a, b) {
+            let [a, b] = segment(scene, rng);
+            for tally in asker.prove(scene, a, b) {
                 sum.hits += tally.hits;
                 sum.clear += tally.clear;
                 sum.open += tally.open;

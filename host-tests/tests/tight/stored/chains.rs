@@ -4,13 +4,11 @@ use super::{mesh, of, options};
 use meshsweep::cut::{Keep, cut_blob};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
-use meshsweep::tight::{cut, hull_mesh};
+use meshsweep::tight::{Goal, cut, hull_mesh};
 use meshsweep::tribox::volume;
-use meshsweep::wrap::Goal;
 use meshsweep_core::{Blob, TightHulls};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::generate::{bracket, icosphere, rough_sphere, torus};
-use meshsweep_host_tests::with;
 
 fn encloses(outer: &Mesh, inner: &Mesh) {
     let surface = |mesh: &Mesh| Surface::new(&mesh.positions, &mesh.triangles);

@@ -8,7 +8,6 @@ mod chains;
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, HullReport, chain};
 use meshsweep_host_tests::generate::Triangles;
-use meshsweep_host_tests::with;
 
 fn mesh((positions, triangles): &Triangles) -> Mesh {
     Mesh::new(positions.clone(), triangles.clone())

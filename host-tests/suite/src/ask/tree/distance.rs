@@ -197,11 +197,7 @@ pub fn batch<'t>(
         Ok(()) => answers.iter().for_each(|answer| ask::closest_point(fold, answer)),
         Err(QueryError::AnswerCount { .. }) => fold.word(u32::MAX),
         Err(error) => {
-            fold.word(if let QueryError::PointNotFinite { index } = error {
-                index as u32
-            } else {
-                0
-            });
+            fold.word(if let QueryError::PointNotFinite { index } = error { index } else { 0 });
             ask::refusal(fold, error);
         }
     }
