@@ -10,8 +10,8 @@ use crate::tribox::format::Triboxes;
 
 /// A blob whose bytes were checked. Copies are cheap: it borrows the bytes and holds the header.
 ///
-/// If [`Blob::open`] returned `Ok`, then the CRC of every section is right, and the `open` of every
-/// structure accepts these bytes.
+/// If [`Blob::open`] returned `Ok`, then the CRC of every section of a known kind is right, and the
+/// `open` of every structure accepts these bytes.
 ///
 /// ```
 /// use meshsweep_core::{Blob, Budget, BuildFor, QueryError, Scratch};

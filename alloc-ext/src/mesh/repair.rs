@@ -28,7 +28,7 @@ use super::{Mesh, MeshError, RawMesh};
 ///
 /// Any triangle soup is accepted. Holes, non-manifold edges and one-sided components stay, for
 /// [`require_closed_manifold`](super::require_closed_manifold) to refuse. A second repair changes
-/// nothing.
+/// nothing but, perhaps, the order of the copies of split vertices.
 ///
 /// Cost: linear in the triangles, but for the search for nested components: at worst components ×
 /// triangles, in practice a small fraction.
