@@ -1,7 +1,7 @@
 //! Mesh files in, a clean triangle mesh out; and [`write_ply`], the way back.
 //!
 //! ```text
-//! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for a hull
+//! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for hulls
 //! ```
 //!
 //! [`read`] takes PLY, OBJ and STL. [`repair`] mends what can be mended without moving the surface

@@ -178,7 +178,8 @@ impl StaticTree {
     }
 
     /// Calls `item` with the items below nodes whose boxes pass, until it returns false; whether it
-    /// never did. `lanes` gives the lanes of a node that pass, one bit each. `state` belongs to both.
+    /// never did. `lanes` gives the lanes of a node that pass, one bit each. `state` belongs to
+    /// both.
     #[inline]
     fn visit<S>(
         &self,
@@ -227,9 +228,9 @@ impl StaticTree {
         self.visit(&[0], &mut probe, Probe::hits, |_, item| visit(item))
     }
 
-    /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and perhaps
-    /// with others, until it returns false; whether it never did. `keep` sees boxes in the mesh's
-    /// frame, larger by rounding.
+    /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and
+    /// perhaps with others, until it returns false; whether it never did. `keep` sees boxes in the
+    /// mesh's frame, larger by rounding.
     #[inline]
     pub fn visit_kept(
         &self,

@@ -13,14 +13,16 @@ impl Bvh<'_> {
     /// It never says "clear" wrongly: if [`FirstHit::is_clear`], no point of the segment lies on
     /// the input mesh. With [`Ended::Exact`] and a hit the segment is proved to meet the input
     /// mesh, and the first common parameter lies in `t`, whatever the grid did to the vertices.
-    /// With [`Ended::Resolution`] the segment passes an outer edge of a fan, or ends, so near the
-    /// surface that rounding and the surface error leave open whether they meet.
+    /// With [`Ended::Resolution`] it is undecided whether they meet: the segment passes an outer
+    /// edge of a fan, or ends, within rounding and the surface error of the surface.
     ///
-    /// `hit` is the first triangle of the *stored* surface that is met, in f32, without a gap along
-    /// edges and at vertices. The input's surface may only come near it, or `hit` may be missing
-    /// with [`Ended::Resolution`]. Of equal parameters the answer is the least triangle in blob
-    /// order. A segment in a triangle's plane hits, as computed, where it enters the triangle. So
-    /// does a segment of no length, and a triangle without area. None of these is proved.
+    /// `hit` is the first triangle of the *stored* surface that is met, computed in f32. There is
+    /// no gap along edges and at vertices. With [`Ended::Resolution`] the input's surface may only
+    /// come near `hit`, or `hit` may be missing. Of equal parameters the answer is the least
+    /// triangle in blob order.
+    ///
+    /// A segment in a triangle's plane hits where it enters the triangle. So does a segment of no
+    /// length, and a segment that meets a triangle without area. None of these hits is proved.
     ///
     /// `scratch` as for [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters.
     ///

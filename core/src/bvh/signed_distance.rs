@@ -60,7 +60,7 @@ pub struct SignedDistance {
     pub side: Side,
     /// The closest point, and the distance without sign. `work` and `ended` are those of the whole
     /// search. [`Ended::Resolution`]: the mesh is closed, and the stored surface or rounding leaves
-    /// the side open.
+    /// the side undecided.
     pub closest: ClosestPoint,
 }
 
@@ -81,23 +81,24 @@ impl Bvh<'_> {
     /// the point.
     ///
     /// For a mesh that bounds a solid this is the usual signed distance. For an inverted mesh the
-    /// sides are exchanged. Parts that overlap are not united: the nearest surface decides, and of
-    /// surfaces that are equally near up to rounding and the surface error, one of them. Cavities
-    /// are as their winding says.
+    /// sides are exchanged. A cavity's winding decides its side. Components that overlap are not
+    /// united: the nearest surface decides. If several surfaces are equally near up to rounding and
+    /// the surface error, one of them decides.
     ///
-    /// The side is never wrong. It is undecided if the mesh is not closed and consistently wound
-    /// ([`is_closed`](Bvh::is_closed)), if the distance is not clear of the surface error and
-    /// rounding, next to walls and gaps thinner than these, next to slivers so flat that they have
-    /// no certain normal, and where a triangle without area is certainly nearer than every other:
-    /// it has no sides.
+    /// The side is never wrong. It is undecided:
+    /// - if the mesh is not closed and consistently wound ([`is_closed`](Bvh::is_closed));
+    /// - if the distance is not clear of the surface error and rounding;
+    /// - next to walls and gaps thinner than these;
+    /// - next to slivers so flat that they have no certain normal;
+    /// - where a triangle without area is certainly the nearest, because it has no sides.
     ///
     /// `scratch` as for [`closest_point`](Bvh::closest_point). If it is too short, or the steps too
     /// few, the side is undecided too. Of the budget only `steps` matters: a side needs the closest
     /// point itself. Triangle and point are those of [`closest_point`](Bvh::closest_point).
     ///
     /// Cost: about that of the closest point. Two to three times as much next to sharp edges and
-    /// vertices, and for points far outside. Up to four times more where the side has to be found
-    /// from nearer by, above a face and next to its edge. Source: Bærentzen & Aanæs 2005.
+    /// vertices, and for points far outside. Up to four times more above a face and next to its
+    /// edge, where the side is searched from nearer places. Source: Bærentzen & Aanæs 2005.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Scratch, Side};

@@ -17,8 +17,8 @@ use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Ve
 pub struct Within {
     /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther; of a tight hull,
     /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the
-    /// distance is so near to the one asked about that the stored surface or rounding leaves it
-    /// open, or a tighter hull may decide.
+    /// difference from the distance asked about is within the surface error and rounding. For a
+    /// tight hull: a tighter hull may decide.
     pub verdict: Verdict,
     /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
     /// the closest one. `None` of a tight hull, which knows no triangles.

@@ -29,7 +29,7 @@ const LIGHT: f64 = 1e-6;
 /// Part of the clearance below which a point counts as too near.
 const LEAST_CLEARANCE: f64 = 0.5;
 
-/// A new face, and the region that its vertex sweeps.
+/// A new face, the tetrahedron that its vertex sweeps, and the planes found for it so far.
 pub(super) struct FaceMargin<'a> {
     trial: &'a Trial<'a>,
     ring: [DVec3; 2],
@@ -37,8 +37,8 @@ pub(super) struct FaceMargin<'a> {
     face: Triangle,
     normal: DVec3,
     tetrahedron: Tetrahedron,
-    /// The highest plane that touches a ball, and the plane above which the centres of higher balls
-    /// are.
+    /// The highest touching plane, and a plane parallel to it through the ball's centre. Higher
+    /// balls have their centres above the second plane.
     touching: Cell<Option<(Plane, Plane)>>,
     /// Height of the highest touching plane above the vertex.
     height: Cell<f64>,
@@ -70,7 +70,7 @@ impl<'a> FaceMargin<'a> {
         self.trial.obstacle.margin()
     }
 
-    /// The plane for the vertices of the mesh that are in the way.
+    /// The highest touching plane of the vertices of the mesh that are in the way.
     pub fn plane_over_vertices(&self) -> Option<HalfSpace> {
         let far = self.margin() + self.trial.clearance;
         self.trial.obstacle.visit_points(
@@ -99,7 +99,7 @@ impl<'a> FaceMargin<'a> {
         weights.iter().all(|&w| w > LIGHT) && self.is_near(found.distance_sq.sqrt(), weights[0])
     }
 
-    /// The plane for the triangles that are in the way, if no vertex is.
+    /// The highest touching plane of the triangles that are in the way, if no vertex is.
     pub fn plane_over_triangles(&self) -> Option<HalfSpace> {
         self.trial.obstacle.visit_triangles(
             &self.trial.near[1],
@@ -113,7 +113,7 @@ impl<'a> FaceMargin<'a> {
         self.touching()
     }
 
-    /// The plane for the nearest triangle beside the face, if nothing is cut off.
+    /// The pushing plane of the nearest triangle beside the face, if nothing is cut off.
     pub fn pushing_plane(&self) -> Option<HalfSpace> {
         let clearance = Clearance::new(self.margin() + LEAST_CLEARANCE * self.trial.clearance);
         let bounds = Bounds::of(&self.face);

@@ -140,8 +140,12 @@ impl Placer {
                 // A face that rises cuts nothing off, but it may turn towards mesh that it has to
                 // keep the margin from.
                 Some(ring) if trial.obstacle.margin() > 0.0 => {
-                    let sweep = FaceMargin::new(trial, face, ring);
-                    if edges { sweep.plane_over_triangles() } else { sweep.plane_over_vertices() }
+                    let face_margin = FaceMargin::new(trial, face, ring);
+                    if edges {
+                        face_margin.plane_over_triangles()
+                    } else {
+                        face_margin.plane_over_vertices()
+                    }
                 }
                 _ if rises => None,
                 Some(ring) => trial.turned(face, ring, edges),

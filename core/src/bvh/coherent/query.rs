@@ -28,16 +28,16 @@ pub struct CoherentClosest {
 
 /// A query that moves. It remembers which parts of the mesh the last answers ruled out.
 ///
-/// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface,
-/// each with a lower bound of its distance. A bound less the path length since then stays a bound.
-/// So a query visits only leaves that may have come near enough. `N` = 128 is enough for steps of a
-/// thousandth of the model. RAM: 8·`N` bytes and about 800 for 32 planes that separate the query
-/// from the leaves around.
+/// It keeps a *front*: up to `N` nodes and leaves that together hold the whole surface, each with a
+/// lower bound of its distance. When the query has moved along a path, each bound less the length
+/// of that path is still a lower bound. So a query visits only leaves that may have come near
+/// enough. `N` = 128 is enough for steps of a thousandth of the model. RAM: 8·`N` bytes, and about
+/// 800 bytes for 32 planes that separate the query from the leaves around it.
 ///
-/// Where steps are so long that the front does not pay, it asks the plain query for a while.
+/// If steps are so long that the front does not pay, plain queries answer for a while.
 ///
-/// It belongs to one tree at a time and begins anew with another. It borrows the blob's bytes, so
-/// they cannot change between queries.
+/// The state belongs to one tree at a time. With another tree it starts anew. It borrows the blob's
+/// bytes, so they cannot change between queries.
 #[derive(Clone, Debug)]
 pub struct CoherentQuery<'t, const N: usize = 128> {
     memory: Memory,
@@ -71,9 +71,9 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
     /// [`Bvh::closest_point`] with the same bits in `distance`, `point` and `triangle`. The less
     /// the query moved, the less work it takes.
     ///
-    /// With a tolerance in `budget` it is that method. Steps bound the search on the front, and the
-    /// plain query after it if that was not enough: together at most twice as many nodes. So the
-    /// answer may be exact where the plain query's is not.
+    /// With a tolerance in `budget`, the plain query answers. The steps bound the search on the
+    /// front and, if that fails, the plain query after it: together at most twice as many nodes. So
+    /// the answer may be exact where the plain query's is not.
     ///
     /// Cost: one triangle within [`CoherentClosest::safe_radius`] of the last answer. One to three
     /// leaves and sometimes a node for steps of 3e-4 of the model's diagonal. The plain query's for
