@@ -72,7 +72,8 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     report.part_count = parts.kinds.len();
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
-    Ok((Mesh { positions, triangles, source, wires, rounding }, report))
+    let has_merged_walls = report.opposite_duplicate.count > 0;
+    Ok((Mesh { positions, triangles, source, wires, rounding, has_merged_walls }, report))
 }
 
 fn take_out_repeated_corners(

@@ -21,6 +21,9 @@ impl Bvh<'_> {
     /// come near `hit`, or `hit` may be missing. Of equal parameters the answer is the least
     /// triangle in blob order.
     ///
+    /// Vertices that rounding to f32, or snapping to a grid, made equal count as one vertex of the
+    /// input. So a crack that is narrower than this rounding counts as closed.
+    ///
     /// A segment in a triangle's plane hits where it enters the triangle. So does a segment of no
     /// length, and a segment that meets a triangle without area. None of these hits is proved.
     ///
