@@ -13,7 +13,7 @@
 //! | room | owns |
 //! | --- | --- |
 //! | [`lp`] | the linear program in three variables |
-//! | [`mesh`] | mesh files, what is wrong with a mesh, repair, report |
+//! | [`mesh`] | mesh files, defects of a mesh, repair, report |
 //! | [`surface`] | the triangle surface that all builders share |
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`hausdorff`] | certified distances between two meshes |
@@ -40,16 +40,3 @@ pub mod tight;
 pub mod tribox;
 
 pub use error::BuildError;
-
-// Paths of before, until their users are moved.
-pub use bvh as tree;
-pub use bvh::fans as fan;
-pub use surface as precision;
-
-/// The names of [`tight`] under which the program and the tests use one hull.
-pub mod wrap {
-    pub use crate::tight::{
-        Goal, Hull, HullStage as Stage, NoVolume, Options, Outcome, Progress, Report, Start,
-        WrapError, split_components, wrap,
-    };
-}

@@ -54,6 +54,7 @@ impl Default for TreeOptions {
 
 /// Counts and time of a build.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct TreeReport {
     /// Triangles.
     pub triangles: usize,

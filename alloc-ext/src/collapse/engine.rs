@@ -21,6 +21,7 @@ const EAGER_BELOW: usize = 4000;
 
 /// Progress of the loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Progress {
     /// Faces left.
     pub faces: usize,
@@ -32,6 +33,7 @@ pub struct Progress {
 
 /// Why the loop ended before its target: the edges that are left, by the reason of their refusal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Stuck {
     /// Link condition or valence.
     pub topology: usize,
@@ -134,7 +136,7 @@ impl Engine {
         None
     }
 
-    /// Ends the loop: labels and instances of what is left go into the history.
+    /// Ends the loop. Labels and instances of the faces left go into the history.
     pub fn finish(self) -> History {
         let Edges { surface, labels, instances, mut history, .. } = self.edges;
         for t in surface.mesh.alive() {

@@ -45,6 +45,7 @@ impl Default for BuildOptions {
 
 /// Counts, times and volume of a build.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct BuildReport {
     /// Faces of the base hull.
     pub base_faces: usize,
@@ -66,6 +67,7 @@ pub struct BuildReport {
 
 /// A blob, its tables, and the report of its build.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Built {
     /// Tables of the hull hierarchy.
     pub tables: Tables,

@@ -20,5 +20,3 @@ pub use build::{BuildOptions, BuildReport, Built, build, hull_of};
 pub use cut::cut;
 pub use tables::{NodeRecord, SplitRecord, Tables};
 pub use wires::wires_off_surface;
-// Paths of before, until their users are moved.
-pub use crate::hausdorff::{Farthest, Nearest, farthest, hull_to_surface, is_within};

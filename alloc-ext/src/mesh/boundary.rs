@@ -7,8 +7,8 @@ use super::edges::{BOUNDARY, UnionFind, ends};
 pub(super) struct Boundary {
     /// Half-edges without a twin.
     pub edge_count: usize,
-    /// One of each hole: slits first, since they are the least visible, then from the largest hole
-    /// to the smallest.
+    /// A half-edge of each hole: slits first, for they are the least visible, then from the largest
+    /// hole to the smallest.
     pub of_holes: Vec<u32>,
     /// Edges of the largest hole.
     pub largest: usize,

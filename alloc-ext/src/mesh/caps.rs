@@ -12,7 +12,7 @@ use super::duplicate::retain;
 use super::report::{PLACES_KEPT, RepairReport};
 use super::wire::{TakenOut, Wire};
 
-/// Removes all triangles with collinear corners, by a flip if there is one, else by taking them out.
+/// Removes all triangles with collinear corners, by a flip if possible, else by taking them out.
 /// Expects three distinct vertices at distinct positions in each triangle and no duplicates.
 pub(super) fn remove_caps(
     positions: &[[f32; 3]],

@@ -1,4 +1,4 @@
-//! Wavefront OBJ: the `v` and `f` statements; all others say nothing about the surface.
+//! Wavefront OBJ: the `v` and `f` statements. All others are skipped.
 
 use std::path::Path;
 

@@ -14,13 +14,13 @@ use super::{MeshError, RawMesh};
 /// Reads elements `vertex` (`x`, `y`, `z` of any scalar type) and `face` (`vertex_indices` or
 /// `vertex_index`, a list of any integer type); other elements and properties are skipped.
 ///
-/// A header's counts are believed only as far as the file has room for them.
+/// A header's counts are limited by the file's size.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let malformed = |place: String, error: &ParseError| MeshError::Malformed {
         file: file.to_owned(),
         line: error.line(),
         place,
-        // The crate adds lines that quote the input at any length; the first says what is wrong.
+        // The first line names the error. The crate adds others that quote the input at any length.
         reason: error.to_string().lines().next().unwrap_or_default().to_owned(),
     };
     let mut reader = Reader::new(bytes);

@@ -1,22 +1,22 @@
 //! The stored precision: local frame, coordinate format, and rounding to it.
 //!
 //! A mesh is stored in a local frame that differs from the file's by a power of two, so the change
-//! loses nothing. Coordinates are kept in the narrowest format that holds the mesh's own
-//! coordinates exactly; hull vertices are rounded to the same format.
+//! is exact. Coordinates are stored in the narrowest format that holds the mesh's own coordinates
+//! exactly. Hull vertices are rounded to the same format.
 
 use crate::mesh::Mesh;
 use glam::DVec3;
 use meshsweep_core::internal::format::layout::VertexFormat;
 use meshsweep_core::internal::num::exp2;
 
-/// Which coordinate format to use.
+/// Choice of the coordinate format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum VertexBits {
     /// The narrowest that stores the mesh exactly.
     #[default]
     Auto,
-    /// 16 bits a coordinate; moves the mesh's vertices to the grid if they are not on it, which the
-    /// blob's surface error says.
+    /// 16 bits a coordinate. Vertices that are not on the grid move to it, and the blob's surface error
+    /// includes the distance.
     Grid16,
     /// 24 bits a coordinate; the same.
     Grid24,
@@ -29,11 +29,11 @@ pub enum VertexBits {
 pub struct Stored {
     /// Input coordinate = local coordinate × 2^this.
     pub scale_exponent: i32,
-    /// How coordinates are stored, and rounding to it.
+    /// The coordinate format, and rounding to it.
     pub grid: Grid,
     /// Vertices in the local frame, exactly as stored.
     pub positions: Vec<DVec3>,
-    /// Distance that no vertex moved more than between file and blob, local frame, rounded up.
+    /// Largest distance of a vertex between file and blob, local frame, rounded up.
     pub surface_error: f64,
 }
 
@@ -48,11 +48,10 @@ pub struct Grid {
     pub origin: [i32; 3],
 }
 
-/// Part of a grid's range that the mesh itself may take; the rest is for hull vertices outside it.
+/// Part of a grid's range for the mesh itself. The rest is for hull vertices outside of it.
 const FILL: f64 = 0.8;
 
-/// Hull vertices farther out than this many local units are not stored (the format's boxes end at
-/// 16).
+/// Largest coordinate of a hull vertex, local units. The format's boxes end at 16.
 const REACH: f64 = 8.0;
 
 impl Grid {
@@ -111,9 +110,9 @@ pub(crate) fn split_exponent(x: f64) -> (f64, i32) {
 
 /// Brings a mesh into the stored frame and precision.
 ///
-/// With [`VertexBits::Auto`] nothing moves. With a grid that the mesh is not on, vertices move to
-/// it: then weld and repair have to come after, which is why [`snap`] exists; a mesh that still is
-/// not on the grid here is moved and the error recorded.
+/// With [`VertexBits::Auto`] nothing moves. With a grid, vertices that are not on it move to it, and
+/// the distance is recorded. Then welding and repair would have to follow, so call [`snap`] on the
+/// raw positions before them.
 pub fn store(mesh: &Mesh, bits: VertexBits) -> Stored {
     let scale_exponent = scale_exponent(mesh);
     let local: Vec<DVec3> = mesh
@@ -166,9 +165,10 @@ fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
     exact_sums.then_some(Grid { format, exponent, origin })
 }
 
-/// Moves raw positions to the grid that [`store`] would choose for them, before welding and repair;
-/// the greatest distance moved, rounded up, in the file's unit. Does nothing for
-/// [`VertexBits::Auto`] and [`VertexBits::F32`].
+/// Moves raw positions to the grid that [`store`] would choose for them. Call it before welding and
+/// repair. Returns the largest distance moved, rounded up, in the file's unit.
+///
+/// Does nothing for [`VertexBits::Auto`] and [`VertexBits::F32`].
 pub fn snap(positions: &mut [[f64; 3]], bits: VertexBits) -> f64 {
     let format = match bits {
         VertexBits::Auto | VertexBits::F32 => return 0.0,

@@ -22,8 +22,8 @@ pub struct Hull {
     pub report: Report,
 }
 
-/// A tight hull of any triangles and [wires](crate::mesh::Wire). The [module](crate::tight) says
-/// what is proved of it. Wires bound no volume.
+/// A tight hull of any triangles and [wires](crate::mesh::Wire). The [module](crate::tight) lists
+/// the proved properties. Wires bound no volume.
 ///
 /// If vertices were moved to a grid before (see [`snap`](crate::surface::snap)), the hull encloses
 /// their places in `mesh`.

@@ -20,7 +20,7 @@ use meshsweep_core::{ScratchEntry, Side};
 use meshsweep_core::{Tribox, TriboxError};
 use std::cell::RefCell;
 
-/// Certainty of what is inside.
+/// Certainty of points' sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Trust {
     /// A point counts as outside only if its winding number proves that.

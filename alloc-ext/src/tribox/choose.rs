@@ -34,7 +34,7 @@ pub(super) struct Choosing {
     pub unit: f64,
     /// See [`SplitOptions::foresight`](super::SplitOptions::foresight).
     pub foresight: f64,
-    /// Certainty of what is inside.
+    /// Certainty of points' sides.
     pub trust: Trust,
 }
 

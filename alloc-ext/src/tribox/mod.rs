@@ -14,8 +14,8 @@
 //! Triangles are cut at the planes of cells, so triboxes of a level do not overlap. If the mesh is
 //! closed they hold its inside too.
 //!
-//! *Planes.* Void beside the solid in %, at 8 / 64 triboxes (`meshsweep tribox MESH --measure …
-//! --planes … --least-gain=-1e9`):
+//! *Planes.* Void beside the solid in %, at 8 / 64 triboxes, by `SplitOptions` with these values and
+//! no least gain. Historical: no command sets them. A test of this folder keeps the order.
 //!
 //! | measure, planes | rocker arm | cow | fandisk | `fixtures/torus.ply` |
 //! | --- | --- | --- | --- | --- |
@@ -26,7 +26,7 @@
 //!
 //! Volume never grows when a cell is split. Area mostly does, for the plane is new area on both
 //! sides. The least loss of area is a thin slice off an end, and its slices are sliced again. Under
-//! the paper's own stop rule (`--measure area` alone) rocker arm is not split at all. Area is the
+//! the paper's own stop rule (area, with a least gain) rocker arm is not split at all. Area is the
 //! measure of flat meshes only.
 //!
 //! *Foresight.* No single plane shows a hole: halves of a ring have most of the ring's hull. Where

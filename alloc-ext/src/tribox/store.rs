@@ -24,6 +24,7 @@ use std::time::{Duration, Instant};
 
 /// Levels and time of a hierarchy.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct TriboxReport {
     /// Levels as measured, coarse to fine.
     pub levels: Vec<Level>,

@@ -232,8 +232,9 @@ fn polygons_that_were_split_are_reported() {
         text.contains("5 vertices, 5 triangles read") && text.contains("\n  2 polygons split: "),
         "{text}"
     );
-    let ply = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
-               element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    let ply = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n\
+        property float z\n\
+        element face 2\nproperty list uchar int vertex_indices\nend_header\n";
     let text = report(&directory, "a.ply", &(ply.to_owned() + corners + "4 0 1 2 3\n3 0 1 4\n"));
     assert!(text.contains("\n  1 polygon split: numbers of triangles count"), "{text}");
     assert!(!report(&directory, "b.obj", &(obj + "f 1 2 3\n")).contains(" split: "));

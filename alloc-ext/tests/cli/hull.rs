@@ -1,6 +1,8 @@
 //! `meshsweep hull` and `cut`: what is written is a closed hull, a blob, and whole.
 
-use crate::support::{arg, blob, fixture, hull_blob, info, ok, refused, run, scratch};
+use crate::support::{
+    arg, blob, coarse_torus, fixture, hull_blob, info, ok, refused, run, scratch, volume,
+};
 use meshsweep::mesh;
 use std::fs;
 use std::path::Path;
@@ -9,11 +11,8 @@ use std::path::Path;
 fn closed(path: &Path) -> (usize, f64) {
     let (mesh, _) = mesh::load_closed(path).expect("a hull is closed");
     let at = |v: u32| mesh.positions[v as usize].map(f64::from);
-    let volume = |&[a, b, c]: &[u32; 3]| {
-        let [[a, b, c], [d, e, f], [g, h, i]] = [at(a), at(b), at(c)];
-        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
-    };
-    (mesh.triangles.len(), mesh.triangles.iter().map(volume).sum())
+    let triangles: Vec<_> = mesh.triangles.iter().map(|t| t.map(at)).collect();
+    (triangles.len(), volume(&triangles))
 }
 
 /// Two tetrahedra.
@@ -26,7 +25,7 @@ fn void_percent(text: &str) -> f64 {
 }
 
 #[test]
-fn a_nested_hull_has_the_faces_and_the_void_that_are_printed() {
+fn a_progressive_hull_has_the_faces_and_the_void_that_are_printed() {
     let directory = scratch("hull_of_mesh");
     let out = directory.join("hull.ply");
     for name in ["bracket.stl", "torus.ply", "groove.obj"] {
@@ -44,7 +43,7 @@ fn a_nested_hull_has_the_faces_and_the_void_that_are_printed() {
 }
 
 #[test]
-fn a_nested_hull_that_stops_early_says_why() {
+fn a_progressive_hull_that_stops_early_says_why() {
     let directory = scratch("hull_stuck");
     let (mesh, out) = (fixture("bracket.stl"), directory.join("hull.ply"));
     let text = ok(["hull", arg(&mesh), "--progressive", "--faces", "4", "-o", arg(&out)]);
@@ -53,9 +52,10 @@ fn a_nested_hull_that_stops_early_says_why() {
 }
 
 #[test]
-fn a_tight_hull_has_the_faces_and_the_void_that_are_printed_and_hardly_more_than_a_nested_one() {
+fn a_tight_hull_has_the_faces_and_the_void_that_are_printed_and_hardly_more_than_a_progressive_one()
+{
     let directory = scratch("tight_hull");
-    let (tight, nested) = (directory.join("tight.ply"), directory.join("nested.ply"));
+    let (tight, progressive) = (directory.join("tight.ply"), directory.join("progressive.ply"));
     for name in ["bracket.stl", "torus.ply", "groove.obj"] {
         let mesh = fixture(name);
         let text = ok(["hull", arg(&mesh), "--faces", "100", "--effort", "0.1", "-o", arg(&tight)]);
@@ -64,16 +64,16 @@ fn a_tight_hull_has_the_faces_and_the_void_that_are_printed_and_hardly_more_than
         let (_, solid) = closed(&mesh);
         let void = (volume / solid - 1.0) * 100.0;
         assert!(void > 0.0 && (void - void_percent(&text)).abs() < 1e-2, "{void} {text}");
-        ok(["hull", arg(&mesh), "--progressive", "--faces", "100", "-o", arg(&nested)]);
-        // A nested hull of flat faces may be the solid itself, which a tight one may not touch.
-        assert!(volume <= closed(&nested).1 * (1.0 + 1e-3), "{name}");
+        ok(["hull", arg(&mesh), "--progressive", "--faces", "100", "-o", arg(&progressive)]);
+        // A progressive hull may be the solid itself. A tight hull may not touch it.
+        assert!(volume <= closed(&progressive).1 * (1.0 + 1e-3), "{name}");
     }
 }
 
 #[test]
 fn a_slack_and_a_void_are_kept_and_printed() {
     let directory = scratch("hull_slack");
-    let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
+    let (mesh, out) = (coarse_torus(&directory), directory.join("hull.ply"));
     let text = ok(["hull", arg(&mesh), "--slack", "0.4", "--effort", "0", "-o", arg(&out)]);
     let most: f64 =
         text.split("at most ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
@@ -389,9 +389,9 @@ fn hull_arguments_that_do_not_go_together_are_usage_errors() {
 fn a_hull_on_a_grid_encloses_the_mesh_that_moved_there() {
     let directory = scratch("hull_bits");
     let (mesh, out) = (fixture("torus.ply"), directory.join("hull.ply"));
-    for nested in [true, false] {
+    for progressive in [true, false] {
         let mut arguments = vec!["hull", arg(&mesh), "--vertex-bits", "16", "-o", arg(&out)];
-        arguments.extend(if nested { &["--progressive"][..] } else { &["--effort", "0"] });
+        arguments.extend(if progressive { &["--progressive"][..] } else { &["--effort", "0"] });
         let text = ok(arguments);
         assert!(text.contains("moved to the grid by up to "), "{text}");
         let (faces, volume) = closed(&out);

@@ -1,5 +1,4 @@
 //! Runs the program, and knows the truth by brute force in f64.
-#![allow(dead_code, reason = "each test file uses a part")]
 
 use meshsweep::mesh;
 use std::fs;
@@ -37,6 +36,27 @@ pub fn refused(output: &Output, status: i32, file: &str) -> String {
 
 pub fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name)
+}
+
+/// A torus as in `fixtures/torus.ply`, of 576 triangles: searches for few faces end at once.
+pub fn coarse_torus(directory: &Path) -> PathBuf {
+    let [around, across] = [24, 12];
+    let turn = |step: usize, of: usize| std::f64::consts::TAU * step as f64 / of as f64;
+    let mut text = String::new();
+    for (i, j) in (0..around * across).map(|v| (v / across, v % across)) {
+        let (a, b) = (turn(i, around), turn(j, across));
+        let out = 2.0 + 0.75 * b.cos();
+        let [x, y, z] = [out * a.cos(), out * a.sin(), 0.75 * b.sin()].map(|x| x as f32);
+        text += &format!("v {x} {y} {z}\n");
+    }
+    for (i, j) in (0..around * across).map(|v| (v / across, v % across)) {
+        let vertex = |i: usize, j: usize| i % around * across + j % across + 1;
+        let corners = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+        text += &format!("f {}\n", corners.map(|v| v.to_string()).join(" "));
+    }
+    let path = directory.join("coarse.obj");
+    fs::write(&path, text).expect("the file can be written");
+    path
 }
 
 /// An empty directory of a test's own.
@@ -113,17 +133,13 @@ pub fn write_raw<const N: usize>(path: &Path, rows: &[[f32; N]]) {
     fs::write(path, bytes).expect("the file can be written");
 }
 
-/// Fields of a CSV without its header, which must be `header`.
+/// Rows of a CSV without its header, which must be `header`. Every row has all fields.
 pub fn parse_csv(text: &str, header: &str) -> Vec<Vec<String>> {
-    let mut lines = text.lines();
-    assert_eq!(lines.next(), Some(header));
-    let rows: Vec<Vec<String>> =
-        lines.map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>()).collect();
-    assert!(
-        rows.iter().all(|row| row.len() == header.split(',').count()),
-        "every line has all fields"
-    );
-    rows
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let found = reader.headers().expect("there is a header");
+    assert_eq!(found, header.split(',').collect::<Vec<_>>());
+    let row = |row: csv::StringRecord| row.iter().map(str::to_owned).collect();
+    reader.records().map(|found| row(found.expect("every row has all fields"))).collect()
 }
 
 pub fn number(field: &str) -> f64 {
@@ -131,15 +147,20 @@ pub fn number(field: &str) -> f64 {
     f64::from(field.parse::<f32>().expect("a number"))
 }
 
+/// Volume that a closed surface bounds.
+pub fn volume(triangles: &[Triangle]) -> f64 {
+    triangles.iter().map(|&[a, b, c]| dot(a, cross(b, c)) / 6.0).sum()
+}
+
 fn sub(a: Point, b: Point) -> Point {
     core::array::from_fn(|k| a[k] - b[k])
 }
 
-fn dot(a: Point, b: Point) -> f64 {
+pub fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: Point, b: Point) -> Point {
+pub fn cross(a: Point, b: Point) -> Point {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

@@ -2,8 +2,8 @@
 //! mesh.
 
 use crate::support::{
-    Triangle, arg, blob, distance, fixture, info, number, ok, parse_csv, random_queries, refused,
-    run, scratch, triangles, wide, write_csv,
+    Triangle, arg, blob, coarse_torus, distance, fixture, info, number, ok, parse_csv,
+    random_queries, refused, run, scratch, triangles, volume, wide, write_csv,
 };
 use serde_json::Value;
 use std::fs;
@@ -97,7 +97,7 @@ fn checked(path: &Path, surface: &[Triangle], points: &[[f32; 3]], distance_of: 
 #[test]
 fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
     let directory = scratch("tight_goals");
-    let mesh = fixture("torus.ply");
+    let mesh = coarse_torus(&directory);
     let surface = triangles(&mesh);
     let solid = volume(&surface);
     let points: Vec<[f32; 3]> = random_queries(&surface, 200);
@@ -152,7 +152,7 @@ fn hulls_of_a_margin_a_slack_and_a_void_tell_the_truth_about_the_mesh() {
         refuse(&["--slack", "0.2", "--margin", "0.25"], 2, "--slack 0.2")
             .contains("--margin 0.25:")
     );
-    let line = refuse(&["--slack", "1e-9"], 1, "torus.ply");
+    let line = refuse(&["--slack", "1e-9"], 1, "coarse.obj");
     assert!(
         line.contains("a larger --slack") && line.contains("faces with --tight; nothing"),
         "{line}"
@@ -197,13 +197,6 @@ fn a_blob_tells_its_hulls_and_gives_them_back() {
     assert!(text.contains("1 tight hull"), "{text}");
     assert_eq!(hulls(&info(&small)), &hulls(&before)[..1]);
     assert!(fs::metadata(&small).unwrap().len() < fs::metadata(&path).unwrap().len() / 2);
-}
-
-fn volume(triangles: &[Triangle]) -> f64 {
-    let of = |&[[a, b, c], [d, e, f], [g, h, i]]: &Triangle| {
-        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
-    };
-    triangles.iter().map(of).sum()
 }
 
 #[test]

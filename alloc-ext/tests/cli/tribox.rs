@@ -2,7 +2,8 @@
 //! mesh.
 
 use crate::support::{
-    Point, Triangle, arg, distance, fixture, ok, refused, run, scratch, triangles,
+    Point, Triangle, arg, cross, distance, dot, fixture, info, ok, refused, run, scratch,
+    triangles, volume,
 };
 use serde_json::Value;
 use std::fs;
@@ -18,22 +19,13 @@ fn numbers(levels: &Value, key: &str) -> Vec<f64> {
     levels.iter().map(|level| level[key].as_f64().expect("a number")).collect()
 }
 
-fn volume(triangles: &[Triangle]) -> f64 {
-    let of = |&[[a, b, c], [d, e, f], [g, h, i]]: &Triangle| {
-        (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6.0
-    };
-    triangles.iter().map(of).sum()
-}
-
 /// Winding number, by solid angles.
 fn winding(p: Point, triangles: &[Triangle]) -> f64 {
-    let dot = |a: Point, b: Point| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let angle = |corners: &Triangle| {
         let [a, b, c]: Triangle = corners.map(|v| core::array::from_fn(|k| v[k] - p[k]));
-        let cross =
-            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
         let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
-        2.0 * dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
+        2.0 * dot(a, cross(b, c))
+            .atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
     };
     triangles.iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
@@ -179,10 +171,6 @@ fn coordinates_beyond_what_triboxes_hold_are_refused_by_name() {
         fs::write(&mesh, text).unwrap();
         assert_eq!(json(&mesh, &["--levels", "3"])["is_closed"], true);
     }
-}
-
-fn info(blob: &Path) -> Value {
-    serde_json::from_str(&ok(["info", arg(blob), "--json"])).expect("it is JSON")
 }
 
 #[test]

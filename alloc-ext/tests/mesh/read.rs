@@ -10,7 +10,8 @@ fn parse(name: &str, bytes: impl Into<Vec<u8>>) -> Result<RawMesh, MeshError> {
 
 fn ply(format: &str, scalar: &str, list: &str, body: &[u8]) -> Vec<u8> {
     let header = format!(
-        "ply\nformat {format} 1.0\ncomment made by hand\nelement vertex 4\nproperty {scalar} x\nproperty {scalar} y\n\
+        "ply\nformat {format} 1.0\ncomment made by hand\nelement vertex 4\nproperty {scalar} x\n\
+         property {scalar} y\n\
          property {scalar} z\nelement face 1\nproperty list {list} vertex_indices\nend_header\n"
     );
     [header.as_bytes(), body].concat()
@@ -61,8 +62,9 @@ fn truncated_ply_is_refused_with_place() {
 
 #[test]
 fn header_announcing_more_than_the_file_can_hold_is_refused_before_reading() {
-    let header = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n\
-                  property float y\nproperty float z\nend_header\n0123456789ab0123456789ab";
+    let header = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\n\
+        property float x\n\
+        property float y\nproperty float z\nend_header\n0123456789ab0123456789ab";
     let error = parse("lie.ply", header).unwrap_err();
     assert!(
         matches!(error, MeshError::Truncated { wanted: 4_000_000_000, found: 2, .. }),
@@ -72,10 +74,13 @@ fn header_announcing_more_than_the_file_can_hold_is_refused_before_reading() {
 
 #[test]
 fn unknown_ply_elements_and_properties_are_skipped() {
-    let text = "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar float pose\nelement vertex 3\n\
-                property uchar red\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
-                property float quality\nproperty list uchar int vertex_index\nelement edge 1\nproperty int a\n\
-                end_header\n2 0.5 0.5\n9 0 0 0\n9 1 0 0\n9 0 1 0\n0.25 3 2 1 0\n7\n";
+    let text = "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar float pose\n\
+        element vertex 3\n\
+        property uchar red\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\n\
+        property float quality\nproperty list uchar int vertex_index\nelement edge 1\n\
+        property int a\n\
+        end_header\n2 0.5 0.5\n9 0 0 0\n9 1 0 0\n9 0 1 0\n0.25 3 2 1 0\n7\n";
     let raw = parse("a.ply", text).unwrap();
     assert_eq!(raw.triangles, [[2, 1, 0]]);
     assert_eq!(raw.positions[1], [1.0, 0.0, 0.0]);
@@ -100,14 +105,16 @@ fn ply_face_with_negative_index_is_refused_with_line() {
 
 #[test]
 fn ply_without_z_is_refused() {
-    let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n";
+    let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+        end_header\n0 0\n";
     assert!(matches!(parse("a.ply", text), Err(MeshError::Malformed { .. })));
 }
 
 #[test]
 fn obj_reads_relative_indices_slashes_comments_and_continued_lines() {
-    let text = "# a square\nmtllib none.mtl\nv 0 0 0.5 # first\nv 1 0 0.5 1.0\nv 1 1 0.5\nvn 0 0 1\no part\n\
-                v 0 1 0.5\ng top\nf -4/1/1 -3//1 \\\n  3/2 4\nl 1 2\np 1\r\n";
+    let text = "# a square\nmtllib none.mtl\nv 0 0 0.5 # first\nv 1 0 0.5 1.0\nv 1 1 0.5\n\
+        vn 0 0 1\no part\n\
+        v 0 1 0.5\ng top\nf -4/1/1 -3//1 \\\n  3/2 4\nl 1 2\np 1\r\n";
     let raw = parse("a.obj", text).unwrap();
     assert_eq!(raw.positions, SQUARE);
     assert_eq!(raw.triangles, [[0, 1, 2], [0, 2, 3]]);
@@ -118,7 +125,8 @@ fn obj_index_beyond_the_vertices_is_refused_with_line_and_number_as_written() {
     let error = parse("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "a.obj, line 3: face 1 names vertex 3, but there are 2 vertices; remove or renumber the face"
+        "a.obj, line 3: face 1 names vertex 3, but there are 2 vertices; remove or renumber the \
+         face"
     );
     assert!(matches!(
         parse("a.obj", "v 0 0 0\nf 0 1 1\n"),

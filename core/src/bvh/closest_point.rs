@@ -98,11 +98,23 @@ pub(crate) fn closest_point(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    closest_point_from(tree, point, &mut Hint::NONE.clone(), budget, scratch)
+    search(tree, point, &mut Hint::NONE.clone(), budget, scratch)
+}
+
+/// With a hint: one function for single queries, batches and coherent queries.
+#[inline(never)]
+pub(crate) fn closest_point_from(
+    tree: &Bvh<'_>,
+    point: [f32; 3],
+    hint: &mut Hint,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<ClosestPoint, QueryError> {
+    search(tree, point, hint, budget, scratch)
 }
 
 #[inline(always)]
-pub(crate) fn closest_point_from(
+fn search(
     tree: &Bvh<'_>,
     point: [f32; 3],
     hint: &mut Hint,

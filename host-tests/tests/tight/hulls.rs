@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, RawMesh, Wire, read_bytes, repair};
-use meshsweep::wrap::{
+use meshsweep::tight::{
     Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, split_components, wrap,
 };
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use meshsweep::mesh::{Mesh, RawMesh, repair};
-use meshsweep::wrap::{Goal, Hull, Options, Outcome, Start, WrapError, wrap};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, WrapError, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus,

@@ -74,7 +74,7 @@ impl Blob {
     /// What the host answered.
     ///
     /// # Errors
-    /// [`write`] was not run.
+    /// [`write()`] was not run.
     pub fn expected(self) -> Result<Reading, String> {
         let file = folder().join(self.name).with_extension("txt");
         let text = std::fs::read_to_string(&file)

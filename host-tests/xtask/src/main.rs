@@ -14,7 +14,7 @@ cargo xtask test                    setup, then everything that has to hold
 cargo xtask test lab                the laboratory's own lints and tests
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
-cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
+cargo xtask picture                 draws fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
 cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
@@ -56,8 +56,8 @@ fn main() -> ExitCode {
                 firmware::run(&mut steps, &tools, json);
             }
         }
-        ["fixtures"] => {
-            steps.run("fixtures", || host::run(&["fixtures"]).map(|text| say!("{text}")));
+        [word @ ("fixtures" | "picture")] => {
+            steps.run(word, || host::run(&[*word]).map(|text| say!("{text}")));
         }
         ["tables"] => {
             let tools = firmware::setup(&mut steps);
@@ -66,9 +66,6 @@ fn main() -> ExitCode {
             let rows = tools.map(run).unwrap_or_default();
             let facts = Facts { counts: counts.as_ref(), rows: &rows };
             steps.run("tables of the documents", || tables::write(&facts));
-        }
-        ["picture"] => {
-            steps.run("picture", || host::run(&["picture"]).map(drop));
         }
         ["count"] => count::run(&mut steps),
         ["measure" | "race" | "rival", ..] => return checks::lab(&words),

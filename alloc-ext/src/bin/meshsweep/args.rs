@@ -48,7 +48,7 @@ pub enum Command {
     /// Build a blob from a mesh (.stl, .ply, .obj)
     #[command(after_help = explained::BUILD)]
     Build(BuildArgs),
-    /// Print what a blob holds: sections, memory, levels, error bounds
+    /// Print the contents of a blob: sections, memory, levels, error bounds
     #[command(after_help = explained::INFO)]
     Info(InfoArgs),
     /// Closest point and distance interval of each query point, as CSV

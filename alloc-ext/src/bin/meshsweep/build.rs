@@ -27,7 +27,7 @@ use std::time::Duration;
 /// Triboxes unless told otherwise.
 const TRIBOXES: u32 = 64;
 
-/// What can be built from a mesh that is not closed.
+/// The remedy for a mesh that is not closed.
 const INSTEAD: &str = "for distances and segments, --for closest,segment needs no closed mesh";
 
 pub fn run(args: &BuildArgs) -> Result<(), Failure> {
@@ -138,7 +138,7 @@ fn failed(args: &BuildArgs, error: BuildError) -> Failure {
     Failure::Build { file: args.mesh.clone(), error }
 }
 
-/// What the command reports.
+/// The report of the command.
 struct Report<'a> {
     args: &'a BuildArgs,
     loaded: &'a Loaded,

@@ -38,7 +38,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     ask::run(&Closest { by, budget, search: &args.search, points }, queries, &args.search)
 }
 
-/// What answers.
+/// The structure that answers.
 enum By<'a> {
     Engine(Engine<'a>),
     Tight(TightHull<'a>),

@@ -1,4 +1,4 @@
-//! What `build` and `hull` both say of the hulls that they make.
+//! Sentences of `build` and `hull` about the hulls that they make.
 
 use crate::failure::Failure;
 use crate::mesh_file::Loaded;
@@ -38,8 +38,8 @@ pub fn write_no_void<E: std::fmt::Display>(
     }
 }
 
-/// Says whether the volume that void is measured against is sure, what the hull began as if not as
-/// the progressive hull, and which cavities it fills.
+/// Says whether the mesh's volume is sure, how the hull began if not as the progressive hull, and
+/// which cavities it fills.
 pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.crosses {
         writeln!(
@@ -86,7 +86,8 @@ pub fn write_wires(out: &mut dyn Write, off: f64) -> io::Result<()> {
     }
     writeln!(
         out,
-        "  triangles without area lie up to {} off the surface: hulls may leave them out by as much",
+        "  triangles without area lie up to {} off the surface: hulls may leave them out by as \
+         much",
         AtMost(off)
     )
 }

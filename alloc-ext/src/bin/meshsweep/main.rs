@@ -11,7 +11,7 @@
 //! | `ask` | one question about many queries, on several threads, answered as CSV |
 //! | `output` | files that are complete or not there, and pipes that close early |
 //! | `describe` | tables and JSON of sections, levels and memory |
-//! | `hull_report`, `unmet` | what `build` and `hull` say of hulls that they make |
+//! | `hull_report`, `unmet` | sentences about hulls that were made, or are too loose |
 //! | `progress` | progress bars |
 //! | all others | one command each |
 //!

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 pub struct Loaded {
     /// Repaired.
     pub mesh: Mesh,
-    /// What was repaired.
+    /// The repairs.
     pub report: RepairReport,
     /// Largest distance that a vertex moved to reach the grid, in the file's unit.
     pub moved: f64,

@@ -19,8 +19,7 @@ pub struct Queries<const N: usize> {
     pub rows: Vec<[f32; N]>,
     /// The sources, each with the index of its first row.
     sources: Vec<(usize, Source)>,
-    /// What is wrong with the query after the last one. The queries before it are asked all the
-    /// same.
+    /// The failure of the query after the last one. The queries before it are asked all the same.
     pub broken: Option<Failure>,
 }
 

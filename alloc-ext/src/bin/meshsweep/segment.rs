@@ -43,7 +43,7 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     }
 }
 
-/// What answers, and what limits the search.
+/// The engine, and the limits of the search.
 struct Caster<'a> {
     engine: Engine<'a>,
     facing: Facing,

@@ -28,7 +28,7 @@ pub struct FanReport {
 impl FanReport {
     /// Counts `fans` and `leaves`, which need not belong together: pass the fans of
     /// [`decompose`](super::decompose()) to compare with the paper, or those of the leaves (by
-    /// [`FanLeaf::fans`]) to see what is stored. Linear.
+    /// [`FanLeaf::fans`]) to see the stored fans. Linear.
     ///
     /// # Panics
     /// If a fan or a leaf has no triangle or more than [`MAX_LEAF_TRIANGLES`].

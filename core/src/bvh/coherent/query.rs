@@ -248,7 +248,8 @@ impl Memory {
         let query = PointQuery::new(tree, point)?;
         let first = tree.frame(0).ok_or(QueryError::NO_DISTANCES)?;
         if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
-            let closest = plain(tree, point, &mut Hint::NONE.clone(), budget, scratch)?;
+            let closest =
+                closest_point_from(tree, point, &mut Hint::NONE.clone(), budget, scratch)?;
             return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
@@ -272,7 +273,7 @@ impl Memory {
             self.extent = Extent::EMPTY;
             (self.last.known, self.last.second) = (false, 0.0);
         }
-        let mut closest = plain(tree, point, &mut self.hint, budget, scratch)?;
+        let mut closest = closest_point_from(tree, point, &mut self.hint, budget, scratch)?;
         self.pace.plain_query(&closest.work);
         self.last.reach = query.units.inward(closest.distance.upper) + query.units.surface_error;
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
@@ -362,18 +363,6 @@ impl Memory {
         };
         Ok(CoherentClosest { closest, safe_radius: query.units.lower(safe_radius) })
     }
-}
-
-/// The plain query: one copy for both callers.
-#[inline(never)]
-fn plain(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    hint: &mut Hint,
-    budget: &Budget,
-    scratch: &mut [ScratchEntry],
-) -> Result<ClosestPoint, QueryError> {
-    closest_point_from(tree, point, hint, budget, scratch)
 }
 
 /// The triangle's number in the input file.

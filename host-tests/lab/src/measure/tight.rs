@@ -7,8 +7,8 @@ pub mod picture;
 
 use meshsweep::hull::{BuildOptions, hull_of};
 use meshsweep::mesh::{Mesh, require_closed_manifold};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
 use meshsweep::tribox::volume;
-use meshsweep::wrap::{Goal, Hull, Options, Outcome, Start, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};

@@ -7,7 +7,7 @@ use meshsweep_core::{Eye, Facing};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// Where answers go, and what limits a search.
+/// The output of answers, and the limits of a search.
 #[derive(Debug, Args)]
 pub struct SearchArgs {
     /// CSV file to write instead of the standard output
@@ -16,10 +16,10 @@ pub struct SearchArgs {
     /// Stop a query after opening so many nodes
     #[arg(long, value_name = "NODES", value_parser = whole::<0, { u32::MAX }>)]
     pub steps: Option<u32>,
-    /// Stack entries to search with [default: what the blob needs]
+    /// Scratch entries to search with [default: as many as the blob needs]
     #[arg(long, value_name = "ENTRIES", value_parser = whole::<1, { 1 << 24 }>)]
     pub queue: Option<u32>,
-    /// Threads [default: as many as the machine has processors for]; answers do not depend on it
+    /// Threads [default: one for each processor]; answers do not depend on it
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
     /// Print nanoseconds per query, and how queries ended, to the standard error
@@ -52,7 +52,7 @@ pub struct ClosestArgs {
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// inside it [default: the finest of all, if the blob knows distances by nothing else]
+    /// inside it [default: the finest of all, if the blob has no other structure for distances]
     #[arg(
         long,
         value_name = "FACES",
@@ -71,12 +71,12 @@ pub struct WithinArgs {
     /// The distance, in the mesh's unit
     #[arg(short, long, value_name = "D", value_parser = tolerance)]
     pub distance: f32,
-    /// All triangles that are within the distance or may be, nearest first, one on a line, with
-    /// the number of the query (from 0) in front
+    /// All triangles that are or may be within the distance, nearest first, one on a line; the
+    /// query's number, from 0, is the first column
     #[arg(long)]
     pub all: bool,
     /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// inside it [default: the finest of all, if the blob knows distances by nothing else]
+    /// inside it [default: the finest of all, if the blob has no other structure for distances]
     #[arg(
         long,
         value_name = "FACES",
@@ -117,8 +117,8 @@ pub struct FieldArgs {
     /// Samples along each axis: one number for all, or NX,NY,NZ
     #[arg(long, value_name = "SIZE", default_value = "64", value_parser = size)]
     pub size: Size,
-    /// How far the grid reaches beyond the mesh's box: a length, or a percentage of the box's
-    /// longest edge
+    /// Margin of the grid around the mesh's box: a length, or a percentage of the box's longest
+    /// edge
     #[arg(long, value_name = "MARGIN", default_value = "10%", value_parser = margin)]
     pub margin: Margin,
     /// Negative values inside, NaN where the side is not proved; the mesh must be closed
@@ -127,7 +127,7 @@ pub struct FieldArgs {
     /// Write lower and upper bound instead of the middle between them
     #[arg(long)]
     pub interval: bool,
-    /// Threads [default: as many as the machine has processors for]
+    /// Threads [default: one for each processor]
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
 }
@@ -142,11 +142,11 @@ pub struct SegmentArgs {
     /// Query segments: ax,ay,az,bx,by,bz each, or files of them
     #[arg(required = true, value_parser = given::queries::<6>())]
     pub segments: Vec<Given<6>>,
-    /// All hits, one on a line, with the number of the query (from 0) in front
+    /// All hits, one on a line; the query's number, from 0, is the first column
     #[arg(long)]
     pub all: bool,
-    /// Only hits of fronts or of backs, on the box tree; the front of a triangle is where its
-    /// corners run counter-clockwise [default: both]
+    /// Only hits of fronts or of backs, on the box tree; seen from its front a triangle's corners
+    /// run counter-clockwise [default: both]
     #[arg(long, value_enum)]
     pub facing: Option<FacingName>,
     /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
@@ -158,7 +158,7 @@ pub struct SegmentArgs {
 }
 
 impl SegmentArgs {
-    /// Which sides of triangles count.
+    /// The sides of triangles that count.
     pub fn facing(&self) -> Facing {
         match self.facing {
             None | Some(FacingName::Both) => Facing::Both,
@@ -187,7 +187,7 @@ pub struct OverlapArgs {
     pub first: PathBuf,
     /// Blob file of the mesh that is moved
     pub second: PathBuf,
-    /// Where the second mesh is: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was
+    /// Pose of the second mesh: x,y,z,qw,qx,qy,qz each, or files of them [default: where it was
     /// built]
     #[arg(long, value_name = "POSE", num_args = 1.., value_parser = given::queries::<7>())]
     pub pose: Vec<Given<7>>,
@@ -212,7 +212,7 @@ pub struct OverlapArgs {
 pub struct CullArgs {
     /// Blob file, built --for cull
     pub blob: PathBuf,
-    /// Where the eye is: x,y,z
+    /// Position of the eye: x,y,z
     #[arg(required_unless_present = "along", conflicts_with = "along", value_parser = point)]
     pub viewpoint: Option<[f32; 3]>,
     /// Instead of a viewpoint the direction of parallel lines of sight, from the eye into the

@@ -33,7 +33,7 @@ pub struct HullArgs {
     /// Most faces of the hull of a mesh [default: 200]
     #[arg(long, value_parser = whole::<4, { u32::MAX }>)]
     pub faces: Option<u32>,
-    /// Fewest faces found that leave at most this void space, in percent of the mesh's volume
+    /// Fewest faces found that leave at most this void, in percent of the mesh's volume
     #[arg(
         long,
         value_name = "PERCENT",
@@ -41,7 +41,8 @@ pub struct HullArgs {
         conflicts_with_all = ["faces", "progressive"]
     )]
     pub void: Option<f64>,
-    /// Fewest faces found of which no point is farther than this from the mesh, in its unit
+    /// Fewest faces found such that no point of the hull is farther than this from the mesh, in
+    /// its unit
     #[arg(
         long,
         value_name = "DISTANCE",
@@ -49,21 +50,21 @@ pub struct HullArgs {
         conflicts_with_all = ["faces", "void", "progressive"]
     )]
     pub slack: Option<f64>,
-    /// Distance that the hull keeps from the mesh, in its unit: all points that are no farther are
-    /// inside [default: 0]
+    /// Distance that the hull keeps from the mesh, in its unit: all points up to it are inside
+    /// [default: 0]
     #[arg(long, value_name = "DISTANCE", value_parser = length, conflicts_with = "progressive")]
     pub margin: Option<f64>,
-    /// One hull for each part of the mesh, all in one file
+    /// One hull for each connected component of the mesh, all in one file
     #[arg(long, conflicts_with = "progressive")]
     pub parts: bool,
     /// How long to polish, as a factor: 0 not at all, 4 four times as long [default: 1]
     #[arg(long, value_name = "FACTOR", value_parser = factor, conflicts_with = "progressive")]
     pub effort: Option<f64>,
-    /// Stop each hull after about so many seconds: with more faces than asked for, if they are not
+    /// Stop each hull after about so many seconds, with more faces than asked for if they are not
     /// gone by then
     #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "progressive")]
     pub seconds: Option<f64>,
-    /// The progressive hull: looser, but levels of a blob's hull hierarchy enclose each other so
+    /// The progressive hull: looser, as the levels of a blob's hull hierarchy are
     #[arg(long)]
     pub progressive: bool,
     /// Level of a blob, 0 being the coarsest
@@ -82,9 +83,8 @@ pub struct HullArgs {
         conflicts_with = "level"
     )]
     pub tight: Option<u32>,
-    /// Bits of a coordinate of the hull of a mesh: auto, single precision, or with --progressive
-    /// the fewest that hold the mesh exactly; 16 or 24, on a grid, to which the mesh moves;
-    /// 32, single precision
+    /// Bits of a coordinate of a mesh's hull: auto is 32, or with --progressive the fewest that
+    /// hold the mesh exactly; 16 and 24 move the mesh to a grid; 32 is single precision
     #[arg(
         long,
         value_enum,

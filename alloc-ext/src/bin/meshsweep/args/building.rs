@@ -17,7 +17,7 @@ pub struct BuildArgs {
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]
     pub output: PathBuf,
-    /// What the blob will be asked; only what that needs is written (see below)
+    /// Questions that the blob must serve; only the sections that they need are written (see below)
     #[arg(
         long = "for",
         value_enum,
@@ -44,12 +44,12 @@ pub struct BuildArgs {
     /// Faces of each tight hull, with --for tight [default: 200]
     #[arg(long, value_name = "FACES", value_delimiter = ',', value_parser = whole::<4, MAX_TIGHT>)]
     pub tight: Vec<u32>,
-    /// Instead of numbers of faces one tight hull, with the fewest faces found of which no point
-    /// is farther than this from the mesh, in its unit
+    /// Instead of numbers of faces: one tight hull, with the fewest faces found such that no point
+    /// of it is farther than this from the mesh, in its unit
     #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "tight")]
     pub slack: Option<f64>,
-    /// Instead of numbers of faces one tight hull, with the fewest faces found that leave at most
-    /// this void space, in percent of the mesh's volume
+    /// Instead of numbers of faces: one tight hull, with the fewest faces found that leave at most
+    /// this void, in percent of the mesh's volume
     #[arg(
         long,
         value_name = "PERCENT",
@@ -57,16 +57,16 @@ pub struct BuildArgs {
         conflicts_with_all = ["tight", "slack"]
     )]
     pub void: Option<f64>,
-    /// Distance that tight hulls keep from the mesh, in its unit: all points that are no farther
-    /// are inside [default: 0]
+    /// Distance that tight hulls keep from the mesh, in its unit: all points up to it are inside
+    /// [default: 0]
     #[arg(long, value_name = "DISTANCE", value_parser = length)]
     pub margin: Option<f64>,
     /// How long to polish tight hulls, as a factor: 0 not at all, 4 four times as long [default:
     /// 1]
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
     pub effort: Option<f64>,
-    /// Questions to tight hulls: closest; segment, which no command asks, only the library
-    /// [default: closest,segment]
+    /// Questions to tight hulls: closest; segment, which only the library asks [default:
+    /// closest,segment]
     #[arg(
         long,
         value_enum,
@@ -79,7 +79,7 @@ pub struct BuildArgs {
     pub collapse: CollapseArgs,
 }
 
-/// Most faces of a tight hull that is stored.
+/// Most faces of a stored tight hull.
 const MAX_TIGHT: u32 = 1_000_000;
 
 /// Questions to a tight hull.

@@ -2,12 +2,12 @@
 
 use std::num::NonZeroUsize;
 
-/// How far a grid reaches beyond the mesh's box.
+/// The margin of a grid around the mesh's box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Margin {
     /// In the mesh's unit.
     Length(f64),
-    /// As a part of the longest edge of the mesh's box.
+    /// As a part of the longest edge of the box.
     Part(f64),
 }
 

@@ -14,7 +14,7 @@ pub fn stack_bytes(tree: &Bvh<'_>) -> usize {
     tree.scratch_entries() * size_of::<ScratchEntry>()
 }
 
-/// About what an exact answer's half-width is, in the mesh's unit: next to the surface, and one
+/// The approximate half-width of an exact answer, in the mesh's unit: next to the surface, and one
 /// diagonal of the mesh away (`core/docs/rounding.md` §8). Wider where slivers are near.
 fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
     let h = tree.header();
@@ -33,7 +33,7 @@ pub(super) fn format_name(tree: &Bvh<'_>) -> &'static str {
     if tree.header().is_f32() { "f32" } else { "16-bit grid" }
 }
 
-/// What bounds the children of nodes, and the normals of leaves.
+/// The bounds of nodes' children, and of leaves' normals.
 fn bounds(tree: &Bvh<'_>) -> Vec<&'static str> {
     [
         (tree.serves_distances(), "boxes in shared frames"),

@@ -1,25 +1,24 @@
 //! Queries as text: one on a line, with the separator that the line uses.
 //!
-//! The `csv` crate does not fit: it knows one separator for all lines, no runs of blanks, and
-//! comments only where a line begins.
+//! The `csv` crate does not fit: it knows one separator for all lines, no runs of blanks, comments
+//! only where a line begins, and counts no blank lines before a record.
 
 use crate::args::names;
 use crate::failure::Failure;
 use crate::number;
 use std::path::Path;
 
-/// What a text holds up to its end, or to the first line that is no query.
+/// The queries of a text, up to its end or to the first line that is no query.
 pub struct Rows<const N: usize> {
     pub rows: Vec<[f32; N]>,
     /// The line that each row was on, counting from 1.
     pub lines: Vec<usize>,
-    /// What is wrong with the line after the last row.
+    /// The failure of the line after the last row.
     pub broken: Option<Failure>,
 }
 
-/// Reads `N` numbers a line. Skipped: blank lines, what follows a `#`, and a first line of names.
-///
-/// A number is rounded to the nearest f32, which is the query's coordinate.
+/// Reads `N` numbers a line, each rounded to the nearest f32. Skips blank lines, comments from a
+/// `#` on, and a first line of names.
 pub fn parse<const N: usize>(file: &Path, bytes: &[u8]) -> Rows<N> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let mut found = Rows { rows: Vec::new(), lines: Vec::new(), broken: None };
@@ -47,8 +46,8 @@ pub fn parse<const N: usize>(file: &Path, bytes: &[u8]) -> Rows<N> {
     found
 }
 
-/// Whether a field may head a column: it begins with a letter or a quotation mark, and is no number
-/// (as `nan` is).
+/// Whether a field may head a column: it begins with a letter or a quotation mark, and is no
+/// number, as `nan` is.
 fn is_name(field: &str) -> bool {
     let begins = field.starts_with(|c: char| c.is_alphabetic() || c == '"' || c == '_');
     begins && field.parse::<f64>().is_err()
