@@ -37,6 +37,7 @@ fn main() -> ExitCode {
             // First, because a new machine fails here, and the message tells the remedy.
             let tools = firmware::setup(&mut steps);
             checks::run(&mut steps);
+            checks::of_lab(&mut steps);
             let counts = count::for_test(&mut steps);
             if let Some(counts) = &counts {
                 count::check_lanes(&mut steps, counts);
@@ -45,7 +46,6 @@ fn main() -> ExitCode {
             let rows = tools.map(run).unwrap_or_default();
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
         }
-        ["test", "lab"] => checks::of_lab(&mut steps),
         ["firmware", rest @ ..] => {
             let json = match rest {
                 [] => None,
