@@ -7,6 +7,7 @@ use meshsweep_host_tests::golden::{
     bracket_hulls, bracket_model, groove_tree, hull_answers, tight_answers, torus_triboxes,
     tree_answers, tribox_answers,
 };
+use meshsweep_host_tests::picture;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
@@ -14,6 +15,15 @@ fn folder() -> PathBuf {
 
 fn read(name: &str) -> Vec<u8> {
     std::fs::read(folder().join(name)).expect("the fixture is there")
+}
+
+#[test]
+fn committed_picture_is_what_the_command_draws() {
+    let drawn = picture::part(&folder()).expect("drawn");
+    assert!(
+        read("part.svg") == drawn.as_bytes(),
+        "fixtures/part.svg is out of date: run `cargo xtask picture`"
+    );
 }
 
 #[test]
