@@ -1,4 +1,4 @@
-//! A blob: opened once, then handed out as views of its structures.
+//! [`Blob`]: checked once by `open`. Its views of structures then cost no check.
 
 use crate::bvh::format::Bvh;
 use crate::format::layout::SectionKind;
@@ -10,8 +10,8 @@ use crate::tribox::format::Triboxes;
 
 /// A blob whose bytes were checked. Copies are cheap: it borrows the bytes and holds the header.
 ///
-/// If [`Blob::open`] returned `Ok`, then every section of the blob has its CRC, and every structure
-/// is one that its own `open` accepts.
+/// If [`Blob::open`] returned `Ok`, then the CRC of every section of a known kind is right, and the
+/// `open` of every structure accepts these bytes.
 ///
 /// ```
 /// use meshsweep_core::{Blob, Budget, BuildFor, QueryError, Scratch};
@@ -41,16 +41,16 @@ impl<'a> Blob<'a> {
     /// Cost: linear in the blob, no allocation; once per start.
     ///
     /// # Errors
-    /// [`OpenError`] names the wanted and the found.
+    /// [`OpenError`] names what was wanted and what was found.
     pub fn open(bytes: &'a [u8]) -> Result<Blob<'a>, OpenError> {
         let blob = Blob { header: read_header(bytes)?, bytes };
         let hull = Hull::place(bytes, true)?;
         let kinds = || SectionKind::ALL.into_iter();
-        // Any section of a tree needs the others.
-        let has_tree = kinds().any(|kind| kind.is_bvh() && blob.has(kind));
+        // Any section of the box tree needs the others, so one is enough to check for all.
+        let has_bvh = kinds().any(|kind| kind.is_bvh() && blob.has(kind));
         let has_triboxes = blob.has(SectionKind::Triboxes);
         let has_tight_hulls = blob.has(SectionKind::TightHulls);
-        if has_tree {
+        if has_bvh {
             Bvh::open(bytes)?;
         }
         if has_triboxes {
@@ -59,7 +59,7 @@ impl<'a> Blob<'a> {
         if has_tight_hulls {
             TightHulls::open(bytes)?;
         }
-        if !hull.has_hull() && (has_tree || has_triboxes || has_tight_hulls) {
+        if !hull.has_hull() && (has_bvh || has_triboxes || has_tight_hulls) {
             hull.check_absent()?;
         } else {
             hull.check()?;
@@ -67,7 +67,7 @@ impl<'a> Blob<'a> {
         Ok(blob)
     }
 
-    /// The box tree.
+    /// The box tree: distances, sides, segments, overlaps.
     ///
     /// # Errors
     /// [`QueryError::NotServed`] if the blob was built without it.
@@ -75,7 +75,7 @@ impl<'a> Blob<'a> {
         Bvh::view(self.bytes).map_err(|_| QueryError::NO_DISTANCES)
     }
 
-    /// The hull hierarchy.
+    /// The hull hierarchy: nested outer hulls, refined at run time.
     ///
     /// # Errors
     /// [`QueryError::NotServed`] if the blob was built without it.
@@ -84,7 +84,7 @@ impl<'a> Blob<'a> {
         if hull.has_hull() { Ok(hull) } else { Err(QueryError::NO_HULL) }
     }
 
-    /// The tight hulls.
+    /// The tight hulls: outer hulls of few faces.
     ///
     /// # Errors
     /// [`QueryError::NotServed`] if the blob was built without them.
@@ -92,7 +92,7 @@ impl<'a> Blob<'a> {
         TightHulls::view(self.bytes).map_err(|_| QueryError::NO_TIGHT_HULLS)
     }
 
-    /// The triboxes.
+    /// The triboxes: bounds of eighteen planes.
     ///
     /// # Errors
     /// [`QueryError::NotServed`] if the blob was built without them.
@@ -100,8 +100,8 @@ impl<'a> Blob<'a> {
         Triboxes::view(self.bytes).map_err(|_| QueryError::NO_TRIBOXES)
     }
 
-    /// Sections of the blob, in file order. Entries of a kind that this version does not know are
-    /// passed over.
+    /// Sections of the blob, in file order, without those of a kind that this version does not
+    /// know.
     pub fn sections(&self) -> impl Iterator<Item = Section> + 'a {
         let bytes = Bytes(self.bytes);
         (0..self.header.section_count).filter_map(move |index| section(bytes, index).ok().flatten())

@@ -1,9 +1,9 @@
 //! Geometric questions about triangle meshes, answered from a binary blob where it lies: no heap,
 //! no recursion, no panic.
 //!
-//! A host tool (`meshsweep`) turns a mesh into a blob. [`Blob::open`] checks every byte of it once.
-//! The views that it hands out answer with intervals that contain the true distance to the input
-//! mesh in real arithmetic.
+//! A host tool (`meshsweep`) turns a mesh into a blob. [`Blob::open`] checks every byte of the blob
+//! once and gives views of its structures. Each view answers questions. A distance is an interval
+//! that contains the true distance to the input mesh, in real arithmetic.
 //!
 //! ```
 //! use meshsweep_core::{Blob, Budget, Scratch};
@@ -27,33 +27,34 @@
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
-//! | the same of a part that is known by a hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
+//! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |
 //! | the faces of a nested hull; hits from outside | [`Hull::faces`], [`Hull::outer_hits`] |
 //!
 //! # Layers
-//! A folder may use those to its left in this line and no other:
+//! A folder may use only folders to its left in this line:
 //! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`} ← `tight` ← `blob`.
 //!
 //! | folder | owns |
 //! | --- | --- |
-//! | `num` | rounding-aware scalars, stored radii, every tolerance with its derivation |
+//! | `num` | scalars with known rounding, stored radii, every tolerance with its derivation |
 //! | `geom` | closed-form kernels: point–triangle, segment–triangle, triangle pair, box, fan, swept triangle; they know no bytes |
-//! | `format` | what all structures share of the bytes: header, section table, CRC, reading numbers |
-//! | `query` | what all questions share: [`Budget`], [`Scratch`], intervals, work counters, errors |
+//! | `format` | bytes that all structures share: header, section table, CRC, reading numbers |
+//! | `query` | types that all questions share: [`Budget`], [`Scratch`], intervals, work counters, errors |
 //! | `bvh` | the box tree over fans, one file per question |
 //! | `hull` | split tables: levels, the refined hull, the cover tree |
 //! | `tribox` | bounds of eighteen planes, and their hierarchy |
-//! | `tight` | tight hulls, whose index is a box tree |
+//! | `tight` | tight hulls, each stored as a box tree |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
 //!
 //! Each structure has its bytes in a folder `format`: `layout` (sizes and offsets), `view`,
 //! `check`.
 //!
 //! # The same bits everywhere
-//! Only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is
-//! `libm`'s, which is correctly rounded on every target; the box tree has its own, of products and
-//! sums. The same blob and query give the same bits on a workstation and on a Cortex-M0.
+//! The same blob and query give the same bits on a workstation and on a Cortex-M0. The code uses
+//! only `+ − × ÷ √` and comparisons, in one written order, never fused. The square root is
+//! `libm`'s, which is correctly rounded on every target. The box tree computes square roots by
+//! products and sums of its own.
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -87,10 +88,10 @@ pub use tribox::{
     Bound, Boundary, Candidates, NodePair, Separation, Tribox, TriboxError, TriboxLevel, Triboxes,
 };
 
-/// The folders, for the builder, the checker and the tests. Not part of the public interface: it may
-/// change in any release.
+/// The folders, for the builder, the checker and the tests. Not part of the public interface: it
+/// may change in any release.
 #[doc(hidden)]
-#[allow(missing_docs, reason = "each room documents itself")]
+#[allow(missing_docs, reason = "each folder documents itself")]
 pub mod internal {
     pub mod num {
         pub use crate::num::*;

@@ -1,5 +1,5 @@
-//! The blobs that the firmware images are asked about: split hierarchies in every coordinate format,
-//! whole and cut, box trees, triboxes and tight hulls.
+//! The blobs that the firmware images are asked about: split hierarchies in every coordinate
+//! format, whole and cut, box trees, triboxes and tight hulls.
 
 use std::fs;
 use std::path::Path;
@@ -137,7 +137,8 @@ fn whole(
     Ok(built.bytes)
 }
 
-/// Writes each blob to `NAME.msw` and this machine's answers to `NAME.txt`, as an image prints them.
+/// Writes each blob to `NAME.msw` and this machine's answers to `NAME.txt`, as an image prints
+/// them.
 ///
 /// # Errors
 /// The builder's, or a file that cannot be written.

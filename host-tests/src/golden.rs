@@ -1,4 +1,5 @@
-//! Blobs and answers that are committed. A machine or a version that computes other bits is noticed.
+//! Blobs and answers that are committed. A machine or a version that computes other bits is
+//! noticed.
 
 use std::fs;
 use std::path::Path;
@@ -17,6 +18,7 @@ use crate::generate::{bracket, groove_block, torus};
 use crate::workload;
 
 /// Writes the committed fixtures: meshes by their generators, blobs by the builder, then answers.
+/// The blobs go to `core/fixtures` too: the core's package holds those of its examples.
 ///
 /// # Errors
 /// A file that cannot be written, or a blob that the core refuses.
@@ -29,10 +31,11 @@ pub fn write(folder: &Path) -> Result<(), String> {
         .map_err(|error| format!("cannot write {}: {error}", folder.display()))?;
     let hull = bracket_model(folder)?;
     let (tree, triboxes, tight) = (groove_tree(), torus_triboxes(), bracket_hulls());
-    put("bracket.msw", &hull)?;
-    put("groove.msw", &tree)?;
-    put("torus.msw", &triboxes)?;
-    put("hulls.msw", &tight)?;
+    let blobs = [("bracket", &hull), ("groove", &tree), ("torus", &triboxes), ("hulls", &tight)];
+    for (name, blob) in blobs {
+        put(&format!("{name}.msw"), blob)?;
+        put(&format!("../core/fixtures/{name}.msw"), blob)?;
+    }
     let refused = |refused| format!("the core refuses the blob: {refused:?}");
     let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
         + &tree_answers("groove.msw", &tree).map_err(refused)?

@@ -12,8 +12,8 @@ pub mod picture;
 pub mod scene;
 pub mod workload;
 
-/// The Rust of `README.md`, run unchanged. Its path of a fixture starts in this folder, which is why
-/// `fixtures` is a link here.
+/// The Rust of `README.md`, run unchanged. Its path of a fixture starts in this folder, which is
+/// why `fixtures` is a link here.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 mod readme {}

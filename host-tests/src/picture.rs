@@ -1,205 +1,281 @@
-//! The picture of `README.md`: a part, its tight hull, its triboxes. Parallel projection as SVG.
+//! Solids drawn in parallel projection, the farthest face first: README's picture, and the
+//! laboratory's pictures of hulls.
+//!
+//! ```text
+//! panels (solid, glass) ─ View (turn, scale) ─ seen (order, shade) ─ SVG paths
+//! ```
+//! Coordinates are whole numbers, and sines come from `libm`: the same text on every machine.
 
-use std::collections::HashMap;
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use meshsweep::mesh::Mesh;
-use meshsweep::{tight, tribox};
-use meshsweep_core::{Blob, Tribox, Triboxes};
+use meshsweep::tight::hull_mesh;
+use meshsweep::tribox::store;
+use meshsweep_core::{TightHulls, Triboxes};
 
-use crate::generate::bracket;
+use crate::workload::Subject;
 
-/// Pixels of a panel, which is square, of its margin and of the line with its title.
-const PANEL: f64 = 300.0;
-const MARGIN: f64 = 12.0;
-const TITLE: f64 = 26.0;
+/// A convex face: its corners, counter-clockwise seen from outside.
+pub type Face = Vec<DVec3>;
 
-/// From the part to the eye.
-const TO_EYE: DVec3 = DVec3::new(0.62, -0.62, 0.48);
+/// One drawing of a row.
+#[derive(Clone, Debug, Default)]
+pub struct Panel {
+    /// Printed above it.
+    pub title: String,
+    /// Drawn grey.
+    pub solid: Vec<Face>,
+    /// Whether the solid is closed: then only fronts show.
+    pub is_closed: bool,
+    /// Drawn over it: fronts as blue glass with edges.
+    pub glass: Vec<Face>,
+    /// Drawn over it: fronts as blue walls with edges.
+    pub walls: Vec<Face>,
+}
 
-/// From the part to the light.
-const TO_LIGHT: DVec3 = DVec3::new(0.35, -0.5, 0.8);
+/// Units of a panel, which is square, and of its margin. A unit is half a pixel.
+const PANEL: i32 = 1120;
+const MARGIN: f64 = 72.0;
 
-/// Triboxes that are drawn.
+/// Turns of the view about the horizontal and about the longest axis, in degrees: three sides of a
+/// box show.
+const TILT: [f64; 2] = [-24.0, 32.0];
+
+/// Grey of a face seen from the side, and the step by which it brightens towards the eye. Few
+/// steps: faces that follow each other in one grey share a path.
+const DARK: f64 = 96.0;
+const STEPS: f64 = 20.0;
+const STEP: f64 = 7.0;
+
+/// Triboxes of README's picture.
 const TRIBOXES: u32 = 16;
 
-/// The picture, from the bracket's generator and the hulls in `folder`, which is `fixtures`.
+/// README's picture: a part, its tight hull, its triboxes.
 ///
 /// # Errors
-/// `hulls.msw` is missing or damaged.
-pub fn part(folder: &Path) -> Result<String, String> {
-    let failed = |error: &dyn std::fmt::Display| format!("the picture: {error}");
-    let (positions, triangles) = bracket();
-    let mesh = Mesh::new(positions, triangles);
-    let bytes = fs::read(folder.join("hulls.msw")).map_err(|error| failed(&error))?;
-    let blob = Blob::open(&bytes).map_err(|error| failed(&error))?;
-    let hulls = blob.tight_hulls().map_err(|error| failed(&error))?;
-    let hull = hulls.get(0).ok_or("the picture: hulls.msw is empty")?;
-    let (sections, _) = tribox::store(mesh.as_input(), TRIBOXES).map_err(|error| failed(&error))?;
-    let boxed = sections.to_bytes();
-    let triboxes = Triboxes::open(&boxed).map_err(|error| failed(&error))?;
-    let leaves: Vec<Tribox> = triboxes.leaves().map(|(_, tribox)| tribox).collect();
-    let faces = hull.record().faces;
-    Ok(svg(
-        &mesh,
-        &[
-            (format!("a part: {} triangles", mesh.triangles.len()), None),
-            (format!("a tight hull: {faces} faces"), Some(&tight::hull_mesh(&hull))),
-            (format!("{} triboxes", leaves.len()), Some(&tribox::surface(&leaves))),
-        ],
-    ))
+/// A fixture that is missing or refused.
+pub fn part(fixtures: &Path) -> Result<String, String> {
+    let subject = Subject::load(&fixtures.join("bracket.stl"))?;
+    let bytes = fs::read(fixtures.join("hulls.msw")).map_err(|error| error.to_string())?;
+    let hulls = TightHulls::open(&bytes).map_err(|error| error.to_string())?;
+    let hull = hull_mesh(&hulls.get(0).ok_or("no hull in hulls.msw")?);
+    let tables = store(subject.mesh.as_input(), TRIBOXES).map_err(|error| error.to_string())?.0;
+    let bytes = tables.to_bytes();
+    let triboxes = Triboxes::open(&bytes).map_err(|error| error.to_string())?;
+    let mut walls = Vec::new();
+    for (_, tribox) in triboxes.leaves() {
+        let boundary = tribox.boundary();
+        let corner = |p: [f32; 3]| DVec3::from_array(p.map(f64::from));
+        let faces = (0..18).map(|face| boundary.corners(face).map(corner).collect::<Face>());
+        walls.extend(faces.filter(|face| face.len() > 2));
+    }
+    let mesh = || faces(&subject.mesh);
+    let count = subject.mesh.triangles.len();
+    let panels = [
+        Panel {
+            title: format!("{count} triangles"),
+            solid: mesh(),
+            is_closed: true,
+            ..Panel::default()
+        },
+        Panel {
+            title: format!("a tight hull of {} faces", hull.triangles.len()),
+            solid: mesh(),
+            is_closed: true,
+            glass: faces(&hull),
+            ..Panel::default()
+        },
+        Panel {
+            title: format!("{TRIBOXES} triboxes"),
+            solid: mesh(),
+            is_closed: true,
+            glass: walls,
+            ..Panel::default()
+        },
+    ];
+    Ok(svg(&[panels.to_vec()]))
 }
 
-/// Draws `part.svg` in `folder` anew.
-///
-/// # Errors
-/// As of [`part`], or the file cannot be written.
-pub fn write(folder: &Path) -> Result<(), String> {
-    let file = folder.join("part.svg");
-    fs::write(&file, part(folder)?)
-        .map_err(|error| format!("cannot write {}: {error}", file.display()))
+/// The triangles of a mesh.
+#[must_use]
+pub fn faces(mesh: &Mesh) -> Vec<Face> {
+    let at = |v: u32| DVec3::from_array(mesh.positions[v as usize].map(f64::from));
+    mesh.triangles.iter().map(|t| t.map(at).to_vec()).collect()
 }
 
-/// A panel for each title: the solid part, and a mesh around it as glass.
-fn svg(part: &Mesh, panels: &[(String, Option<&Mesh>)]) -> String {
-    let view = View::of(panels.iter().map(|&(_, glass)| glass).chain([Some(part)]));
-    let (width, height) = (PANEL * panels.len() as f64, PANEL + TITLE);
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-         font-family=\"sans-serif\" font-size=\"15\" text-anchor=\"middle\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n\
-         <defs><g id=\"part\" fill-rule=\"evenodd\" stroke-width=\".6\">\n"
+/// An SVG with a row of panels for each scene. The panels of a row share one view.
+#[must_use]
+pub fn svg(rows: &[Vec<Panel>]) -> String {
+    let count = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / PANEL);
+    let columns = count(rows.iter().map(Vec::len).max().unwrap_or(0));
+    let (width, height) = (PANEL * columns, PANEL * count(rows.len()));
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{}\" \
+         height=\"{}\" stroke-linejoin=\"round\" font-family=\"sans-serif\" font-size=\"34\">\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n",
+        width / 2,
+        height / 2
     );
-    for face in view.front(part) {
-        let grey = (120.0 + 120.0 * face.normal.dot(TO_LIGHT).max(0.0)) as u8;
-        let colour = format!("#{grey:02x}{grey:02x}{grey:02x}");
-        let path = face.path;
-        text += &format!("<path d=\"{path}\" fill=\"{colour}\" stroke=\"{colour}\"/>\n");
-    }
-    text += "</g></defs>\n";
-    for (column, (title, glass)) in panels.iter().enumerate() {
-        let left = PANEL * column as f64;
-        text += &format!("<g transform=\"translate({left} 0)\"><use href=\"#part\"/>\n");
-        text +=
-            "<g fill=\"#0072b2\" fill-opacity=\".18\" stroke=\"#0072b2\" stroke-width=\".8\">\n";
-        for face in glass.iter().flat_map(|glass| view.front(glass)) {
-            text += &format!("<path d=\"{}\"/>\n", face.path);
+    for (row, panels) in (0i32..).zip(rows) {
+        let view = View::new(panels);
+        for (column, panel) in (0i32..).zip(panels) {
+            let _ =
+                writeln!(out, "<g transform=\"translate({} {})\">", PANEL * column, PANEL * row);
+            view.solid(&mut out, &panel.solid, panel.is_closed);
+            view.blue(&mut out, &panel.walls, "#9cc4dd", 1.0);
+            view.blue(&mut out, &panel.glass, "#0072b2", 0.22);
+            let _ = writeln!(out, "<text x=\"32\" y=\"52\">{}</text>\n</g>", panel.title);
         }
-        let (x, y) = (PANEL / 2.0, PANEL + 12.0);
-        text += &format!("</g><text x=\"{x}\" y=\"{y}\">{title}</text></g>\n");
     }
-    text + "</svg>\n"
+    out.push_str("</svg>\n");
+    out
 }
 
-/// A flat face as it is drawn.
-struct Face {
-    area: f64,
-    normal: DVec3,
-    path: String,
-}
-
+/// A direction to look along, and the part of the scene that the panel shows.
 struct View {
-    right: DVec3,
-    up: DVec3,
-    /// Upper left corner of the scene, and pixels for a unit.
-    left: f64,
-    top: f64,
+    /// To the right, up, and towards the eye.
+    rotation: DMat3,
+    centre: DVec3,
     scale: f64,
 }
 
+/// A face on the panel: the cosine between view and normal, and the corners.
+struct Seen {
+    facing: f64,
+    corners: Vec<[i32; 2]>,
+}
+
 impl View {
-    /// All meshes fit into a panel.
-    fn of<'m>(meshes: impl Iterator<Item = Option<&'m Mesh>>) -> Self {
-        let right = DVec3::Z.cross(TO_EYE).normalize();
-        let up = TO_EYE.normalize().cross(right);
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for position in meshes.flatten().flat_map(|mesh| &mesh.positions) {
-            let p = DVec3::from_array(position.map(f64::from));
-            for (axis, at) in [p.dot(right), p.dot(up)].into_iter().enumerate() {
-                (low[axis], high[axis]) = (low[axis].min(at), high[axis].max(at));
-            }
-        }
-        let side = (high[0] - low[0]).max(high[1] - low[1]);
-        let scale = (PANEL - 2.0 * MARGIN) / side;
-        let middle = |axis: usize| (low[axis] + high[axis]) / 2.0;
-        let half = PANEL / 2.0 / scale;
-        Self { right, up, left: middle(0) - half, top: middle(1) + half, scale }
-    }
-
-    /// The flat faces towards the eye. The small ones come first, because the walls of a bore lie
-    /// behind the faces that it pierces.
-    fn front(&self, mesh: &Mesh) -> Vec<Face> {
-        let mut faces: Vec<Face> = flat_faces(mesh)
-            .into_iter()
-            .map(|face| (face.iter().map(|t| normal(mesh, *t)).sum::<DVec3>(), face))
-            .filter(|(sum, _)| sum.dot(TO_EYE) > 0.0)
-            .map(|(sum, face)| Face {
-                area: sum.length(),
-                normal: sum.normalize(),
-                path: self.path(mesh, &face),
+    /// The shortest side of the first panel's box towards the eye, the longest to the right, and
+    /// then a bit turned.
+    fn new(panels: &[Panel]) -> Self {
+        let points = |panel: &Panel| {
+            let all = [&panel.solid, &panel.glass, &panel.walls];
+            all.into_iter().flatten().flatten().copied().collect::<Vec<DVec3>>()
+        };
+        let bounds = |points: &[DVec3]| {
+            points.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], &p| {
+                [low.min(p), high.max(p)]
             })
-            .collect();
-        faces.sort_by(|a, b| a.area.total_cmp(&b.area));
-        faces
+        };
+        let [low, high] = bounds(&panels.first().map(points).unwrap_or_default());
+        let extent = (high - low).to_array();
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&i, &j| extent[j].total_cmp(&extent[i]));
+        let [right, up, _] = axes.map(|axis| DVec3::AXES[axis]);
+        let straight = DMat3::from_cols(right, up, right.cross(up)).transpose();
+        let [tilt, turn] = TILT.map(f64::to_radians);
+        let rotation = DMat3::from_rotation_x(-tilt) * DMat3::from_rotation_y(turn) * straight;
+        let turned: Vec<DVec3> =
+            panels.iter().flat_map(points).map(|point| rotation * point).collect();
+        let [low, high] = bounds(&turned);
+        let side = (high - low).truncate().max_element();
+        let scale = if side > 0.0 { (f64::from(PANEL) - 2.0 * MARGIN) / side } else { 1.0 };
+        Self { rotation, centre: 0.5 * (low + high), scale }
     }
 
-    /// The outline of a face and its holes.
-    fn path(&self, mesh: &Mesh, face: &[[u32; 3]]) -> String {
-        let edges = face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-        let all: Vec<(u32, u32)> = edges.collect();
-        let mut next: HashMap<u32, u32> =
-            all.iter().copied().filter(|&(a, b)| !all.contains(&(b, a))).collect();
-        let mut text = String::new();
-        while let Some(&start) = next.keys().min() {
-            let mut at = start;
-            let mut verb = 'M';
-            while let Some(to) = next.remove(&at) {
-                let p = DVec3::from_array(mesh.positions[at as usize].map(f64::from));
-                let x = (p.dot(self.right) - self.left) * self.scale;
-                let y = (self.top - p.dot(self.up)) * self.scale;
-                let _ = write!(text, "{verb}{x:.1} {y:.1}");
-                (at, verb) = (to, 'L');
+    /// Faces as they are seen, the farthest first. Faces of no width are left out: others hide
+    /// them.
+    fn seen(&self, faces: &[Face]) -> Vec<Seen> {
+        let half = f64::from(PANEL) / 2.0;
+        let mut seen: Vec<(f64, Seen)> = Vec::new();
+        for face in faces {
+            let at: Vec<DVec3> = face.iter().map(|&p| self.rotation * p - self.centre).collect();
+            // Newell's normal: corners may coincide.
+            let next = at.iter().cycle().skip(1);
+            let normal = at.iter().zip(next).fold(DVec3::ZERO, |sum, (a, b)| sum + a.cross(*b));
+            let corners: Vec<[i32; 2]> = at
+                .iter()
+                .map(|p| {
+                    [half + p.x * self.scale, half - p.y * self.scale].map(|x| x.round() as i32)
+                })
+                .collect();
+            let next = corners.iter().cycle().skip(1);
+            let area: i64 = corners
+                .iter()
+                .zip(next)
+                .map(|([a, b], [c, d])| {
+                    i64::from(*a) * i64::from(*d) - i64::from(*b) * i64::from(*c)
+                })
+                .sum();
+            if area != 0 {
+                let depth = at.iter().map(|p| p.z).sum::<f64>() / at.len() as f64;
+                seen.push((depth, Seen { facing: normal.normalize_or_zero().z, corners }));
             }
-            text.push('Z');
         }
-        text
+        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+        seen.into_iter().map(|(_, seen)| seen).collect()
     }
-}
 
-/// Twice the area along the normal.
-fn normal(mesh: &Mesh, triangle: [u32; 3]) -> DVec3 {
-    let [a, b, c] = triangle.map(|v| DVec3::from_array(mesh.positions[v as usize].map(f64::from)));
-    (b - a).cross(c - a)
-}
-
-/// Triangles that share edges and a plane, together.
-fn flat_faces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
-    let mut at_edge = HashMap::new();
-    for (index, &[a, b, c]) in mesh.triangles.iter().enumerate() {
-        at_edge.extend([((a, b), index), ((b, c), index), ((c, a), index)]);
-    }
-    let mut is_taken = vec![false; mesh.triangles.len()];
-    let mut faces = Vec::new();
-    for first in 0..mesh.triangles.len() {
-        let (mut face, mut waiting) = (Vec::new(), vec![first]);
-        while let Some(index) = waiting.pop() {
-            if std::mem::replace(&mut is_taken[index], true) {
+    /// Faces that follow each other in one grey share a path. A stroke of the same grey hides the
+    /// seams.
+    fn solid(&self, out: &mut String, faces: &[Face], is_closed: bool) {
+        let mut last = None;
+        for Seen { facing, corners } in self.seen(faces) {
+            if is_closed && facing <= 0.0 {
                 continue;
             }
-            let triangle @ [a, b, c] = mesh.triangles[index];
-            face.push(triangle);
-            let own = normal(mesh, triangle).normalize_or_zero();
-            let neighbours = [(b, a), (c, b), (a, c)].into_iter().filter_map(|e| at_edge.get(&e));
-            waiting.extend(neighbours.filter(|&&other| {
-                own.dot(normal(mesh, mesh.triangles[other]).normalize_or_zero()) > 1.0 - 1e-9
-            }));
+            let grey = (DARK + STEP * (STEPS * facing.abs()).round()) as u8;
+            if last != Some(grey) {
+                let end = if last.is_some() { "\"/>\n" } else { "" };
+                let color = format!("#{grey:02x}{grey:02x}{grey:02x}");
+                let _ = write!(out, "{end}<path fill=\"{color}\" stroke=\"{color}\" d=\"");
+                last = Some(grey);
+            }
+            outline(out, &corners);
         }
-        if !face.is_empty() {
-            faces.push(face);
+        if last.is_some() {
+            out.push_str("\"/>\n");
         }
     }
-    faces
+
+    /// Fronts with edges, each over those behind.
+    fn blue(&self, out: &mut String, faces: &[Face], fill: &str, opacity: f64) {
+        if faces.is_empty() {
+            return;
+        }
+        let _ = writeln!(
+            out,
+            "<g fill=\"{fill}\" fill-opacity=\"{opacity}\" stroke=\"#0072b2\" stroke-opacity=\".7\" \
+             stroke-width=\"2\">"
+        );
+        for Seen { corners, .. } in self.seen(faces).iter().filter(|seen| seen.facing > 0.0) {
+            out.push_str("<path d=\"");
+            outline(out, corners);
+            out.push_str("\"/>\n");
+        }
+        out.push_str("</g>\n");
+    }
+}
+
+/// A closed loop, after its first corner in steps.
+fn outline(out: &mut String, corners: &[[i32; 2]]) {
+    let mut last = [0, 0];
+    for (index, &[x, y]) in corners.iter().enumerate() {
+        let (letter, [dx, dy]) =
+            if index == 0 { ('M', [x, y]) } else { ('l', [x - last[0], y - last[1]]) };
+        let _ = write!(out, "{letter}{dx} {dy}");
+        last = [x, y];
+    }
+    out.push('z');
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Panel, faces, svg};
+    use crate::generate::cube;
+    use meshsweep::mesh::Mesh;
+
+    #[test]
+    fn a_cube_shows_three_sides_of_glass() {
+        let (positions, triangles) = cube(1);
+        let mesh = Mesh::new(positions, triangles);
+        let panel = Panel { glass: faces(&mesh), ..Panel::default() };
+        let text = svg(&[vec![panel]]);
+        assert_eq!(text.matches("<path").count(), 6);
+        assert!(text.starts_with("<svg") && text.ends_with("</svg>\n"));
+    }
 }

@@ -7,6 +7,7 @@ use meshsweep_host_tests::golden::{
     bracket_hulls, bracket_model, groove_tree, hull_answers, tight_answers, torus_triboxes,
     tree_answers, tribox_answers,
 };
+use meshsweep_host_tests::picture;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures")
@@ -17,19 +18,19 @@ fn read(name: &str) -> Vec<u8> {
 }
 
 #[test]
-fn committed_tree_is_what_the_builder_makes() {
+fn committed_picture_is_what_the_command_draws() {
+    let drawn = picture::part(&folder()).expect("drawn");
     assert!(
-        read("groove.msw") == groove_tree(),
-        "fixtures/groove.msw is out of date: run `cargo xtask fixtures`"
+        read("part.svg") == drawn.as_bytes(),
+        "fixtures/part.svg is out of date: run `cargo xtask picture`"
     );
 }
 
 #[test]
-fn committed_picture_is_drawn_anew() {
-    let drawn = meshsweep_host_tests::picture::part(&folder()).expect("the hulls are there");
+fn committed_tree_is_what_the_builder_makes() {
     assert!(
-        read("part.svg") == drawn.as_bytes(),
-        "fixtures/part.svg is out of date: run `cargo xtask picture`"
+        read("groove.msw") == groove_tree(),
+        "fixtures/groove.msw is out of date: run `cargo xtask fixtures`"
     );
 }
 
@@ -62,6 +63,17 @@ fn committed_hulls_are_what_the_builder_makes() {
     );
     let hulls = TightHulls::open(&bytes).expect("opens");
     assert!(hulls.records().map(|record| record.faces).eq([64, 160]) && !hulls.is_nested());
+}
+
+#[test]
+fn the_core_packs_the_same_blobs() {
+    for name in ["bracket.msw", "groove.msw", "hulls.msw", "torus.msw"] {
+        let packed = read(&format!("../core/fixtures/{name}"));
+        assert!(
+            packed == read(name),
+            "core/fixtures/{name} is out of date: run `cargo xtask fixtures`"
+        );
+    }
 }
 
 #[test]

@@ -1,11 +1,11 @@
-//! The house keeps its arrows: which folder may use which, and no two files use each other in a
-//! circle. Read from the sources' paths, `use` lines and inline ones.
+//! Which folder may use which, and no files that use each other in a circle. Both are read from the
+//! paths of the source files, from `use` lines and from inline paths.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A room and the rooms that it may use, of `core/src`.
+/// The folders of `core/src`, each with the folders that it may use.
 const CORE: [(&str, &[&str]); 10] = [
     ("num", &[]),
     ("geom", &["num"]),
@@ -19,7 +19,7 @@ const CORE: [(&str, &[&str]); 10] = [
     ("blob", &["num", "geom", "format", "query", "bvh", "hull", "tribox", "curve", "tight"]),
 ];
 
-/// Rooms that all structures of the builder may use.
+/// Folders that all structures of the builder may use.
 const BENEATH: &[&str] =
     &["counted", "emit", "error", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
 
@@ -176,8 +176,8 @@ impl House {
         format!("{}:{}", file.display(), arrow.line)
     }
 
-    /// Arrows that `rooms` does not allow.
-    fn strays(&self, rooms: &[(&str, &[&str])]) -> Vec<String> {
+    /// Uses that `folders` does not allow.
+    fn strays(&self, folders: &[(&str, &[&str])]) -> Vec<String> {
         let mut strays = Vec::new();
         for arrow in self.arrows() {
             let ([from, ..], [to, ..]) = (arrow.from.as_slice(), arrow.to.as_slice()) else {
@@ -194,10 +194,9 @@ impl House {
             if from == to {
                 continue;
             }
-            match rooms.iter().find(|(room, _)| room == from) {
-                None => {
-                    strays.push(format!("{from} is no room of the design: {}", self.place(&arrow)))
-                }
+            match folders.iter().find(|(folder, _)| folder == from) {
+                None => strays
+                    .push(format!("{from} is no folder of the design: {}", self.place(&arrow))),
                 Some((_, may)) if !may.contains(&to.as_str()) => {
                     strays.push(format!("{from} may not use {to}: {}", self.place(&arrow)));
                 }
@@ -416,12 +415,12 @@ fn none(found: &[String]) {
 }
 
 #[test]
-fn rooms_of_the_core_use_only_rooms_beneath() {
+fn folders_of_the_core_use_only_folders_beneath() {
     none(&House::read("core/src", None).strays(&CORE));
 }
 
 #[test]
-fn rooms_of_the_builder_use_only_rooms_beneath() {
+fn folders_of_the_builder_use_only_folders_beneath() {
     none(&House::read("alloc-ext/src", Some("bin")).strays(&BUILDER));
 }
 

@@ -179,7 +179,8 @@ fn header(
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
     let short = |v: DVec3| [v.x as u16, v.y as u16, v.z as u16];
     let vertices: usize = leaves.iter().map(|leaf| encode::tag(leaf).vertices()).sum();
-    let closed = if is_closed(mesh.positions.len(), &mesh.triangles) { BVH_CLOSED } else { 0 };
+    let has_sides = !mesh.has_merged_walls && is_closed(mesh.positions.len(), &mesh.triangles);
+    let closed = if has_sides { BVH_CLOSED } else { 0 };
     BvhHeader {
         flags: closed | if options.single { BVH_F32 } else { 0 },
         grid_exponent: grid.exponent,

@@ -32,7 +32,7 @@ pub(super) fn sections(
     Sections::new(scale_exponent, h.surface_error, input_triangles, bounds, bodies)
 }
 
-/// The box tree as it stands in a blob; `None` if it has none.
+/// The sections of a blob's box tree, copied unchanged; `None` if the blob has none.
 #[must_use]
 pub fn sections_of(blob: &Blob<'_>) -> Option<Sections> {
     let tree = blob.bvh().ok()?;

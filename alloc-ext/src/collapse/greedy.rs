@@ -92,8 +92,8 @@ impl<N> Schedule<N> {
     }
 }
 
-/// A mesh that the loop collapses: the priority of its edges, the placement of new vertices, and the
-/// conditions that admit them.
+/// A mesh that the loop collapses: the priority of its edges, the placement of new vertices, and
+/// the conditions that admit them.
 pub(crate) trait Collapsing {
     /// Result of an evaluation that the collapse needs.
     type Note;

@@ -24,8 +24,8 @@ pub enum Priority {
     /// Volume that the collapse would add, from the program's own optimum: tighter hulls.
     #[default]
     Program,
-    /// Volume of the tetrahedra between the star and the centre of its link: no linear program before
-    /// the collapse.
+    /// Volume of the tetrahedra between the star and the centre of its link: no linear program
+    /// before the collapse.
     Span,
 }
 

@@ -62,8 +62,9 @@ pub enum Refusal {
     Condition(f64),
 }
 
-/// Places the vertex that replaces an edge with midpoint `middle`. With `exact` the vertex is rounded
-/// to the grid and proved to lie on or outside every plane. Without, it serves a priority only.
+/// Places the vertex that replaces an edge with midpoint `middle`. With `exact` the vertex is
+/// rounded to the grid and proved to lie on or outside every plane. Without, it serves a priority
+/// only.
 #[inline]
 pub fn place(
     faces: &[StarFace],

@@ -20,8 +20,8 @@ const TOO_FEW: usize = 100;
 /// Positions, on `grid`, and triangles of a hull of a closed manifold mesh, whose positions are on
 /// `grid` too. The hull winds around every point that the mesh winds around.
 ///
-/// It has `target` faces, or one more. It has more if hardly an edge may collapse, or if `stop`,
-/// which is told the faces after a round, returns true.
+/// It has `target` faces, or one more. It has more if hardly an edge may collapse, or if `stop`
+/// returns true. `stop` is called after each round with the number of faces.
 pub fn thin(
     positions: &[DVec3],
     triangles: &[[u32; 3]],

@@ -139,8 +139,8 @@ pub struct Farthest {
 }
 
 /// Bounds of the largest distance from a point of `triangles` to the surface of `nearest`. `upper`
-/// exceeds `lower` by at most a twentieth, unless `upper` is at most `enough` or 200,000 cuts do not
-/// suffice.
+/// exceeds `lower` by at most a twentieth, unless `upper` is at most `enough` or 200,000 cuts do
+/// not suffice.
 ///
 /// Cost: one query for each triangle, and some dozens more for the farthest.
 pub fn farthest(
@@ -206,8 +206,8 @@ pub fn is_within(
     true
 }
 
-/// Upper bound of the largest distance from a point of `triangles` to a hull's surface, in the local
-/// frame.
+/// Upper bound of the largest distance from a point of `triangles` to a hull's surface, in the
+/// local frame.
 ///
 /// `surface` gives the corners of the surface's triangle of a number, in the local frame.
 ///
@@ -244,8 +244,8 @@ pub fn nearest_in<'a>(
     }
 }
 
-/// The parts of a piece on both sides of an edge of `along`, seen along its normal: of the edge that
-/// the piece reaches over farthest. `None` if it reaches over none.
+/// The parts of a piece on both sides of an edge of `along`, seen along its normal: of the edge
+/// that the piece reaches over farthest. `None` if it reaches over none.
 fn cut(corners: [DVec3; 3], along: [DVec3; 3]) -> Option<[[DVec3; 3]; 3]> {
     let [p, q, r] = along;
     let normal = (q - p).cross(r - p);

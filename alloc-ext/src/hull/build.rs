@@ -326,8 +326,8 @@ fn assemble(
     }
 }
 
-/// Fills in certified distances between each level's cover and the surface, both ways, by queries of
-/// the finished blob.
+/// Fills in certified distances between each level's cover and the surface, both ways, by queries
+/// of the finished blob.
 fn certify(tables: &mut Tables) -> Result<(), OpenError> {
     let bytes = tables.to_bytes();
     let model = Hull::open(&bytes)?;

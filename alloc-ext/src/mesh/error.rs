@@ -77,7 +77,7 @@ pub enum MeshError {
     InconsistentWinding { edge_count: usize, places: Vec<EdgePlace> },
     /// Outermost parts whose triangles face inwards; `repair` turns them.
     InsideOut { part_count: usize, places: Vec<[f32; 3]> },
-    /// A closed part whose volume cannot be told from zero; `bound` is the rounding error of the
+    /// A closed part whose volume may be zero within rounding; `bound` is the rounding error of the
     /// sum.
     ZeroVolume { triangle: u32, at: [f32; 3], volume: f64, bound: f64 },
     /// An index, coordinate or length of a `Mesh` that breaks the type's promise.

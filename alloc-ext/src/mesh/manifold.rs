@@ -15,10 +15,10 @@ use super::{EdgePlace, Mesh, MeshError};
 /// That triangles do not cross each other is not checked.
 ///
 /// # Errors
-/// In this order: an array that breaks [`Mesh`]'s promise, no triangle with an area, boundary edges (as holes), non-manifold
-/// edges, non-manifold vertices, one-sided parts, inconsistent winding, a part without volume,
-/// inside-out parts. The last four kinds but one-sided parts and zero volume cannot occur after
-/// [`repair`](super::repair()).
+/// In this order: an array that breaks [`Mesh`]'s promise, no triangle with an area, boundary edges
+/// (as holes), non-manifold edges, non-manifold vertices, one-sided parts, inconsistent winding, a
+/// part without volume, inside-out parts. The last four kinds but one-sided parts and zero volume
+/// cannot occur after [`repair`](super::repair()).
 pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
     check_arrays(mesh)?;
     let triangles = &mesh.triangles;

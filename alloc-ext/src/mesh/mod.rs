@@ -1,7 +1,7 @@
 //! Mesh files in, a clean triangle mesh out; and [`write_ply`], the way back.
 //!
 //! ```text
-//! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for a hull
+//! file ─ read ─ RawMesh ─ repair ─ Mesh + RepairReport ─ require_closed_manifold ─ ready for hulls
 //! ```
 //!
 //! [`read`] takes PLY, OBJ and STL. [`repair`] mends what can be mended without moving the surface
@@ -77,6 +77,10 @@ pub struct Mesh {
     /// text, the input is the decimal number as written, except that a decimal whose nearest
     /// `f64` is an `f32` counts as that `f32`.
     pub rounding: f64,
+    /// Repair dropped a triangle whose corners are those of another one in opposite order. The two
+    /// may be the walls of a shell that rounding has closed, so the winding numbers of what is left
+    /// may not be those of the input: no structure decides a side of such a mesh.
+    pub has_merged_walls: bool,
 }
 
 impl Mesh {

@@ -4,8 +4,8 @@
 //! is negative. Then it is turned together with all components inside it, for those were drawn
 //! relative to it. A component inside another is never judged on its own: facing inwards it is a
 //! cavity, facing outwards it is a solid within a solid, and both are valid. A component whose
-//! volume cannot be told from zero is left as it is. Components that are open, one-sided or on a
-//! non-manifold edge have no inside and do not count.
+//! volume may be zero within rounding is left unchanged. Components that are open, one-sided or on
+//! a non-manifold edge have no inside and do not count.
 
 use super::nesting::Enclosure;
 use super::volume::SignedVolume;

@@ -28,7 +28,7 @@ use super::{Mesh, MeshError, RawMesh};
 ///
 /// Any triangle soup is accepted. Holes, non-manifold edges and one-sided components stay, for
 /// [`require_closed_manifold`](super::require_closed_manifold) to refuse. A second repair changes
-/// nothing.
+/// nothing but, perhaps, the order of the copies of split vertices.
 ///
 /// Cost: linear in the triangles, but for the search for nested components: at worst components ×
 /// triangles, in practice a small fraction.
@@ -72,7 +72,8 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
     report.part_count = parts.kinds.len();
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
-    Ok((Mesh { positions, triangles, source, wires, rounding }, report))
+    let has_merged_walls = report.opposite_duplicate.count > 0;
+    Ok((Mesh { positions, triangles, source, wires, rounding, has_merged_walls }, report))
 }
 
 fn take_out_repeated_corners(

@@ -15,8 +15,8 @@ pub enum VertexBits {
     /// The narrowest that stores the mesh exactly.
     #[default]
     Auto,
-    /// 16 bits a coordinate. Vertices that are not on the grid move to it, and the blob's surface error
-    /// includes the distance.
+    /// 16 bits a coordinate. Vertices that are not on the grid move to it, and the blob's surface
+    /// error includes the distance.
     Grid16,
     /// 24 bits a coordinate; the same.
     Grid24,
@@ -110,9 +110,9 @@ pub(crate) fn split_exponent(x: f64) -> (f64, i32) {
 
 /// Brings a mesh into the stored frame and precision.
 ///
-/// With [`VertexBits::Auto`] nothing moves. With a grid, vertices that are not on it move to it, and
-/// the distance is recorded. Then welding and repair would have to follow, so call [`snap`] on the
-/// raw positions before them.
+/// With [`VertexBits::Auto`] nothing moves. With a grid, vertices that are not on it move to it,
+/// and the distance is recorded. Then welding and repair would have to follow, so call [`snap`] on
+/// the raw positions before them.
 pub fn store(mesh: &Mesh, bits: VertexBits) -> Stored {
     let scale_exponent = scale_exponent(mesh);
     let local: Vec<DVec3> = mesh

@@ -1,8 +1,8 @@
 //! The static tree of boxes behind all searches of the builder: eight boxes a node, in single
 //! precision. It passes over what a search cannot need. The searches test the items that are left.
 //!
-//! Its frame has its origin in the middle of all boxes and half their longest side as unit. So every
-//! number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
+//! Its frame has its origin in the middle of all boxes and half their longest side as unit. So
+//! every number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::bounds::{Bounds, Plane};
 use arrayvec::ArrayVec;
@@ -178,7 +178,8 @@ impl StaticTree {
     }
 
     /// Calls `item` with the items below nodes whose boxes pass, until it returns false; whether it
-    /// never did. `lanes` gives the lanes of a node that pass, one bit each. `state` belongs to both.
+    /// never did. `lanes` gives the lanes of a node that pass, one bit each. `state` belongs to
+    /// both.
     #[inline]
     fn visit<S>(
         &self,
@@ -227,9 +228,9 @@ impl StaticTree {
         self.visit(&[0], &mut probe, Probe::hits, |_, item| visit(item))
     }
 
-    /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and perhaps
-    /// with others, until it returns false; whether it never did. `keep` sees boxes in the mesh's
-    /// frame, larger by rounding.
+    /// Calls `visit` with every item whose box, and whose ancestors' boxes, pass `keep`, and
+    /// perhaps with others, until it returns false; whether it never did. `keep` sees boxes in the
+    /// mesh's frame, larger by rounding.
     #[inline]
     pub fn visit_kept(
         &self,
@@ -263,8 +264,8 @@ impl StaticTree {
         });
     }
 
-    /// The item of the least squared distance, as `distance_sq` gives it, and that square; the least
-    /// number of equals. `None` without items.
+    /// The item of the least squared distance, as `distance_sq` gives it, and that square; the
+    /// least number of equals. `None` without items.
     ///
     /// `distance_sq` must not be below the squared distance from `p` to the item's box.
     pub fn nearest(

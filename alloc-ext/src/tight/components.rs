@@ -49,8 +49,7 @@ fn triangle_parts(mesh: &Mesh) -> Vec<Mesh> {
         .collect()
 }
 
-/// Whether a component is closed, be it a cavity or a solid: turned inside out, a cavity is a
-/// solid.
+/// Whether a component is closed: a solid, or a cavity. A cavity turned inside out is a solid.
 fn bounds_a_volume(component: &Mesh) -> bool {
     let turned = Mesh {
         triangles: component.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),

@@ -72,10 +72,10 @@ pub fn wrap(
     };
     let stored = store(mesh, bits);
     let is_whole = mesh.positions.len() == positions.len();
-    let around = if is_whole && options.margin <= 0.0 {
+    let hull_frame = if is_whole && options.margin <= 0.0 {
         stored.clone()
     } else {
-        around(&positions, options.margin, bits)?
+        hull_frame(&positions, options.margin, bits)?
     };
     // If the mesh is not on the grid, the grid is for the hull alone. The search starts from the
     // mesh as it is.
@@ -84,7 +84,7 @@ pub fn wrap(
     let mut search = HullSearch {
         mesh,
         stored: &stored,
-        around: &around,
+        hull_frame: &hull_frame,
         obstacle: &obstacle,
         solid: solid.ok(),
         options,
@@ -107,7 +107,7 @@ pub fn wrap(
     {
         slack.upper = slack.upper.min(most).max(slack.lower);
     }
-    let mesh = Mesh::new(single(&positions), triangles);
+    let mesh = Mesh::new(to_f32(&positions), triangles);
     let report = Report {
         faces: mesh.triangles.len(),
         volume,
@@ -124,20 +124,20 @@ pub fn wrap(
     Ok(Hull { mesh, report })
 }
 
-fn single(positions: &[DVec3]) -> Vec<[f32; 3]> {
+fn to_f32(positions: &[DVec3]) -> Vec<[f32; 3]> {
     positions.iter().map(|p| p.as_vec3().to_array()).collect()
 }
 
 /// The frame and the coordinate format that hold all positions, or with a margin their box enlarged
 /// by it.
-fn around(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, WrapError> {
+fn hull_frame(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, WrapError> {
     if margin <= 0.0 {
-        return Ok(store(&Mesh::new(single(positions), Vec::new()), bits));
+        return Ok(store(&Mesh::new(to_f32(positions), Vec::new()), bits));
     }
     let bounds = Bounds::of(positions).grown(margin);
     let corners = [bounds.low, bounds.high];
     if !corners.iter().all(|p| p.as_vec3().is_finite()) {
         return Err(WrapError::MarginTooLarge);
     }
-    Ok(store(&Mesh::new(single(&corners), Vec::new()), bits))
+    Ok(store(&Mesh::new(to_f32(&corners), Vec::new()), bits))
 }

@@ -10,8 +10,8 @@
 //! | folder or file | what lies there |
 //! | --- | --- |
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
-//! | `options.rs` | what a hull is asked for, and why there may be none |
-//! | `report.rs` | what a hull is, what it took, and where the work stands |
+//! | `options.rs` | the goal and the options of a hull, and the errors |
+//! | `report.rs` | measures of a hull and of the work for it; progress |
 //! | `components.rs` | splits a mesh into the components that get a hull each |
 //! | `random.rs` | the same pseudo-random numbers in every run |
 //! | `initial/` | the first hull: a progressive level, a voxel closure, or the grown bounding box |
@@ -20,8 +20,8 @@
 //! | `search/` | which initial hull and which edits reach the goal: faces, void or slack |
 //! | `store/` | a chain of hulls, certified distances, and the bytes of the section |
 //!
-//! Dependencies run from the bottom of this list of folders to its top: `proof ← moves ← initial ←
-//! search ← hull.rs ← store`.
+//! Each folder or file uses only those to its left: `proof ← moves ← initial ← search ← hull.rs ←
+//! store`.
 //!
 //! # What holds of every [`Hull`], exactly, for its coordinates as stored
 //! - The hull is a closed manifold. Its faces share no points but common corners and edges, and
@@ -29,7 +29,7 @@
 //! - The hull has no point in common with any triangle of the mesh. Touching counts.
 //! - Every vertex of the mesh is inside.
 //! - With a margin, no point of the hull is within the margin of the mesh. This is proved in
-//!   floating point with bounded rounding; see `proof/distance.rs`. Every point within the margin
+//!   floating point with bounded rounding; see `proof/clearance.rs`. Every point within the margin
 //!   of the mesh is therefore inside.
 //!
 //! The initial hull is tested as a whole. After that, a move is made only if exact predicates prove

@@ -1,4 +1,4 @@
-//! What a tight hull is asked for, and why there may be none.
+//! The goal and the options of a tight hull, and the errors.
 
 use super::proof::NoVolume;
 use crate::surface::VertexBits;

@@ -1,4 +1,4 @@
-//! What a tight hull is, what it took, and where the work stands.
+//! Measures of a tight hull and of the work for it, and the progress of that work.
 
 use super::proof::NoVolume;
 use crate::hausdorff::Farthest;

@@ -1,13 +1,13 @@
 //! Cells: the part of a mesh, or of the solid that it bounds, between the planes of the splits
 //! above, and its tribox.
 //!
-//! *Why the tribox holds the solid, too.* The extreme point of the solid in a cell along a direction
-//! is a point of the surface, which [`polygons`](super::polygons) cover, or a vertex of a region
-//! that holds the solid there. The parent's tribox, cut by the plane, is such a region. Its vertices
-//! are computed within 2^-47 of the largest coordinate, 1/64 of the margin by which they are padded.
-//! If a computed vertex is outside of the solid and the true one inside, then the surface passes
-//! between them. The surface's own bounds are padded by the same margin everywhere, so they hold the
-//! true vertex. A vertex whose winding number is undecided counts as inside.
+//! *Why the tribox holds the solid, too.* The extreme point of the solid in a cell along a
+//! direction is a point of the surface, which [`polygons`](super::polygons) cover, or a vertex of a
+//! region that holds the solid there. The parent's tribox, cut by the plane, is such a region. Its
+//! vertices are computed within 2^-47 of the largest coordinate, 1/64 of the margin by which they
+//! are padded. If a computed vertex is outside of the solid and the true one inside, then the
+//! surface passes between them. The surface's own bounds are padded by the same margin everywhere,
+//! so they hold the true vertex. A vertex whose winding number is undecided counts as inside.
 
 use super::polygons::{HalfSpace, Polygons, margin};
 use super::span::{Frame, projections};

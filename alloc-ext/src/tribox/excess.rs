@@ -12,8 +12,8 @@ const SLACK: f64 = 0.01;
 /// Most steps towards the closest point of a hull. The result after them is an upper bound as well.
 const STEPS: usize = 200;
 
-/// Greatest distance of a vertex of `proxy` from the convex hull of the cell's part: an upper bound,
-/// at most 1 % too great where the descent converged.
+/// Greatest distance of a vertex of `proxy` from the convex hull of the cell's part: an upper
+/// bound, at most 1 % too great where the descent converged.
 ///
 /// Gilbert's descent runs for each vertex that may be farther than those before.
 ///

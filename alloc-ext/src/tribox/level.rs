@@ -24,10 +24,10 @@ pub struct Level {
     ///
     /// As printed, ρ = max over vertices sᵢ and directions dⱼ of the cone of normals of sᵢ of
     /// (sᵢ·dⱼ) depends on where the origin is, and names no tribox. We read it as the
-    /// Hausdorff distance of two convex bodies, the tribox T and the hull of the part S. sᵢ·dⱼ, with
-    /// dⱼ of unit length in the normal cone of sᵢ, is the support function of S. The error along dⱼ
-    /// is the excess of T's support function, and the cones of all vertices are all directions: ρ =
-    /// max (h_T(d) − h_S(d)).
+    /// Hausdorff distance of two convex bodies, the tribox T and the hull of the part S. sᵢ·dⱼ,
+    /// with dⱼ of unit length in the normal cone of sᵢ, is the support function of S. The error
+    /// along dⱼ is the excess of T's support function, and the cones of all vertices are all
+    /// directions: ρ = max (h_T(d) − h_S(d)).
     ///
     /// It is an upper bound, up to the 2^-40 of the coordinates by which planes are moved, and at
     /// most 1 % too great where the descent converged. Undecided corners count as part of the
@@ -38,8 +38,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// Void beside a solid of this volume, as a part of it. Where components of a solid overlap, the
-    /// overlap counts twice.
+    /// Void beside a solid of this volume, as a part of it. Where components of a solid overlap,
+    /// the overlap counts twice.
     #[must_use]
     pub fn void(&self, solid: f64) -> f64 {
         self.volume / solid - 1.0
@@ -52,7 +52,8 @@ pub fn proxies(hierarchy: &Hierarchy, count: usize) -> Vec<Tribox> {
     hierarchy.leaves(count).into_iter().map(|node| hierarchy.nodes[node as usize].proxy).collect()
 }
 
-/// Measures the level with at most `count` triboxes. `tree` is the mesh's [box tree](crate::bvh::exact_blob).
+/// Measures the level with at most `count` triboxes. `tree` is the mesh's
+/// [box tree](crate::bvh::exact_blob).
 ///
 /// Cost: a closest-point query for each triangle of the union's boundary, and some dozens more for
 /// the farthest.

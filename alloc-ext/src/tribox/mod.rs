@@ -14,8 +14,8 @@
 //! Triangles are cut at the planes of cells, so triboxes of a level do not overlap. If the mesh is
 //! closed they hold its inside too.
 //!
-//! *Planes.* Void beside the solid in %, at 8 / 64 triboxes, by `SplitOptions` with these values and
-//! no least gain. Historical: no command sets them. A test of this folder keeps the order.
+//! *Planes.* Void beside the solid in %, at 8 / 64 triboxes, by `SplitOptions` with these values
+//! and no least gain. Historical: no command sets them. A test of this folder keeps the order.
 //!
 //! | measure, planes | rocker arm | cow | fandisk | `fixtures/torus.ply` |
 //! | --- | --- | --- | --- | --- |

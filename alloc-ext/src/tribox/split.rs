@@ -16,8 +16,8 @@ use std::collections::BinaryHeap;
 /// Most splits above a cell; the rounding bound of [`polygons`](super::polygons) counts on it.
 pub(super) const DEPTH: u32 = 64;
 
-/// Part of a tribox's measure by which a gain may fall short of its prediction: the effect of rounding
-/// to f32 on thin triboxes.
+/// Part of a tribox's measure by which a gain may fall short of its prediction: the effect of
+/// rounding to f32 on thin triboxes.
 const DOUBT: f64 = 1e-3;
 
 /// Options of a split.

@@ -4,9 +4,9 @@ use crate::mesh::Mesh;
 use meshsweep_core::Tribox;
 use meshsweep_core::internal::tribox::FACES;
 
-/// The boundaries of triboxes, triangulated, one after another, counter-clockwise from outside. They
-/// share no vertices. For triboxes on a [grid](Tribox::on_grid) every vertex is the exact point where
-/// three planes meet, so the mesh encloses all that the triboxes hold.
+/// The boundaries of triboxes, triangulated, one after another, counter-clockwise from outside.
+/// They share no vertices. For triboxes on a [grid](Tribox::on_grid) every vertex is the exact
+/// point where three planes meet, so the mesh encloses all that the triboxes hold.
 ///
 /// A flat tribox gives two sides, a segment or a point nothing. A triangle may have no area where a
 /// vertex lies within an edge of a face.

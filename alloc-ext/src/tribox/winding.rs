@@ -7,8 +7,8 @@
 //!
 //! The box tree's sides ([`Bvh::signed_distance`](meshsweep_core::Bvh::signed_distance)) are no
 //! proof: where components overlap, a point inside one is outside of another that is nearer. They
-//! serve the choice of planes, where an error costs only a worse choice, and save four fifths of the
-//! time.
+//! serve the choice of planes, where an error costs only a worse choice, and save four fifths of
+//! the time.
 
 use super::span::Frame;
 use robust::{Coord3D, orient3d};

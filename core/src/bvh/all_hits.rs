@@ -1,7 +1,7 @@
 //! All common points of a segment and the stored surface.
 
 use super::descent::descend;
-use super::segment_leaf::{Collect, Facing, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, prepare};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
@@ -15,7 +15,7 @@ impl Bvh<'_> {
     /// for each triangle there. [`AllHits::dropped`] counts the hits that do not fit; the slice
     /// keeps the first ones. With [`Ended::Exact`] these are exactly the input's triangles that the
     /// segment meets, for certain. With [`Ended::Resolution`] rounding or the surface error leaves
-    /// some of them open.
+    /// some of them undecided.
     ///
     /// `a`, `b`, `facing`, `budget`, `scratch` and degenerate cases as for
     /// [`first_hit`](Bvh::first_hit). Cost: all leaves that the segment enters.
@@ -46,31 +46,31 @@ impl Bvh<'_> {
         let Some(query) = prepare(self, a, b, scratch)? else {
             return Ok(hits.answer(work, Ended::Exact));
         };
-        let collect = All { tree: self, query: &query, hits, open: false };
-        let mut visitor = SegmentVisitor { query: &query, facing, collect };
+        let collector = AllCrossings { tree: self, query: &query, hits, undecided: false };
+        let mut visitor = SegmentVisitor { query: &query, facing, collector };
         let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let ended = match descent.ended() {
-            Ended::Exact if visitor.collect.open => Ended::Resolution,
+            Ended::Exact if visitor.collector.undecided => Ended::Resolution,
             ended => ended,
         };
-        Ok(visitor.collect.hits.answer(work, ended))
+        Ok(visitor.collector.hits.answer(work, ended))
     }
 }
 
-struct All<'a> {
+struct AllCrossings<'a> {
     tree: &'a Bvh<'a>,
     query: &'a SegmentQuery,
     hits: Hits<'a>,
-    open: bool,
+    undecided: bool,
 }
 
-impl Collect for All<'_> {
+impl CrossingCollector for AllCrossings<'_> {
     fn limit(&self) -> f32 {
         self.query.ray.end()
     }
 
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()> {
-        self.open |= !crossing.certain;
+        self.undecided |= !crossing.certain;
         if crossing.stored {
             let number = self.tree.links(node)?.triangle(child).wrapping_add(lane);
             self.hits.insert(self.query.hit(crossing.t, self.tree.source(number)));

@@ -15,8 +15,8 @@ use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 pub struct AllWithin {
     /// Triangles in the slice.
     pub stored: usize,
-    /// The first so many are certainly within the distance (`upper ≤ distance`). The stored surface
-    /// and rounding leave the others open (`lower ≤ distance < upper`).
+    /// Triangles that are certainly within the distance (`upper ≤ distance`). They come first in
+    /// the slice. The others are undecided (`lower ≤ distance < upper`).
     pub certain: usize,
     /// Triangles, certain or not, that did not fit. The slice keeps the nearest.
     pub dropped: u32,
@@ -75,7 +75,7 @@ impl Bvh<'_> {
         let mut work = Work::default();
         let limit = limit_within(&query, distance);
         let heap = Heap::new(&mut *out);
-        let mut visitor = Collect { tree, query: &query, distance, limit, heap, dropped: 0 };
+        let mut visitor = CollectWithin { tree, query: &query, distance, limit, heap, dropped: 0 };
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let dropped = visitor.dropped;
         let stored = visitor.heap.finish(tree, &query)?;
@@ -103,7 +103,7 @@ fn from_afar(
     Ok(AllWithin { stored, certain, dropped, work, ended })
 }
 
-struct Collect<'a> {
+struct CollectWithin<'a> {
     tree: &'a Bvh<'a>,
     query: &'a PointQuery,
     /// Input units.
@@ -113,7 +113,7 @@ struct Collect<'a> {
     dropped: u32,
 }
 
-impl LeafVisitor for Collect<'_> {
+impl LeafVisitor for CollectWithin<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
@@ -129,7 +129,7 @@ impl LeafVisitor for Collect<'_> {
     }
 }
 
-impl Collect<'_> {
+impl CollectWithin<'_> {
     #[inline(never)]
     fn collect(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);

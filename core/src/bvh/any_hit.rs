@@ -1,7 +1,7 @@
 //! Whether a segment meets the surface.
 
 use super::descent::{Descent, descend};
-use super::segment_leaf::{Collect, Facing, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, prepare};
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
 use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
@@ -12,7 +12,7 @@ pub struct AnyHit {
     /// `Yes`: the segment meets the input mesh. `No`: no point of the segment lies on a triangle of
     /// the wanted facing. Undecided for [`Resolution`](Undecided::Resolution): the segment passes
     /// so near an edge, or ends so near the surface, that rounding and the surface error leave it
-    /// open.
+    /// undecided.
     pub verdict: Verdict,
     /// The work of the search.
     pub work: Work,
@@ -50,26 +50,26 @@ impl Bvh<'_> {
         let Some(query) = prepare(self, a, b, scratch)? else {
             return Ok(AnyHit { verdict: Verdict::No, work });
         };
-        let collect = Any { end: query.ray.end(), open: false, certain: false };
-        let mut visitor = SegmentVisitor { query: &query, facing, collect };
+        let collector = AnyCrossing { end: query.ray.end(), undecided: false, certain: false };
+        let mut visitor = SegmentVisitor { query: &query, facing, collector };
         let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let verdict = match descent {
-            _ if visitor.collect.certain => Verdict::Yes,
+            _ if visitor.collector.certain => Verdict::Yes,
             Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-            _ if visitor.collect.open => Verdict::Undecided(Undecided::Resolution),
+            _ if visitor.collector.undecided => Verdict::Undecided(Undecided::Resolution),
             _ => Verdict::No,
         };
         Ok(AnyHit { verdict, work })
     }
 }
 
-struct Any {
+struct AnyCrossing {
     end: f32,
-    open: bool,
+    undecided: bool,
     certain: bool,
 }
 
-impl Collect for Any {
+impl CrossingCollector for AnyCrossing {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.end
@@ -77,7 +77,7 @@ impl Collect for Any {
 
     #[inline(always)]
     fn meet(&mut self, _: &Crossing, _: u32, _: u32, _: u32) -> Option<()> {
-        self.open = true;
+        self.undecided = true;
         Some(())
     }
 

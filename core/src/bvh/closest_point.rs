@@ -1,8 +1,8 @@
-//! Closest point on the box tree.
+//! The closest point, with an interval of the distance.
 
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use super::leaf_distance::{Lanes, nearest_within};
-use super::leaf_distance::{NearestOf, nearest_triangle};
+use super::leaf_distance::{LeafNearest, nearest_triangle};
 use super::point_query::{PointQuery, at_least, at_most, bounds};
 use super::triangle_bounds::{distance_of_box, nearness, refine_sliver, seen_from};
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -140,7 +140,7 @@ fn search(
     visitor.answer(descent, work, hint)
 }
 
-/// The best leaf so far.
+/// The nearest triangle so far: its leaf, and `lanes` that find it there.
 #[derive(Clone, Copy)]
 struct Best {
     distance_sq: f32,
@@ -155,15 +155,15 @@ struct Closest<'a> {
     point: [f32; 3],
     query: &'a PointQuery,
     budget: &'a Budget,
-    /// Squared bound above which nothing matters.
+    /// Squared bound above which no triangle is nearer by more than the tolerance.
     limit: f32,
-    /// The same without the tolerance: no triangle beyond this square can improve the answer.
+    /// Squared bound above which no triangle is nearer. Equal to `limit` without a tolerance.
     beyond: f32,
     best: Best,
     /// A triangle whose squared lower bound is below this is refined as a sliver.
     refine_below: f32,
     /// Least squared lower bound of the refined triangles.
-    certified: f32,
+    refined_lower_sq: f32,
     tolerant: bool,
 }
 
@@ -179,7 +179,7 @@ impl<'a> Closest<'a> {
             beyond: EVERYTHING_SQ,
             best: Best { distance_sq: f32::MAX, node: u32::MAX, child: 0, lanes: Lanes::NONE },
             refine_below: f32::NEG_INFINITY,
-            certified: f32::INFINITY,
+            refined_lower_sq: f32::INFINITY,
             tolerant: budget.relative > 0.0 || budget.absolute > 0.0,
         }
     }
@@ -207,7 +207,7 @@ impl<'a> Closest<'a> {
     }
 
     #[inline(always)]
-    fn improve(&mut self, near: &NearestOf, visit: &LeafVisit<'_>) {
+    fn improve(&mut self, near: &LeafNearest, visit: &LeafVisit<'_>) {
         let distance_sq = near.distance_sq;
         let known = self.best.node != u32::MAX;
         if distance_sq == self.best.distance_sq && known && self.comes_later(visit) {
@@ -230,11 +230,13 @@ impl<'a> Closest<'a> {
     }
 
     /// Refines triangles whose lower bound falls short of the best distance by more than rounding:
-    /// slivers, and triangles next to the point. A triangle that falls short of the final best
-    /// falls short of every best before it. So the order of visits does not change the result.
+    /// slivers, and triangles next to the point.
+    ///
+    /// The best distance only falls. So a triangle that falls short of the last one fell short of
+    /// all before it, and the order of visits does not change the result.
     #[cold]
     #[inline(never)]
-    fn certify(&mut self, visit: &LeafVisit<'_>) {
+    fn refine(&mut self, visit: &LeafVisit<'_>) {
         let query = self.query;
         let box_sq = square(distance_of_box(query, visit.key));
         for lane in 0..visit.leaf.shape().triangles() {
@@ -250,7 +252,7 @@ impl<'a> Closest<'a> {
             let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
             if better.distance_sq < near.distance_sq && nearer {
                 let lanes = Lanes::one(lane, &better);
-                let near = NearestOf {
+                let near = LeafNearest {
                     distance_sq: better.distance_sq,
                     lower_bound_sq: near.lower_bound_sq,
                     lanes,
@@ -261,11 +263,11 @@ impl<'a> Closest<'a> {
             let lower = lower_bound(s, e, g);
             let lower_sq = square(lower);
             let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
-            // Not less than its bound beside a farther best, of which it does not fall short.
+            // The plane's bound may be the greater one.
             let lower_sq =
                 if lower_sq > near.lower_bound_sq { lower_sq } else { near.lower_bound_sq };
-            if lower_sq < self.certified {
-                self.certified = lower_sq;
+            if lower_sq < self.refined_lower_sq {
+                self.refined_lower_sq = lower_sq;
             }
         }
     }
@@ -278,15 +280,15 @@ impl<'a> Closest<'a> {
         hint: &mut Hint,
     ) -> Result<ClosestPoint, QueryError> {
         let Best { distance_sq, node, child, lanes } = self.best;
-        // All other triangles have at least this part of the best square as lower bound.
+        // Every triangle that was not refined has at least this squared lower bound.
         let mut least_sq = match self.refine_below {
             below if below > 0.0 => below,
             // No leaf was visited.
             f32::NEG_INFINITY => f32::MAX,
             _ => 0.0,
         };
-        if self.certified < least_sq {
-            least_sq = self.certified;
+        if self.refined_lower_sq < least_sq {
+            least_sq = self.refined_lower_sq;
         }
         let mut ended = Ended::Exact;
         if let Descent::Truncated { least, ended: why } = descent {
@@ -336,15 +338,16 @@ impl LeafVisitor for Closest<'_> {
             self.improve(&near, visit);
         }
         if near.lower_bound_sq < self.refine_below {
-            self.certify(visit);
+            self.refine(visit);
         }
         Some(true)
     }
 }
 
-/// The interval of the model's box, and a point of the surface. From far enough away every point is
-/// the closest, up to a rounding of f32. Computed in input units, scaled by a power of two so that
-/// no square leaves f32's range.
+/// The interval of the model's box, and some point of the surface. Far enough away, all points are
+/// the closest up to a rounding of f32.
+///
+/// It is computed in input units, scaled by a power of two so that no square leaves f32's range.
 #[cold]
 #[inline(never)]
 fn from_afar(
@@ -368,7 +371,8 @@ fn from_afar(
     let outside = (low - p).max(p - high).max(Vec3::ZERO);
     let farthest = (low - p).abs().max((p - high).abs());
     let (near, far) = (sqrt_approx(outside.dot(outside)), sqrt_approx(farthest.dot(farthest)));
-    let margin = |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.margin());
+    let margin =
+        |distance: f32| distance * (2.0 * FAN_RELATIVE * U32) + scaled(query.fixed_error());
     let mut node = 0;
     let (links, leaf) = loop {
         let links = tree.links(node).ok_or(QueryError::Unchecked)?;

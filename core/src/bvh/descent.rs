@@ -1,10 +1,11 @@
-//! The descent that all questions about one point or one segment share: nearest child first, the
-//! others on the caller's stack, unsorted.
+//! The descent that all questions about one point or one segment share.
 //!
-//! Sorted children, or a heap, visit fewer nodes and take longer: mispredicted branches decide. So
-//! every lane is stored, and the stack's end moves on if the lane is wanted. The nearest child is
-//! followed at once. Keys never fall from parent to child. So the set of leaves that a question
-//! depends on does not depend on the order of visits.
+//! The nearest child is followed at once. The other children within the limit go on a stack in the
+//! caller's memory, unsorted. Sorted children, or a heap, visit fewer nodes and take longer: they
+//! cost mispredicted branches.
+//!
+//! Keys never fall from parent to child. So the leaves that can change an answer are the same in
+//! every order of visits.
 
 use super::node::{LANE_MASK, WIDE, nearest_lane};
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -32,7 +33,7 @@ pub(crate) trait NodeQuery {
 /// A leaf that a descent has reached.
 pub(crate) struct LeafVisit<'a> {
     pub(crate) leaf: FanLeaf<'a>,
-    /// Lower bound of everything in it.
+    /// Lower bound of all its triangles.
     pub(crate) key: f32,
     pub(crate) node: u32,
     pub(crate) lane: u32,
@@ -40,7 +41,7 @@ pub(crate) struct LeafVisit<'a> {
 
 /// A question's visitor for leaves.
 pub(crate) trait LeafVisitor {
-    /// Bound above which nothing is wanted.
+    /// Nothing with a greater key can change the answer.
     fn limit(&self) -> f32;
 
     /// Looks at a leaf. `Some(false)` ends the descent. `None` says that the tree is unchecked.
@@ -54,7 +55,8 @@ pub(crate) enum Descent {
     Done,
     /// The question was answered early.
     Answered,
-    /// The steps were used up, or the stack was too short. Nothing below this bound was missed.
+    /// The steps were used up, or the stack was too short. Nothing with a key below `least` was
+    /// missed.
     Truncated { least: f32, ended: Ended },
 }
 
@@ -73,13 +75,13 @@ impl Descent {
 struct Stack<'a> {
     entries: &'a mut [ScratchEntry],
     /// Entries in use.
-    waiting: usize,
-    /// Least key that did not fit.
+    used: usize,
+    /// Least key of the entries that did not fit.
     dropped: f32,
 }
 
 impl Stack<'_> {
-    /// Pushes the children of `node` within the limit, but for the nearest.
+    /// Pushes the children of `node` within the limit, except the nearest.
     #[inline(always)]
     fn push_children(
         &mut self,
@@ -89,24 +91,25 @@ impl Stack<'_> {
         nearest: f32,
         limit: f32,
     ) {
-        let room = self.entries.get_mut(self.waiting..);
-        if WIDE && let Some(slots) = room.and_then(|rest| rest.first_chunk_mut::<WIDTH>()) {
-            let mut next = 0usize;
+        let free = self.entries.get_mut(self.used..);
+        if WIDE && let Some(slots) = free.and_then(|free| free.first_chunk_mut::<WIDTH>()) {
+            let mut pushed = 0usize;
             for &key in keys {
-                slots[next & (WIDTH - 1)] = ScratchEntry::new(key, node);
-                next += usize::from((key <= limit) & (key != nearest));
+                // Without a branch: an unwanted entry is overwritten by the next one.
+                slots[pushed & (WIDTH - 1)] = ScratchEntry::new(key, node);
+                pushed += usize::from((key <= limit) & (key != nearest));
             }
-            self.waiting += next;
+            self.used += pushed;
             return;
         }
-        // Bits of numbers that are not negative compare as the numbers do.
+        // No key is negative, so bits compare as numbers do.
         let (limit, nearest) = (limit.to_bits(), nearest.to_bits());
         for &key in keys.iter().take(count as usize) {
             if key.to_bits() <= limit && key.to_bits() != nearest {
-                match self.entries.get_mut(self.waiting) {
+                match self.entries.get_mut(self.used) {
                     Some(slot) => {
                         *slot = ScratchEntry::new(key, node);
-                        self.waiting += 1;
+                        self.used += 1;
                     }
                     None => self.dropped = if key < self.dropped { key } else { self.dropped },
                 }
@@ -117,13 +120,13 @@ impl Stack<'_> {
     /// Least key of everything that is left, or that did not fit.
     #[cold]
     fn least(&self) -> f32 {
-        let left = self.entries.iter().take(self.waiting);
+        let left = self.entries.iter().take(self.used);
         left.fold(self.dropped, |least, entry| least.min(entry.key()))
     }
 }
 
-/// Visits every leaf within the visitor's limit. At most `steps` nodes are opened, those that
-/// `work` counts already included.
+/// Visits every leaf within the visitor's limit. Opens nodes until `work` counts `steps` of them,
+/// earlier descents included.
 #[inline(always)]
 pub(crate) fn descend<Q: NodeQuery>(
     tree: &Bvh<'_>,
@@ -137,7 +140,7 @@ pub(crate) fn descend<Q: NodeQuery>(
     walk(tree, query, steps, scratch, visitor, work).ok_or(QueryError::Unchecked)
 }
 
-/// The descent. It has one error, so that the loop carries no error values.
+/// The descent. `None` says that the tree is unchecked: the loop carries no other error.
 #[inline(always)]
 fn walk(
     tree: &Bvh<'_>,
@@ -147,7 +150,7 @@ fn walk(
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Option<Descent> {
-    let mut stack = Stack { entries: scratch, waiting: 0, dropped: f32::INFINITY };
+    let mut stack = Stack { entries: scratch, used: 0, dropped: f32::INFINITY };
     let mut node = 0u32;
     let mut bound = 0f32;
     loop {
@@ -163,16 +166,16 @@ fn walk(
         work.nodes += links.count;
         let nearest = nearest_lane(&keys);
         let limit = visitor.limit();
-        let mut found = nearest <= limit;
-        if found {
+        let mut is_wanted = nearest <= limit;
+        if is_wanted {
             stack.push_children(node, &keys, links.count, nearest, limit);
         }
-        // The nearest child's links are at hand. An entry off the stack has to look its parent's
-        // up.
+        // The nearest child's links are read already. An entry from the stack has to read its
+        // parent's links again.
         let mut child = links.child(nearest.to_bits() & LANE_MASK);
         let mut entry = ScratchEntry::new(nearest, node);
         loop {
-            if found {
+            if is_wanted {
                 bound = f32::from_bits(entry.key().to_bits() & !LANE_MASK);
                 if !child.is_leaf() {
                     node = child.at;
@@ -186,16 +189,16 @@ fn walk(
                     return Some(Descent::Answered);
                 }
             }
-            found = true;
+            is_wanted = true;
             loop {
-                let Some(top) = stack.waiting.checked_sub(1) else {
+                let Some(top) = stack.used.checked_sub(1) else {
                     return Some(if stack.dropped <= visitor.limit() {
                         Descent::Truncated { least: stack.dropped, ended: Ended::Scratch }
                     } else {
                         Descent::Done
                     });
                 };
-                stack.waiting = top;
+                stack.used = top;
                 entry = stack.entries.get(top).copied()?;
                 if entry.key() <= visitor.limit() {
                     break;

@@ -1,7 +1,7 @@
 //! The first common point of a segment and the surface.
 
 use super::descent::{Descent, descend};
-use super::segment_leaf::{Collect, Facing, Place, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor, prepare};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
@@ -13,14 +13,19 @@ impl Bvh<'_> {
     /// It never says "clear" wrongly: if [`FirstHit::is_clear`], no point of the segment lies on
     /// the input mesh. With [`Ended::Exact`] and a hit the segment is proved to meet the input
     /// mesh, and the first common parameter lies in `t`, whatever the grid did to the vertices.
-    /// With [`Ended::Resolution`] the segment passes an outer edge of a fan, or ends, so near the
-    /// surface that rounding and the surface error leave open whether they meet.
+    /// With [`Ended::Resolution`] it is undecided whether they meet: the segment passes an outer
+    /// edge of a fan, or ends, within rounding and the surface error of the surface.
     ///
-    /// `hit` is the first triangle of the *stored* surface that is met, in f32, without a gap along
-    /// edges and at vertices. The input's surface may only come near it, or `hit` may be missing
-    /// with [`Ended::Resolution`]. Of equal parameters the answer is the least triangle in blob
-    /// order. A segment in a triangle's plane hits, as computed, where it enters the triangle. So
-    /// does a segment of no length, and a triangle without area. None of these is proved.
+    /// `hit` is the first triangle of the *stored* surface that is met, computed in f32. There is
+    /// no gap along edges and at vertices. With [`Ended::Resolution`] the input's surface may only
+    /// come near `hit`, or `hit` may be missing. Of equal parameters the answer is the least
+    /// triangle in blob order.
+    ///
+    /// Vertices that rounding to f32, or snapping to a grid, made equal count as one vertex of the
+    /// input. So a crack that is narrower than this rounding counts as closed.
+    ///
+    /// A segment in a triangle's plane hits where it enters the triangle. So does a segment of no
+    /// length, and a segment that meets a triangle without area. None of these hits is proved.
     ///
     /// `scratch` as for [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters.
     ///
@@ -53,32 +58,32 @@ impl Bvh<'_> {
     ) -> Result<FirstHit, QueryError> {
         let Some(query) = prepare(self, a, b, scratch)? else { return Ok(FirstHit::CLEAR) };
         let mut work = Work::default();
-        let collect = First {
+        let collector = FirstCrossing {
             limit: query.ray.end(),
             lower: f32::INFINITY,
-            best: Place { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
+            best: HitPlace { t: f32::INFINITY, node: 0, child: 0, lane: 0 },
             certain: false,
             tree: self,
         };
-        let mut visitor = SegmentVisitor { query: &query, facing, collect };
+        let mut visitor = SegmentVisitor { query: &query, facing, collector };
         let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        visitor.collect.answer(&query, descent, work)
+        visitor.collector.answer(&query, descent, work)
     }
 }
 
-struct First<'a> {
+struct FirstCrossing<'a> {
     tree: &'a Bvh<'a>,
-    /// The input's surface is met no later, if `certain`; else the segment's end.
+    /// If `certain`, the input's surface is met not after this parameter. Else the segment's end.
     limit: f32,
-    /// It is not met earlier.
+    /// The input's surface is not met before this parameter.
     lower: f32,
-    best: Place,
+    best: HitPlace,
     certain: bool,
 }
 
-impl First<'_> {
+impl FirstCrossing<'_> {
     #[cold]
-    fn number(&self, place: &Place) -> Option<u32> {
+    fn number(&self, place: &HitPlace) -> Option<u32> {
         Some(self.tree.links(place.node)?.triangle(place.child).wrapping_add(place.lane))
     }
 
@@ -110,7 +115,7 @@ impl First<'_> {
     }
 }
 
-impl Collect for First<'_> {
+impl CrossingCollector for FirstCrossing<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
@@ -122,7 +127,7 @@ impl Collect for First<'_> {
             self.lower = crossing.lower;
         }
         if crossing.stored && crossing.t <= self.best.t {
-            let place = Place { t: crossing.t, node, child, lane };
+            let place = HitPlace { t: crossing.t, node, child, lane };
             if crossing.t < self.best.t || self.number(&place) < self.number(&self.best) {
                 self.best = place;
             }

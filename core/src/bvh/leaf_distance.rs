@@ -1,37 +1,40 @@
-//! The nearest triangle of a leaf: eight triangles at once on targets with vectors, else one after
-//! the other. Both give the same bits.
+//! The nearest triangle of a leaf.
+//!
+//! Targets with vectors look at eight triangles at once (`wide`), others at one after the other
+//! (`narrow`). Both give the same bits.
 
 use crate::bvh::format::FanLeaf;
 use crate::geom::fan::Edges8;
 use glam::Vec3;
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-pub(crate) use narrow::{Lanes, nearest_within, seen};
+pub(crate) use narrow::{Lanes, nearest_and_edges, nearest_within};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pub(crate) use wide::{Lanes, nearest_within, seen};
+pub(crate) use wide::{Lanes, nearest_and_edges, nearest_within};
 
 /// The nearest triangle of a leaf, without a limit.
 #[inline(always)]
-pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<NearestOf> {
+pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafNearest> {
     nearest_within(leaf, p, f32::INFINITY)
 }
 
-/// The nearest triangle of a leaf, and its triangles as seen from the query where all are read at
-/// once.
-pub(crate) type Seen = (NearestOf, Option<Edges8>);
+/// The nearest triangle of a leaf. On vector targets also the edges of all its triangles, as they
+/// lie from the query point.
+pub(crate) type LeafSeen = (LeafNearest, Option<Edges8>);
 
-/// The nearest triangle of a leaf. Triangles proved to be beyond a squared limit may be left out.
+/// The nearest triangle of a leaf. Triangles that are proved to be beyond the squared limit may be
+/// left out.
 #[derive(Clone, Copy)]
-pub(crate) struct NearestOf {
+pub(crate) struct LeafNearest {
     /// Its squared distance.
     pub(crate) distance_sq: f32,
     /// Least squared lower bound of all triangles of the leaf.
     pub(crate) lower_bound_sq: f32,
-    /// Which triangle it is.
+    /// From this [`lane`](Self::lane) finds the triangle.
     pub(crate) lanes: Lanes,
 }
 
-impl NearestOf {
+impl LeafNearest {
     /// The least lane at this distance, and the closest point on its triangle (see
     /// [`FanLeaf::point`]).
     #[inline(always)]
@@ -42,11 +45,11 @@ impl NearestOf {
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod wide {
-    use super::{Edges8, FanLeaf, NearestOf, Seen, Vec3};
+    use super::{Edges8, FanLeaf, LeafNearest, LeafSeen, Vec3};
     use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_leaf8};
 
-    /// All lanes of a leaf. The nearest lane is found once at the end: no branch predictor can
-    /// guess it.
+    /// All lanes of a leaf. The nearest lane is searched once, for the final answer: no branch
+    /// predictor can guess it.
     #[derive(Clone, Copy)]
     pub(crate) struct Lanes(Nearness8);
 
@@ -79,9 +82,9 @@ mod wide {
         }
     }
 
-    /// `limit` is for the scalar kernel. Here a lane that is left out saves nothing.
+    /// Ignores the limit: to leave out a lane saves nothing here.
     #[inline(always)]
-    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<NearestOf> {
+    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, _limit: f32) -> Option<LeafNearest> {
         let near = if leaf.is_f32() {
             f32_nearness(leaf, p)?
         } else {
@@ -91,17 +94,17 @@ mod wide {
     }
 
     #[inline(always)]
-    pub(crate) fn seen(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
+    pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafSeen> {
         let edges = if leaf.is_f32() { f32_edges(leaf, p)? } else { leaf.grid_edges8(p)? };
         let near = point_leaf8(&edges, LANES_BELOW.get(leaf.shape().triangles())?);
         Some((nearest_of(near), Some(edges)))
     }
 
     #[inline(always)]
-    fn nearest_of(near: Nearness8) -> NearestOf {
+    fn nearest_of(near: Nearness8) -> LeafNearest {
         let (distance_sq, lower_bound_sq) =
             (least_of(&near.distance_sq), least_of(&near.lower_bound_sq));
-        NearestOf { distance_sq, lower_bound_sq, lanes: Lanes(near) }
+        LeafNearest { distance_sq, lower_bound_sq, lanes: Lanes(near) }
     }
 
     #[inline(never)]
@@ -109,7 +112,7 @@ mod wide {
         leaf.f32_edges8(p)
     }
 
-    /// A call of its own, so that the two ways to read a leaf share no memory.
+    /// Not inlined, so that the two ways to read a leaf share no stack memory.
     #[inline(never)]
     fn f32_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
         Some(point_leaf8(&leaf.f32_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?))
@@ -125,7 +128,7 @@ mod wide {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod narrow {
-    use super::{FanLeaf, NearestOf, Seen, Vec3};
+    use super::{FanLeaf, LeafNearest, LeafSeen, Vec3};
     use crate::geom::fan::{Nearness, PointFan, SpokeTerms, point_leaf};
 
     /// The nearest triangle of a leaf.
@@ -151,26 +154,26 @@ mod narrow {
     }
 
     #[inline(always)]
-    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, limit: f32) -> Option<NearestOf> {
-        let mut nearest = NearestOf {
+    pub(crate) fn nearest_within(leaf: &FanLeaf<'_>, p: Vec3, limit: f32) -> Option<LeafNearest> {
+        let mut nearest = LeafNearest {
             distance_sq: f32::INFINITY,
             lower_bound_sq: f32::INFINITY,
             lanes: Lanes::NONE,
         };
         if leaf.is_f32() {
-            single(leaf, p, &mut nearest);
+            f32_nearest(leaf, p, &mut nearest);
         } else {
-            on_grid(leaf, p, limit, &mut nearest)?;
+            grid_nearest(leaf, p, limit, &mut nearest)?;
         }
         Some(nearest)
     }
 
     #[inline(always)]
-    pub(crate) fn seen(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Seen> {
+    pub(crate) fn nearest_and_edges(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafSeen> {
         Some((nearest_within(leaf, p, f32::INFINITY)?, None))
     }
 
-    impl NearestOf {
+    impl LeafNearest {
         #[inline(always)]
         fn take(&mut self, lane: usize, near: &Nearness) {
             if near.distance_sq < self.distance_sq {
@@ -183,9 +186,14 @@ mod narrow {
         }
     }
 
-    /// Every stored number is read once: differences of integers, then one conversion.
+    /// Reads every stored number once. Integers are subtracted before they become f32.
     #[inline(always)]
-    fn on_grid(leaf: &FanLeaf<'_>, p: Vec3, limit: f32, nearest: &mut NearestOf) -> Option<()> {
+    fn grid_nearest(
+        leaf: &FanLeaf<'_>,
+        p: Vec3,
+        limit: f32,
+        nearest: &mut LeafNearest,
+    ) -> Option<()> {
         let ring = leaf.grid_ring()?;
         let turn = leaf.shape().turn();
         let mut centre = ring.centres[0];
@@ -221,7 +229,7 @@ mod narrow {
     }
 
     #[inline(never)]
-    fn single(leaf: &FanLeaf<'_>, p: Vec3, nearest: &mut NearestOf) {
+    fn f32_nearest(leaf: &FanLeaf<'_>, p: Vec3, nearest: &mut LeafNearest) {
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
         let s = [p - leaf.centre(0), p - leaf.centre(leaf.shape().centres() - 1)];
         point_leaf(

@@ -1,4 +1,6 @@
-//! The box tree: an index of triangles that answers distances, segments and overlaps.
+//! The box tree ([`Bvh`]): an index of triangles that answers distances, sides, segments and
+//! overlaps. Each node has up to eight children, each of which is a node or a leaf of one or two
+//! fans.
 //!
 //! | where | what lies there |
 //! | --- | --- |
@@ -7,18 +9,19 @@
 //! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
 //! | `descent` | the descent of all questions about one point or one segment |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
-//! | `segment_leaf` | a segment and the triangles of a leaf |
+//! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of all segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
 //! | `neighbors` | the heap of nearest triangles in the caller's slice |
-//! | `signed_distance`, `side_search`, `pseudonormal` | the side of a closed mesh |
+//! | `signed_distance`, `side_search`, `pseudonormal` | on which side of a closed mesh a point lies |
 //! | `first_hit`, `any_hit`, `all_hits` | segments |
 //! | `front_facing` | triangles that may face an eye |
 //! | `overlap/` | two trees, one of them moved |
 //! | `coherent/` | a query that moves |
 //!
 //! A new question is a file here: an `impl Bvh` with its method, its answer type, and a
-//! [`LeafVisitor`](descent::LeafVisitor) for the descent.
+//! [`LeafVisitor`](descent::LeafVisitor) for the descent. `within` is a short example.
+//! `core/docs/guide.md` lists the other places.
 
 mod all_hits;
 mod all_within;

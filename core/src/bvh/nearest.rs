@@ -82,7 +82,7 @@ impl Bvh<'_> {
         }
         let heap = Heap::new(out);
         let mut visitor =
-            Nearest { tree, query: &query, heap, limit: EVERYTHING_SQ, rest: f32::INFINITY };
+            CollectNearest { tree, query: &query, heap, limit: EVERYTHING_SQ, rest: f32::INFINITY };
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
         let mut rest_lower = f32::INFINITY;
         if visitor.heap.stored() < all {
@@ -100,7 +100,7 @@ impl Bvh<'_> {
     }
 }
 
-struct Nearest<'a> {
+struct CollectNearest<'a> {
     tree: &'a Bvh<'a>,
     query: &'a PointQuery,
     heap: Heap<'a>,
@@ -109,7 +109,7 @@ struct Nearest<'a> {
     rest: f32,
 }
 
-impl LeafVisitor for Nearest<'_> {
+impl LeafVisitor for CollectNearest<'_> {
     #[inline(always)]
     fn limit(&self) -> f32 {
         self.limit
@@ -125,7 +125,7 @@ impl LeafVisitor for Nearest<'_> {
     }
 }
 
-impl Nearest<'_> {
+impl CollectNearest<'_> {
     #[inline(never)]
     fn rank(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let first = self.tree.links(visit.node)?.triangle(visit.lane);

@@ -16,7 +16,7 @@ use glam::Vec3;
 pub(crate) struct Units {
     /// `2^-(scale + grid)` in two factors, each within f32's range.
     inward: [f32; 2],
-    /// The other way round.
+    /// The inverse of `inward`.
     outward: [f32; 2],
     /// Surface error, grid units.
     pub(crate) surface_error: f32,
@@ -78,14 +78,15 @@ pub(crate) struct PointQuery {
     /// Grid units.
     pub(crate) p: Vec3,
     pub(crate) units: Units,
-    /// Error of a distance in grid units, beside [`FAN_RELATIVE`] roundings of itself.
-    margin: f32,
-    /// Addition to a squared limit, so that no rounding hides a candidate.
+    /// Rounding of a computed distance, grid units, in addition to [`FAN_RELATIVE`] roundings of
+    /// the distance itself.
+    rounding: f32,
+    /// Added to a squared limit, so that no rounding hides a candidate.
     allowance: f32,
-    /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
+    /// Square by which a lower bound may fall shortfall_sq: [`CERTIFIED_SHORTFALL`], or 0 for f32
     /// vertices.
-    short: f32,
-    /// Farther than [`BVH_FAR`]: only the box matters.
+    shortfall_sq: f32,
+    /// Farther than [`BVH_FAR`]: the model's box gives the answer.
     pub(crate) far: bool,
 }
 
@@ -104,52 +105,62 @@ impl PointQuery {
         let size = farthest.x + farthest.y + farthest.z;
         let fan = FAN_DISTANCE * U32 * header.star_radius;
         let off = BOX_DISTANCE * U32 * size + fan;
-        let short = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
+        let shortfall_sq = if header.is_f32() { 0.0 } else { CERTIFIED_SHORTFALL };
         let near = size <= BVH_FAR;
-        Ok(PointQuery { p, units, short, margin: fan, allowance: 2100.0 * off * off, far: !near })
+        Ok(PointQuery {
+            p,
+            units,
+            shortfall_sq,
+            rounding: fan,
+            allowance: 2100.0 * off * off,
+            far: !near,
+        })
     }
 
-    /// The squared bound above which a node cannot hold anything at the squared distance
-    /// `distance_sq` as computed. (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + 2100·b², so that no root is
-    /// needed.
+    /// A node with a greater squared bound holds nothing that is computed as near as `distance_sq`.
+    ///
+    /// (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + 2100·b², so no root is needed.
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
         distance_sq * (1.0 + 1.0 / 1024.0) + self.allowance
     }
 
-    /// The squared lower bound that every other triangle must have beside a best square. A triangle
-    /// with less is refined as a sliver.
+    /// A triangle with a smaller squared lower bound is refined as a sliver, if `distance_sq` is
+    /// the best squared distance.
     #[inline(always)]
     pub(crate) fn refine_below(&self, distance_sq: f32) -> f32 {
-        distance_sq * CERTIFIED_PART - self.short
+        distance_sq * CERTIFIED_PART - self.shortfall_sq
     }
 
-    /// From a computed distance to the stored surface to an upper bound of the distance to the
-    /// input surface, input units.
+    /// Upper bound of the distance to the input surface, input units, from a computed distance to
+    /// the stored surface.
     #[inline(always)]
     pub(crate) fn upper(&self, distance: f32) -> f32 {
         self.units.upper(
-            distance + (distance * (FAN_RELATIVE * U32) + (self.margin + self.units.surface_error)),
+            distance
+                + (distance * (FAN_RELATIVE * U32) + (self.rounding + self.units.surface_error)),
         )
     }
 
-    /// Rounding of a box's distance, grid units. The allowance is its square times 2100, a little
-    /// more than 45².
+    /// Rounding of a box's distance, grid units. `allowance` is 2100 times its square, and 2100 is
+    /// a little more than 45².
     #[inline(always)]
     pub(crate) fn box_error(&self) -> f32 {
         sqrt_approx(self.limit(0.0)) * (1.0 / 45.0)
     }
 
-    /// Rounding of a distance in grid units that does not grow with the distance.
-    pub(crate) fn margin(&self) -> f32 {
-        self.margin + self.units.surface_error
+    /// The part of a distance's error that does not grow with the distance: rounding and surface
+    /// error, grid units.
+    pub(crate) fn fixed_error(&self) -> f32 {
+        self.rounding + self.units.surface_error
     }
 
-    /// From a computed distance to a lower bound.
+    /// Lower bound of the distance to the input surface, input units, from a computed one.
     #[inline(always)]
     pub(crate) fn lower(&self, distance: f32) -> f32 {
         self.units.lower(
-            distance - (distance * (FAN_RELATIVE * U32) + (self.margin + self.units.surface_error)),
+            distance
+                - (distance * (FAN_RELATIVE * U32) + (self.rounding + self.units.surface_error)),
         )
     }
 }

@@ -1,19 +1,23 @@
 //! Angle-weighted pseudonormals without stored mesh connectivity. A descent finds the triangles of
-//! a feature by equal coordinates.
+//! a feature, which is a vertex or an edge, by equal coordinates.
 //!
-//! The sum of [`signed_distance`](super::signed_distance) is taken about a vertex (or edge) that
-//! all possibly closest triangles share. It is nearly the closest feature, not certainly. Let u be
-//! the direction from the feature to the query, and let no triangle about the feature reach a
-//! direction x with x·u > η. Then the winding number is the same, w₀, wherever x·u > η. The rest of
-//! the sum, over 0 < x·u ≤ η, is 2·∫x·u ≤ 2πη² about a vertex. By the same argument in the plane
-//! across an edge it is η² about an edge. Nothing crosses the way from the feature to the query.
-//! Triangles about the feature do not contain the direction u. Any other triangle there would be
-//! nearer than the feature, and so among the possibly closest. So a product with u that exceeds
-//! this rest and rounding has the right sign.
+//! *Which feature.* The sum of [`signed_distance`](super::signed_distance) is taken about a feature
+//! that all possibly closest triangles share. It is nearly the closest feature, not certainly.
+//!
+//! *Error of the sum.* Let u be the direction from the feature to the query. Let η be such that no
+//! triangle about the feature reaches a direction x with x·u > η. Then the winding number is the
+//! same, w₀, wherever x·u > η. The rest of the sum, over 0 < x·u ≤ η, is at most 2·∫x·u ≤ 2πη²
+//! about a vertex. By the same argument in the plane across an edge it is η² about an edge.
+//!
+//! *Nothing crosses the way from the feature to the query.* Triangles about the feature do not
+//! contain the direction u. Any other triangle there would be nearer than the feature. So it would
+//! be among the possibly closest triangles, and these all share the feature.
+//!
+//! So the product with u has the right sign if it exceeds this error and rounding.
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::point_query::PointQuery;
-use super::side_search::{OPEN, Search};
+use super::side_search::{Search, UNDECIDED};
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use crate::bvh::format::FanLeaf;
 use crate::num::sqrt_approx;
@@ -28,7 +32,7 @@ use glam::Vec3;
 pub(crate) enum ViewedSide {
     Front = 0,
     Back = 1,
-    /// Rounding leaves it open.
+    /// Rounding leaves the side undecided.
     Unclear = 2,
     /// It has no area, certainly.
     Flat = 3,
@@ -90,8 +94,9 @@ pub(crate) struct Candidates<'p> {
     /// Lower bound, grid units, up to which a triangle is a candidate: more than twice the need of
     /// rounding.
     pub(crate) band: f32,
-    /// Distance, grid units, up to which all triangles nearer than a feature are candidates.
-    reach: f32,
+    /// All triangles nearer than a feature are candidates if the feature is within this distance,
+    /// grid units.
+    feature_limit: f32,
 }
 
 impl<'p> Candidates<'p> {
@@ -100,12 +105,12 @@ impl<'p> Candidates<'p> {
     pub(crate) fn new(query: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
         let distance = sqrt_approx(distance_sq);
         let band = distance * (1.0 + 128.0 * U32) + 8.0 * margin;
-        let reach = distance * (1.0 + 64.0 * U32) + 4.0 * margin;
-        Candidates { query, band, reach }
+        let feature_limit = distance * (1.0 + 64.0 * U32) + 4.0 * margin;
+        Candidates { query, band, feature_limit }
     }
 }
 
-/// The side by the feature that all candidates share; `corners` are those of one of them.
+/// The side by the feature that all candidates share. `corners` are those of any candidate.
 pub(crate) fn side_of_shared_feature(
     search: &mut Search<'_, '_>,
     candidates: &Candidates<'_>,
@@ -114,7 +119,7 @@ pub(crate) fn side_of_shared_feature(
     let limit = limit_of(candidates.query, candidates.band);
     let mut shared = Shared { candidates, limit, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
-        return Ok(OPEN);
+        return Ok(UNDECIDED);
     }
     let ([a, b, c], p) = (corners, candidates.query.p);
     match shared.kept {
@@ -124,11 +129,11 @@ pub(crate) fn side_of_shared_feature(
         [true, true, false] => about_edge(search, candidates, limit, [a, b], p),
         [false, true, true] => about_edge(search, candidates, limit, [b, c], p),
         [true, false, true] => about_edge(search, candidates, limit, [c, a], p),
-        _ => Ok(OPEN),
+        _ => Ok(UNDECIDED),
     }
 }
 
-/// Which corners do all candidates share?
+/// Finds the corners that all candidates share.
 struct Shared<'a> {
     candidates: &'a Candidates<'a>,
     limit: f32,
@@ -163,7 +168,7 @@ impl LeafVisitor for Shared<'_> {
 #[derive(Default)]
 struct Sum {
     normal: Vec3,
-    /// Weights times the excess of a normal's rounding over that of a well-shaped triangle.
+    /// Sum of the weights, each times the relative rounding of its normal. A sliver's is large.
     unsure: f32,
     weight: f32,
     count: f32,
@@ -185,23 +190,24 @@ impl Sum {
         self.eta = if eta > self.eta { eta } else { self.eta };
     }
 
-    /// The side by the product with `to_query`. `open`: the error of the product, in units of η²,
-    /// for a feature that is not exactly the closest. `inexact`: the sum of absolute values whose
-    /// roundings `to_query` carries.
-    fn side(&self, to_query: Vec3, open: f32, inexact: f32) -> Side {
+    /// The side by the product with `to_query`.
+    ///
+    /// `feature_error`: the error of the product in units of η², because the feature is not exactly
+    /// the closest. `inexact`: the sum of absolute values whose roundings `to_query` carries.
+    fn side(&self, to_query: Vec3, feature_error: f32, inexact: f32) -> Side {
         let product = self.normal.dot(to_query);
         let count = self.count;
         let roundings = 16.0 * self.unsure + (32.0 + 2.0 * count) * self.weight + 64.0 * count;
         let margin = U32 * (norm_1(to_query) * roundings + 16.0 * self.weight * inexact)
-            + open * self.eta * self.eta * norm_1(to_query);
+            + feature_error * self.eta * self.eta * norm_1(to_query);
         if self.broken || self.count == 0.0 || margin.is_nan() {
-            OPEN
+            UNDECIDED
         } else if product > margin {
             Side::Outside
         } else if product < -margin {
             Side::Inside
         } else {
-            OPEN
+            UNDECIDED
         }
     }
 }
@@ -225,8 +231,7 @@ impl<F: FnMut(&FanLeaf<'_>, usize)> LeafVisitor for Star<F> {
     }
 }
 
-/// Whether a normal's components are numbers, and so large that the underflow of products does not
-/// count.
+/// Whether a normal is finite, and so large that underflow and cancellation leave it a direction.
 fn is_sound(normal: Vec3, size: Vec3) -> bool {
     norm_1(size) > TRUSTED_DIRECTION_SQ && normal.abs().max_element() > 64.0 * U32 * norm_1(size)
 }
@@ -240,8 +245,8 @@ fn about_vertex(
 ) -> Result<Side, QueryError> {
     let s = p - vertex;
     let far = sqrt_approx(s.dot(s));
-    if !(far > 0.0 && far <= candidates.reach) {
-        return Ok(OPEN);
+    if !(far > 0.0 && far <= candidates.feature_limit) {
+        return Ok(UNDECIDED);
     }
     let u = s * (1.0 / far);
     let mut sum = Sum::default();
@@ -266,8 +271,8 @@ fn about_vertex(
         let unit = |v: Vec3| v * (1.0 / sqrt_approx(v.dot(v)));
         let (e, g) = (unit(e), unit(g));
         let reached = e.dot(u).max(g.dot(u));
-        // Directions between the two: (λe + μg) / |λe + μg|, whose length is at least (λ +
-        // μ)·cos(α/2).
+        // Directions between the two are (λe + μg) / |λe + μg|. The divisor is at least
+        // (λ + μ)·cos(α/2).
         let eta = if reached <= -SIGN_COSINE * U32 {
             0.0
         } else {
@@ -281,9 +286,9 @@ fn about_vertex(
         sum.add(normal, size, angle, eta);
     };
     if !search.descend(candidates.query, &mut Star { limit, each })? {
-        return Ok(OPEN);
+        return Ok(UNDECIDED);
     }
-    Ok(if sum.eta < 0.25 { sum.side(s, 6.5, 0.0) } else { OPEN })
+    Ok(if sum.eta < 0.25 { sum.side(s, 6.5, 0.0) } else { UNDECIDED })
 }
 
 fn about_edge(
@@ -300,9 +305,9 @@ fn about_edge(
     let far = sqrt_approx(across.dot(across));
     // The foot must lie within the edge, and clear of its ends.
     if !(along > rounding && length_sq - along > rounding && far > 0.0)
-        || far + SIGN_COSINE * U32 * norm_1(s) > candidates.reach
+        || far + SIGN_COSINE * U32 * norm_1(s) > candidates.feature_limit
     {
-        return Ok(OPEN);
+        return Ok(UNDECIDED);
     }
     let u = across * (1.0 / far);
     let mut sum = Sum::default();
@@ -329,7 +334,7 @@ fn about_edge(
         sum.add(normal, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
     };
     if !search.descend(candidates.query, &mut Star { limit, each })? {
-        return Ok(OPEN);
+        return Ok(UNDECIDED);
     }
-    Ok(if sum.eta < 0.25 { sum.side(across, 1.2, norm_1(s)) } else { OPEN })
+    Ok(if sum.eta < 0.25 { sum.side(across, 1.2, norm_1(s)) } else { UNDECIDED })
 }

@@ -1,8 +1,8 @@
 //! A segment and the triangles of a leaf.
 //!
-//! A segment visits two nodes and less than one leaf on scanned parts, so the work once for each
-//! segment decides. The fan kernels flag the triangles that may be met. Only flagged triangles are
-//! tested one by one, with the interval of parameters in which the *input's* triangle can be met.
+//! The fan kernels flag the triangles of a leaf that the line may meet. Only flagged triangles are
+//! tested one by one. Each test gives the interval of parameters in which the *input's* triangle
+//! can be met.
 
 use super::descent::{LeafVisit, LeafVisitor, NodeQuery};
 use super::node::WIDE;
@@ -25,7 +25,7 @@ pub enum Facing {
     Back,
 }
 
-/// Prepares a segment for the descent. `None` if the segment is far from the model.
+/// Prepares a segment for the descent. `None` if the segment is proved clear of the model.
 #[inline(always)]
 pub(crate) fn prepare(
     tree: &Bvh<'_>,
@@ -42,16 +42,16 @@ pub(crate) fn prepare(
 
 /// A stored triangle that is met.
 #[derive(Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct HitPlace {
     pub(crate) t: f32,
     pub(crate) node: u32,
     pub(crate) child: u32,
     pub(crate) lane: u32,
 }
 
-/// The part of a question that handles triangles that may be met, in any order.
-pub(crate) trait Collect {
-    /// Intervals that begin later are not wanted.
+/// The part of a segment question that takes the triangles that may be met, in any order.
+pub(crate) trait CrossingCollector {
+    /// A triangle that is met later than this cannot change the answer.
     fn limit(&self) -> f32;
     /// A triangle of the wanted facing. `None` says that the tree is unchecked.
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;
@@ -59,7 +59,8 @@ pub(crate) trait Collect {
     fn certain(&mut self, upper: f32);
     /// Whether the question is answered.
     fn is_answered(&self) -> bool;
-    /// Whether it matters that one of several open triangles is met for certain.
+    /// Whether [`certain`](Self::certain) is also called for a group of triangles. Next to an inner
+    /// edge of a fan each triangle is undecided, yet the segment certainly meets one of them.
     const COVERS: bool;
 }
 
@@ -67,13 +68,13 @@ pub(crate) trait Collect {
 pub(crate) struct SegmentVisitor<'a, C> {
     pub(crate) query: &'a SegmentQuery,
     pub(crate) facing: Facing,
-    pub(crate) collect: C,
+    pub(crate) collector: C,
 }
 
-impl<C: Collect> LeafVisitor for SegmentVisitor<'_, C> {
+impl<C: CrossingCollector> LeafVisitor for SegmentVisitor<'_, C> {
     #[inline(always)]
     fn limit(&self) -> f32 {
-        self.collect.limit()
+        self.collector.limit()
     }
 
     #[inline(always)]
@@ -82,8 +83,8 @@ impl<C: Collect> LeafVisitor for SegmentVisitor<'_, C> {
         if lanes == 0 {
             return Some(true);
         }
-        self.settle(visit, lanes)?;
-        Some(!self.collect.is_answered())
+        self.test_one_by_one(visit, lanes)?;
+        Some(!self.collector.is_answered())
     }
 }
 
@@ -123,10 +124,10 @@ fn flagged_f32(leaf: &FanLeaf<'_>, ray: &FanRay) -> u32 {
     ray_leaf(ray, shape.turn(), centres, (0..=shape.triangles()).map(|i| ray.shadow(leaf.ring(i))))
 }
 
-impl<C: Collect> SegmentVisitor<'_, C> {
-    /// Decides about the flagged triangles of a leaf.
+impl<C: CrossingCollector> SegmentVisitor<'_, C> {
+    /// Tests the flagged triangles of a leaf.
     #[inline(never)]
-    fn settle(&mut self, visit: &LeafVisit<'_>, flagged: u32) -> Option<()> {
+    fn test_one_by_one(&mut self, visit: &LeafVisit<'_>, flagged: u32) -> Option<()> {
         let (leaf, bound) = (&visit.leaf, visit.key);
         let shape = leaf.shape();
         let ray = &self.query.ray;
@@ -137,7 +138,7 @@ impl<C: Collect> SegmentVisitor<'_, C> {
         };
         let wanted = |second: bool| if second && shape.second_reversed() { -sign } else { sign };
         let mut is_met = false;
-        let (mut open, mut upper) = ([0u32; 2], [0f32; 2]);
+        let (mut undecided, mut upper) = ([0u32; 2], [0f32; 2]);
         let mut within = [true; 2];
         let mut left = flagged;
         while left != 0 {
@@ -149,25 +150,25 @@ impl<C: Collect> SegmentVisitor<'_, C> {
                 [leaf.centre(fan), leaf.ring(lane as usize), leaf.ring(lane as usize + 1)];
             let found = ray.crossing(corners.map(|v| ray.shadow(v)), wanted(second));
             let Some(mut crossing) = found else { continue };
-            // All of the leaf lies in its box. So the answer does not depend on which leaves beyond
-            // it were looked at.
+            // The whole leaf lies in its box, so no parameter below the box's bound is possible.
+            // Without this the answer would depend on the order of visits.
             if crossing.lower < bound {
                 crossing.lower = bound;
             }
             if crossing.t < bound {
                 crossing.t = bound;
             }
-            // Only in a tree whose boxes do not hold their triangles, which `open` cannot see: the
-            // interval stays one.
+            // This happens only if a box does not hold its triangles, which `open` does not check.
+            // Then the interval must not end before it begins.
             if crossing.upper < bound {
                 crossing.upper = bound;
             }
-            self.collect.meet(&crossing, visit.node, visit.lane, lane)?;
+            self.collector.meet(&crossing, visit.node, visit.lane, lane)?;
             if crossing.certain {
                 is_met = true;
-                self.collect.certain(crossing.upper);
+                self.collector.certain(crossing.upper);
             } else {
-                open[fan & 1] |= 1 << lane;
+                undecided[fan & 1] |= 1 << lane;
                 within[fan & 1] &= crossing.within;
                 if crossing.upper > upper[fan & 1] {
                     upper[fan & 1] = crossing.upper;
@@ -178,15 +179,16 @@ impl<C: Collect> SegmentVisitor<'_, C> {
             return Some(());
         }
         for fan in 0..2 {
-            if open[fan] != 0 && within[fan] {
+            if undecided[fan] != 0 && within[fan] {
                 let (from, to) = if fan == 0 { (0, shape.turn()) } else { (shape.turn(), WIDTH) };
                 let to = if to < shape.triangles() { to } else { shape.triangles() };
                 let centre = ray.shadow(leaf.centre(fan));
-                let turns = ray.cover(centre, |i| ray.shadow(leaf.ring(i)), open[fan], from, to);
+                let turns =
+                    ray.cover(centre, |i| ray.shadow(leaf.ring(i)), undecided[fan], from, to);
                 let met =
                     turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
                 if met {
-                    self.collect.certain(upper[fan]);
+                    self.collector.certain(upper[fan]);
                 }
             }
         }

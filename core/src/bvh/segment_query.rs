@@ -1,4 +1,5 @@
-//! A segment in the tree's grid units, ready for boxes and fans, and its rounding.
+//! A segment in the tree's grid units, prepared for boxes and fans, and the rounding of its
+//! answers.
 
 use super::descent::{LeafVisitor, NodeQuery};
 use super::node::box_entries;
@@ -23,7 +24,7 @@ pub(crate) struct SegmentQuery {
     direction: Vec3,
     /// The caller's parameter of `origin`.
     start: f32,
-    /// Of no length: all parameters are the same point.
+    /// The segment has no length: all parameters are the same point.
     still: bool,
 }
 
@@ -60,8 +61,9 @@ impl SegmentQuery {
         Ok(Some(SegmentQuery::at(units, a, b - a, far, 0.0, 0.0)))
     }
 
-    /// The line from `origin`. `far`: the way to the farthest corner. `off`: the distance of the
-    /// origin from the segment.
+    /// The query along the line from `origin`, which the caller's segment passes at its parameter
+    /// `start`. `far`: by axis, the distance of the farthest corner of the model's box. `off`:
+    /// upper bound of the distance of `origin` from the segment.
     #[inline(always)]
     fn at(
         units: Units,
@@ -74,8 +76,8 @@ impl SegmentQuery {
         let surface = units.surface_error + off;
         let inverse = |d: f32| 1.0 / if d.abs() > STILL { d } else { STILL.copysign(d) };
         let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
-        // The way and one unit more: the origin of a node that is flat, or thinner than a grid
-        // unit, is an integer.
+        // One grid unit is added to the distance: the origin of a node that is flat, or thinner
+        // than a grid unit, is an integer.
         let margin = |far: f32| surface + (BOX_ENTRY * U32 * far + BOX_ENTRY * U32);
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
@@ -176,9 +178,10 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
         | across([m.z, m.x], [d.z, d.x], [half.z, half.x])
 }
 
-/// Moves a far start along the segment to where it enters the model's box, generously enlarged,
-/// with twice f32's precision. So the strip along edges in which nothing is decided stays as narrow
-/// as the model allows. See `core/docs/rounding.md` §9.
+/// Moves a far start along the segment to the place where it enters the model's box, enlarged by
+/// its size. The place is computed with twice f32's precision. So the strip along edges in which a
+/// hit is undecided has a width in proportion to the model, not to the distance. See
+/// `core/docs/rounding.md` §9.
 #[cold]
 #[inline(never)]
 fn approach(
@@ -194,7 +197,7 @@ fn approach(
     let (mut enter, mut leave) = (0f32, 1f32);
     for axis in 0..3 {
         let (a, d) = (a.to_array()[axis], direction.to_array()[axis]);
-        // In this order only the way is rounded, wherever the model lies.
+        // In this order only the difference is rounded, wherever the model lies.
         let (low, high) = (low.to_array()[axis] - a - pad, high.to_array()[axis] - a + pad);
         if d.abs() > STILL {
             let (low, high) = (low / d, high / d);

@@ -1,12 +1,13 @@
-//! The descents of one search for a side.
+//! What the descents of one search for a side share: the caller's memory, the work, and why one was
+//! truncated.
 
 use super::descent::{Descent, LeafVisitor, descend};
 use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;
 use crate::query::{Ended, QueryError, ScratchEntry, Side, Undecided, Work};
 
-/// No side is proved yet.
-pub(crate) const OPEN: Side = Side::Undecided(Undecided::Feature);
+/// No side is proved so far.
+pub(crate) const UNDECIDED: Side = Side::Undecided(Undecided::Feature);
 
 /// The state that the descents of one question share.
 pub(crate) struct Search<'a, 't> {
@@ -14,8 +15,8 @@ pub(crate) struct Search<'a, 't> {
     pub(crate) steps: u32,
     pub(crate) stack: &'a mut [ScratchEntry],
     pub(crate) work: Work,
-    /// Why a descent was cut short.
-    pub(crate) cut: Option<Ended>,
+    /// Why a descent was truncated.
+    pub(crate) truncated: Option<Ended>,
 }
 
 impl Search<'_, '_> {
@@ -27,7 +28,7 @@ impl Search<'_, '_> {
     ) -> Result<bool, QueryError> {
         let descent = descend(self.tree, query, self.steps, self.stack, visitor, &mut self.work)?;
         if let Descent::Truncated { ended, .. } = descent {
-            self.cut = Some(ended);
+            self.truncated = Some(ended);
         }
         Ok(descent == Descent::Done)
     }

@@ -5,9 +5,10 @@
 //! rises by one where a triangle is crossed from its front to its back. `Inside` says that the
 //! surface next to the point has its back to it, `Outside` its front. For a mesh that bounds a
 //! solid (winding number 1 in it, 0 elsewhere) these are the usual inside and outside. For an
-//! inverted mesh the sides are exchanged: the solid is the rest of space. Parts that *overlap* are
-//! not united: a point may lie in one part while the nearest surface belongs to another part and
-//! has its front to the point. Then the answer is outside. Cavities are as their winding says.
+//! inverted mesh the sides are exchanged: the solid is the rest of space. Components that *overlap*
+//! are not united. A point may lie in one component while the nearest surface belongs to another
+//! and has its front to the point. Then the answer is `Outside`. A cavity's winding decides its
+//! side, as for any surface.
 //!
 //! *Why the stored surface's sign is the input's.* Move every vertex on a straight line from its
 //! input place to its stored place. Every point of every triangle moves by at most `surface_error`.
@@ -18,27 +19,28 @@
 //! surface is nearer than q. So the winding number is w₀ in a half-space of directions about q. Let
 //! triangles i about q have unit normals nᵢ and angles αᵢ at q (π where q lies on an edge, 2π
 //! within a face). The divergence theorem on a small ball about q gives Σ αᵢ·nᵢ = −2·∫(w(x) − w₀)·x
-//! over the directions x, for any arrangement of triangles, manifold or not; and only directions
-//! with x·(p − q) ≤ 0 contribute. So (p − q)·Σ αᵢ·nᵢ is positive if the winding number is greater
-//! behind q than at p: outside. (Bærentzen & Aanæs, *Signed Distance Computation Using the Angle
-//! Weighted Pseudonormal*, 2005, prove it for manifolds.)
+//! over the directions x. It holds for any arrangement of triangles, manifold or not. Only
+//! directions with x·(p − q) ≤ 0 contribute. So (p − q)·Σ αᵢ·nᵢ is positive if the winding number
+//! is greater behind q than at p, that is, if p is outside. (Bærentzen & Aanæs, *Signed Distance
+//! Computation Using the Angle Weighted Pseudonormal*, 2005, prove it for manifolds.)
 //!
 //! *Rounding.* In f32 the closest triangle is not certain. So all triangles that may be the closest
-//! are candidates. If every candidate clearly has its front to p, all terms of the sum at the true
-//! q are positive; likewise for backs. This decides faces, smooth edges and vertices, and ties.
-//! Else [`pseudonormal`](super::pseudonormal) sums about the feature that all candidates share. If
-//! rounding leaves this open too, the search starts again from a place nearer to the surface,
-//! within the empty ball about p. Far above a face and next to its edge, rounding cannot tell the
-//! face beyond the edge from the face; from a sixteenth of the distance it can. If this does not
-//! help either, the side is undecided. A point outside the model's box is replaced by a nearer
-//! point: all points outside the box are on one side.
+//! are candidates. The side is searched in four steps, until one decides:
+//! 1. Every candidate clearly has its front to p, or every one its back. Then all terms of the sum
+//!    at the true q have one sign. This decides faces, smooth edges and vertices, and ties.
+//! 2. [`pseudonormal`](super::pseudonormal) sums about the feature that all candidates share.
+//! 3. A point outside the model's box is replaced by one outside that is nearer to the box. All
+//!    points outside the box are on one side.
+//! 4. The search starts again from a place nearer to the surface, within the empty ball about p.
+//!    High above a face and next to its edge, rounding cannot tell this face from the one beyond
+//!    the edge. From a sixteenth of the distance it can.
 
 use super::closest_point::closest_point;
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
 use super::leaf_distance::nearest_triangle;
 use super::point_query::{PointQuery, bounds};
 use super::pseudonormal::{Candidates, ViewedSide, side_of_shared_feature, viewed_side};
-use super::side_search::{OPEN, Search};
+use super::side_search::{Search, UNDECIDED};
 use super::triangle_bounds::{each_triangle, limit_of, lower_of, lower_of_box, witness};
 use crate::bvh::format::Bvh;
 use crate::num::sqrt_approx;
@@ -58,7 +60,7 @@ pub struct SignedDistance {
     pub side: Side,
     /// The closest point, and the distance without sign. `work` and `ended` are those of the whole
     /// search. [`Ended::Resolution`]: the mesh is closed, and the stored surface or rounding leaves
-    /// the side open.
+    /// the side undecided.
     pub closest: ClosestPoint,
 }
 
@@ -79,23 +81,24 @@ impl Bvh<'_> {
     /// the point.
     ///
     /// For a mesh that bounds a solid this is the usual signed distance. For an inverted mesh the
-    /// sides are exchanged. Parts that overlap are not united: the nearest surface decides, and of
-    /// surfaces that are equally near up to rounding and the surface error, one of them. Cavities
-    /// are as their winding says.
+    /// sides are exchanged. A cavity's winding decides its side. Components that overlap are not
+    /// united: the nearest surface decides. If several surfaces are equally near up to rounding and
+    /// the surface error, one of them decides.
     ///
-    /// The side is never wrong. It is undecided if the mesh is not closed and consistently wound
-    /// ([`is_closed`](Bvh::is_closed)), if the distance is not clear of the surface error and
-    /// rounding, next to walls and gaps thinner than these, next to slivers so flat that they have
-    /// no certain normal, and where a triangle without area is certainly nearer than every other:
-    /// it has no sides.
+    /// The side is never wrong. It is undecided:
+    /// - if the mesh is not closed and consistently wound ([`is_closed`](Bvh::is_closed));
+    /// - if the distance is not clear of the surface error and rounding;
+    /// - next to walls and gaps thinner than these;
+    /// - next to slivers so flat that they have no certain normal;
+    /// - where a triangle without area is certainly the nearest, because it has no sides.
     ///
     /// `scratch` as for [`closest_point`](Bvh::closest_point). If it is too short, or the steps too
     /// few, the side is undecided too. Of the budget only `steps` matters: a side needs the closest
     /// point itself. Triangle and point are those of [`closest_point`](Bvh::closest_point).
     ///
     /// Cost: about that of the closest point. Two to three times as much next to sharp edges and
-    /// vertices, and for points far outside. Up to four times more where the side has to be found
-    /// from nearer by, above a face and next to its edge. Source: Bærentzen & Aanæs 2005.
+    /// vertices, and for points far outside. Up to four times more above a face and next to its
+    /// edge, where the side is searched from nearer places. Source: Bærentzen & Aanæs 2005.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Scratch, Side};
@@ -123,7 +126,7 @@ impl Bvh<'_> {
         let query = PointQuery::new(tree, point)?;
         let closed = tree.is_closed();
         let (steps, stack) = (budget.steps, scratch);
-        let mut search = Search { tree, steps, stack, work: Work::default(), cut: None };
+        let mut search = Search { tree, steps, stack, work: Work::default(), truncated: None };
         let survey = if query.far { None } else { Some(search.survey(&query)?) };
         let mut closest = match &survey {
             Some(survey) => survey.closest(&search, point)?,
@@ -133,33 +136,33 @@ impl Bvh<'_> {
             closed && closest.distance.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
         let mut side = match &survey {
             Some(survey) if clear => search.side(survey)?,
-            _ => OPEN,
+            _ => UNDECIDED,
         };
-        if side == OPEN
+        if side == UNDECIDED
             && clear
-            && search.cut.is_none()
+            && search.truncated.is_none()
             && let Some(nearby) = outside_of_box(tree, &query)
         {
             let survey = search.survey(&nearby)?;
             side = search.side(&survey)?;
         }
-        if side == OPEN
+        if side == UNDECIDED
             && clear
-            && search.cut.is_none()
+            && search.truncated.is_none()
             && let Some(survey) = &survey
         {
             side = search.side_from_nearer(survey)?;
         }
         closest.work = search.work;
-        if let Some(cut) = search.cut {
-            closest.ended = cut;
-        } else if side == OPEN && closed {
+        if let Some(why) = search.truncated {
+            closest.ended = why;
+        } else if side == UNDECIDED && closed {
             closest.ended = Ended::Resolution;
         }
-        if side == OPEN {
-            side = Side::Undecided(match search.cut {
+        if side == UNDECIDED {
+            side = Side::Undecided(match search.truncated {
                 _ if !closed => Undecided::OpenMesh,
-                Some(cut) => cut.undecided(),
+                Some(why) => why.undecided(),
                 None if closest.distance.lower > 0.0 => Undecided::Feature,
                 None => Undecided::OnSurface,
             });
@@ -168,11 +171,11 @@ impl Bvh<'_> {
     }
 }
 
-/// Searches from nearer places. Each time the distance falls to a sixteenth.
+/// Searches from nearer places, at most. Each time the distance falls to a sixteenth.
 const NEARER: usize = 3;
 
-/// For a point outside the model's box another point outside, a quarter of the model's size from
-/// the box.
+/// A point outside the model's box, a quarter of the model's size from it. `None` if the query is
+/// not outside.
 fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
     let (low, high) = bounds(tree);
     let size = (high - low).max_element();
@@ -206,73 +209,79 @@ impl Search<'_, '_> {
             tree: &tree,
             query,
             margin,
-            best: Place::NOWHERE,
-            solid: Place::NOWHERE,
-            seen: [Place::NOWHERE; 3],
+            best: TrianglePlace::NOWHERE,
+            with_area: TrianglePlace::NOWHERE,
+            by_side: [TrianglePlace::NOWHERE; 3],
             limit: EVERYTHING_SQ,
             least: [f32::INFINITY; 4],
         };
         let descent = descend(&tree, query, self.steps, self.stack, &mut sides, &mut self.work)?;
-        let Sides { best, solid, seen, least, .. } = sides;
+        let Sides { best, with_area, by_side, least, .. } = sides;
         let mut missed = f32::INFINITY;
         if let Descent::Truncated { least, ended } = descent {
             missed = least;
-            self.cut = Some(ended);
+            self.truncated = Some(ended);
         }
-        Ok(Survey { query, margin, best, solid, seen, least, missed })
+        Ok(Survey { query, margin, best, with_area, by_side, least, missed })
     }
 
-    /// The side of points on the ways to the surface. The ball about the surveyed point that
-    /// touches the surface is empty, so the winding number is the same in all of it. The difference
-    /// of two features' distances grows as the inverse of the distance. Where parts overlap,
-    /// equally near surfaces may show different sides: the ways to the closest triangles of either
-    /// facing must agree.
+    /// The side of points on the way to the surface.
+    ///
+    /// The ball about the surveyed point that touches the surface is empty, so the winding number
+    /// is the same in all of it. Nearer to the surface, the distances of two features differ more.
+    /// Where components overlap, equally near surfaces may show different sides. So the ways to the
+    /// closest triangles of either facing must agree.
     fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
-        let band = Candidates::new(survey.query, survey.margin, survey.solid.distance_sq).band;
+        let band = Candidates::new(survey.query, survey.margin, survey.with_area.distance_sq).band;
         let mut agreed = None;
-        for (place, lower) in survey.seen.into_iter().zip(survey.least) {
+        for (place, lower) in survey.by_side.into_iter().zip(survey.least) {
             if place.node == u32::MAX || lower > band {
                 continue;
             }
             let side = self.side_on_the_way(survey, place)?;
-            if side == OPEN || agreed.is_some_and(|agreed| agreed != side) {
-                return Ok(OPEN);
+            if side == UNDECIDED || agreed.is_some_and(|agreed| agreed != side) {
+                return Ok(UNDECIDED);
             }
             agreed = Some(side);
         }
-        Ok(agreed.unwrap_or(OPEN))
+        Ok(agreed.unwrap_or(UNDECIDED))
     }
 
     /// The first decided side of the points on the way to a triangle, and from there to the closest
     /// triangle.
-    fn side_on_the_way(&mut self, survey: &Survey<'_>, place: Place) -> Result<Side, QueryError> {
+    fn side_on_the_way(
+        &mut self,
+        survey: &Survey<'_>,
+        place: TrianglePlace,
+    ) -> Result<Side, QueryError> {
         let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
             let Some(query) = nearer else { break };
             let survey = self.survey(&query)?;
             let side = self.side(&survey)?;
-            if side != OPEN || self.cut.is_some() {
+            if side != UNDECIDED || self.truncated.is_some() {
                 return Ok(side);
             }
             nearer = survey.nearer(self.tree, survey.best);
         }
-        Ok(OPEN)
+        Ok(UNDECIDED)
     }
 
     /// The side of the surveyed point, which is known to be clear of the surface.
     fn side(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
-        let Survey { query, margin, solid, least, .. } = *survey;
-        if self.cut.is_some() || solid.node == u32::MAX {
-            return Ok(OPEN);
+        let Survey { query, margin, with_area, least, .. } = *survey;
+        if self.truncated.is_some() || with_area.node == u32::MAX {
+            return Ok(UNDECIDED);
         }
-        let candidates = Candidates::new(query, margin, solid.distance_sq);
+        let candidates = Candidates::new(query, margin, with_area.distance_sq);
         let [front, back, unclear, _] = least.map(|lower| lower <= candidates.band);
         match (front, back, unclear) {
             (true, false, false) => Ok(Side::Outside),
             (false, true, false) => Ok(Side::Inside),
             _ => {
-                let leaf = self.tree.leaf(solid.node, solid.child).ok_or(QueryError::Unchecked)?;
-                side_of_shared_feature(self, &candidates, leaf.corners(solid.lane))
+                let leaf =
+                    self.tree.leaf(with_area.node, with_area.child).ok_or(QueryError::Unchecked)?;
+                side_of_shared_feature(self, &candidates, leaf.corners(with_area.lane))
             }
         }
     }
@@ -280,22 +289,23 @@ impl Search<'_, '_> {
 
 /// The place of a triangle.
 #[derive(Clone, Copy)]
-struct Place {
+struct TrianglePlace {
     distance_sq: f32,
     node: u32,
     child: u32,
     lane: usize,
 }
 
-impl Place {
-    const NOWHERE: Place = Place { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lane: 0 };
+impl TrianglePlace {
+    const NOWHERE: TrianglePlace =
+        TrianglePlace { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lane: 0 };
 
     fn number(&self, tree: &Bvh<'_>) -> Option<u32> {
         Some(tree.links(self.node)?.triangle(self.child).wrapping_add(self.lane as u32))
     }
 
     /// Takes the nearer triangle; of two equally near ones the lesser number.
-    fn improve(&mut self, tree: &Bvh<'_>, other: Place) {
+    fn improve(&mut self, tree: &Bvh<'_>, other: TrianglePlace) {
         if other.distance_sq < self.distance_sq
             || (other.distance_sq == self.distance_sq && other.number(tree) < self.number(tree))
         {
@@ -309,21 +319,22 @@ struct Survey<'p> {
     query: &'p PointQuery,
     margin: f32,
     /// The closest triangle.
-    best: Place,
+    best: TrianglePlace,
     /// The closest triangle with an area.
-    solid: Place,
-    /// The closest triangle with its front to the point, with its back, with an open facing.
-    seen: [Place; 3],
+    with_area: TrianglePlace,
+    /// The closest triangle with its front to the point, with its back, with an unclear side. The
+    /// index is a [`ViewedSide`].
+    by_side: [TrianglePlace; 3],
     /// For each [`ViewedSide`] the least lower bound of its triangles, grid units.
     least: [f32; 4],
-    /// Squared box bound of the nodes that were not opened.
+    /// Least squared box bound of the nodes that were not opened; infinite if all were.
     missed: f32,
 }
 
 impl Survey<'_> {
     /// Whether a triangle with an area may be the closest one.
     fn has_sides(&self) -> bool {
-        if self.solid.distance_sq <= self.best.distance_sq {
+        if self.with_area.distance_sq <= self.best.distance_sq {
             return true;
         }
         let band = Candidates::new(self.query, self.margin, self.best.distance_sq).band;
@@ -342,7 +353,7 @@ impl Survey<'_> {
 
     /// A point on the way to a triangle, a sixteenth of the distance from the triangle, within the
     /// ball about this point that is proved empty.
-    fn nearer(&self, tree: &Bvh<'_>, to: Place) -> Option<PointQuery> {
+    fn nearer(&self, tree: &Bvh<'_>, to: TrianglePlace) -> Option<PointQuery> {
         let query = self.query;
         let leaf = tree.leaf(to.node, to.child)?;
         let place = query.p + (witness(query, &leaf, to.lane) - query.p) * 0.9375;
@@ -359,7 +370,7 @@ impl Survey<'_> {
     ) -> Result<ClosestPoint, QueryError> {
         let Survey { query, best, .. } = *self;
         let tree = search.tree;
-        let ended = search.cut.unwrap_or(Ended::Exact);
+        let ended = search.truncated.unwrap_or(Ended::Exact);
         if best.node == u32::MAX {
             // No step was allowed, or the scratch memory was full: the box of the model.
             let none = Budget::EXACT.with_steps(0);
@@ -389,9 +400,9 @@ struct Sides<'a, 't> {
     tree: &'a Bvh<'t>,
     query: &'a PointQuery,
     margin: f32,
-    best: Place,
-    solid: Place,
-    seen: [Place; 3],
+    best: TrianglePlace,
+    with_area: TrianglePlace,
+    by_side: [TrianglePlace; 3],
     limit: f32,
     least: [f32; 4],
 }
@@ -420,17 +431,18 @@ impl Sides<'_, '_> {
             if lower_bound_sq > self.limit {
                 return;
             }
-            let here = Place { distance_sq, node: visit.node, child: visit.lane, lane };
+            let here = TrianglePlace { distance_sq, node: visit.node, child: visit.lane, lane };
             self.best.improve(self.tree, here);
             let facing = viewed_side(leaf, lane, p);
-            if facing != ViewedSide::Flat && distance_sq <= self.solid.distance_sq {
-                self.solid.improve(self.tree, here);
-                let band = Candidates::new(self.query, self.margin, self.solid.distance_sq).band;
+            if facing != ViewedSide::Flat && distance_sq <= self.with_area.distance_sq {
+                self.with_area.improve(self.tree, here);
+                let band =
+                    Candidates::new(self.query, self.margin, self.with_area.distance_sq).band;
                 let limit = limit_of(self.query, band);
                 self.limit = if limit < self.limit { limit } else { self.limit };
             }
-            if let Some(seen) = self.seen.get_mut(facing as usize) {
-                seen.improve(self.tree, here);
+            if let Some(by_side) = self.by_side.get_mut(facing as usize) {
+                by_side.improve(self.tree, here);
             }
             let lower = lower_of(leaf, lane, p, distance_sq, lower_bound_sq);
             if let Some(least) = self.least.get_mut(facing as usize)

@@ -7,8 +7,8 @@ use crate::num::sqrt_approx;
 use crate::num::tolerance::{CERTIFIED_PART, EVERYTHING_SQ, LEAST_LIMIT};
 use glam::Vec3;
 
-/// The distance of a triangle as computed; or refined, if its lower bound falls far short. The
-/// result depends on the triangle alone, so that all questions agree.
+/// The distance of a triangle: as computed, or refined if its lower bound falls far short of it.
+/// The result depends on the triangle and the query alone, so that all questions agree.
 #[inline(always)]
 pub(crate) fn refine_sliver(query: &PointQuery, seen: &[Vec3; 3], near: Nearness) -> Nearness {
     if near.lower_bound_sq >= query.refine_below(near.distance_sq) {
@@ -32,7 +32,8 @@ pub(crate) fn nearness(seen: &[Vec3; 3]) -> Nearness {
     lone_triangle(&fan, &fan.spoke(e), &fan.spoke(g))
 }
 
-/// All triangles of a leaf, in order: lane, squared distance and its supporting plane's bound.
+/// Calls `each` for every triangle of a leaf, in order: lane, squared distance, squared lower
+/// bound.
 #[inline]
 pub(crate) fn each_triangle(
     query: &PointQuery,
@@ -53,7 +54,7 @@ pub(crate) fn witness(query: &PointQuery, leaf: &FanLeaf<'_>, lane: usize) -> Ve
     leaf.point(lane, near.v, near.w)
 }
 
-/// Lower bound of a triangle's distance, grid units, before [`PointQuery::lower`] takes off the
+/// Lower bound of a triangle's distance, grid units. [`PointQuery::lower`] then subtracts the
 /// rounding.
 #[inline]
 pub(crate) fn lower_of(
@@ -66,20 +67,20 @@ pub(crate) fn lower_of(
     if lower_bound_sq >= distance_sq * CERTIFIED_PART {
         sqrt_approx(lower_bound_sq)
     } else {
-        certified(leaf, lane, p)
+        supporting_plane_bound(leaf, lane, p)
     }
 }
 
 #[cold]
 #[inline(never)]
-fn certified(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> f32 {
+fn supporting_plane_bound(leaf: &FanLeaf<'_>, lane: usize, p: Vec3) -> f32 {
     let [s, e, g] = seen_from(leaf, lane, p);
     lower_bound(s, e, g)
 }
 
 /// Squared bound above which nothing is within `distance` (input units) of the input mesh.
 pub(crate) fn limit_within(query: &PointQuery, distance: f32) -> f32 {
-    // The roundings here are less than the addition of `limit`.
+    // `PointQuery::limit` adds more than the roundings here.
     limit_of(query, query.units.inward(distance) + query.units.surface_error)
 }
 
@@ -90,8 +91,8 @@ pub(crate) fn limit_of(query: &PointQuery, distance: f32) -> f32 {
     if limit < EVERYTHING_SQ { limit } else { EVERYTHING_SQ }
 }
 
-/// Distance for a box's squared bound, grid units, before [`PointQuery::lower`] takes off the
-/// rounding of triangles. The rounding of boxes is taken off here.
+/// Distance of a box with this squared bound, grid units. It subtracts the rounding of boxes;
+/// [`PointQuery::lower`] then subtracts that of triangles.
 pub(crate) fn distance_of_box(query: &PointQuery, key: f32) -> f32 {
     let distance = sqrt_approx(key) - query.box_error();
     if distance > 0.0 { distance } else { 0.0 }

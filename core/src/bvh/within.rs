@@ -1,5 +1,7 @@
-//! Whether the mesh is within a distance. It is cheaper than the distance: the search ends as soon
-//! as one triangle is certainly near enough, and looks at nothing that is certainly too far.
+//! Whether the mesh is within a distance.
+//!
+//! This costs less than the distance. The search ends at the first triangle that is certainly near
+//! enough, and it opens no node that is certainly too far.
 
 use super::closest_point::closest_point;
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
@@ -15,8 +17,8 @@ use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Ve
 pub struct Within {
     /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther; of a tight hull,
     /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the
-    /// distance is so near to the one asked about that the stored surface or rounding leaves it
-    /// open, or a tighter hull may decide.
+    /// difference from the distance asked about is within the surface error and rounding. For a
+    /// tight hull: a tighter hull may decide.
     pub verdict: Verdict,
     /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
     /// the closest one. `None` of a tight hull, which knows no triangles.
@@ -92,7 +94,7 @@ fn within(
     let mut work = Work::default();
     let limit = limit_within(&query, distance);
     let mut visitor =
-        Threshold { tree, query: &query, distance, limit, near: None, doubtful: false };
+        Threshold { tree, query: &query, distance, limit, near: None, undecided: false };
     let descent = descend(tree, &query, steps, scratch, &mut visitor, &mut work)?;
     if let Some(number) = visitor.near {
         let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
@@ -100,7 +102,7 @@ fn within(
     }
     let verdict = match descent {
         Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-        _ if visitor.doubtful => Verdict::Undecided(Undecided::Resolution),
+        _ if visitor.undecided => Verdict::Undecided(Undecided::Resolution),
         _ => Verdict::No,
     };
     Ok(Within { verdict, triangle: None, work })
@@ -133,7 +135,7 @@ struct Threshold<'a> {
     /// A triangle that is certainly within, by its number in the blob.
     near: Option<u32>,
     /// A triangle may be within.
-    doubtful: bool,
+    undecided: bool,
 }
 
 impl LeafVisitor for Threshold<'_> {
@@ -151,8 +153,8 @@ impl LeafVisitor for Threshold<'_> {
             self.near = Some(self.number(visit, near.distance_sq)?);
             return Some(false);
         }
-        if near.lower_bound_sq <= self.limit && !self.doubtful {
-            self.doubt(visit)?;
+        if near.lower_bound_sq <= self.limit && !self.undecided {
+            self.look_closer(visit)?;
         }
         Some(self.near.is_none())
     }
@@ -171,13 +173,13 @@ impl Threshold<'_> {
         Some(first.wrapping_add(lane as u32))
     }
 
-    /// Looks at a leaf near the limit: for a triangle that is not certainly beyond the distance,
-    /// and for a sliver that is certainly within.
+    /// Looks at each triangle of a leaf near the limit. One that is not certainly beyond the
+    /// distance leaves the verdict undecided. A refined sliver may be certainly within.
     #[cold]
     #[inline(never)]
-    fn doubt(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
+    fn look_closer(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
         let Threshold { query, limit, distance, .. } = *self;
-        let (mut doubtful, mut within) = (false, None);
+        let (mut undecided, mut within) = (false, None);
         each_triangle(query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > limit {
                 return;
@@ -185,12 +187,12 @@ impl Threshold<'_> {
             if within.is_none() && query.upper(sqrt_approx(distance_sq)) <= distance {
                 within = Some(lane);
             }
-            if !doubtful {
+            if !undecided {
                 let lower = lower_of(&visit.leaf, lane, query.p, distance_sq, lower_bound_sq);
-                doubtful = query.lower(lower) <= distance;
+                undecided = query.lower(lower) <= distance;
             }
         });
-        self.doubtful = doubtful;
+        self.undecided = undecided;
         if let Some(lane) = within {
             self.near =
                 Some(self.tree.links(visit.node)?.triangle(visit.lane).wrapping_add(lane as u32));

@@ -1,6 +1,6 @@
-//! Little-endian reads. A read past the end gives `None`.
+//! Little-endian reads by byte offset. A read past the end gives `None`.
 
-/// A byte slice read by offset.
+/// The bytes that are read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bytes<'a>(pub(crate) &'a [u8]);
 

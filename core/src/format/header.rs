@@ -1,4 +1,5 @@
-//! The fixed part of a blob: counts, scale, limits and error bound.
+//! The fixed header of a blob. It holds the counts of the hull hierarchy and the scale of all
+//! structures.
 
 use super::bytes::Bytes;
 use super::error::OpenError;
@@ -25,7 +26,7 @@ pub struct Header {
     pub grid_exponent: i32,
     /// Grid formats: added to the stored integers.
     pub grid_origin: [i32; 3],
-    /// Vertices of all levels: `base_vertices + 2 · splits`.
+    /// Vertices of all levels of the hull hierarchy: `base_vertices + 2 · splits`.
     pub vertices: u32,
     /// Vertices of the base hull.
     pub base_vertices: u32,

@@ -5,7 +5,7 @@
 pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
 pub const VERSION_MAJOR: u16 = 1;
-/// A reader accepts any minor version: an older reader may ignore its additions.
+/// A reader accepts any minor version. It ignores the additions of a later one.
 pub const VERSION_MINOR: u16 = 3;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
@@ -13,7 +13,7 @@ pub const HEADER_BYTES: usize = 160;
 pub const SECTION_ENTRY_BYTES: usize = 16;
 /// Every section starts at a multiple of this.
 pub const SECTION_ALIGNMENT: usize = 4;
-/// Most levels: faces double from one to the next, so 32 exceed any blob.
+/// Most levels. Faces double from one level to the next, so no blob needs 32.
 pub const MAX_LEVELS: u32 = 32;
 /// Most sections that a table may list.
 pub const MAX_SECTIONS: usize = 32;
@@ -48,7 +48,7 @@ pub enum SectionKind {
     Levels = 10,
     /// One swept triangle for each group of triangles of the base hull. It contains them.
     BaseGroups = 11,
-    /// Counts, grid and error bound of the box tree.
+    /// The box tree's header: counts, grid and error bound.
     Bvh = 12,
     /// Links to the children of each node of the box tree.
     TreeLinks = 13,
@@ -62,7 +62,8 @@ pub enum SectionKind {
     TreeSource = 17,
     /// For each leaf of the box tree a cone that contains the normals of its triangles.
     TreeCones = 18,
-    /// A hierarchy of triboxes that hold the mesh: unions of 1, 2, 4, … of them.
+    /// A hierarchy of triboxes. Each level is a union of 1, 2, 4, … triboxes that contains the
+    /// mesh.
     Triboxes = 19,
     /// Tight hulls of the mesh: each a blob with a box tree of its own, and the distances of its
     /// faces from the mesh.
@@ -215,7 +216,7 @@ impl VertexFormat {
     }
 }
 
-/// Bytes of an index into `count` things, one value kept for "none": 1 to 4.
+/// Bytes of an index into `count` things, 1 to 4. One value is kept for "none".
 pub const fn index_bytes(count: usize) -> usize {
     if count <= 0xFF {
         1

@@ -1,12 +1,12 @@
-//! The bytes that all structures share: the header, the section table, CRCs, reading numbers.
+//! The bytes that all structures share. `core/FORMAT.md` is the normative text.
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `layout` | sizes, kinds of sections, how coordinates are stored |
+//! | `layout` | sizes, offsets of header fields, kinds of sections, vertex formats |
 //! | `bytes` | reading little-endian numbers without a panic |
 //! | `header` | the fixed header |
-//! | `sections` | the section table |
-//! | `error` | [`OpenError`] |
+//! | `sections` | the section table and the CRCs |
+//! | `error` | [`OpenError`]: why a blob was not opened |
 
 mod bytes;
 mod error;

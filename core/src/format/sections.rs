@@ -8,7 +8,7 @@ use super::layout::{
 };
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 
-/// Larger tables would be faster and take 3 KiB more. A blob is opened once.
+/// The smallest table. Larger ones are faster and take 3 KiB more, and a blob is opened once.
 const CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// CRC-32 (ISO-HDLC) of a section, as the table stores it.
@@ -16,7 +16,7 @@ pub fn section_crc(bytes: &[u8]) -> u32 {
     CRC.checksum(bytes)
 }
 
-/// CRC of header and section table, the field that holds it left out.
+/// CRC of header and section table, without the field that stores this CRC.
 fn header_crc(bytes: &[u8]) -> Option<u32> {
     let mut digest = CRC.digest();
     digest.update(bytes.get(..field::CRC)?);
@@ -73,8 +73,9 @@ pub(crate) fn section(bytes: Bytes<'_>, index: u32) -> Result<Option<Section>, O
     Ok(kind.map(|kind| Section { kind, offset, bytes, crc }))
 }
 
-/// Hands `place` every section that `wants` names, with its index in the table. Checks the
-/// section's CRC if `check`. Returns a bit for each kind in the table.
+/// Checks the section table, and calls `place` with the index, kind and bytes of every section that
+/// `wants` accepts. Checks the CRCs of these sections if `check`. Returns a bit for each kind in
+/// the table.
 pub(crate) fn place_sections<'a>(
     header: &Header,
     bytes: Bytes<'a>,
@@ -86,7 +87,7 @@ pub(crate) fn place_sections<'a>(
     let mut seen = 0u32;
     for index in 0..header.section_count {
         let malformed = OpenError::Section { index };
-        // An unknown kind must lie where sections may lie too. A later minor version may add one.
+        // A later minor version may add a kind. Its section must keep the rules all the same.
         let at = HEADER_BYTES + index as usize * SECTION_ENTRY_BYTES;
         let offset = bytes.u32(at + entry::OFFSET).ok_or(malformed)?;
         let length = bytes.u32(at + entry::BYTES).ok_or(malformed)?;

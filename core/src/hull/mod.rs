@@ -21,4 +21,4 @@ mod sweep_queue;
 pub use format::{Hull, Level};
 pub use hull_faces::HullFace;
 pub use outer_hits::{OuterHits, Search};
-pub use refined_hull::{Face, Refined, RefinedHull};
+pub use refined_hull::{Face, RefinedHull};

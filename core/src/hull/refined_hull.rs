@@ -79,7 +79,7 @@ const FRESH: usize = 64;
 
 /// The result of [`RefinedHull::refine`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refined {
+pub(crate) enum Refined {
     /// The split and all that it needed are performed: the number of splits.
     Splits(u32),
     /// The bit sets are too short for a split that it needs.
@@ -107,25 +107,25 @@ impl<'a> RefinedHull<'a> {
 
     /// Whether a split fits in the bit sets.
     #[inline]
-    pub fn holds(&self, split: SplitIdx) -> bool {
+    pub(crate) fn holds(&self, split: SplitIdx) -> bool {
         split.usize() / 32 < self.performed.len().min(self.swept.len())
     }
 
     /// Whether a split was performed.
     #[inline]
-    pub fn is_performed(&self, split: SplitIdx) -> bool {
+    pub(crate) fn is_performed(&self, split: SplitIdx) -> bool {
         self.performed.get(split.usize() / 32).is_some_and(|word| word >> (split.0 % 32) & 1 != 0)
     }
 
     /// Whether a vertex was replaced. The caller has to know that it was made.
     #[inline]
-    pub fn is_split(&self, model: &Hull<'_>, vertex: VertIdx) -> bool {
+    pub(crate) fn is_split(&self, model: &Hull<'_>, vertex: VertIdx) -> bool {
         model.split_of(vertex).is_some_and(|split| self.is_performed(split))
     }
 
     /// Whether all corners of a face that was made still exist.
     #[inline]
-    pub fn is_alive(&self, model: &Hull<'_>, corners: [VertIdx; 3]) -> bool {
+    pub(crate) fn is_alive(&self, model: &Hull<'_>, corners: [VertIdx; 3]) -> bool {
         !corners.into_iter().any(|v| self.is_split(model, v))
     }
 
@@ -134,7 +134,7 @@ impl<'a> RefinedHull<'a> {
     ///
     /// The others need vertices that this one makes.
     #[inline]
-    pub fn split_of_face(model: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
+    pub(crate) fn split_of_face(model: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
         corners.into_iter().filter_map(|v| model.split_of(v)).min()
     }
 
@@ -142,7 +142,7 @@ impl<'a> RefinedHull<'a> {
     /// model is unchecked.
     ///
     /// Every split on the way is coarser than the one that asked for it, so the search ends.
-    pub fn refine(&mut self, model: &Hull<'_>, wanted: SplitIdx) -> Option<Refined> {
+    pub(crate) fn refine(&mut self, model: &Hull<'_>, wanted: SplitIdx) -> Option<Refined> {
         if !self.holds(wanted) {
             return Some(Refined::Scratch);
         }

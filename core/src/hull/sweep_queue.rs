@@ -1,10 +1,12 @@
 //! The priority queue of the sweeping process (Guéziec 2000, 3.2), in the caller's slice.
 //!
-//! Best first while there is room: a binary heap grows from the left. Where the heap could leave
-//! too little room for a descent, the search goes depth first on a stack that grows from the right.
-//! It returns to the heap when the stack is empty. So `Hull::scratch_entries`, the depth-first
-//! worst case that the builder counted, are enough for an exact answer. More entries give tighter
-//! intervals to a query that stops early.
+//! The search goes best first while memory is left: a binary heap grows from the left. If the heap
+//! could leave too few entries for a depth-first descent, the search goes depth first, on a stack
+//! that grows from the right. When the stack is empty, the search returns to the heap.
+//!
+//! The builder counts the depth-first worst case, which is `Hull::scratch_entries`. So this number
+//! of entries is enough for an exact answer. More entries give tighter intervals to a query that
+//! stops early.
 
 use crate::query::ScratchEntry;
 
@@ -51,8 +53,9 @@ impl<'a> SweepQueue<'a> {
     /// Decides where the children of a popped node go. Call it before they are pushed.
     pub(crate) fn begin_children(&mut self, count: u32) {
         self.siblings = 0;
-        let room = self.slots.len() - self.heap.min(self.slots.len());
-        self.depth_first = self.stack > 0 || room < (count as usize).saturating_add(self.reserve);
+        let free_slots = self.slots.len() - self.heap.min(self.slots.len());
+        self.depth_first =
+            self.stack > 0 || free_slots < (count as usize).saturating_add(self.reserve);
     }
 
     pub(crate) fn push(&mut self, entry: ScratchEntry) {
@@ -109,7 +112,7 @@ impl<'a> SweepQueue<'a> {
     }
 
     /// Pushes among the siblings since `begin_children`, nearest on top. Entries below them must
-    /// not move, or a descent could need more room than the builder counted.
+    /// not move, or a descent could need more entries than the builder counted.
     fn push_stack(&mut self, entry: ScratchEntry) {
         self.stack += 1;
         let mut at = self.slots.len() - self.stack;

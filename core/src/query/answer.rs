@@ -3,7 +3,7 @@
 use super::verdict::Undecided;
 use super::work::Work;
 
-/// The truth lies in `lower ..= upper`, in real arithmetic, about the input mesh.
+/// The true value lies in `lower ..= upper`: that of the input mesh, in real arithmetic.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Interval {
     /// Not above the true value.
@@ -19,7 +19,7 @@ impl Interval {
     }
 }
 
-/// Why a search ended. Whatever the reason, its interval holds.
+/// Why a search ended. The interval holds with every reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Ended {
@@ -31,13 +31,13 @@ pub enum Ended {
     Steps,
     /// The scratch memory was too short. `scratch_entries` of the view says how much is enough.
     Scratch,
-    /// The stored precision decides: the blob was cut after a coarser level, or vertices were moved
-    /// to a grid and the answer is that near.
+    /// The stored precision leaves the answer undecided. The blob was cut after a coarser level, or
+    /// the answer depends on less than the surface error and rounding.
     Resolution,
 }
 
 impl Ended {
-    /// The reason as a reason for no verdict.
+    /// Why there is no verdict if the search ended so.
     pub(crate) fn undecided(self) -> Undecided {
         match self {
             Ended::Steps => Undecided::Steps,

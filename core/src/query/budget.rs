@@ -12,12 +12,12 @@ pub struct Budget {
     pub relative: f32,
     /// Stop when `upper − lower ≤ absolute`, input units. 0 for exact.
     pub absolute: f32,
-    /// Stop after opening so many nodes.
+    /// Stop after this many nodes were opened.
     pub steps: u32,
 }
 
 impl Budget {
-    /// Go on until the interval is as narrow as arithmetic allows.
+    /// Search until the interval is as narrow as the stored surface and rounding allow.
     pub const EXACT: Budget = Budget { relative: 0.0, absolute: 0.0, steps: u32::MAX };
 
     /// The same budget with another relative tolerance.

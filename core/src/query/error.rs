@@ -14,7 +14,7 @@ pub enum QueryError {
         /// The first such query.
         index: u32,
     },
-    /// There are not as many places for answers as queries.
+    /// The number of places for answers is not that of the queries.
     AnswerCount {
         /// Queries.
         points: u32,
@@ -23,14 +23,16 @@ pub enum QueryError {
     },
     /// A tolerance or a distance is negative, NaN or infinite.
     Tolerance,
-    /// A point or an end of a segment is too far away: on the hull farther than 2^40 times the
-    /// model's size from its origin, on the box tree 2^38 grid units from the model's farthest
-    /// corner, of triboxes beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN). Clip segments first.
+    /// A point or an end of a segment is too far away. Clip segments first. The limits:
+    /// - [`Hull`](crate::Hull): 2^40 times the model's size from its origin;
+    /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner;
+    /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN).
     OutOfDomain,
-    /// An entry of a pose's matrix is beyond 2; or, of triboxes, its translation is beyond
-    /// [`Tribox::DOMAIN`](crate::Tribox::DOMAIN); or one grid is 2^40 times as coarse as the other,
-    /// so that the smaller model is a point beside the larger; or a surface error is far larger
-    /// than its model.
+    /// A pose cannot be computed with. One of these holds:
+    /// - an entry of its matrix is beyond 2;
+    /// - for triboxes, its translation is beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
+    /// - one model's grid is more than 2^40 times as coarse as the other's;
+    /// - a surface error is far larger than its model.
     PoseOutOfDomain,
     /// The scratch memory has no entries. One entry is enough for an interval.
     NoScratch,

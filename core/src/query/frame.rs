@@ -1,4 +1,5 @@
-//! Between input units and the local frame, which differ by a power of two.
+//! Conversion between input units and the local frame, for the structures whose queries compute in
+//! f64. The two differ by a power of two.
 
 use super::error::QueryError;
 use crate::format::Header;
@@ -43,15 +44,15 @@ impl Frame {
         (local * self.scale).to_array().map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
     }
 
-    /// From a lower bound of the distance to the stored surface to one of the distance to the input
-    /// surface, input units.
+    /// Lower bound of the distance to the input surface, input units, from a lower bound of the
+    /// distance to the stored surface.
     pub(crate) fn lower(&self, local: f64) -> f32 {
         let bound = (local - self.surface_error) * self.scale;
         down_to_f32((bound - 2.0 * U64 * bound.abs()).max(0.0))
     }
 
-    /// From an upper bound of the distance to the stored surface to one of the distance to the
-    /// input surface, input units.
+    /// Upper bound of the distance to the input surface, input units, from an upper bound of the
+    /// distance to the stored surface.
     pub(crate) fn upper(&self, local: f64) -> f32 {
         let bound = (local + self.surface_error) * self.scale;
         up_to_f32(bound + 2.0 * U64 * bound.abs())

@@ -21,13 +21,12 @@ impl Hit {
 
 /// First hit of a segment.
 ///
-/// No point of the segment before `t.lower` lies on the surface. If `hit` is there and `ended` is
-/// [`Ended::Exact`], the first common point has a parameter in `t`.
+/// No point of the segment before `t.lower` lies on the surface. If `hit` is `Some` and `ended` is
+/// [`Ended::Exact`], the parameter of the first common point lies in `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstHit {
-    /// The parameter of the first common point. `lower` is infinite if there is none at all.
-    /// `upper` is infinite if none is known, and 1 where the segment touches an edge or a plane so
-    /// flatly that rounding leaves more open.
+    /// The parameter of the first common point. `lower` is infinite if it is proved that there is
+    /// none. `upper` is infinite if none is known, and 1 if the hit is not proved.
     pub t: Interval,
     /// The first hit found. With [`Ended::Resolution`] the first place where the surface may be.
     /// With [`Ended::Steps`] or [`Ended::Scratch`] perhaps not the first.
@@ -78,7 +77,7 @@ impl<'a> Hits<'a> {
         Hits { slots, stored: 0, dropped: 0 }
     }
 
-    /// Adds a hit. The last one goes if there is no room.
+    /// Adds a hit. If the slice is full, the hit with the greatest `t` is dropped.
     pub(crate) fn insert(&mut self, hit: Hit) {
         let after = |x: &Hit| x.t > hit.t || (x.t == hit.t && x.triangle > hit.triangle);
         let at = self.slots.iter().take(self.stored).position(after).unwrap_or(self.stored);

@@ -1,4 +1,4 @@
-//! Types that all questions share.
+//! Types that the questions about all structures share.
 //!
 //! | file | owns |
 //! | --- | --- |
@@ -6,10 +6,10 @@
 //! | `scratch` | [`Scratch`], [`ScratchEntry`]: the caller's memory |
 //! | `answer` | [`Interval`], [`ClosestPoint`], [`Ended`]: why a search ended |
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
-//! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`] |
+//! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
 //! | `work` | [`Work`]: counters |
-//! | `error` | [`QueryError`] |
-//! | `frame` | input units and the local frame |
+//! | `error` | [`QueryError`]: why a query was refused |
+//! | `frame` | conversion between input units and the local frame, in f64 |
 
 mod answer;
 mod budget;

@@ -5,9 +5,9 @@ use core::ops::{Deref, DerefMut};
 /// Eight bytes of working memory. Its contents mean nothing between queries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScratchEntry {
-    /// A bound, with a lane in its low bits; or the bits of a number below 2^24.
+    /// A bound with a lane in its low bits, or the bits of an integer below 2^24.
     key: f32,
-    /// The node that the key belongs to; or any word.
+    /// The node that the key belongs to, or any word.
     node: u32,
 }
 
@@ -20,7 +20,8 @@ impl ScratchEntry {
         ScratchEntry { key, node }
     }
 
-    /// Two words, the first below 2^24: as an f32 it is a number, whose bits every target keeps.
+    /// Two words, the first below 2^24. Such a word is the bits of an f32 that is not NaN, and a
+    /// copy keeps these bits on every target.
     #[inline(always)]
     pub(crate) const fn of_words([small, any]: [u32; 2]) -> ScratchEntry {
         ScratchEntry { key: f32::from_bits(small), node: any }
@@ -44,9 +45,9 @@ impl ScratchEntry {
 
 /// Working memory of `N` entries of eight bytes each.
 ///
-/// Every question takes `&mut [ScratchEntry]`: a `&mut Scratch<N>`, an array, a part of a longer
-/// slice. Each view says how many entries make overflow impossible (`scratch_entries`). With fewer
-/// an answer still holds, and it says when memory cut it short.
+/// Every question takes `&mut [ScratchEntry]`: a `&mut Scratch<N>`, an array or a part of a longer
+/// slice. `scratch_entries` of each view is a number of entries with which no query runs out of
+/// memory. With fewer entries an answer still holds, and says if memory ended the search.
 ///
 /// ```
 /// use meshsweep_core::Scratch;

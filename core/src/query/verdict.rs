@@ -1,4 +1,4 @@
-//! Answers of yes or no, and why there is none.
+//! Answers of yes or no, and the reasons for neither.
 
 /// Why a question is undecided. For collision avoidance, treat an undecided answer as a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,8 +8,8 @@ pub enum Undecided {
     Steps,
     /// The scratch memory was too short.
     Scratch,
-    /// The stored precision decides: vertices were moved to a grid, the blob was cut after a
-    /// coarser level, a tight hull stands for the mesh, or rounding leaves it open.
+    /// The stored precision is not enough: vertices were moved to a grid, the blob was cut after a
+    /// coarser level, a tight hull stands for the mesh, or rounding does not decide.
     Resolution,
     /// The side is not defined: the mesh is not closed, or its winding is inconsistent.
     OpenMesh,
@@ -37,7 +37,7 @@ impl core::fmt::Display for Undecided {
 pub enum Verdict {
     /// Proved.
     Yes,
-    /// Proved not to be so.
+    /// The opposite is proved.
     No,
     /// Neither is proved.
     Undecided(Undecided),

@@ -1,10 +1,11 @@
 //! Counters of the work of a query.
 
-/// The work of a query: the price of its accuracy, the same number on every target.
+/// The work of a query. The numbers are the same on every target, so a budget can be chosen on the
+/// host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Work {
-    /// Cover nodes or boxes tested.
+    /// Boxes tested: children of [`Bvh`](crate::Bvh) nodes, triboxes, or nodes of a hull's cover.
     pub nodes: u32,
     /// Triangles of surface or hull tested in f32.
     pub triangles: u32,
@@ -29,7 +30,7 @@ impl Work {
         }
     }
 
-    /// One number for a column: everything tested and opened.
+    /// All counters added up.
     pub fn total(&self) -> u32 {
         self.nodes
             .saturating_add(self.triangles)

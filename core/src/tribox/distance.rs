@@ -121,19 +121,19 @@ fn least(
             continue;
         }
         let children = triboxes.children(entry.node());
-        let room = stack.get_mut(top..).and_then(|rest| rest.first_chunk_mut::<2>());
-        match (children, room) {
-            (Some([first, second]), Some(room)) if answer.work.splits < steps => {
+        let free = stack.get_mut(top..).and_then(|rest| rest.first_chunk_mut::<2>());
+        match (children, free) {
+            (Some([first, second]), Some(free)) if answer.work.splits < steps => {
                 answer.work.splits += 1;
                 let first = enter(first, entry.key(), &mut answer.work)?;
                 let second = enter(second, entry.key(), &mut answer.work)?;
-                *room = if first.key() < second.key() { [second, first] } else { [first, second] };
+                *free = if first.key() < second.key() { [second, first] } else { [first, second] };
                 waiting = top + 2;
             }
-            (children, room) => {
+            (children, free) => {
                 (answer.lower, answer.node) = (entry.key(), Some(entry.node()));
                 if children.is_some() {
-                    answer.ended = if room.is_some() { Ended::Steps } else { Ended::Scratch };
+                    answer.ended = if free.is_some() { Ended::Steps } else { Ended::Scratch };
                 }
             }
         }

@@ -38,7 +38,7 @@ fn size(v: [f32; 3]) -> f32 {
 }
 
 /// Largest coordinate of a hierarchy.
-fn reach(triboxes: &Triboxes<'_>) -> Result<f32, QueryError> {
+fn largest_coordinate(triboxes: &Triboxes<'_>) -> Result<f32, QueryError> {
     let planes = triboxes.planes(0).ok_or(QueryError::Unchecked)?;
     Ok(planes
         .iter()
@@ -97,7 +97,7 @@ impl Axes {
             TriboxError::NotFinite => QueryError::NotFinite,
             TriboxError::OutOfDomain => QueryError::PoseOutOfDomain,
         })?;
-        let (reach_a, reach_b) = (reach(a)?, reach(b)?);
+        let (largest_a, largest_b) = (largest_coordinate(a)?, largest_coordinate(b)?);
         let [p, q, r] = pose.rotation;
         let largest = size(pose.translation);
         // Mᵀw, and the same of sizes.
@@ -118,7 +118,7 @@ impl Axes {
         for ((of_a, of_b), direction) in first.iter_mut().zip(second.iter_mut()).zip(DIRECTIONS) {
             let f = direction.map(f32::from);
             let margin = |w: [f32; 3]| {
-                TRIBOX_AXIS * U32 * (back_sizes(w) * reach_b + size(w) * (reach_a + largest))
+                TRIBOX_AXIS * U32 * (back_sizes(w) * largest_b + size(w) * (largest_a + largest))
                     + PRODUCT_UNDERFLOW
             };
             let e = back(f);
@@ -127,7 +127,7 @@ impl Axes {
             let [x, y, z] = back(w);
             let [fx, fy, fz] = f;
             // Bound of the matrix's difference from a rotation.
-            let rest = size([x - fx, y - fy, z - fz]) * reach_b;
+            let rest = size([x - fx, y - fy, z - fz]) * largest_b;
             (of_b.towards, of_b.offset, of_b.margin) =
                 (w, -dot(w, pose.translation), margin(w) + rest);
         }

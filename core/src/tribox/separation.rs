@@ -189,17 +189,17 @@ fn descend(
             (_, Some(children)) => Some((children, false)),
             _ => None,
         };
-        let room = stack.get_mut(top..).and_then(|rest| rest.first_chunk_mut::<2>());
-        match (opened, room) {
-            (Some((children, of_a)), Some(room)) if work.splits < steps => {
+        let free = stack.get_mut(top..).and_then(|rest| rest.first_chunk_mut::<2>());
+        match (opened, free) {
+            (Some((children, of_a)), Some(free)) if work.splits < steps => {
                 work.splits += 1;
-                *room = children
+                *free = children
                     .map(|child| if of_a { entry(child, node_b) } else { entry(node_a, child) });
                 waiting = top + 2;
             }
-            (opened, room) => {
+            (opened, free) => {
                 if opened.is_some() {
-                    ended = if room.is_some() { Ended::Steps } else { Ended::Scratch };
+                    ended = if free.is_some() { Ended::Steps } else { Ended::Scratch };
                 }
                 // Node numbers are below 2^16.
                 if found(NodePair { a: node_a as u16, b: node_b as u16 }).is_break() {

@@ -126,7 +126,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
         steps.run("plot", || text(file, &plot::svg(&plotted)?));
     }
     if let Some(file) = &options.picture {
-        steps.run("draw the hulls", || text(file, &picture::svg(&drawn)?));
+        steps.run("draw the hulls", || text(file, &picture::svg(drawn)?));
     }
     if options.firmware
         && !hulls_on_board

@@ -3,8 +3,8 @@
 //!
 //! A mesh is reduced to so many triangles, questions are drawn, and both go into one image an
 //! engine. `target/rival/NAME-FACES/` keeps what the images carry, and the mesh as `mesh.ply`. An
-//! engine more is a `race_NAME.rs` and its `size_` images in `host-tests/lab/rival-firmware/src/bin`,
-//! and a line in [`ENGINES`].
+//! engine more is a `race_NAME.rs` and its `size_` images in
+//! `host-tests/lab/rival-firmware/src/bin`, and a line in [`ENGINES`].
 
 mod answers;
 mod questions;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! host fixtures           writes fixtures/ anew
-//! host picture            draws fixtures/part.svg anew
+//! host picture            writes fixtures/part.svg
 //! host blobs FOLDER       writes the firmware's blobs, each beside this machine's answers
 //! host ask QUESTION N     asks the first N queries of a question, for a simulator that counts
 //! ```
@@ -18,7 +18,9 @@ fn main() -> ExitCode {
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures");
     let result = match words.as_slice() {
         ["fixtures"] => golden::write(&fixtures),
-        ["picture"] => picture::write(&fixtures),
+        ["picture"] => picture::part(&fixtures).and_then(|svg| {
+            std::fs::write(fixtures.join("part.svg"), svg).map_err(|error| error.to_string())
+        }),
         ["blobs", folder] => blobs::write(Path::new(folder)),
         ["ask", question, queries] => queries
             .parse()

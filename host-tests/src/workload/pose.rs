@@ -72,7 +72,8 @@ impl Pose {
     }
 }
 
-/// Random poses of a mesh in a sphere, as the core is told them and with all their digits.
+/// Random poses of a mesh in a sphere: each in f64, and rounded to the f32 pose that the core
+/// takes.
 pub fn poses(sphere: &Sphere, count: usize) -> impl Iterator<Item = (Pose, CorePose)> {
     let mut rng = Rng::new(0x0070_6f73_6573);
     (0..count).map(move |_| {

@@ -1,4 +1,5 @@
-//! A batch has the bits of its queries one at a time, whatever its order and however many threads.
+//! A batch gives the same bits as its queries one at a time, in any order and with any number of
+//! threads.
 
 use meshsweep::bvh::{self, TreeOptions, build};
 use meshsweep::mesh::Mesh;

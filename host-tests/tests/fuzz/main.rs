@@ -1,4 +1,4 @@
-//! The fuzz targets on a stable compiler: seeded bytes, and inputs that once broke something.
+//! The fuzz targets on a stable compiler: seeded bytes, and inputs by name.
 
 mod regressions;
 mod seeded;

@@ -1,4 +1,5 @@
-//! Every input that a fuzzer found to break something, by name, reduced to what mattered.
+//! Inputs by name: the edges of what a fuzz target takes. An input with which a fuzzer breaks
+//! something belongs here. So far there is none.
 
 use meshsweep_host_tests::fuzz_targets::{
     closest, open, outer, segment, tree_closest, tree_open, tree_segment, tree_session,

@@ -1,4 +1,4 @@
-//! Opening bytes: whatever is wrong is a typed error, and whatever opens is safe to ask.
+//! Opening bytes: every fault is a typed error. Bytes that open are safe to query.
 
 use super::scenes::options;
 use meshsweep::cut::cut;

@@ -10,7 +10,7 @@ use meshsweep_host_tests::oracle::lp::{Program, quadratic};
 
 /// `eps` as the oracle takes it: two to the minus this.
 const EXPONENTS: [u32; 3] = [10, 20, 30];
-/// Stands for no regularisation but that which chooses among equals.
+/// An `eps` so small that it only chooses among equal optima.
 const VANISHING: u32 = 400;
 
 fn eps(exponent: u32) -> f64 {

@@ -237,7 +237,8 @@ fn fixture(name: &str) -> Raw {
     (raw.positions, raw.triangles)
 }
 
-/// A wire that runs through a cube, one in it, one on a face, one along an edge, and a point beside.
+/// A wire that runs through a cube, one in it, one on a face, one along an edge, and a point
+/// beside.
 pub fn pierced_cube() -> Raw {
     let segment = |a: [f64; 3], b: [f64; 3]| [a, a, b];
     let more = separate([

@@ -33,7 +33,7 @@ const QUESTIONS: [&str; 16] = [
     "triboxes clip",
 ];
 
-/// Questions by whose instructions vector code is told from scalar code, with the most instructions
+/// Questions whose instructions show whether the code was vectorised, with the most instructions
 /// that a node or a leaf may take: a quarter more than it took on plain x86-64 when this was
 /// written (893, 741, 711, 692, 482, 764). Without vectors (`-C no-vectorize-loops -C
 /// no-vectorize-slp`) it took 2420, 1489, 1802, 1560, 1119, 1284. "Clear" is for nodes, for it

@@ -1,4 +1,4 @@
-//! Firmware images as files: what is in them, without running them.
+//! The contents of firmware images, read from their files without running them.
 
 use std::fs;
 use std::path::Path;

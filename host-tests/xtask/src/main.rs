@@ -11,10 +11,9 @@ use meshsweep_xtask::{checks, count, firmware, host, say, tables};
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
-cargo xtask test lab                the laboratory's own lints and tests
 cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
-cargo xtask picture                 draws fixtures/part.svg anew, the picture of README.md
+cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
 cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
@@ -37,6 +36,7 @@ fn main() -> ExitCode {
             // First, because a new machine fails here, and the message tells the remedy.
             let tools = firmware::setup(&mut steps);
             checks::run(&mut steps);
+            checks::of_lab(&mut steps);
             let counts = count::for_test(&mut steps);
             if let Some(counts) = &counts {
                 count::check_lanes(&mut steps, counts);
@@ -45,7 +45,6 @@ fn main() -> ExitCode {
             let rows = tools.map(run).unwrap_or_default();
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
         }
-        ["test", "lab"] => checks::of_lab(&mut steps),
         ["firmware", rest @ ..] => {
             let json = match rest {
                 [] => None,

@@ -18,7 +18,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::time::Instant;
 
-/// Least bytes of a file whose size is told before the work.
+/// A file of at least this many bytes is announced with its size before the work.
 const LARGE: u64 = 1 << 30;
 
 pub fn run(args: &FieldArgs) -> Result<(), Failure> {

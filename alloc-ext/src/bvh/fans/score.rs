@@ -7,8 +7,8 @@ use super::window::Window;
 
 // The weights extend the paper's `f` from fans to leaves: size, contact with the front, and the
 // triangles left behind. They were chosen for few leaves and small boxes together, on two scanned
-// meshes and a modelled one. They lie on a plateau: any one of them half or one and a half times as large
-// moves the number of leaves and the sum of box areas by 3 % at most.
+// meshes and a modelled one. They lie on a plateau: any one of them half or one and a half times as
+// large moves the number of leaves and the sum of box areas by 3 % at most.
 
 /// For each triangle of the leaf. Twice as much makes 1 % fewer leaves, with boxes 2 % larger.
 const SIZE: i32 = 2;

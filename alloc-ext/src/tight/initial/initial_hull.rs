@@ -26,7 +26,7 @@ impl InitialHull {
     }
 }
 
-/// What every initial hull is made for, and until when.
+/// The inputs that all initial hulls share.
 #[derive(Clone, Copy)]
 pub(crate) struct InitialInput<'a> {
     /// Frame and grid of the surface that is collapsed.

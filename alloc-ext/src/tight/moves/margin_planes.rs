@@ -1,17 +1,18 @@
-//! Planes of a placement's program where the hull keeps a margin from the mesh.
+//! Planes of a placement's linear program that keep a margin between the hull and the mesh.
 //!
-//! A new face must not pass the mesh grown by the margin: a ball around each of its points. In the
-//! way are points that are cut off, in the tetrahedron between an old face and the new vertex, and
-//! points that the new face is too near to.
+//! The mesh grown by the margin is a ball around each point of the mesh. A new face must not cut
+//! into a ball. Two kinds of points are in the way: points that the edit cuts off, in the
+//! tetrahedron between an old face and the new vertex, and points that the new face is too near to.
 //!
-//! - A ball below the face adds the plane about the ring edge that touches the ball. Of these
-//!   planes the steepest is kept, as without a margin.
-//! - A ball beside the face, near an edge that moves or near the vertex, has no such plane, or one
-//!   that asks too much. There the face's nearest point is pushed away along the line to the mesh.
-//!   The point moves as the vertex does, times its weight. Such a plane is only right near the
-//!   place where it was made, so that these planes are looked for last and all of them are kept.
+//! - *Touching planes.* A ball below the face adds the plane through the ring edge that touches the
+//!   ball. Of these planes the steepest is kept, as without a margin.
+//! - *Pushing planes.* A ball beside the face, near an edge that moves or near the vertex, has no
+//!   touching plane, or one that asks too much. There the point of the face that is nearest to the
+//!   mesh is pushed away from it. That point moves as the vertex does, times its weight. A pushing
+//!   plane is right only near the place where it was made. So pushing planes are searched last, and
+//!   all of them are kept.
 //!
-//! All is floating point, as in `placement`.
+//! All is floating point. The editor proves or refuses the result.
 
 use super::mesh_planes::Trial;
 use super::star::StarFace;
@@ -28,26 +29,26 @@ const LIGHT: f64 = 1e-6;
 /// Part of the clearance below which a point counts as too near.
 const LEAST_CLEARANCE: f64 = 0.5;
 
-/// A new face, and the region that its vertex sweeps.
-pub(super) struct Sweep<'a> {
+/// A new face, the tetrahedron that its vertex sweeps, and the planes found for it so far.
+pub(super) struct FaceMargin<'a> {
     trial: &'a Trial<'a>,
     ring: [DVec3; 2],
     /// The new face: its vertex first.
     face: Triangle,
     normal: DVec3,
     tetrahedron: Tetrahedron,
-    /// The highest plane that touches a ball, and the plane above which the centres of higher balls
-    /// are.
+    /// The highest touching plane, and a plane parallel to it through the ball's centre. Higher
+    /// balls have their centres above the second plane.
     touching: Cell<Option<(Plane, Plane)>>,
-    /// How far the vertex is below the highest plane.
+    /// Height of the highest touching plane above the vertex.
     height: Cell<f64>,
-    /// The plane that pushes the nearest point away.
+    /// The pushing plane of the nearest point so far.
     pushing: Cell<Option<HalfSpace>>,
-    /// The distance of the nearest point.
+    /// The distance of this point from the mesh.
     distance: Cell<f64>,
 }
 
-impl<'a> Sweep<'a> {
+impl<'a> FaceMargin<'a> {
     /// Of a star's face with a ring edge.
     pub fn new(trial: &'a Trial<'a>, old: &StarFace, ring: [DVec3; 2]) -> Self {
         let x = trial.x;
@@ -69,8 +70,8 @@ impl<'a> Sweep<'a> {
         self.trial.obstacle.margin()
     }
 
-    /// The plane for the vertices of the mesh that are in the way.
-    pub fn points(&self) -> Option<HalfSpace> {
+    /// The highest touching plane of the vertices of the mesh that are in the way.
+    pub fn plane_over_vertices(&self) -> Option<HalfSpace> {
         let far = self.margin() + self.trial.clearance;
         self.trial.obstacle.visit_points(
             &self.trial.near[0],
@@ -98,8 +99,8 @@ impl<'a> Sweep<'a> {
         weights.iter().all(|&w| w > LIGHT) && self.is_near(found.distance_sq.sqrt(), weights[0])
     }
 
-    /// The plane for the triangles that are in the way, if no vertex is.
-    pub fn pieces(&self) -> Option<HalfSpace> {
+    /// The highest touching plane of the triangles that are in the way, if no vertex is.
+    pub fn plane_over_triangles(&self) -> Option<HalfSpace> {
         self.trial.obstacle.visit_triangles(
             &self.trial.near[1],
             |of| self.rises_to(of) && self.tetrahedron.may_meet(of),
@@ -112,8 +113,8 @@ impl<'a> Sweep<'a> {
         self.touching()
     }
 
-    /// The plane for the nearest triangle beside the face, if nothing is cut off.
-    pub fn beside(&self) -> Option<HalfSpace> {
+    /// The pushing plane of the nearest triangle beside the face, if nothing is cut off.
+    pub fn pushing_plane(&self) -> Option<HalfSpace> {
         let clearance = Clearance::new(self.margin() + LEAST_CLEARANCE * self.trial.clearance);
         let bounds = Bounds::of(&self.face);
         self.trial.obstacle.visit_triangles(

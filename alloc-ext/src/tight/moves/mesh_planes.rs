@@ -71,7 +71,8 @@ impl Trial<'_> {
     }
 
     /// The last plane that `raise` returned for points of the mesh between an old face and the
-    /// vertex. Each plane must be above the one before, so that points below it need not be visited.
+    /// vertex. Each plane must be above the one before, so that points below it need not be
+    /// visited.
     fn highest(
         &self,
         face: &StarFace,

@@ -13,7 +13,7 @@
 //!
 //! All is floating point. The editor proves or refuses the place that is found here.
 
-use super::margin_planes::Sweep;
+use super::margin_planes::FaceMargin;
 use super::mesh_planes::Trial;
 use super::star::{Frame, StarFace, corners, radius};
 use super::tolerance::ROUNDING;
@@ -140,8 +140,12 @@ impl Placer {
                 // A face that rises cuts nothing off, but it may turn towards mesh that it has to
                 // keep the margin from.
                 Some(ring) if trial.obstacle.margin() > 0.0 => {
-                    let sweep = Sweep::new(trial, face, ring);
-                    if edges { sweep.pieces() } else { sweep.points() }
+                    let face_margin = FaceMargin::new(trial, face, ring);
+                    if edges {
+                        face_margin.plane_over_triangles()
+                    } else {
+                        face_margin.plane_over_vertices()
+                    }
                 }
                 _ if rises => None,
                 Some(ring) => trial.turned(face, ring, edges),
@@ -160,7 +164,7 @@ impl Placer {
         let before = self.pushes.len();
         for face in star {
             let Some(ring) = face.ring else { continue };
-            self.pushes.extend(Sweep::new(trial, face, ring).beside());
+            self.pushes.extend(FaceMargin::new(trial, face, ring).pushing_plane());
         }
         self.pushes.len() == before
     }

@@ -85,7 +85,7 @@ impl HullEditor<'_> {
     }
 
     /// Settles every vertex once.
-    pub fn sweep(&mut self) {
+    pub fn settle_all(&mut self) {
         for v in 0..self.shell.vertex_slots() {
             if self.is_late() {
                 break;
@@ -96,12 +96,12 @@ impl HullEditor<'_> {
         }
     }
 
-    /// Sweeps and flips until a round gains less than `least` of the void. No hull has less volume
+    /// Settles and flips until a round gains less than `least` of the void. No hull has less volume
     /// than `floor`.
     pub fn relax(&mut self, floor: f64, least: f64, rounds: usize) {
         for _ in 0..rounds {
             let before = self.shell.volume();
-            self.sweep();
+            self.settle_all();
             self.flip_all();
             let after = self.shell.volume();
             if before - after <= least * (after - floor).abs() || self.is_spent() {

@@ -45,7 +45,7 @@ const TIMES_FACES: usize = 2;
 /// See [`TIMES_FACES`].
 const MORE_FACES: usize = 500;
 
-/// Pulls a vertex to a place, whatever volume that costs.
+/// Pulls a vertex to a place. The volume hardly counts.
 const PULL: PlacementObjective =
     PlacementObjective { centre_weight: 1e3, tilt: DVec3::ZERO, upright: Some(0.01) };
 

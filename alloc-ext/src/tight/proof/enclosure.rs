@@ -9,8 +9,8 @@ use glam::DVec3;
 /// embedded, does not meet the mesh, and encloses every connected component of the mesh. Exact.
 pub(crate) fn is_outer_hull(faces: &[Face], obstacle: &Obstacle) -> bool {
     let holds_witnesses = || {
-        let hull = Enclosure::new(faces.iter().map(|face| face.at.map(single)).collect());
-        obstacle.witnesses().iter().all(|p| hull.holds(single(*p)))
+        let hull = Enclosure::new(faces.iter().map(|face| face.at.map(to_f32)).collect());
+        obstacle.witnesses().iter().all(|p| hull.holds(to_f32(*p)))
     };
     !faces.iter().any(|face| is_degenerate(&face.at) || obstacle.meets(&face.at))
         && is_embedded(faces)
@@ -44,7 +44,7 @@ pub(crate) fn outermost(
     if all.len() < 2 {
         return None;
     }
-    let corners = |&t: &u32| triangles[t as usize].map(|v| single(positions[v as usize]));
+    let corners = |&t: &u32| triangles[t as usize].map(|v| to_f32(positions[v as usize]));
     let enclosures = Enclosures::new(all.iter().map(|part| part.iter().map(corners).collect()));
     let is_enclosed = |i: usize| !enclosures.around(enclosures.corner(i), Some(i)).is_empty();
     let kept: Vec<usize> = (0..all.len()).filter(|&i| !is_enclosed(i)).collect();
@@ -54,7 +54,7 @@ pub(crate) fn outermost(
 }
 
 /// Coordinates that are `f32` numbers.
-fn single(p: DVec3) -> [f32; 3] {
+fn to_f32(p: DVec3) -> [f32; 3] {
     p.as_vec3().to_array()
 }
 

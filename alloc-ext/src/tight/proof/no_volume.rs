@@ -52,7 +52,7 @@ pub enum NoVolume {
         /// A corner of one.
         at: [f32; 3],
     },
-    /// The volume of a closed component cannot be told from 0.
+    /// The volume of a closed component may be 0 within rounding.
     Flat {
         /// The component's first triangle, as the input counts.
         triangle: u32,

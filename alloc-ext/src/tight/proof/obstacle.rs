@@ -2,7 +2,7 @@
 //! witness of each connected component.
 
 use super::clearance::Clearance;
-use super::predicates::{Triangle, in_sunken, meet};
+use super::predicates::{Triangle, is_cut_off, meet};
 use super::tetrahedron::Tetrahedron;
 use crate::mesh::Mesh;
 use crate::surface::{Bounds, Frontier, Plane, StaticTree, least_connected, spatial_order};
@@ -115,12 +115,14 @@ impl Obstacle {
         !self.triangle_tree.visit_reached(&Bounds::of(face), planes, visit)
     }
 
-    /// Whether a witness lies in a tetrahedron that leaves the hull when the corner opposite to
-    /// each base moves to `apex`. Exact.
+    /// Whether an edit that replaces the faces `bases` by faces at `apex` cuts a witness off the
+    /// hull. Exact.
     pub fn has_witness_in(&self, bases: &[Triangle], apex: DVec3) -> bool {
         bases.iter().any(|base| {
             let bounds = Bounds::of(base).with(apex);
-            !self.witness_tree.visit_meeting(&bounds, |i| !in_sunken(base, apex, self.witnesses[i]))
+            !self
+                .witness_tree
+                .visit_meeting(&bounds, |i| !is_cut_off(base, apex, self.witnesses[i]))
         })
     }
 

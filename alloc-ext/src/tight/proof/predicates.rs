@@ -151,9 +151,10 @@ pub(crate) fn are_apart(s: &Face, t: &Face) -> bool {
     }
 }
 
-/// Whether `p` is in the closed tetrahedron of `apex` and `base`, and `apex` is not in front of the
-/// base. A flat tetrahedron counts as well.
-pub(crate) fn in_sunken(base: &Triangle, apex: DVec3, p: DVec3) -> bool {
+/// Whether an edit that replaces the face `base` by faces at `apex` cuts `p` off the hull: `apex`
+/// is not in front of the base, and `p` lies in their closed tetrahedron. A flat tetrahedron counts
+/// as well.
+pub(crate) fn is_cut_off(base: &Triangle, apex: DVec3, p: DVec3) -> bool {
     if side(base, apex) > 0.0 || side(base, p) > 0.0 {
         return false;
     }
@@ -218,10 +219,12 @@ mod tests {
     fn points_of_a_sunken_tetrahedron_are_found_up_to_its_sides() {
         let flat = triangle(FLAT);
         let apex = DVec3::new(1.0, 1.0, -2.0);
-        assert!(in_sunken(&flat, apex, DVec3::new(1.0, 1.0, -1.0)));
-        assert!(in_sunken(&flat, apex, apex) && in_sunken(&flat, apex, DVec3::new(0.0, 0.0, 0.0)));
-        assert!(!in_sunken(&flat, apex, DVec3::new(1.0, 1.0, 0.5)));
-        assert!(!in_sunken(&flat, apex, DVec3::new(1.0, 1.0, -2.5)));
-        assert!(!in_sunken(&flat, -apex, DVec3::new(1.0, 1.0, 1.0)), "a raised one");
+        assert!(is_cut_off(&flat, apex, DVec3::new(1.0, 1.0, -1.0)));
+        assert!(
+            is_cut_off(&flat, apex, apex) && is_cut_off(&flat, apex, DVec3::new(0.0, 0.0, 0.0))
+        );
+        assert!(!is_cut_off(&flat, apex, DVec3::new(1.0, 1.0, 0.5)));
+        assert!(!is_cut_off(&flat, apex, DVec3::new(1.0, 1.0, -2.5)));
+        assert!(!is_cut_off(&flat, -apex, DVec3::new(1.0, 1.0, 1.0)), "a raised one");
     }
 }

@@ -3,9 +3,9 @@
 //! | mesh | initial hulls, in this order |
 //! | --- | --- |
 //! | bounds a volume | levels of its own progressive hull; the voxel closures if none is proved |
-//! | any other | the voxel closures, the finest first, until one reaches the number of faces |
+//! | any other | all of these compete: voxel closures from fine to coarse, the grown box |
 //! | margin that is large beside the mesh | one voxel closure as fine as the margin needs |
-//! | any, few faces | all of them and the grown box compete; each is polished at once |
+//! | any, few faces | all of these compete: levels, voxel closures, the grown box; each is polished at once |
 //!
 //! With few faces a coarse closure may come to less volume, because it has fewer handles and narrow
 //! places.
@@ -89,7 +89,8 @@ impl<'a> HullSearch<'a, '_> {
         if self.solid.is_some() && large_margin.is_none() {
             self.try_levels(target, &mut best);
         }
-        let is_itself = self.is_solid_itself(best.as_ref(), target);
+        let is_solid = self.is_solid_itself(best.as_ref(), target);
+        // A level, or the closure for a large margin, needs no competitor once it reaches the goal.
         let is_enough = best.is_some() || large_margin.is_some();
         let finest = finest(target.faces);
         // If the levels of the finest closure meet themselves in narrow places, a slightly coarser
@@ -105,7 +106,7 @@ impl<'a> HullSearch<'a, '_> {
                 continue;
             }
             let is_reached = best.as_ref().is_some_and(|best| best.stop != Outcome::Stuck);
-            let is_settled = is_enough && (!target.is_few() || is_itself) && is_reached;
+            let is_settled = is_enough && (!target.is_few() || is_solid) && is_reached;
             if best.is_some() && (is_settled || is_late) {
                 break;
             }
@@ -170,7 +171,7 @@ impl<'a> HullSearch<'a, '_> {
         let InitialHull { start, filled, .. } = initial;
         let mut editor = self.editor(initial);
         for _ in 0..2 {
-            editor.sweep();
+            editor.settle_all();
             editor.flip_all();
         }
         let stop = if target.descends {

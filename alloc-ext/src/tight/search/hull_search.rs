@@ -1,4 +1,4 @@
-//! The state of a search: what it is given, and what it has left.
+//! [`HullSearch`]: the inputs and the state of a search.
 
 use crate::mesh::Mesh;
 use crate::surface::Stored;
@@ -9,13 +9,13 @@ use crate::tight::proof::{Obstacle, Solid};
 use crate::tight::report::Progress;
 use std::time::Instant;
 
-/// What a search is given, and its state.
+/// The inputs and the state of a search.
 pub(crate) struct HullSearch<'a, 'p> {
     pub mesh: &'a Mesh,
     /// The mesh in the frame of its own coordinates.
     pub stored: &'a Stored,
     /// The frame and the coordinate format of the hull.
-    pub around: &'a Stored,
+    pub hull_frame: &'a Stored,
     pub obstacle: &'a Obstacle,
     /// `None` if the mesh bounds no volume.
     pub solid: Option<Solid>,
@@ -37,13 +37,13 @@ impl<'a> HullSearch<'a, '_> {
     }
 
     pub(super) fn rounding(&self) -> Rounding {
-        Rounding::new(self.around.grid, self.around.scale_exponent)
+        Rounding::new(self.hull_frame.grid, self.hull_frame.scale_exponent)
     }
 
     /// For initial hulls in the hull's own frame.
     pub(super) fn initial_input(&self) -> InitialInput<'a> {
         InitialInput {
-            stored: self.around,
+            stored: self.hull_frame,
             obstacle: self.obstacle,
             rounding: self.rounding(),
             deadline: self.deadline,

@@ -5,7 +5,7 @@
 //! | `faces.rs` | the tightest hull of a number of faces |
 //! | `void.rs` | the fewest faces for a void |
 //! | `slack.rs` | the fewest faces for a slack |
-//! | `hull_search.rs` | [`HullSearch`]: what a search is given, and its state |
+//! | `hull_search.rs` | [`HullSearch`]: the inputs and the state of a search |
 //! | `candidate.rs` | [`CandidateHull`]: a hull that reached its goal or not; which of two is better |
 //! | `descent.rs` | brings a hull down to fewer faces in stages |
 //! | `polish.rs` | exchanges, flips and kicks in rounds |

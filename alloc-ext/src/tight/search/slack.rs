@@ -38,27 +38,28 @@ impl<'a> HullSearch<'a, '_> {
         let mut voxels = self.slack_voxels(slack);
         // Twice the voxels take eight times as long, and rarely help where two closures do not.
         let finest = (2 * voxels).min(VOXELS[1]);
-        let mut any_level = false;
-        let mut levels_end = self.solid.is_none() || self.large_margin_voxels().is_some();
-        // Edits keep some steps of the grid off the mesh, so that no hull is nearer than one step.
-        let is_vain =
+        let mut has_level = false;
+        let mut no_finer_level = self.solid.is_none() || self.large_margin_voxels().is_some();
+        // Edits keep some steps of the grid off the mesh. So no hull reaches such a slack, and
+        // finer initial hulls do not help.
+        let is_below_grid =
             slack - self.obstacle.margin() <= input.rounding.half_step(self.largest_coordinate());
         let mut reached = false;
         while !reached && !self.is_late() {
-            if !levels_end {
+            if !no_finer_level {
                 let input = InitialInput { stored: self.stored, ..input };
                 let levels = lifted_levels(&input, self.mesh, faces, self.on_progress);
                 if let Some(level) = levels.ample.or(levels.exact) {
-                    any_level = true;
+                    has_level = true;
                     let hull = self.within_slack(level, slack);
                     reached = hull.stop == Outcome::Reached;
                     keep_better(&mut best, hull);
                 }
-                levels_end = faces >= self.mesh.triangles.len();
+                no_finer_level = faces >= self.mesh.triangles.len();
             }
             // Closures where there is no level, or no level is within the slack.
             let mut is_finest = false;
-            if !reached && (!any_level || levels_end && !is_vain) {
+            if !reached && (!has_level || no_finer_level && !is_below_grid) {
                 // Walls along the axes do better by the first, all others by the second.
                 for conditions in [Conditions::PAPER, STAIR_CONDITIONS] {
                     if self.is_late() {
@@ -74,7 +75,7 @@ impl<'a> HullSearch<'a, '_> {
                 is_finest = voxels >= finest;
                 voxels = (2 * voxels).min(VOXELS[1]);
             }
-            if is_vain || is_finest && (levels_end || !any_level) {
+            if is_below_grid || is_finest && (no_finer_level || !has_level) {
                 break;
             }
             faces = faces.saturating_mul(FINER);

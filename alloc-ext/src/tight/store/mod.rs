@@ -2,7 +2,7 @@
 //! certified distances both ways between it and the mesh.
 //!
 //! ```text
-//! mesh ─ wrap, for each number of faces ─ distances ─ tree::build ─ section
+//! mesh ─ wrap, for each number of faces ─ distances ─ bvh::build ─ section
 //! ```
 //!
 //! | file | what lies there |

@@ -54,13 +54,13 @@ impl Stored {
 
 /// The blob of the hull's tree, in single precision if a grid of 16 bits moves a vertex.
 fn hull_tree(hull: &Mesh, moved: f64, options: &TreeOptions) -> Vec<u8> {
-    let of = |single: bool, moved: f64, rounding: f64| {
+    let of = |is_f32: bool, moved: f64, rounding: f64| {
         let hull = Mesh { rounding, ..hull.clone() };
-        let options = TreeOptions { single, ..*options };
+        let options = TreeOptions { single: is_f32, ..*options };
         bvh::build(Input { moved, ..hull.as_input() }, &options).0
     };
-    let single = options.single || of(false, 0.0, 0.0).header.surface_error > 0.0;
-    of(single, moved, hull.rounding).to_bytes()
+    let is_f32 = options.single || of(false, 0.0, 0.0).header.surface_error > 0.0;
+    of(is_f32, moved, hull.rounding).to_bytes()
 }
 
 /// The section of a chain of hulls.
@@ -142,10 +142,10 @@ pub fn hull_mesh(hull: &TightHull<'_>) -> Mesh {
     for node in 0..tree.header().nodes {
         let Some(links) = tree.links(node) else { continue };
         for child in links.inner..links.count {
-            let Some(patch) = tree.leaf(node, child) else { continue };
-            for lane in 0..patch.shape().triangles() {
+            let Some(leaf) = tree.leaf(node, child) else { continue };
+            for lane in 0..leaf.shape().triangles() {
                 let number = tree.source(links.triangle(child).wrapping_add(lane as u32));
-                let corners = patch.corners(lane).map(in_input_units);
+                let corners = leaf.corners(lane).map(in_input_units);
                 faces.extend(number.map(|number| (number, corners)));
             }
         }

@@ -1,10 +1,10 @@
 //! One search of a coherent query. It updates the front as far as the answer depends on it.
 
 use super::front::{Child, Known, TraversalFront};
-use super::leaf_shape::is_sound;
-use super::planes::{Looked, Planes, middle};
+use super::leaf_shape::has_no_sliver;
+use super::planes::{Planes, VisitedLeaf, middle};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::bvh::leaf_distance::seen;
+use crate::bvh::leaf_distance::nearest_and_edges;
 use crate::bvh::node::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
 use crate::bvh::point_query::PointQuery;
 use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
@@ -38,15 +38,17 @@ impl Nearest {
     };
 }
 
-/// Why a front has no answer.
+/// Why a search on the front has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Gap {
-    /// A sliver decides the interval, or the steps are used up. The plain query has to answer.
+pub(crate) enum NoAnswer {
+    /// A sliver decides the interval, or the steps are used up. The plain query answers, and the
+    /// front is kept.
     Undecided,
-    /// The front does not reach so far, or the search takes too long.
+    /// An entry that was dropped may hold the answer, or the search takes too long. The front
+    /// begins anew.
     Lost,
     /// The tree is unchecked.
-    Model,
+    Unchecked,
 }
 
 /// One search and its state.
@@ -55,24 +57,24 @@ pub(crate) struct Follow<'a, 't> {
     pub(crate) query: &'a PointQuery,
     pub(crate) front: TraversalFront<'a>,
     planes: &'a mut Planes,
-    /// From the model's middle, from which planes are measured, to the query.
+    /// From the model's middle to the query. Planes are measured from the middle.
     way: Vec3,
     pub(crate) work: Work,
-    /// Entries stay active up to this far beyond the answer: a few steps.
+    /// Entries stay active while their key is at most this much above `bound`: a few steps.
     ahead: f32,
     best: Nearest,
-    /// Keys above it cannot hold the answer.
+    /// An entry with a greater key cannot hold the answer.
     bound: f32,
-    /// A triangle's bound is used only where its squared distance is not below this.
+    /// The plain query refines a triangle with a smaller squared lower bound as a sliver.
     refine_below: f32,
-    /// Least certified squared distance of the triangles whose own distance is too uncertain.
-    certified: f32,
+    /// Least squared lower bound of the triangles that were below `refine_below` when visited.
+    sliver_lower_sq: f32,
     /// Greatest error of a box's bound.
-    pub(crate) off: f32,
-    /// Greatest error of a triangle's bound, beside [`SHORTFALL`] of itself.
+    pub(crate) box_error: f32,
+    /// Greatest error of a triangle's bound, in addition to [`SHORTFALL`] of the bound itself.
     shortfall: f32,
     /// Work so far, in half leaves.
-    pub(crate) looks: u32,
+    pub(crate) cost: u32,
     /// Nodes that may be opened.
     steps: u32,
 }
@@ -87,7 +89,7 @@ impl<'a, 't> Follow<'a, 't> {
         ahead: f32,
         steps: u32,
     ) -> Self {
-        let off = query.box_error();
+        let box_error = query.box_error();
         let shortfall = tree.header().star_radius * (SHORTFALL + FAN_DISTANCE * U32);
         Follow {
             tree,
@@ -100,34 +102,34 @@ impl<'a, 't> Follow<'a, 't> {
             best: Nearest::NONE,
             bound: f32::INFINITY,
             refine_below: f32::NEG_INFINITY,
-            certified: f32::INFINITY,
-            off,
+            sliver_lower_sq: f32::INFINITY,
+            box_error,
             shortfall,
-            looks: 0,
+            cost: 0,
             steps,
         }
     }
 
-    /// The nearest triangle, searched from the root. The interval of an earlier answer says that
-    /// one lies within `reach`.
+    /// The nearest triangle, searched from the root. An earlier answer proves that a triangle lies
+    /// within `max_distance`.
     #[cold]
     #[inline(never)]
-    pub(crate) fn begin(&mut self, reach: f32, budget: u32) -> Result<Nearest, Gap> {
+    pub(crate) fn begin(&mut self, max_distance: f32, budget: u32) -> Result<Nearest, NoAnswer> {
         self.front.clear();
-        let reach = reach * (1.0 + 1.0 / 1024.0) + self.off;
-        let bound = self.horizon(reach * reach);
+        let max_distance = max_distance * (1.0 + 1.0 / 1024.0) + self.box_error;
+        let bound = self.horizon(max_distance * max_distance);
         self.bound = bound;
         self.open(0, None)?;
         let nearest = self.nearest(false, budget)?;
-        // Skipped children lie beyond the first bound.
-        if self.bound <= bound { Ok(nearest) } else { Err(Gap::Lost) }
+        // Children beyond the first bound were skipped. They do not matter if the answer is nearer.
+        if self.bound <= bound { Ok(nearest) } else { Err(NoAnswer::Lost) }
     }
 
-    /// The nearest triangle. With `first` the search begins with the first entry. It looks at no
-    /// more than `budget` nodes and leaves.
+    /// The nearest triangle. With `first` the search begins with the leaf of the first entry. It is
+    /// [`Lost`](NoAnswer::Lost) if the cost exceeds `budget`.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-    pub(crate) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, Gap> {
+    pub(crate) fn nearest(&mut self, first: bool, budget: u32) -> Result<Nearest, NoAnswer> {
         let mut next = 0;
         if first && let Some((_, child)) = self.front.get(0) {
             self.look(0, child)?;
@@ -138,8 +140,8 @@ impl<'a, 't> Follow<'a, 't> {
                 let Some((key, child)) = self.front.get(next) else { break };
                 if key <= self.bound {
                     self.visit(next, child)?;
-                    if self.looks > budget {
-                        return Err(Gap::Lost);
+                    if self.cost > budget {
+                        return Err(NoAnswer::Lost);
                     }
                 } else if key > self.bound + self.ahead {
                     self.front.deactivate(next, key);
@@ -147,17 +149,17 @@ impl<'a, 't> Follow<'a, 't> {
                 }
                 next += 1;
             }
-            if self.bound < self.front.extent.rest || !self.front.is_waiting() {
+            if self.bound < self.front.extent.rest || !self.front.has_inactive() {
                 break;
             }
             self.front.activate(self.bound + self.ahead);
-            self.looks += self.front.extent.count as u32 / 24;
+            self.cost += self.front.extent.count as u32 / 24;
         }
         if self.bound >= self.front.extent.dropped || self.best.at == usize::MAX {
-            return Err(Gap::Lost);
+            return Err(NoAnswer::Lost);
         }
-        if self.certified < self.refine_below {
-            return Err(Gap::Undecided);
+        if self.sliver_lower_sq < self.refine_below {
+            return Err(NoAnswer::Undecided);
         }
         self.front.swap(0, self.best.at);
         Ok(self.best)
@@ -166,11 +168,11 @@ impl<'a, 't> Follow<'a, 't> {
     /// Updates entry `i` until its key is too great for it to hold the answer.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-    fn visit(&mut self, i: usize, mut child: Child) -> Result<(), Gap> {
+    fn visit(&mut self, i: usize, mut child: Child) -> Result<(), NoAnswer> {
         loop {
             match child.known() {
                 Known::Triangles => {
-                    let key = self.front.key(self.planes.bound(child, self.way) - self.off);
+                    let key = self.front.key(self.planes.bound(child, self.way) - self.box_error);
                     if key > self.bound {
                         self.front.set(i, key, child);
                         return Ok(());
@@ -184,11 +186,11 @@ impl<'a, 't> Follow<'a, 't> {
                 }
                 Known::Nothing => {}
             }
-            let found = self.tree.child(child.node(), child.lane()).ok_or(Gap::Model)?;
+            let found = self.tree.child(child.node(), child.lane()).ok_or(NoAnswer::Unchecked)?;
             if found.is_leaf() {
-                let leaf = self.tree.leaf_at(found.at, found.shape).ok_or(Gap::Model)?;
-                self.looks += 1;
-                let known = if is_sound(&leaf).ok_or(Gap::Model)? {
+                let leaf = self.tree.leaf_at(found.at, found.shape).ok_or(NoAnswer::Unchecked)?;
+                self.cost += 1;
+                let known = if has_no_sliver(&leaf).ok_or(NoAnswer::Unchecked)? {
                     Known::Triangles
                 } else {
                     Known::Sliver
@@ -207,21 +209,21 @@ impl<'a, 't> Follow<'a, 't> {
     /// Replaces an entry by the nearest child of its node and adds the others.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-    fn open(&mut self, node: u32, entry: Option<usize>) -> Result<(), Gap> {
+    fn open(&mut self, node: u32, entry: Option<usize>) -> Result<(), NoAnswer> {
         if self.work.splits >= self.steps {
-            return Err(Gap::Undecided);
+            return Err(NoAnswer::Undecided);
         }
-        let links = self.tree.links(node).ok_or(Gap::Model)?;
-        let record = self.tree.frame(node).ok_or(Gap::Model)?;
+        let links = self.tree.links(node).ok_or(NoAnswer::Unchecked)?;
+        let record = self.tree.frame(node).ok_or(NoAnswer::Unchecked)?;
         let keys = box_distances(record, &NodeFrame::of(record, self.query.p), links.count, 0.0);
         self.work.splits += 1;
         self.work.nodes += links.count;
-        self.looks += 3;
+        self.cost += 3;
         let nearest = nearest_lane(&keys);
         let horizon = self.bound + self.ahead;
         if !self.front.has_room(WIDTH) {
             self.front.evict(entry.map_or(0, |i| i + 1), horizon);
-            self.looks += self.front.extent.count as u32 / 12;
+            self.cost += self.front.extent.count as u32 / 12;
         }
         if let Some(i) = entry {
             let lane = nearest.to_bits() & LANE_MASK;
@@ -238,28 +240,28 @@ impl<'a, 't> Follow<'a, 't> {
 
     #[inline(always)]
     fn key_of_box(&self, key: f32) -> f32 {
-        self.front.key(sqrt_approx(key) * (1.0 - ROOT_AND_PRODUCTS) - self.off)
+        self.front.key(sqrt_approx(key) * (1.0 - ROOT_AND_PRODUCTS) - self.box_error)
     }
 
-    /// The bound from a leaf's box for the present point.
+    /// Key of a leaf by its box, for the present point.
     #[cold]
-    fn box_key(&mut self, child: Child) -> Result<f32, Gap> {
-        let record = self.tree.frame(child.node()).ok_or(Gap::Model)?;
+    fn box_key(&mut self, child: Child) -> Result<f32, NoAnswer> {
+        let record = self.tree.frame(child.node()).ok_or(NoAnswer::Unchecked)?;
         let count = child.lane() + 1;
         let keys = box_distances(record, &NodeFrame::of(record, self.query.p), count, 0.0);
         self.work.nodes += count;
-        let key = keys.get(child.lane() as usize).copied().ok_or(Gap::Model)?;
+        let key = keys.get(child.lane() as usize).copied().ok_or(NoAnswer::Unchecked)?;
         Ok(self.key_of_box(key))
     }
 
     /// Looks at the triangles of a leaf.
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
-    fn look(&mut self, i: usize, child: Child) -> Result<(), Gap> {
-        let leaf = self.tree.leaf(child.node(), child.lane()).ok_or(Gap::Model)?;
-        let (near, edges) = seen(&leaf, self.query.p).ok_or(Gap::Model)?;
+    fn look(&mut self, i: usize, child: Child) -> Result<(), NoAnswer> {
+        let leaf = self.tree.leaf(child.node(), child.lane()).ok_or(NoAnswer::Unchecked)?;
+        let (near, edges) = nearest_and_edges(&leaf, self.query.p).ok_or(NoAnswer::Unchecked)?;
         self.work.triangles += leaf.shape().triangles() as u32;
-        self.looks += 2;
+        self.cost += 2;
         let distance_sq = near.distance_sq;
         if distance_sq < self.best.distance_sq
             || (distance_sq == self.best.distance_sq && self.comes_first(child))
@@ -269,17 +271,23 @@ impl<'a, 't> Follow<'a, 't> {
             self.bound = self.horizon(distance_sq);
             self.refine_below = self.query.refine_below(distance_sq);
         }
-        // The plain query measures slivers again and may find them nearer.
+        // The plain query refines slivers and may find them nearer.
         if near.lower_bound_sq < self.refine_below {
-            self.certified = least(self.certified, near.lower_bound_sq);
+            self.sliver_lower_sq = least(self.sliver_lower_sq, near.lower_bound_sq);
         }
         if child.known() == Known::Triangles {
             let key = self.key_of_triangles(near.lower_bound_sq);
             self.front.set(i, key, child);
             if key > self.bound {
-                self.looks += 1;
-                let looked = Looked { fans: &leaf, p: self.query.p, edges: edges.as_ref() };
-                self.planes.put(child, &looked, self.way, near.lane(), self.shortfall + self.off);
+                self.cost += 1;
+                let looked = VisitedLeaf { fans: &leaf, p: self.query.p, edges: edges.as_ref() };
+                self.planes.put(
+                    child,
+                    &looked,
+                    self.way,
+                    near.lane(),
+                    self.shortfall + self.box_error,
+                );
             }
         } else if let Some((key, _)) = self.front.get(i) {
             self.front.set(i, key, child);
@@ -308,22 +316,23 @@ impl<'a, 't> Follow<'a, 't> {
         );
     }
 
-    /// The key below which nothing can be as near as this.
+    /// An entry with a greater key holds nothing at this squared distance or nearer.
     #[inline(always)]
     pub(crate) fn horizon(&self, distance_sq: f32) -> f32 {
         self.front.horizon(
-            sqrt_approx(self.query.limit(distance_sq)) * (1.0 + ROOT_AND_PRODUCTS) + self.off,
+            sqrt_approx(self.query.limit(distance_sq)) * (1.0 + ROOT_AND_PRODUCTS) + self.box_error,
         )
     }
 
-    /// Key of a leaf without slivers whose triangles' squared distances are not below this.
+    /// Key of a leaf without slivers whose triangles have this least squared lower bound.
     #[inline(always)]
     fn key_of_triangles(&self, lower_bound_sq: f32) -> f32 {
-        let certified = if lower_bound_sq > 0.0 { sqrt_approx(lower_bound_sq) } else { 0.0 };
-        self.front.key(certified * (1.0 - SHORTFALL) - self.shortfall)
+        let lower = if lower_bound_sq > 0.0 { sqrt_approx(lower_bound_sq) } else { 0.0 };
+        self.front.key(lower * (1.0 - SHORTFALL) - self.shortfall)
     }
 
-    /// No triangle but the best, the first entry's, has a key below this.
+    /// The least key of all triangles except the best. The best lies in the first entry; `others`
+    /// is the least key of the other entries.
     #[cold]
     #[inline(never)]
     pub(crate) fn second(&mut self, best: &Nearest, others: f32) -> f32 {
@@ -338,8 +347,8 @@ impl<'a, 't> Follow<'a, 't> {
         least(others, self.key_of_triangles(lower_bound_sq))
     }
 
-    /// The triangle `lane` of the first entry's leaf, if it is certain that nothing with a key from
-    /// `second` on comes as near.
+    /// The triangle `lane` of the first entry's leaf, if it is certainly still the nearest. All
+    /// other triangles have keys of at least `second`.
     #[inline(always)]
     pub(crate) fn same(&mut self, lane: usize, second: f32) -> Option<Nearest> {
         let (_, child) = self.front.get(0)?;

@@ -1,10 +1,12 @@
-//! The front of a coherent query: lower bounds of all parts of the tree, kept from query to query.
+//! The front of a coherent query: nodes and leaves that together hold the whole surface, each with
+//! a lower bound of its distance. It is kept from query to query.
 //!
 //! An entry's key is its bound plus the path length at that time. The query comes nearer by no more
 //! than the path that it travels. So *key − path* stays a lower bound, and no entry has to be
-//! changed or sorted (Guéziec 2000, 5.1: intervals widen by the motion). Entries that lately could
-//! hold the answer are active and stand first. Of the others the least key is known, so most
-//! queries never read them.
+//! changed or sorted (Guéziec 2000, 5.1: intervals widen by the motion).
+//!
+//! Entries that lately could hold the answer are active. They stand first. The least key of the
+//! inactive entries is known, so most queries never read them.
 
 use crate::num::tolerance::PATH_SUM;
 
@@ -42,9 +44,9 @@ impl Child {
         self.0 & 7
     }
 
-    /// The child alone, without the kind of its bound.
+    /// Node and lane, without the kind of the bound.
     #[inline(always)]
-    pub(crate) fn leaf(self) -> u32 {
+    pub(crate) fn without_bound(self) -> u32 {
         self.0 & 0xFFFF_FF07
     }
 
@@ -70,9 +72,9 @@ pub(crate) struct Extent {
     pub(crate) count: usize,
     /// Active entries. They stand first.
     pub(crate) active: usize,
-    /// No other entry has a lesser key.
+    /// No inactive entry has a lesser key.
     pub(crate) rest: f32,
-    /// No entry that was dropped for lack of room has a lesser key.
+    /// No entry that was dropped for lack of memory has a lesser key.
     pub(crate) dropped: f32,
     /// Path length since the front was begun, grid units, rounded up.
     pub(crate) path: f32,
@@ -102,7 +104,8 @@ impl TraversalFront<'_> {
         self.extent.path = (self.extent.path + step) * (1.0 + PATH_SUM);
     }
 
-    /// Counts the path from here on. Keys of a longer path would round too much.
+    /// Sets the path length to 0 and lowers all keys by it. Keys of a longer path would round too
+    /// much.
     #[cold]
     #[inline(never)]
     pub(crate) fn rebase(&mut self) {
@@ -113,17 +116,17 @@ impl TraversalFront<'_> {
             (less(rest), less(dropped), 0.0);
     }
 
-    /// Key of a bound at the present place; a negative one counts as 0.
+    /// Key of a lower bound from the present query. A negative bound counts as 0.
     #[inline(always)]
     pub(crate) fn key(&self, bound: f32) -> f32 {
         let bound = if bound > 0.0 { bound } else { 0.0 };
         (bound + self.extent.path) * (1.0 - PATH_SUM)
     }
 
-    /// An entry with a lesser key may hold something nearer than `reach`.
+    /// An entry with a greater key holds nothing within `max_distance`.
     #[inline(always)]
-    pub(crate) fn horizon(&self, reach: f32) -> f32 {
-        (reach + self.extent.path) * (1.0 + PATH_SUM)
+    pub(crate) fn horizon(&self, max_distance: f32) -> f32 {
+        (max_distance + self.extent.path) * (1.0 + PATH_SUM)
     }
 
     #[inline(always)]
@@ -146,13 +149,13 @@ impl TraversalFront<'_> {
         }
     }
 
-    /// Whether `count` more entries fit.
+    /// Whether `more` entries fit.
     #[inline(always)]
     pub(crate) fn has_room(&self, more: usize) -> bool {
         self.extent.count + more <= self.keys.len().min(self.children.len())
     }
 
-    /// Adds an entry, active if its key is within `horizon`. Without room it is dropped.
+    /// Adds an entry, active if its key is within `horizon`. If it does not fit, it is dropped.
     #[inline(always)]
     pub(crate) fn insert(&mut self, key: f32, child: Child, horizon: f32) {
         let last = self.extent.count;
@@ -181,15 +184,15 @@ impl TraversalFront<'_> {
 
     /// Whether there are entries that are not active.
     #[inline(always)]
-    pub(crate) fn is_waiting(&self) -> bool {
+    pub(crate) fn has_inactive(&self) -> bool {
         self.extent.active < self.extent.count
     }
 
     /// Makes all entries within `horizon` active.
     pub(crate) fn activate(&mut self, horizon: f32) {
         let (mut active, mut rest) = (self.extent.active, f32::INFINITY);
-        let waiting = active..self.extent.count;
-        for i in waiting {
+        let inactive = active..self.extent.count;
+        for i in inactive {
             let Some(&key) = self.keys.get(i) else { break };
             if key <= horizon {
                 self.swap(i, active);
@@ -201,8 +204,8 @@ impl TraversalFront<'_> {
         (self.extent.active, self.extent.rest) = (active, rest);
     }
 
-    /// Makes room. Drops, of the entries that are inactive, or from `from` on and beyond `horizon`,
-    /// those beyond the mean of their keys.
+    /// Frees memory. Deactivates the active entries from `from` on that are beyond `horizon`, then
+    /// drops the inactive entries whose keys are not below the mean.
     #[cold]
     #[inline(never)]
     pub(crate) fn evict(&mut self, from: usize, horizon: f32) {

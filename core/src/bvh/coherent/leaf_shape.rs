@@ -1,5 +1,5 @@
-//! Leaves without slivers. On a sliver the certified bound of a triangle may be far below its
-//! distance.
+//! Finds leaves with slivers. The lower bound of a sliver may be far below its distance, so such a
+//! leaf keeps the bound of its box.
 
 use crate::bvh::format::FanLeaf;
 use crate::bvh::node::{WIDE, in_memory};
@@ -9,7 +9,7 @@ use glam::Vec3;
 
 /// Whether no triangle of a leaf is a sliver. Triangles without area are slivers. `None` says that
 /// the tree is unchecked.
-pub(crate) fn is_sound(leaf: &FanLeaf<'_>) -> Option<bool> {
+pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
     if !WIDE {
         let (count, turn) = (leaf.shape().triangles(), leaf.shape().turn());
         return Some((0..count.min(WIDTH)).all(|lane| {

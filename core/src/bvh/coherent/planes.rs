@@ -1,9 +1,9 @@
 //! Planes between a moving query and the leaves around it.
 //!
-//! A leaf stays beyond a plane wherever the query is. So a plane across the way to a leaf bounds
-//! the leaf's distance from every later point. After a step the bound loses only the order of the
-//! step's square, while path length (Guéziec 2000, 5.1) loses the whole step. To make a plane costs
-//! as much as half a leaf. To use it costs six products.
+//! A leaf lies beyond its plane wherever the query moves. So the distance of the query from the
+//! plane stays a lower bound of the leaf's distance. After a step this bound loses only the order
+//! of the step's square. The bound by path length (Guéziec 2000, 5.1) loses the whole step. To make
+//! a plane costs as much as half a leaf. To use it costs six products.
 
 use super::front::Child;
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -24,12 +24,13 @@ struct Plane {
     of: u32,
 }
 
-/// Planes of leaves that were visited lately. The leaf decides the plane's place.
+/// Planes of leaves that were visited lately: a hash table, where a later leaf overwrites an
+/// earlier one in the same place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes([Plane; PLANES]);
 
 impl Planes {
-    /// A plane that bounds no leaf.
+    /// No leaf has a plane.
     pub(crate) const EMPTY: Planes =
         Planes([Plane { normal: Vec3::ZERO, offset: 0.0, of: u32::MAX }; PLANES]);
 
@@ -38,7 +39,9 @@ impl Planes {
     #[inline(always)]
     pub(crate) fn bound(&self, child: Child, way: Vec3) -> f32 {
         match self.0.get(place(child)) {
-            Some(plane) if plane.of == child.leaf() => dot(plane.normal, way) - plane.offset,
+            Some(plane) if plane.of == child.without_bound() => {
+                dot(plane.normal, way) - plane.offset
+            }
             _ => -1.0,
         }
     }
@@ -50,7 +53,7 @@ impl Planes {
     pub(crate) fn put(
         &mut self,
         child: Child,
-        leaf: &Looked<'_>,
+        leaf: &VisitedLeaf<'_>,
         way: Vec3,
         near: At,
         margin: f32,
@@ -62,14 +65,17 @@ impl Planes {
         if let Some((normal, distance)) = found
             && let Some(plane) = self.0.get_mut(place(child))
         {
-            *plane =
-                Plane { normal, offset: dot(normal, way) - distance + margin, of: child.leaf() };
+            *plane = Plane {
+                normal,
+                offset: dot(normal, way) - distance + margin,
+                of: child.without_bound(),
+            };
         }
     }
 }
 
-/// A leaf as seen from `p`, and its triangles side by side if all were read at once.
-pub(crate) struct Looked<'a> {
+/// A leaf that was visited from the point `p`, and on vector targets its edges as they were read.
+pub(crate) struct VisitedLeaf<'a> {
     pub(crate) fans: &'a FanLeaf<'a>,
     pub(crate) p: Vec3,
     pub(crate) edges: Option<&'a Edges8>,
@@ -78,8 +84,8 @@ pub(crate) struct Looked<'a> {
 /// A point of a triangle of a leaf: the lane, and coordinates along the spokes.
 pub(crate) type At = (usize, f32, f32);
 
-/// A direction slightly shorter than 1. Lengths along it are less than the distance, and less than
-/// a sliver's certified distance.
+/// The direction of `residual`, slightly shorter than 1. So a length along it is below the computed
+/// distance and below the lower bound.
 #[inline(always)]
 fn normal(residual: Vec3) -> Option<Vec3> {
     let length = sqrt_approx(dot(residual, residual));
@@ -137,7 +143,7 @@ pub(crate) fn middle(tree: &Bvh<'_>) -> Vec3 {
 /// Leaves of a node get different places.
 #[inline(always)]
 fn place(child: Child) -> usize {
-    (child.leaf() >> 8).wrapping_mul(5).wrapping_add(child.lane()) as usize % PLANES
+    (child.without_bound() >> 8).wrapping_mul(5).wrapping_add(child.lane()) as usize % PLANES
 }
 
 #[inline(always)]

@@ -1,9 +1,9 @@
-//! Closest points of a query that moves little from one time to the next.
+//! [`CoherentQuery`]: the state of a moving query, and the rule that decides when its front pays.
 //!
 //! After Guéziec, *"Meshsweeper": From Closest Point to Hausdorff Distances Between Meshes* (2000),
-//! sections 3.3 and 5.1, on the box tree.
+//! sections 3.3 and 5.1.
 
-use super::follow::{Follow, Gap, Nearest};
+use super::follow::{Follow, Nearest, NoAnswer};
 use super::front::{Child, Extent, Known, TraversalFront};
 use super::planes::Planes;
 use crate::bvh::closest_point::{Hint, closest_point_from};
@@ -28,16 +28,16 @@ pub struct CoherentClosest {
 
 /// A query that moves. It remembers which parts of the mesh the last answers ruled out.
 ///
-/// It keeps a *front*: up to `N` children of the tree's nodes that together hold the whole surface,
-/// each with a lower bound of its distance. A bound less the path length since then stays a bound.
-/// So a query visits only leaves that may have come near enough. `N` = 128 is enough for steps of a
-/// thousandth of the model. RAM: 8·`N` bytes and about 800 for 32 planes that separate the query
-/// from the leaves around.
+/// It keeps a *front*: up to `N` nodes and leaves that together hold the whole surface, each with a
+/// lower bound of its distance. When the query has moved along a path, each bound less the length
+/// of that path is still a lower bound. So a query visits only leaves that may have come near
+/// enough. `N` = 128 is enough for steps of a thousandth of the model. RAM: 8·`N` bytes, and about
+/// 800 bytes for 32 planes that separate the query from the leaves around it.
 ///
-/// Where steps are so long that the front does not pay, it asks the plain query for a while.
+/// If steps are so long that the front does not pay, plain queries answer for a while.
 ///
-/// It belongs to one tree at a time and begins anew with another. It borrows the blob's bytes, so
-/// they cannot change between queries.
+/// The state belongs to one tree at a time. With another tree it starts anew. It borrows the blob's
+/// bytes, so they cannot change between queries.
 #[derive(Clone, Debug)]
 pub struct CoherentQuery<'t, const N: usize = 128> {
     memory: Memory,
@@ -71,9 +71,9 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
     /// [`Bvh::closest_point`] with the same bits in `distance`, `point` and `triangle`. The less
     /// the query moved, the less work it takes.
     ///
-    /// With a tolerance in `budget` it is that method. Steps bound the search on the front, and the
-    /// plain query after it if that was not enough: together at most twice as many nodes. So the
-    /// answer may be exact where the plain query's is not.
+    /// With a tolerance in `budget`, the plain query answers. The steps bound the search on the
+    /// front and, if that fails, the plain query after it: together at most twice as many nodes. So
+    /// the answer may be exact where the plain query's is not.
     ///
     /// Cost: one triangle within [`CoherentClosest::safe_radius`] of the last answer. One to three
     /// leaves and sometimes a node for steps of 3e-4 of the model's diagonal. The plain query's for
@@ -108,24 +108,26 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
 /// Entries stay active while their keys are within this many steps of the answer. So the inactive
 /// ones are read about once in as many queries.
 const AHEAD: f32 = 8.0;
-/// Cost of a query beside its nodes and leaves.
+/// Cost of a query in addition to its nodes and leaves.
 const BASE: u32 = 4;
-/// Debt at which a coherent query rests, in plain queries.
+/// Debt at which the front rests, as a multiple of a plain query's cost. While it rests, plain
+/// queries answer.
 const CREDIT: u32 = 4;
-/// Plain queries of the first rest and of the longest.
+/// Plain queries in the first rest, and in the longest.
 const REST: (u32, u32) = (8, 256);
-/// A rest ends early after this many steps in a row that are [`SHORTER`] than the one at which it
-/// began.
+/// A rest ends early after this many steps in a row that are much [`SHORTER`] than the step at
+/// which it began.
 const WAKE: u32 = 3;
 /// Ratio of two steps from which on the second counts as much shorter.
 const SHORTER: f32 = 8.0;
 /// After this many queries in a row without debt the next rest is a first one again.
 const RELIABLE: u32 = 64;
 
-/// Whether the front pays. Cost is counted in half leaves: about 250 instructions without vectors,
-/// 30 ns with them. Half leaves of the front count one and a half times: with vectors they take
-/// that long, because each step has to wait for the leaf before it. The rule is the same on every
-/// target, so the answers are too.
+/// The rule that decides whether the front pays.
+///
+/// Cost is counted in half leaves: about 250 instructions without vectors, 30 ns with them. The
+/// front's cost counts one and a half times. With vectors it takes that long, because each step has
+/// to wait for the leaf before it. The rule is the same on every target, so the answers are too.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
     /// Cost of a plain query here. 0 before the first.
@@ -136,9 +138,9 @@ struct Pace {
     resting: u32,
     /// Plain queries of the next rest.
     rest: u32,
-    /// Length of the step at which this rest began, and the number of much shorter ones in a row
-    /// since.
+    /// Length of the step at which this rest began.
     too_long: f32,
+    /// Steps in a row since then that were much shorter.
     short: u32,
     /// Queries from the front in a row without debt.
     good: u32,
@@ -207,8 +209,8 @@ struct Last {
     lane: usize,
     child: Child,
     triangle: Option<u32>,
-    /// Of a plain query's answer: upper bound of the distance, grid units.
-    reach: f32,
+    /// Upper bound of the distance by the last plain query, grid units.
+    plain_upper: f32,
     /// No other triangle has a lesser key. 0 if unknown.
     second: f32,
 }
@@ -224,7 +226,7 @@ impl Memory {
             lane: 0,
             child: Child::NONE,
             triangle: None,
-            reach: f32::INFINITY,
+            plain_upper: f32::INFINITY,
             second: 0.0,
         },
         hint: Hint::NONE,
@@ -264,18 +266,19 @@ impl Memory {
         if self.pace.follows(step) {
             match self.follow(keys, children, tree, &query, (step, budget.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
-                Err(Gap::Model) => return Err(QueryError::Unchecked),
-                Err(Gap::Undecided) => {}
-                Err(Gap::Lost) => self.extent = Extent::EMPTY,
+                Err(NoAnswer::Unchecked) => return Err(QueryError::Unchecked),
+                Err(NoAnswer::Undecided) => {}
+                Err(NoAnswer::Lost) => self.extent = Extent::EMPTY,
             }
         } else {
-            // Keys count only with the path length at which they were found.
+            // The path was not counted, so the keys are no bounds any more.
             self.extent = Extent::EMPTY;
             (self.last.known, self.last.second) = (false, 0.0);
         }
         let mut closest = closest_point_from(tree, point, &mut self.hint, budget, scratch)?;
         self.pace.plain_query(&closest.work);
-        self.last.reach = query.units.inward(closest.distance.upper) + query.units.surface_error;
+        self.last.plain_upper =
+            query.units.inward(closest.distance.upper) + query.units.surface_error;
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
         closest.work.triangles = closest.work.triangles.saturating_add(spent.triangles);
         closest.work.splits = closest.work.splits.saturating_add(spent.splits);
@@ -292,14 +295,14 @@ impl Memory {
         query: &PointQuery,
         (step, steps): (f32, u32),
         spent: &mut Work,
-    ) -> Result<CoherentClosest, Gap> {
+    ) -> Result<CoherentClosest, NoAnswer> {
         let Memory { extent, planes, last, pace, .. } = self;
         let fresh = extent.count == 0;
         let mut front = TraversalFront { keys, children, extent };
         front.advance(if fresh { 0.0 } else { step });
         let mut follow = Follow::new(tree, query, front, planes, AHEAD * step, steps);
         let path = follow.front.extent.path;
-        if path > follow.off * LONG_PATH {
+        if path > follow.box_error * LONG_PATH {
             last.second = if last.second > path {
                 (last.second - path) * (1.0 - ROOT_AND_PRODUCTS)
             } else {
@@ -316,11 +319,11 @@ impl Memory {
             Some(nearest) => nearest,
             None => {
                 let found = if fresh {
-                    follow.begin(last.reach + step, 4 * pace.plain)
+                    follow.begin(last.plain_upper + step, 4 * pace.plain)
                 } else {
                     follow.nearest(last.known, 2 * pace.plain)
                 };
-                pace.spend(BASE + follow.front.extent.active as u32 / 8 + follow.looks, step);
+                pace.spend(BASE + follow.front.extent.active as u32 / 8 + follow.cost, step);
                 *spent = follow.work;
                 (last.known, last.second) = (false, 0.0);
                 let nearest = found?;
@@ -350,7 +353,8 @@ impl Memory {
             }
         }
         let safe_radius = safe(last.second);
-        let leaf = tree.leaf(nearest.child.node(), nearest.child.lane()).ok_or(Gap::Model)?;
+        let leaf =
+            tree.leaf(nearest.child.node(), nearest.child.lane()).ok_or(NoAnswer::Unchecked)?;
         let closest = ClosestPoint {
             distance: Interval::new(
                 query.lower(sqrt_approx(if below > 0.0 { below } else { 0.0 })),

@@ -8,9 +8,10 @@ use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::geom::fan::WIDTH;
 
-/// Keys of a node's children: their squared distance from the point, grid units, not below
-/// `parent`'s, rounded down in the low three bits, which hold the lane. Lanes from `count` on are
-/// [`NO_CHILD`]. The distance is a lower bound up to the rounding of `core/docs/rounding.md` §8.
+/// Keys of a node's children: squared distances from the point, grid units. No key is below the
+/// parent's, and the low three bits hold the lane. Lanes from `count` on are [`NO_CHILD`].
+///
+/// The distance is a lower bound up to the rounding of `core/docs/rounding.md` §8.
 #[inline(always)]
 pub fn box_distances(
     record: &[u8; FRAME_BYTES],
@@ -60,8 +61,8 @@ fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
     let beyond = q - f32::from(high);
     let far = if below > beyond { below } else { beyond };
     let far = if far > 0.0 { far } else { 0.0 };
-    // In this order no product leaves f32's range: a flat node's steps are tiny, and a far point is
-    // many steps away.
+    // This order keeps every product within f32's range. A flat node's steps are tiny, so a far
+    // point is very many steps away.
     far * (far * weight)
 }
 
@@ -103,7 +104,7 @@ fn along(
 ) {
     let (low, high, sum) = (low.iter().take(count), high.iter().take(count), sum.iter_mut());
     if q <= 0.0 {
-        // Outside all boxes on this axis: one side counts.
+        // The point is below all boxes on this axis, so only their low planes count.
         for (sum, &low) in sum.zip(low) {
             let out = f32::from(low) - q;
             *sum += out * (out * weight);

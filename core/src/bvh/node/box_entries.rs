@@ -1,8 +1,9 @@
 //! A segment against eight axis-aligned boxes in 8 bits.
 //!
-//! A box plane of byte `v` lies at `origin + (v − 128)·step`, so the segment's line meets it at the
-//! parameter `v·m + c` with two numbers for each node and axis. The near row of bytes depends on
-//! the direction. It is chosen once for each segment.
+//! A box plane of byte `v` lies at `origin + (v − 128)·step`. So the segment's line meets it at the
+//! parameter `v·m + c`, where m and c are two numbers for each node and axis. Along each axis the
+//! segment meets one row of planes before the other. Which row that is depends on the direction
+//! alone, so it is chosen once for each segment.
 
 use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
@@ -15,7 +16,8 @@ pub struct Slabs {
     inverse: [f32; 3],
     /// Parameter by which a box begins earlier and ends later than its planes.
     grow: [f32; 3],
-    /// Row of the near planes, the far ones are the row's neighbour.
+    /// For each axis the row of the planes that the segment meets first. The other row is next to
+    /// it.
     near: [usize; 3],
 }
 
@@ -45,9 +47,9 @@ impl Slabs {
     }
 }
 
-/// Keys of a node's children: the parameter at which the segment enters their boxes, not below
-/// `from`, rounded down in the low three bits, which hold the lane. Boxes that it does not enter up
-/// to `limit`, and lanes from `count` on, have [`NO_CHILD`] or more.
+/// Keys of a node's children: the parameters at which the segment enters their boxes. No key is
+/// below `from`, and the low three bits hold the lane. Boxes that the segment does not enter up to
+/// `limit`, and lanes from `count` on, have [`NO_CHILD`] or more.
 #[inline(always)]
 pub fn box_entries(
     record: &[u8; BOXES_BYTES],
@@ -114,8 +116,8 @@ pub(crate) fn wide(
     in_memory(keys)
 }
 
-/// The entry only grows and the exit only falls. So the first axis without an overlap decides, with
-/// the same keys.
+/// Stops at the first axis on which the box is missed. From axis to axis the entry only grows and
+/// the exit only falls, so the keys are those of `wide`.
 #[inline(always)]
 pub(crate) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];

@@ -11,7 +11,7 @@ pub const NO_CHILD: f32 = f32::from_bits(0x7F00_0000);
 /// Whether the target has vector registers, so that unwanted lanes cost nothing.
 pub const WIDE: bool = cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
 
-/// The least key: its lane is in its low bits.
+/// The least key. Its low bits hold the nearest lane.
 #[inline(always)]
 pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
     if !WIDE {
@@ -23,8 +23,8 @@ pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
     less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
 }
 
-/// The same lanes, written to memory side by side. Else the compiler computes values lane by lane
-/// that are used lane by lane.
+/// The same lanes, forced into memory. Otherwise the compiler undoes the vectorisation: it computes
+/// values lane by lane if they are used lane by lane.
 #[inline(always)]
 pub fn in_memory<T>(lanes: T) -> T {
     core::hint::black_box(lanes)

@@ -1,9 +1,9 @@
-//! Boxes of a node as intervals along six directions: the axes of the one tree's boxes, and of the
-//! other's.
+//! A node's boxes as intervals along six directions: the axes of both trees' boxes.
 //!
-//! All boxes of a tree have the same axes, so these are the face normals of every pair of boxes.
-//! The nine products of edges would make the test exact, but separate few boxes more (van den
-//! Bergen, *Efficient Collision Detection of Complex Deformable Models using AABB Trees*, 1997).
+//! All boxes of a tree have the same axes, so the six directions are the face normals of every pair
+//! of boxes. The nine cross products of edges would make the test exact. They are left out, because
+//! they separate few more boxes (van den Bergen, *Efficient Collision Detection of Complex
+//! Deformable Models using AABB Trees*, 1997).
 
 use super::relative_pose::{DIRECTIONS, Side};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
@@ -17,7 +17,8 @@ pub(crate) struct AxisIntervals {
     high: [[f32; WIDTH]; DIRECTIONS],
 }
 
-/// Twice the middles and twice the half lengths of boxes along an axis, in steps from byte 0.
+/// Along one axis, the sums and the differences of the boxes' high and low bytes: twice the
+/// middles, and the lengths.
 type Boxes = ([f32; WIDTH], [f32; WIDTH]);
 
 impl AxisIntervals {
@@ -28,22 +29,26 @@ impl AxisIntervals {
         let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
         let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
         let [lx, hx, ly, hy, lz, hz] = rows;
-        let boxes = [both(lx, hx), both(ly, hy), both(lz, hz)];
+        let boxes = [
+            sums_and_differences(lx, hx),
+            sums_and_differences(ly, hy),
+            sums_and_differences(lz, hz),
+        ];
         let [x, y, z] = side.origin;
         let start = [(ox - x) - 128.0 * ux, (oy - y) - 128.0 * uy, (oz - z) - 128.0 * uz];
-        let mut spans =
+        let mut intervals =
             AxisIntervals { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
-        let out = spans.low.iter_mut().zip(&mut spans.high);
+        let out = intervals.low.iter_mut().zip(&mut intervals.high);
         let directions = side.rows.iter().zip(side.shift).zip(side.grow);
         for ((low, high), ((row, shift), grow)) in out.zip(directions) {
             along(row, start, [ux, uy, uz], &boxes, [shift, grow], count, low, high);
         }
-        Some(spans)
+        Some(intervals)
     }
 }
 
 #[inline(always)]
-fn both(low: &[u8; WIDTH], high: &[u8; WIDTH]) -> Boxes {
+fn sums_and_differences(low: &[u8; WIDTH], high: &[u8; WIDTH]) -> Boxes {
     let (mut sum, mut difference) = ([0f32; WIDTH], [0f32; WIDTH]);
     for i in 0..WIDTH {
         let (low, high) = (f32::from(low[i]), f32::from(high[i]));
@@ -92,8 +97,8 @@ fn along(
 pub(crate) struct Pairs {
     /// A byte for each child of the first node, a bit in it for each child of the second.
     pub(crate) bits: [u32; 2],
-    /// The pair that overlaps most along the direction of its least overlap: where a search for
-    /// contact should begin.
+    /// The pair with the greatest depth. A pair's depth is its least overlap over the directions.
+    /// Surfaces most often meet there.
     pub(crate) deepest: [u32; 2],
 }
 
@@ -107,10 +112,10 @@ pub(crate) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, lanes: u32)
         let i = left.trailing_zeros();
         left &= left - 1;
         let depths = if WIDE { wide(a, b, i as usize) } else { narrow(a, b, i as usize, lanes) };
-        let (mut met, mut bit) = (0u32, 1u32);
+        let (mut meeting, mut bit) = (0u32, 1u32);
         for (j, &deep) in (0u32..).zip(&depths) {
             if deep >= 0.0 && lanes & bit != 0 {
-                met |= bit;
+                meeting |= bit;
                 if deep > depth {
                     depth = deep;
                     pairs.deepest = [i, j];
@@ -119,7 +124,7 @@ pub(crate) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, lanes: u32)
             bit <<= 1;
         }
         let [low, high] = &mut pairs.bits;
-        *(if i < 4 { low } else { high }) |= met << (8 * (i & 3));
+        *(if i < 4 { low } else { high }) |= meeting << (8 * (i & 3));
     }
     pairs
 }
@@ -180,22 +185,22 @@ mod tests {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 8) as f32 / 65_536.0 - 128.0
         };
-        let mut met = 0;
+        let mut meeting = 0;
         for round in 0..500 {
-            let mut spans = || {
-                let mut spans = AxisIntervals {
+            let mut intervals = || {
+                let mut intervals = AxisIntervals {
                     low: [[0.0; WIDTH]; DIRECTIONS],
                     high: [[0.0; WIDTH]; DIRECTIONS],
                 };
                 for (low, high) in
-                    spans.low.iter_mut().flatten().zip(spans.high.iter_mut().flatten())
+                    intervals.low.iter_mut().flatten().zip(intervals.high.iter_mut().flatten())
                 {
                     *low = random();
                     *high = *low + if round % 5 == 0 { 0.0 } else { random().abs() * 2.0 };
                 }
-                spans
+                intervals
             };
-            let (a, b) = (spans(), spans());
+            let (a, b) = (intervals(), intervals());
             let b = if round % 7 == 0 { a } else { b };
             for i in 0..WIDTH {
                 let (first, second) = (wide(&a, &b, i), narrow(&a, &b, i, 0b1011_0111));
@@ -204,11 +209,11 @@ mod tests {
                         assert!(second[j] < 0.0);
                     } else {
                         assert_eq!(first[j].to_bits(), second[j].to_bits());
-                        met += 1;
+                        meeting += 1;
                     }
                 }
             }
         }
-        assert!(met > 1_000, "{met}");
+        assert!(meeting > 1_000, "{meeting}");
     }
 }

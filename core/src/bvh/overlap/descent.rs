@@ -1,9 +1,9 @@
-//! The descent of both trees: pairs of nodes, the children of one or both opened, until leaves meet
-//! leaves.
+//! The descent of two trees at once. It visits pairs of nodes whose boxes meet, and at its end
+//! pairs of leaves.
 //!
-//! All pairs of children of two nodes are tested at once and give 64 bits: a byte for each child of
-//! the first node, a bit in it for each child of the second. An entry of the stack is two scratch
-//! entries, each with one node and 32 of the bits.
+//! All pairs of children of two nodes are tested together. The result is 64 bits: a byte for each
+//! child of the first node, and in it a bit for each child of the second. A stack entry takes two
+//! scratch entries, each with one node and 32 of the bits.
 
 use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;
@@ -14,15 +14,15 @@ use crate::geom::{Contact, Pose};
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// Places of two triangles: node, child and lane in each tree.
-pub(crate) type Place = [[u32; 3]; 2];
+pub(crate) type PairPlace = [[u32; 3]; 2];
 
 /// A question's visitor for pairs of triangles that meet or may meet.
-pub(crate) trait Collect {
+pub(crate) trait PairVisitor {
     /// Whether to go on. `None` says that a tree is unchecked.
-    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool>;
+    fn pair(&mut self, place: PairPlace, contact: Contact) -> Option<bool>;
 }
 
-/// Sum of the steps of a node's boxes, grid units: half of its size, or all of it.
+/// The size of a node up to a factor of two: the sum of its boxes' steps, grid units.
 #[inline(always)]
 fn size(tree: &Bvh<'_>, node: u32) -> Option<f32> {
     let words = tree.boxes(node)?.as_chunks::<4>().0.get(boxes::STEPS / 4..)?.first_chunk::<3>()?;
@@ -40,7 +40,7 @@ pub(crate) fn descend(
     pose: &Pose,
     steps: u32,
     scratch: &mut [ScratchEntry],
-    collect: &mut impl Collect,
+    visitor: &mut impl PairVisitor,
 ) -> Result<(Option<Ended>, Work), QueryError> {
     let mut work = Work::default();
     if !(a.serves_segments() && b.serves_segments()) {
@@ -50,37 +50,38 @@ pub(crate) fn descend(
         return Err(QueryError::NoScratch);
     }
     let (stack, _) = scratch.as_chunks_mut::<2>();
-    let Some(place) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
-    let units = [place.sides[0].unit, place.sides[1].unit];
-    let mut missed = None;
-    let mut waiting = 0usize;
+    let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
+    let units = [pose.sides[0].unit, pose.sides[1].unit];
+    let mut truncated = None;
+    let mut used = 0usize;
     let mut nodes = [0u32; 2];
+    // The children of each node that still count, as bits.
     let mut wanted = [u32::MAX; 2];
     loop {
         if work.splits >= steps {
             return Ok((Some(Ended::Steps), work));
         }
         work.splits += 1;
-        let pairs = open(a, b, &place, nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
+        let pairs = open(a, b, &pose, nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
         let mut next = None;
         if pairs.bits != [0; 2] {
             // Surfaces that meet mostly do so where boxes overlap most.
             next = Some((nodes, pairs.deepest));
             let left = without(pairs.bits, pairs.deepest);
             if left != [0; 2] {
-                match stack.get_mut(waiting) {
+                match stack.get_mut(used) {
                     Some(slot) => {
                         *slot = entry(nodes, left);
-                        waiting += 1;
+                        used += 1;
                     }
-                    None => missed = Some(Ended::Scratch),
+                    None => truncated = Some(Ended::Scratch),
                 }
             }
         }
-        // The next pair with a node to open. Pairs of leaves on the way are visited.
+        // Finds the next pair with a node to open, and visits the pairs of leaves before it.
         loop {
-            let Some((parents, lanes)) = next.take().or_else(|| take(stack, &mut waiting)) else {
-                return Ok((missed, work));
+            let Some((parents, lanes)) = next.take().or_else(|| take(stack, &mut used)) else {
+                return Ok((truncated, work));
             };
             let child = |tree: &Bvh<'_>, which: usize| tree.child(parents[which], lanes[which]);
             let children = [
@@ -89,6 +90,7 @@ pub(crate) fn descend(
             ];
             let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Unchecked)?;
             if opens_a || opens_b {
+                // A child that is not opened stays a child of its parent, alone.
                 let down = |opens: bool, which: usize| {
                     if opens {
                         (children[which].at, u32::MAX)
@@ -101,9 +103,9 @@ pub(crate) fn descend(
                 wanted = [rows, columns];
                 break;
             }
-            let go_on = leaves(a, b, &place, parents, lanes, children, collect, &mut work);
+            let go_on = leaves(a, b, &pose, parents, lanes, children, visitor, &mut work);
             if !go_on.ok_or(QueryError::Unchecked)? {
-                return Ok((missed, work));
+                return Ok((truncated, work));
             }
         }
     }
@@ -117,8 +119,8 @@ fn entry([a, b]: [u32; 2], [low, high]: [u32; 2]) -> [ScratchEntry; 2] {
 
 /// Takes the next pair off the stack: its parents, and which children.
 #[inline(always)]
-fn take(stack: &mut [[ScratchEntry; 2]], waiting: &mut usize) -> Option<([u32; 2], [u32; 2])> {
-    let top = waiting.checked_sub(1)?;
+fn take(stack: &mut [[ScratchEntry; 2]], used: &mut usize) -> Option<([u32; 2], [u32; 2])> {
+    let top = used.checked_sub(1)?;
     let slot = stack.get_mut(top)?;
     let [[a, low], [b, high]] = slot.map(ScratchEntry::words);
     let (word, base) = if low != 0 { (low, 0) } else { (high, 4) };
@@ -127,7 +129,7 @@ fn take(stack: &mut [[ScratchEntry; 2]], waiting: &mut usize) -> Option<([u32; 2
     let rest = without([low, high], lanes);
     *slot = entry([a, b], rest);
     if rest == [0; 2] {
-        *waiting = top;
+        *used = top;
     }
     Some(([a, b], lanes))
 }
@@ -161,15 +163,15 @@ fn opened(
 fn open(
     a: &Bvh<'_>,
     b: &Bvh<'_>,
-    place: &RelativePose,
+    pose: &RelativePose,
     nodes: [u32; 2],
     wanted: [u32; 2],
     work: &mut Work,
 ) -> Option<Pairs> {
     let side = |tree: &Bvh<'_>, which: usize| {
         let count = tree.links(nodes[which])?.count;
-        let spans = AxisIntervals::of(&place.sides[which], tree.boxes(nodes[which])?, count)?;
-        Some((spans, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
+        let intervals = AxisIntervals::of(&pose.sides[which], tree.boxes(nodes[which])?, count)?;
+        Some((intervals, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
     };
     let ((first, rows), (second, lanes)) = (side(a, 0)?, side(b, 1)?);
     work.nodes = work.nodes.saturating_add(rows.count_ones() * lanes.count_ones());
@@ -182,23 +184,23 @@ fn open(
 fn leaves(
     a: &Bvh<'_>,
     b: &Bvh<'_>,
-    place: &RelativePose,
+    pose: &RelativePose,
     nodes: [u32; 2],
     lanes: [u32; 2],
     [first, second]: [BvhChild; 2],
-    collect: &mut impl Collect,
+    visitor: &mut impl PairVisitor,
     work: &mut Work,
 ) -> Option<bool> {
     let (p, q) = (a.leaf_at(first.at, first.shape)?, b.leaf_at(second.at, second.shape)?);
-    let mut pair = LeafPair::new(place, &p, &q);
+    let mut pair = LeafPair::new(pose, &p, &q);
     for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
         while bits != 0 {
             let j = bits.trailing_zeros();
             bits &= bits - 1;
-            let contact = pair.settle(i, j as usize, work);
+            let contact = pair.meet(i, j as usize, work);
             if contact != Contact::Apart {
                 let place = [[nodes[0], lanes[0], i as u32], [nodes[1], lanes[1], j]];
-                if !collect.pair(place, contact)? {
+                if !visitor.pair(place, contact)? {
                     return Some(false);
                 }
             }

@@ -35,7 +35,7 @@ impl Corners {
         let mut at = [[0.0; SLOTS]; 3];
         let used = (RING + triangles + 1).min(SLOTS);
         for (at, stored) in at.iter_mut().zip(leaf.stored_vertices()) {
-            // Slots not in use must not count as far away.
+            // Unused slots repeat the first centre, so that they do not widen the box.
             *at = [stored[0]; SLOTS];
             at.iter_mut().zip(stored).take(used).for_each(|(x, stored)| *x = stored);
         }
@@ -52,7 +52,7 @@ impl Corners {
         [usize::from(triangle >= self.turn), RING + triangle, RING + 1 + triangle]
     }
 
-    /// The box of all.
+    /// The box of all vertices.
     #[inline(always)]
     fn extent(&self) -> Extent {
         let low = self.at.map(|axis| axis.into_iter().fold(f32::MAX, less));
@@ -62,7 +62,7 @@ impl Corners {
 
     /// Largest 1-norm.
     #[inline(always)]
-    fn reach(&self) -> f32 {
+    fn max_norm(&self) -> f32 {
         let [x, y, z] = &self.at;
         let mut far = [0f32; SLOTS];
         for i in 0..SLOTS {
@@ -150,7 +150,7 @@ struct Sides {
 impl Sides {
     /// The planes that have all vertices of a triangle on one side.
     #[inline(always)]
-    fn parting(&self, slots: [usize; 3]) -> u32 {
+    fn separating_planes(&self, slots: [usize; 3]) -> u32 {
         let all = |bits: &[u32; SLOTS]| {
             slots.iter().fold(u32::MAX, |all, &slot| all & bits.get(slot).copied().unwrap_or(0))
         };
@@ -202,16 +202,16 @@ impl Boxes {
 }
 
 impl Extent {
-    /// Whether two boxes are farther than `doubt` from each other along an axis.
+    /// Whether two boxes are farther than `error` from each other along an axis.
     #[inline(always)]
-    fn is_beyond(&self, other: &Extent, doubt: f32) -> bool {
+    fn is_beyond(&self, other: &Extent, error: f32) -> bool {
         let axes = self.low.iter().zip(&self.high).zip(other.low.iter().zip(&other.high));
-        axes.into_iter().any(|((from, to), (low, high))| greater(low - to, from - high) > doubt)
+        axes.into_iter().any(|((from, to), (low, high))| greater(low - to, from - high) > error)
     }
 
-    /// Which of the first `count` boxes, among those `wanted`, are within `doubt` along every axis.
+    /// Which of the first `count` boxes, among those `wanted`, are within `error` along every axis.
     #[inline(always)]
-    fn near(&self, boxes: &Boxes, count: usize, wanted: u32, doubt: f32) -> u32 {
+    fn near(&self, boxes: &Boxes, count: usize, wanted: u32, error: f32) -> u32 {
         let mut bits = wanted & u32::MAX >> (32 - count.clamp(1, WIDTH));
         let axes = self.low.iter().zip(&self.high).zip(boxes.low.iter().zip(&boxes.high));
         if WIDE {
@@ -222,13 +222,13 @@ impl Extent {
                 }
             }
             for (j, &gap) in gaps.iter().enumerate() {
-                bits &= if gap <= doubt { u32::MAX } else { !(1 << j) };
+                bits &= if gap <= error { u32::MAX } else { !(1 << j) };
             }
             return bits;
         }
         for ((from, to), (low, high)) in axes {
             for (j, (low, high)) in low.iter().zip(high).enumerate() {
-                if bits >> j & 1 != 0 && greater(low - to, from - high) > doubt {
+                if bits >> j & 1 != 0 && greater(low - to, from - high) > error {
                     bits &= !(1 << j);
                 }
             }
@@ -255,7 +255,7 @@ fn blend(mask: u32, axis: &[f32; SLOTS]) -> f32 {
 
 /// A leaf of the first tree, and one of the second, in common units from a vertex of the first.
 pub(crate) struct LeafPair<'a> {
-    place: &'a RelativePose,
+    pose: &'a RelativePose,
     leaves: [FanLeaf<'a>; 2],
     a: Corners,
     b: Corners,
@@ -265,9 +265,9 @@ pub(crate) struct LeafPair<'a> {
 
 impl<'a> LeafPair<'a> {
     #[inline(always)]
-    pub(crate) fn new(place: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
+    pub(crate) fn new(pose: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
         let (mut first, mut second) = (Corners::stored(a), Corners::stored(b));
-        let [side, _] = &place.sides;
+        let [side, _] = &pose.sides;
         let unit = side.unit;
         let base = first.corner(0).map(|x| x * unit);
         for (axis, base) in first.at.iter_mut().zip(base) {
@@ -276,7 +276,7 @@ impl<'a> LeafPair<'a> {
             }
         }
         let [x, y, z] = second.at;
-        let rows = place.matrix.iter().zip(place.shift).zip(base);
+        let rows = pose.matrix.iter().zip(pose.shift).zip(base);
         for (axis, ((row, shift), base)) in second.at.iter_mut().zip(rows) {
             let [a, b, c] = *row;
             for i in 0..SLOTS {
@@ -284,20 +284,20 @@ impl<'a> LeafPair<'a> {
             }
         }
         let none = || Sides { above: [0; SLOTS], below: [0; SLOTS] };
-        LeafPair { place, leaves: [*a, *b], a: first, b: second, sides: [none(), none()] }
+        LeafPair { pose, leaves: [*a, *b], a: first, b: second, sides: [none(), none()] }
     }
 
     /// Pairs that no coordinate and no triangle's plane separates: for each triangle of the first
     /// leaf those of the second.
     #[inline(always)]
     pub(crate) fn candidates(&mut self) -> Option<[u32; WIDTH]> {
-        let near = self.side_by_side()?;
+        let near = self.pairs_of_meeting_boxes()?;
         if near.iter().all(|&bits| bits == 0) {
             return Some([0; WIDTH]);
         }
-        let (far_a, far_b) = (self.a.reach(), self.b.reach());
+        let (far_a, far_b) = (self.a.max_norm(), self.b.max_norm());
         let far = if far_a > far_b { far_a } else { far_b };
-        let shift = self.place.doubt + self.place.doubt;
+        let shift = self.pose.vertex_error + self.pose.vertex_error;
         let (mut rows, mut lanes) = (0u32, 0u32);
         for (i, &bits) in near.iter().enumerate() {
             rows |= u32::from(bits != 0) << i;
@@ -307,12 +307,12 @@ impl<'a> LeafPair<'a> {
         let to_second = Facets::of(&self.b, lanes, far, shift)?.sides(lanes, &self.a);
         let mut candidates = near;
         for (i, bits) in candidates.iter_mut().enumerate().take(self.a.triangles) {
-            *bits &= !to_second.parting(self.a.slots(i));
+            *bits &= !to_second.separating_planes(self.a.slots(i));
         }
         for j in 0..self.b.triangles {
-            let parting = to_first.parting(self.b.slots(j));
+            let separating_planes = to_first.separating_planes(self.b.slots(j));
             for (i, bits) in candidates.iter_mut().enumerate() {
-                *bits &= !((parting >> i & 1) << j);
+                *bits &= !((separating_planes >> i & 1) << j);
             }
         }
         self.sides = [to_second, to_first];
@@ -321,24 +321,24 @@ impl<'a> LeafPair<'a> {
 
     /// Pairs whose boxes along the axes meet.
     #[inline(always)]
-    fn side_by_side(&self) -> Option<[u32; WIDTH]> {
+    fn pairs_of_meeting_boxes(&self) -> Option<[u32; WIDTH]> {
         // Each vertex may be off. Differences are compared, not sums, so only their own rounding
-        // counts. It is less than the excess of `doubt`.
-        let doubt = self.place.doubt + self.place.doubt;
+        // counts. It is less than the excess of `vertex_error`.
+        let error = self.pose.vertex_error + self.pose.vertex_error;
         let (whole, other) = (self.a.extent(), self.b.extent());
         let mut near = [0u32; WIDTH];
-        if whole.is_beyond(&other, doubt) {
+        if whole.is_beyond(&other, error) {
             return Some(near);
         }
         let (first, second) = (Boxes::of(&self.a)?, Boxes::of(&self.b)?);
-        let rows = other.near(&first, self.a.triangles, u32::MAX, doubt);
-        let lanes = whole.near(&second, self.b.triangles, u32::MAX, doubt);
+        let rows = other.near(&first, self.a.triangles, u32::MAX, error);
+        let lanes = whole.near(&second, self.b.triangles, u32::MAX, error);
         if rows == 0 || lanes == 0 {
             return Some(near);
         }
         for (i, near) in near.iter_mut().enumerate() {
             if rows >> i & 1 != 0 {
-                *near = first.one(i).near(&second, self.b.triangles, lanes, doubt);
+                *near = first.one(i).near(&second, self.b.triangles, lanes, error);
             }
         }
         Some(near)
@@ -346,33 +346,33 @@ impl<'a> LeafPair<'a> {
 
     /// Whether triangle `i` of the first leaf and `j` of the second meet.
     #[inline(never)]
-    pub(crate) fn settle(&self, i: usize, j: usize, work: &mut Work) -> Contact {
+    pub(crate) fn meet(&self, i: usize, j: usize, work: &mut Work) -> Contact {
         work.triangles = work.triangles.saturating_add(1);
         let a = self.a.slots(i).map(|slot| self.a.corner(slot));
         let b = self.b.slots(j).map(|slot| self.b.corner(slot));
         let [to_second, to_first] = &self.sides;
         let (a_sides, b_sides) =
             (to_second.of(self.a.slots(i), j), to_first.of(self.b.slots(j), i));
-        let doubt = self.place.doubt;
+        let vertex_error = self.pose.vertex_error;
         let contact = if a_sides.iter().chain(&b_sides).all(|&side| side != 0) {
-            straddling_triangles_meet(a, b, [a_sides, b_sides], doubt + doubt)
+            straddling_triangles_meet(a, b, [a_sides, b_sides], vertex_error + vertex_error)
         } else {
-            triangles_meet(a, b, doubt)
+            triangles_meet(a, b, vertex_error)
         };
         if contact != Contact::Open {
             return contact;
         }
         work.exact = work.exact.saturating_add(1);
-        self.settle_exactly(i, j)
+        self.meet_exactly(i, j)
     }
 
     /// The same in f64.
     #[cold]
     #[inline(never)]
-    fn settle_exactly(&self, i: usize, j: usize) -> Contact {
-        let RelativePose { matrix, shift_exact, doubt_exact, .. } = *self.place;
+    fn meet_exactly(&self, i: usize, j: usize) -> Contact {
+        let RelativePose { matrix, shift_exact, vertex_error_exact, .. } = *self.pose;
         let [first, second] = &self.leaves;
-        let unit = f64::from(self.place.sides[0].unit);
+        let unit = f64::from(self.pose.sides[0].unit);
         let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
             let stored = leaf.stored_vertices();
             slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))
@@ -389,6 +389,6 @@ impl<'a> LeafPair<'a> {
             [along(r, u, cx), along(s, v, cy), along(t, w, cz)]
         });
         let a = a.map(|[x, y, z]| [(x - cx) * unit, (y - cy) * unit, (z - cz) * unit]);
-        triangles_meet(a, b, doubt_exact)
+        triangles_meet(a, b, vertex_error_exact)
     }
 }

@@ -16,8 +16,8 @@ use crate::query::QueryError;
 /// Directions along which boxes are compared: the axes of both trees' boxes.
 pub(crate) const DIRECTIONS: usize = 6;
 
-/// Largest ratio of the trees' grid units, 2^40. There the smaller model is a point to the larger
-/// one.
+/// Largest ratio of the trees' grid units, as a power of two. At 2^40 the smaller model is a point
+/// to the larger one.
 const RATIO: i32 = 40;
 
 /// A tree's frame along the directions.
@@ -43,19 +43,20 @@ pub(crate) struct RelativePose {
     pub(crate) matrix: [[f32; 3]; 3],
     pub(crate) shift: [f32; 3],
     pub(crate) shift_exact: [f64; 3],
-    /// Greatest error of a computed vertex, surface errors included: in f32, and in f64.
-    pub(crate) doubt: f32,
-    pub(crate) doubt_exact: f64,
+    /// Greatest error of a vertex computed in f32, surface errors included.
+    pub(crate) vertex_error: f32,
+    /// The same in f64.
+    pub(crate) vertex_error_exact: f64,
 }
 
-/// The origin of a tree's vertices: f32 vertices have none.
+/// The grid origin that a tree's vertices are stored without; 0 for f32 vertices.
 fn origin(tree: &Bvh<'_>) -> [f64; 3] {
     if tree.header().is_f32() { [0.0; 3] } else { tree.header().grid_origin.map(f64::from) }
 }
 
 /// Extent of a tree's box from its origin along each axis, in grid units, and one more for boxes
 /// without extent.
-fn reach(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
+fn extent(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (low, high) = (tree.scale().low, tree.scale().high);
     let along = |low: f32, high: f32, origin: f64| {
         let (low, high) = ((f64::from(low) - origin).abs(), (f64::from(high) - origin).abs());
@@ -68,7 +69,7 @@ fn dot([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
     (a * x + b * y) + c * z
 }
 
-/// The greatest that `row·q` can be for `|q| ≤ reach`, axis by axis.
+/// The greatest that `row·q` can be for `|q| ≤ extent`, axis by axis.
 fn most([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
     (a.abs() * x + b.abs() * y) + c.abs() * z
 }
@@ -78,7 +79,7 @@ fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 impl RelativePose {
-    /// `None`: the trees are so far from each other that no pair can meet.
+    /// `None` if the trees are so far from each other that no pair can meet.
     pub(crate) fn new(
         a: &Bvh<'_>,
         b: &Bvh<'_>,
@@ -112,8 +113,8 @@ impl RelativePose {
             (dot(r1, from) * unit_b - p1 * unit_a) + t1,
             (dot(r2, from) * unit_b - p2 * unit_a) + t2,
         ];
-        let (reach_a, reach_b) =
-            (reach(a, into).map(|x| x * unit_a), reach(b, from).map(|x| x * unit_b));
+        let (extent_a, extent_b) =
+            (extent(a, into).map(|x| x * unit_a), extent(b, from).map(|x| x * unit_b));
         let error_a = f64::from(a.scale().surface_error) * unit_a;
         let error_b = f64::from(b.scale().surface_error) * (unit_b * stretch(&rotation));
         let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
@@ -122,14 +123,15 @@ impl RelativePose {
         let directions = [x, y, z, c0, c1, c2];
         let back = directions.map(|d| columns.map(|column| dot(column, d)));
         let away = directions.map(|d| dot(d, shift_exact));
-        // Greatest size of a moved vertex, or of the way to it, along an axis.
+        // Along each axis, an upper bound of a moved vertex's coordinate, and of its difference
+        // from a vertex of the first tree.
         let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
-            most(row, reach_b)
-                + reach_a.get(axis).copied().unwrap_or(0.0)
+            most(row, extent_b)
+                + extent_a.get(axis).copied().unwrap_or(0.0)
                 + shift_exact.get(axis).map_or(0.0, |x| x.abs())
         });
         let near = greatest(along);
-        // Before they cancelled.
+        // The same before large terms cancel: the rounding is in proportion to these.
         let far = near
             + greatest([r0, r1, r2].map(|row| most(row, from.map(|x| x * unit_b))))
             + greatest(into.map(f64::abs)) * unit_a;
@@ -137,7 +139,7 @@ impl RelativePose {
         let rounded = OVERLAP_VERTEX * U64 * far;
         let mut grow = [0f32; DIRECTIONS];
         for (((grow, d), row), away) in grow.iter_mut().zip(directions).zip(back).zip(away) {
-            let both = most(d, reach_a) + most(row, reach_b);
+            let both = most(d, extent_a) + most(row, extent_b);
             let error = (errors + rounded) * libm::sqrt(dot(d, d)) + OVERLAP_UNDERFLOW;
             if away.abs() * (1.0 - 64.0 * U64) > both + error {
                 return Ok(None);
@@ -171,15 +173,17 @@ impl RelativePose {
             matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: narrow(shift_exact),
             shift_exact,
-            doubt: (larger + OVERLAP_VERTEX * f64::from(U32) * near) as f32 * (1.0 + 2.0 * U32),
-            doubt_exact: larger + rounded,
+            vertex_error: (larger + OVERLAP_VERTEX * f64::from(U32) * near) as f32
+                * (1.0 + 2.0 * U32),
+            vertex_error_exact: larger + rounded,
         }))
     }
 }
 
-/// Greatest factor by which a matrix makes lengths longer. The square of its 2-norm is the 2-norm
-/// of its product with its transpose, which is at most that product's largest row sum. 1 for a
-/// rotation.
+/// Upper bound of the factor by which a matrix makes lengths longer; 1 for a rotation.
+///
+/// The square of a 2-norm is the 2-norm of the product of the matrix and its transpose. That is at
+/// most the product's largest row sum.
 fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
     let mut most = 0f64;
     for a in rows {

@@ -123,6 +123,7 @@ fn along(direction: [i8; 3], point: [i32; 3]) -> i32 {
 
 impl<'a> Triboxes<'a> {
     /// The hierarchy's header.
+    #[doc(hidden)]
     pub fn header(&self) -> &TriboxesHeader {
         &self.header
     }

@@ -1,4 +1,4 @@
-//! What the host wrote for this image: a mesh, and what is asked of it.
+//! The bytes that the host wrote for this image: a mesh, and the questions about it.
 
 use meshsweep_rival_firmware::race::Questions;
 use meshsweep_rival_firmware::records::Records;
@@ -24,7 +24,7 @@ pub const TREE: &[u8] = &Aligned(*include_bytes!(concat!(env!("MESHSWEEP_RIVAL")
 #[repr(C, align(16))]
 struct Aligned<T>(T);
 
-/// What is asked.
+/// The questions.
 pub const QUESTIONS: Questions = Questions {
     points: [("far", file!("far.f32")), ("near", file!("near.f32"))],
     path: ("path", file!("path.f32")),

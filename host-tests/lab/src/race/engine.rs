@@ -1,4 +1,4 @@
-//! What an engine is, and who takes part.
+//! The interface of an engine, and the engines that take part.
 
 use std::hint::black_box;
 
@@ -53,7 +53,7 @@ pub enum Answer {
 type Build =
     for<'a> fn(&Subject, &Scope, &'a mut Vec<u8>) -> Result<Option<Box<dyn Engine + 'a>>, String>;
 
-/// One who takes part.
+/// An engine that takes part.
 pub struct Entrant {
     /// The engine's name in tables.
     pub name: &'static str,

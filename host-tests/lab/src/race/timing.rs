@@ -24,7 +24,7 @@ pub struct Lane<'a> {
 pub struct Lap {
     /// What was asked.
     pub workload: Workload,
-    /// Who answered.
+    /// The engine that answered.
     pub engine: &'static str,
     /// Queries answered.
     pub queries: usize,

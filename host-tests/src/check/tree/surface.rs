@@ -7,8 +7,8 @@ use super::TreeProof;
 use super::parse::TreeBlob;
 use crate::oracle::dyadic::Dyadic;
 
-/// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its winding, and its corners
-/// within the surface error.
+/// Every triangle of the mesh, and every wire as one, is stored exactly once, with its number, its
+/// winding, and its corners within the surface error.
 ///
 /// Triangles that share a number, which a repaired mesh may have, are told apart by their corners.
 pub(super) fn triangles(tree: &TreeBlob, mesh: &Mesh, proof: &mut TreeProof) -> Result<(), String> {

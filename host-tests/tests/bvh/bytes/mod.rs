@@ -1,5 +1,5 @@
-//! Opening the bytes of a box tree: whatever is wrong is a typed error that names the record, and
-//! whatever opens is safe to ask.
+//! Opening the bytes of a box tree: every fault is a typed error that names the record. Bytes that
+//! open are safe to query.
 
 mod header;
 mod links;

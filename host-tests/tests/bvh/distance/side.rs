@@ -2,7 +2,9 @@
 
 use super::scenes::{STACK, allowed_width, closed, stack};
 use super::winding::winding_number;
-use meshsweep_core::{Budget, Ended, QueryError, Side, SignedDistance, Undecided};
+use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::mesh::{RawMesh, repair};
+use meshsweep_core::{Budget, Bvh, Ended, QueryError, Side, SignedDistance, Undecided};
 use meshsweep_host_tests::generate::corpus::{IDENTITY, soups};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, inverted, joined, rough_sphere, scaled, torus, transformed,
@@ -361,4 +363,31 @@ proptest! {
             check(&scene, p, 1, &ask(&scene, p, &Budget::EXACT, STACK));
         }
     }
+}
+
+/// A hollow sphere whose wall is thinner than the rounding of its coordinates to f32: repair drops
+/// one of the two spheres, and the winding number between them and at the centre is lost.
+#[test]
+fn a_shell_that_rounding_closes_has_no_sides_and_a_thicker_one_keeps_them() {
+    let (positions, triangles) = icosphere(2);
+    let shell = |wall: f64| {
+        let at = |scale: f64| positions.iter().map(move |p| p.map(|x| f64::from(x) * scale));
+        let count = positions.len() as u32;
+        let inner = triangles.iter().map(|&[a, b, c]| [a + count, c + count, b + count]);
+        let raw = RawMesh {
+            positions: at(1.0).chain(at(1.0 - wall)).collect(),
+            triangles: triangles.iter().copied().chain(inner).collect(),
+            file: "shell".into(),
+            polygons_split: 0,
+            decimal: false,
+        };
+        let (mesh, report) = repair(raw).expect("a mesh");
+        let bytes = build(mesh.as_input(), &TreeOptions::default()).0.to_bytes();
+        let tree = Bvh::open(&bytes).expect("opens");
+        let ask = |p| tree.signed_distance(p, Budget::EXACT, &mut stack(64)).expect("finite").side;
+        (report.opposite_duplicate.count, ask([0.0; 3]), ask([3.0, 0.0, 0.0]))
+    };
+    let open = Side::Undecided(Undecided::OpenMesh);
+    assert_eq!(shell(1e-12), (triangles.len(), open, open));
+    assert_eq!(shell(0.25), (0, Side::Outside, Side::Outside));
 }

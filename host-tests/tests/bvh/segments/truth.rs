@@ -226,7 +226,7 @@ impl Asker {
     }
 }
 
-/// Everything that an answer claims, whatever the stack.
+/// Checks every claim of an answer, with any scratch memory.
 fn check_first(hit: &FirstHit, wanted: &[Met], at: &dyn Fn() -> String) {
     let least = |f: fn(&Met) -> f64| wanted.iter().map(f).fold(f64::INFINITY, f64::min);
     let (low, high) = (least(|met| met.t_lower), least(|met| met.t_upper));

@@ -50,7 +50,7 @@ fn points(of: &Mesh, hull: &Mesh, count: usize, rng: &mut Rng) -> Vec<[f32; 3]> 
         .collect()
 }
 
-/// Whatever the hull says of the triangles holds; returns how many distances were said to be
+/// Every answer of the hull about the triangles holds; returns how many distances were said to be
 /// greater, and smaller, than half and twice them.
 fn check(
     name: &str,

@@ -1,4 +1,4 @@
-//! Whatever is wrong with the bytes is a typed error, and whatever opens is safe to ask.
+//! Every fault of the bytes is a typed error. Bytes that open are safe to query.
 
 use super::{mesh, of};
 use meshsweep::bvh::{TreeOptions, build};

@@ -1,4 +1,4 @@
-//! What it costs to move a bound and to test it, beside how often it is wrong.
+//! The cost of moving a bound and of testing it, beside how often it is wrong.
 
 pub mod counted;
 

@@ -1,6 +1,6 @@
 //! Two box trees, one of them moved: whether their surfaces meet, and where.
 
-use super::descent::{Collect, Place, descend};
+use super::descent::{PairPlace, PairVisitor, descend};
 use crate::bvh::format::Bvh;
 use crate::geom::{Contact, Pose};
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Undecided, Verdict, Work};
@@ -94,9 +94,9 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Overlap, QueryError> {
-        let mut first = First::default();
-        let (missed, work) = descend([self, other], &pose, budget.steps, scratch, &mut first)?;
-        let (verdict, place) = match (first.met, missed, first.open) {
+        let mut first = FirstPair::default();
+        let (truncated, work) = descend([self, other], &pose, budget.steps, scratch, &mut first)?;
+        let (verdict, place) = match (first.met, truncated, first.undecided) {
             (Some(place), _, _) => (Verdict::Yes, Some(place)),
             (None, Some(why), _) => (Verdict::Undecided(why.undecided()), None),
             (None, None, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
@@ -135,12 +135,13 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Overlaps, QueryError> {
-        let mut all = All { a: self, b: other, pairs, stored: 0, dropped: 0, is_open: false };
-        let (missed, work) = descend([self, other], &pose, budget.steps, scratch, &mut all)?;
-        let ended = match missed {
+        let mut all =
+            AllPairs { a: self, b: other, pairs, stored: 0, dropped: 0, is_undecided: false };
+        let (truncated, work) = descend([self, other], &pose, budget.steps, scratch, &mut all)?;
+        let ended = match truncated {
             Some(why) => why,
             None if all.dropped > 0 => Ended::Scratch,
-            None if all.is_open => Ended::Resolution,
+            None if all.is_undecided => Ended::Resolution,
             None => Ended::Exact,
         };
         Ok(Overlaps { stored: all.stored, dropped: all.dropped, work, ended })
@@ -148,7 +149,7 @@ impl Bvh<'_> {
 }
 
 /// Their numbers in the input files.
-fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &Place) -> Option<[u32; 2]> {
+fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &PairPlace) -> Option<[u32; 2]> {
     let number = |tree: &Bvh<'_>, &[node, child, lane]: &[u32; 3]| {
         tree.source(tree.links(node)?.triangle(child).wrapping_add(lane))
     };
@@ -156,36 +157,36 @@ fn numbers(a: &Bvh<'_>, b: &Bvh<'_>, [first, second]: &Place) -> Option<[u32; 2]
 }
 
 #[derive(Default)]
-struct First {
-    met: Option<Place>,
-    open: Option<Place>,
+struct FirstPair {
+    met: Option<PairPlace>,
+    undecided: Option<PairPlace>,
 }
 
-impl Collect for First {
+impl PairVisitor for FirstPair {
     #[inline(always)]
-    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool> {
+    fn pair(&mut self, place: PairPlace, contact: Contact) -> Option<bool> {
         if contact == Contact::Meets {
             self.met = Some(place);
             return Some(false);
         }
-        self.open = self.open.or(Some(place));
+        self.undecided = self.undecided.or(Some(place));
         Some(true)
     }
 }
 
-struct All<'a> {
+struct AllPairs<'a> {
     a: &'a Bvh<'a>,
     b: &'a Bvh<'a>,
     pairs: &'a mut [TrianglePair],
     stored: usize,
     dropped: u32,
-    is_open: bool,
+    is_undecided: bool,
 }
 
-impl Collect for All<'_> {
-    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool> {
+impl PairVisitor for AllPairs<'_> {
+    fn pair(&mut self, place: PairPlace, contact: Contact) -> Option<bool> {
         let is_certain = contact == Contact::Meets;
-        self.is_open |= !is_certain;
+        self.is_undecided |= !is_certain;
         match self.pairs.get_mut(self.stored) {
             Some(slot) => {
                 *slot = TrianglePair { triangles: numbers(self.a, self.b, &place)?, is_certain };
