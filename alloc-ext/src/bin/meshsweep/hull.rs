@@ -45,8 +45,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             )
         } else {
             format!(
-                "{name}: a blob holds several hulls; choose one with --level or --tight \
-                 (meshsweep info lists them)"
+                "{name}: is a blob; choose one of its hulls with --level or --tight (meshsweep \
+                 info lists them)"
             )
         });
     }

@@ -83,7 +83,8 @@ pub fn within() -> String {
     format!(
         "The column 'within' says yes or no, both proved; or unknown, if the distance differs \
          from D by less than rounding and the blob's surface error, or if the query ended early. \
-         To avoid collisions, treat unknown as yes. 'triangle' is one that is near enough; \
+         To avoid collisions, treat unknown as yes. Only the surface counts: deep inside a part \
+         the answer is no. 'triangle' is one that is near enough; \
          {TRIANGLES}. With --all a last row of unknown without a triangle says that the query \
          ended early and triangles may be missing.\n\n\
          By a tight hull, no means no for the solid with its inside, and unknown means between \
@@ -115,6 +116,8 @@ pub fn signed() -> String {
          steps, out of stack, the query ended early. lower and upper are the bounds of the signed \
          distance, negative inside. If the side is undefined, they are -upper and upper of the \
          distance; {TRIANGLES}.\n\n\
+         The side is that of the nearest surface. Parts that overlap are not united: a point in \
+         one part is outside if the front of another part is nearer. Unite them first.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep signed part.msw 10,4.5,7\n  \
