@@ -83,8 +83,8 @@ pub struct HullArgs {
         conflicts_with = "level"
     )]
     pub tight: Option<u32>,
-    /// Bits of a coordinate of a mesh's hull: auto is 32, or with --progressive the fewest that
-    /// hold the mesh exactly; 16 and 24 move the mesh to a grid; 32 is single precision
+    /// Bits of a coordinate of a mesh's hull: 16 and 24 move the mesh to a grid; 32 is single
+    /// precision; auto is 32, or the fewest that hold the mesh exactly if the hull is progressive
     #[arg(
         long,
         value_enum,

@@ -96,7 +96,7 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
     )?;
     writeln!(
         out,
-        "  stack: {}, {} bytes of RAM: no query can overflow it",
+        "  stack: {}, {} bytes of RAM: no query about a point or a segment can overflow it",
         Counted(h.stack_entries, "entry"),
         stack_bytes(tree)
     )
