@@ -42,8 +42,8 @@
 //! | most violated first | 686 | 761 | 215 | 79 | 380 | 451 | 555 | 447 |
 //! | most violated first, far points pulled back to the star | 430 | 378 | 235 | 88 | 346 | 329 | 426 | 319 |
 //!
-//! The last row is what `cargo bench -p meshsweep-lab --bench lp` prints; the other rules
-//! were measured once, beside it.
+//! `cargo bench -p meshsweep-lab --bench lp` prints the last row. The other rows are historical: no
+//! command prints them.
 //!
 //! *No symbolic `eps`.* With an infinitesimal one, a flat star whose planes differ by rounding
 //! would send the vertex to the far end of the star, for the objective does fall in that direction.

@@ -78,8 +78,8 @@ pub struct Mesh {
     /// `f64` is an `f32` counts as that `f32`.
     pub rounding: f64,
     /// Repair dropped a triangle whose corners are those of another one in opposite order. The two
-    /// may be the walls of a shell that rounding has closed, so the winding numbers of what is left
-    /// may not be those of the input: no structure decides a side of such a mesh.
+    /// may be the walls of a shell that rounding has closed. Then the input's winding numbers are
+    /// lost, so no structure decides a side of this mesh.
     pub has_merged_walls: bool,
 }
 

@@ -5,6 +5,7 @@ mod bounds;
 mod compact;
 mod components;
 mod enclosures;
+mod order;
 mod precision;
 mod tree;
 
@@ -13,6 +14,7 @@ pub(crate) use bounds::{Bounds, Plane};
 pub(crate) use compact::{compact, compact_in_order};
 pub(crate) use components::{components, least_connected};
 pub(crate) use enclosures::Enclosures;
+pub(crate) use order::spatial_order;
 pub use precision::{Grid, Stored, VertexBits, snap, store};
 pub(crate) use precision::{scale_exponent, split_exponent};
-pub(crate) use tree::{Frontier, StaticTree, spatial_order};
+pub(crate) use tree::{Frontier, StaticTree};

@@ -5,11 +5,9 @@
 //! every number in it is at most 1, and the bounds of rounding are numbers: see [`SLACK`].
 
 use super::bounds::{Bounds, Plane};
+use super::order::{WIDTH, ranges};
 use arrayvec::ArrayVec;
 use glam::DVec3;
-
-/// Boxes of a node, and lanes that are compared at once.
-const WIDTH: usize = 8;
 
 /// Distance in the tree's frame by which a box may lie below a plane, or off another box, and still
 /// count as reaching it.
@@ -87,7 +85,7 @@ impl StaticTree {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut open = vec![(0usize, 0usize, boxes.len())];
         while let Some((node, from, to)) = open.pop() {
-            for (lane, (from, to)) in parts(&mut order, boxes, from, to).into_iter().enumerate() {
+            for (lane, (from, to)) in ranges(&mut order, boxes, from, to).into_iter().enumerate() {
                 let bounds = order[from..to]
                     .iter()
                     .fold(Bounds::EMPTY, |all, &i| all.join(boxes[i as usize]));
@@ -363,63 +361,6 @@ impl Probe {
         }
         hits
     }
-}
-
-/// Puts the items of the lower half of boxes, along the longest axis of their centres, before place
-/// `middle`.
-fn halve(items: &mut [u32], boxes: &[Bounds], middle: usize) {
-    let centre = |i: u32| boxes[i as usize].low + boxes[i as usize].high;
-    let axis = items.iter().fold(Bounds::EMPTY, |all, &i| all.with(centre(i))).longest_axis();
-    items.select_nth_unstable_by(middle, |&i, &j| {
-        centre(i)[axis].total_cmp(&centre(j)[axis]).then(i.cmp(&j))
-    });
-}
-
-/// Items of a run that [`spatial_order`] leaves as they are.
-const RUN: usize = 4;
-
-/// The boxes' numbers in an order in which neighbours in space are near each other: halved at the
-/// median of the longest axis, again and again.
-pub(crate) fn spatial_order(boxes: &[Bounds]) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
-    let mut open = vec![(0, boxes.len())];
-    while let Some((from, to)) = open.pop() {
-        if to - from > RUN {
-            let middle = (to - from) / 2;
-            halve(&mut order[from..to], boxes, middle);
-            open.extend([(from, from + middle), (from + middle, to)]);
-        }
-    }
-    order
-}
-
-/// Ranges of up to eight parts of a range. The items are ordered by halving, again and again.
-fn parts(
-    order: &mut [u32],
-    boxes: &[Bounds],
-    from: usize,
-    to: usize,
-) -> ArrayVec<(usize, usize), WIDTH> {
-    let mut ranges: ArrayVec<(usize, usize), WIDTH> = ArrayVec::new();
-    if from < to {
-        ranges.push((from, to));
-    }
-    // Parts of full nodes, so that few lanes are empty.
-    let mut full = 1;
-    while full * WIDTH < to - from {
-        full *= WIDTH;
-    }
-    while ranges.len() < WIDTH {
-        let widest = (0..ranges.len()).max_by_key(|&i| ranges[i].1 - ranges[i].0);
-        let Some(i) = widest.filter(|&i| ranges[i].1 - ranges[i].0 > full) else { break };
-        let (from, to) = ranges[i];
-        let parts = (to - from).div_ceil(full);
-        let middle = parts / 2 * full;
-        halve(&mut order[from..to], boxes, middle);
-        ranges[i] = (from, from + middle);
-        ranges.push((from + middle, to));
-    }
-    ranges
 }
 
 #[cfg(test)]

@@ -18,8 +18,8 @@ use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
 
-/// What is asked: a blob's split hierarchy or its box tree. A trait and not an enum, so that an
-/// image links only what it asks.
+/// The structure of a blob that answers. It is a trait and not an enum, so that an image links only
+/// the structure that it asks.
 pub trait Subject<'t>: Sized {
     /// What the queries need beside the blob: it must fit in the smallest part's RAM beside the
     /// stack.

@@ -25,7 +25,8 @@ fn truths(scene: &Scene, p: [f32; 3]) -> Vec<Bounded> {
     (0..scene.triangles.len() as u32).map(|t| scene.truth_of(p, t)).collect()
 }
 
-/// Every interval holds, nothing is named twice, what is not stored is beyond `rest_lower`.
+/// Every interval holds. No triangle is named twice. Triangles that are not stored are beyond
+/// `rest_lower`.
 fn check(scene: &Scene, p: [f32; 3], truths: &[Bounded], answer: &KNearest, out: &[Neighbor]) {
     let mut named = vec![false; truths.len()];
     for near in out {

@@ -190,7 +190,7 @@ pub fn batch<'t>(
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    // The longer memory: what is left behind the stack puts the queries in order.
+    // The longer memory: the entries beyond the stack hold the order of the queries.
     let Scratch { pairs, hint, .. } = scratch;
     let mut answers = [ClosestPoint::EMPTY; BATCH];
     match timed(clock, || tree.closest_points(points, hint, &mut answers, Budget::EXACT, pairs)) {
