@@ -30,7 +30,7 @@ impl Cases {
     pub(super) fn new(subject: &Subject, bounds: &Bounds) -> Self {
         let surface = Surface::new(subject);
         let poses = poses(bounds);
-        // The surfaces whatever the hulls say: those are a bound like others, to be caught if they
+        // The surfaces even where the hulls are apart: hulls are a bound like others, to be caught if they
         // are wrong.
         let meshes_meet = poses.iter().map(|pose| surface.meets_moved(pose)).collect();
         Self { poses, meshes_meet }
