@@ -1,13 +1,15 @@
 //! Whether a segment meets the surface.
 
 use super::descent::{Descent, descend};
-use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
+use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
 use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Whether a segment meets the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AnyHit {
     /// `Yes`: the segment meets the input mesh. `No`: no point of the segment lies on a triangle of
     /// the wanted facing. Undecided for [`Resolution`](Undecided::Resolution): the segment passes
@@ -47,7 +49,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<AnyHit, QueryError> {
         let mut work = Work::default();
-        let Some(query) = prepare(self, a, b, scratch)? else {
+        let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
             return Ok(AnyHit { verdict: Verdict::No, work });
         };
         let collector = AnyCrossing { end: query.ray.end(), undecided: false, certain: false };

@@ -52,18 +52,18 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`];
     /// [`QueryError::NotServed`] if the blob was not built for distances.
-    #[inline]
+    #[inline(never)]
     pub fn closest_point(
         &self,
         point: [f32; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        closest_point(self, point, &budget, scratch)
+        search(self, point, &mut Hint::NONE.clone(), &budget, scratch)
     }
 
     /// [`closest_point`](Bvh::closest_point) that looks at the leaf of `hint` first and leaves its
-    /// own there. An exact answer has the same bits whatever the hint.
+    /// own there. An exact answer has the same bits with every hint.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Hint, Scratch};
@@ -78,7 +78,7 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// Those of [`closest_point`](Bvh::closest_point).
-    #[inline]
+    #[inline(never)]
     pub fn closest_point_from(
         &self,
         point: [f32; 3],
@@ -86,33 +86,11 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        closest_point_from(self, point, hint, &budget, scratch)
+        search(self, point, hint, &budget, scratch)
     }
 }
 
-/// Without a hint: one function for all callers.
-#[inline(never)]
-pub(crate) fn closest_point(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    budget: &Budget,
-    scratch: &mut [ScratchEntry],
-) -> Result<ClosestPoint, QueryError> {
-    search(tree, point, &mut Hint::NONE.clone(), budget, scratch)
-}
-
-/// With a hint: one function for single queries, batches and coherent queries.
-#[inline(never)]
-pub(crate) fn closest_point_from(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    hint: &mut Hint,
-    budget: &Budget,
-    scratch: &mut [ScratchEntry],
-) -> Result<ClosestPoint, QueryError> {
-    search(tree, point, hint, budget, scratch)
-}
-
+/// Inlined twice: without a hint, and with one.
 #[inline(always)]
 fn search(
     tree: &Bvh<'_>,
@@ -121,11 +99,7 @@ fn search(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    budget.check()?;
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
-    let query = PointQuery::new(tree, point)?;
+    let query = PointQuery::prepare(tree, point, budget, scratch)?;
     if query.far {
         return from_afar(tree, point, &query);
     }

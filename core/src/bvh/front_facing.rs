@@ -19,6 +19,7 @@ pub enum Eye {
 
 /// The result of [`Bvh::front_facing`]. The triangles are in the caller's slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FrontFacing {
     /// Triangles in the slice.
     pub stored: usize,

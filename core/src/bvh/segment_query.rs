@@ -1,7 +1,7 @@
 //! A segment in the tree's grid units, prepared for boxes and fans, and the rounding of its
 //! answers.
 
-use super::descent::{LeafVisitor, NodeQuery};
+use super::descent::{NodeQuery, OpenedNode};
 use super::node::box_entries;
 use super::point_query::{Units, bounds};
 use crate::bvh::format::Bvh;
@@ -10,7 +10,7 @@ use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
 use crate::num::two_sum;
-use crate::query::{Hit, QueryError};
+use crate::query::{Budget, Hit, QueryError, ScratchEntry};
 use glam::Vec3;
 
 /// A segment, and the conversion of its parameters to the caller's.
@@ -29,13 +29,17 @@ pub(crate) struct SegmentQuery {
 }
 
 impl SegmentQuery {
-    /// Prepares a segment. `None`: it is proved clear of the model.
+    /// Prepares a question: refuses a tree without boxes for segments, the budget, the scratch
+    /// memory or the segment. `None`: the segment is proved clear of the model.
     #[inline(always)]
-    pub(crate) fn new(
+    pub(crate) fn prepare(
         tree: &Bvh<'_>,
-        a: [f32; 3],
-        b: [f32; 3],
+        [a, b]: [[f32; 3]; 2],
+        budget: &Budget,
+        scratch: &[ScratchEntry],
     ) -> Result<Option<SegmentQuery>, QueryError> {
+        SegmentQuery::check_served(tree)?;
+        budget.check_with(scratch)?;
         let finite = |[x, y, z]: [f32; 3]| x.is_finite() & y.is_finite() & z.is_finite();
         if !(finite(a) & finite(b)) {
             return Err(QueryError::NotFinite);
@@ -131,16 +135,9 @@ impl NodeQuery for SegmentQuery {
     }
 
     #[inline(always)]
-    fn keys(
-        &self,
-        tree: &Bvh<'_>,
-        node: u32,
-        count: u32,
-        bound: f32,
-        visitor: &impl LeafVisitor,
-    ) -> Option<[f32; WIDTH]> {
-        let record = tree.boxes(node)?;
-        Some(box_entries(record, &self.slabs, count, bound, visitor.limit()))
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[f32; WIDTH]> {
+        let &OpenedNode { node, count, bound, limit } = opened;
+        Some(box_entries(tree.boxes(node)?, &self.slabs, count, bound, limit))
     }
 }
 

@@ -7,6 +7,7 @@ use crate::tribox::format::Triboxes;
 
 /// A lower bound from a union of triboxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Bound {
     /// No point of the mesh, or of a solid's inside, is nearer than this (input units) or at a
     /// lesser parameter of the segment. Infinite if no point is on the segment.
@@ -43,13 +44,14 @@ impl Triboxes<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`] and [`QueryError::OutOfDomain`] (beyond [`Tribox::DOMAIN`]) of the
-    /// point; [`QueryError::NoScratch`].
+    /// point; [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     pub fn distance(
         &self,
         point: [f32; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Bound, QueryError> {
+        budget.check_with(scratch)?;
         Tribox::of_point(point)?;
         least(self, budget.steps, scratch, |tribox| Some(tribox.distance(point)))
     }
@@ -79,6 +81,7 @@ impl Triboxes<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Bound, QueryError> {
+        budget.check_with(scratch)?;
         Tribox::of_point(a)?;
         Tribox::of_point(b)?;
         least(self, budget.steps, scratch, |tribox| tribox.clip(a, b).map(|(enter, _)| enter))

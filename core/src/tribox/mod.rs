@@ -34,7 +34,7 @@ mod separation;
 mod snap;
 mod support;
 
-pub use boundary::{Boundary, LOOP, Scalar, VERTICES, boundary};
+pub use boundary::{Boundary, BoundaryOf, LOOP, Scalar, VERTICES, boundary};
 pub use bounds::{Tribox, TriboxError};
 pub use directions::{DIRECTIONS, FACES, SLABS};
 pub use distance::Bound;

@@ -11,7 +11,7 @@ use super::relative_pose::RelativePose;
 use crate::bvh::format::layout::boxes;
 use crate::bvh::format::{Bvh, BvhChild};
 use crate::geom::{Contact, Pose};
-use crate::query::{Ended, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 
 /// Places of two triangles: node, child and lane in each tree.
 pub(crate) type PairPlace = [[u32; 3]; 2];
@@ -38,7 +38,7 @@ const LARGER: f32 = 4.0;
 pub(crate) fn descend(
     [a, b]: [&Bvh<'_>; 2],
     pose: &Pose,
-    steps: u32,
+    budget: &Budget,
     scratch: &mut [ScratchEntry],
     visitor: &mut impl PairVisitor,
 ) -> Result<(Option<Ended>, Work), QueryError> {
@@ -46,9 +46,7 @@ pub(crate) fn descend(
     if !(a.serves_segments() && b.serves_segments()) {
         return Err(QueryError::NO_SEGMENTS);
     }
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
+    budget.check_with(scratch)?;
     let (stack, _) = scratch.as_chunks_mut::<2>();
     let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
     let units = [pose.sides[0].unit, pose.sides[1].unit];
@@ -58,7 +56,7 @@ pub(crate) fn descend(
     // The children of each node that still count, as bits.
     let mut wanted = [u32::MAX; 2];
     loop {
-        if work.splits >= steps {
+        if work.splits >= budget.steps {
             return Ok((Some(Ended::Steps), work));
         }
         work.splits += 1;

@@ -359,7 +359,7 @@ impl<'a> LeafPair<'a> {
         } else {
             triangles_meet(a, b, vertex_error)
         };
-        if contact != Contact::Open {
+        if contact != Contact::Undecided {
             return contact;
         }
         work.exact = work.exact.saturating_add(1);

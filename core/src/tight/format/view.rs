@@ -5,7 +5,7 @@
 //! accepts, has as many triangles as the hull has faces, and every distance is finite and at least
 //! 0. Accessors return `Option` all the same. No path can panic.
 
-use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED, record};
+use super::layout::{TIGHT_HULL_BYTES, record};
 use crate::bvh::format::Bvh;
 use crate::format::Bytes;
 use crate::num::Radius16;
@@ -27,7 +27,6 @@ pub struct TightRecord {
 /// The tight hulls of a blob, coarse to fine. Copies are cheap: it borrows the bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct TightHulls<'a> {
-    pub(crate) flags: u32,
     pub(crate) records: &'a [[u8; TIGHT_HULL_BYTES]],
     /// The section.
     pub(crate) data: Bytes<'a>,
@@ -83,11 +82,6 @@ impl<'a> TightHulls<'a> {
     /// Number of hulls, at least one.
     pub fn count(&self) -> u32 {
         self.records.len() as u32
-    }
-
-    /// Whether each hull encloses all finer ones.
-    pub fn is_nested(&self) -> bool {
-        self.flags & TIGHT_NESTED != 0
     }
 
     /// The records, coarse to fine.

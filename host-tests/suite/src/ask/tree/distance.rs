@@ -102,7 +102,7 @@ pub fn is_within(
             let [kind, triangle] = match answer.verdict {
                 Verdict::Yes => [1, answer.triangle.unwrap_or(u32::MAX)],
                 Verdict::No => [2, 0],
-                Verdict::Undecided(_) => [3, 0],
+                _ => [3, 0],
             };
             fold.word(kind);
             fold.word(triangle);
@@ -170,7 +170,7 @@ pub fn signed(
             fold.word(match answer.side {
                 Side::Outside => 1,
                 Side::Inside => 2,
-                Side::Undecided(_) => 3,
+                _ => 3,
             });
             ask::closest_point(fold, &answer.closest);
         }

@@ -28,7 +28,7 @@ pub fn overlap(
             fold.word(match answer.verdict {
                 Verdict::No => 1,
                 Verdict::Yes => 2,
-                Verdict::Undecided(_) => 3,
+                _ => 3,
             });
             answer
                 .triangles

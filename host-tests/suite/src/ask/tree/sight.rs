@@ -60,7 +60,7 @@ pub fn any_hit(
         Ok(answer) => fold.word(match answer.verdict {
             Verdict::Yes => 1,
             Verdict::No => 2,
-            Verdict::Undecided(_) => 3,
+            _ => 3,
         }),
         Err(error) => ask::refusal(fold, error),
     }
