@@ -24,16 +24,15 @@ impl Bvh<'_> {
     /// Whether the closed segment `a b` (input units) meets the surface. It ends at the first
     /// proof.
     ///
-    /// Arguments, errors and degenerate cases as for [`first_hit`](Bvh::first_hit). Cost: less than
-    /// that of [`first_hit`](Bvh::first_hit).
+    /// Arguments and degenerate cases as for [`first_hit`](Bvh::first_hit). Cost: less than there.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Facing, Scratch, Verdict};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
-    /// let (a, b) = ([0.0, 0.0, 400.0], [0.0, 0.0, 300.0]);
-    /// let found = part.any_hit(a, b, Facing::Both, Budget::EXACT, &mut scratch)?;
-    /// assert_eq!(found.verdict, Verdict::No);
+    /// let (front, down) = (Facing::Front, [[0.0, 0.0, 400.0], [0.0, 0.0, -400.0]]);
+    /// let found = part.any_hit(down[0], down[1], front, Budget::EXACT, &mut scratch)?;
+    /// assert_ne!(found.verdict, Verdict::No);
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///

@@ -7,8 +7,8 @@ use super::point_query::{PointQuery, at_least, at_most, bounds};
 use super::triangle_bounds::{distance_of_box, nearness, refine_sliver, seen_from};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::lower_bound;
-use crate::num::sqrt_approx;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
+use crate::num::{greater, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
@@ -236,10 +236,9 @@ impl<'a> Closest<'a> {
             let [s, e, g] = seen;
             let lower = lower_bound(s, e, g);
             let lower_sq = square(lower);
-            let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
+            let lower_sq = greater(box_sq, lower_sq);
             // The plane's bound may be the greater one.
-            let lower_sq =
-                if lower_sq > near.lower_bound_sq { lower_sq } else { near.lower_bound_sq };
+            let lower_sq = greater(near.lower_bound_sq, lower_sq);
             if lower_sq < self.refined_lower_sq {
                 self.refined_lower_sq = lower_sq;
             }

@@ -7,6 +7,7 @@ use super::closest_point::Hint;
 use super::descent::NodeQuery;
 use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;
+use crate::num::{greater, lesser};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 
 impl Bvh<'_> {
@@ -111,8 +112,8 @@ fn in_morton_order<'o>(
     let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
     for point in points {
         for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(point) {
-            *low = if x < *low { x } else { *low };
-            *high = if x > *high { x } else { *high };
+            *low = lesser(*low, x);
+            *high = greater(*high, x);
         }
     }
     // Both are halved, because their difference may leave f32's range. If the extent is 0 or tiny,

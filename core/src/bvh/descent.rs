@@ -10,6 +10,7 @@
 use super::node::{LANE_MASK, WIDE, nearest_lane};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
+use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// A point or a segment that is prepared for the descent.
@@ -115,7 +116,7 @@ impl Stack<'_> {
                         *slot = ScratchEntry::new(key, node);
                         self.used += 1;
                     }
-                    None => self.dropped = if key < self.dropped { key } else { self.dropped },
+                    None => self.dropped = lesser(self.dropped, key),
                 }
             }
         }
@@ -140,7 +141,8 @@ pub(crate) fn descend(
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
-    walk(tree, query, steps, scratch, visitor, work).ok_or(QueryError::Unchecked)
+    let stack = Stack { entries: scratch, used: 0, dropped: f32::INFINITY };
+    walk(tree, query, steps, stack, visitor, work).ok_or(QueryError::Unchecked)
 }
 
 /// The descent. `None` says that the tree is unchecked: the loop carries no other error.
@@ -149,11 +151,10 @@ fn walk(
     tree: &Bvh<'_>,
     query: &impl NodeQuery,
     steps: u32,
-    scratch: &mut [ScratchEntry],
+    mut stack: Stack<'_>,
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Option<Descent> {
-    let mut stack = Stack { entries: scratch, used: 0, dropped: f32::INFINITY };
     let mut node = 0u32;
     let mut bound = 0f32;
     loop {

@@ -5,6 +5,7 @@ use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
+use crate::num::lesser;
 use crate::query::{Budget, Ended, FirstHit, Interval, QueryError, ScratchEntry, Work};
 
 impl Bvh<'_> {
@@ -99,7 +100,7 @@ impl FirstCrossing<'_> {
     ) -> Result<FirstHit, QueryError> {
         let (mut lower, mut ended) = (self.lower, Ended::Exact);
         if let Descent::Truncated { least, ended: why } = descent {
-            lower = if least < lower { least } else { lower };
+            lower = lesser(lower, least);
             ended = why;
         } else if !(self.certain || lower == f32::INFINITY) {
             ended = Ended::Resolution;

@@ -6,8 +6,8 @@ use super::point_query::PointQuery;
 use super::triangle_bounds::lower_of_box;
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::sqrt_approx;
 use crate::num::tolerance::EVERYTHING_SQ;
+use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 
 /// How a search for the nearest triangles went. They are in the caller's slice.
@@ -85,12 +85,12 @@ impl Bvh<'_> {
         if heap.stored() < all {
             // All triangles that were not visited are farther than the last one stored.
             let last = heap.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
-            let rest = if last < rest { last } else { rest };
+            let rest = lesser(rest, last);
             rest_lower = query.lower(rest);
         }
         if let Descent::Truncated { least, .. } = descent {
             let missed = lower_of_box(&query, least);
-            rest_lower = if missed < rest_lower { missed } else { rest_lower };
+            rest_lower = lesser(rest_lower, missed);
         }
         let stored = heap.finish(tree, &query)?;
         Ok(KNearest { stored, rest_lower, work, ended: descent.ended() })
@@ -116,7 +116,7 @@ impl TriangleCollector for CollectNearest<'_> {
         }
         if let Some(farthest_sq) = self.heap.farthest_sq() {
             let lower = self.query.limit(farthest_sq);
-            *limit = if lower < *limit { lower } else { *limit };
+            *limit = lesser(*limit, lower);
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::bvh::node::Slabs;
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
-use crate::num::two_sum;
+use crate::num::{greater, lesser, two_sum};
 use crate::query::{Budget, Hit, QueryError, ScratchEntry};
 use glam::Vec3;
 
@@ -150,8 +150,7 @@ fn norm_1(v: Vec3) -> f32 {
 #[inline(always)]
 fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     let (l, h) = ((p - low).abs(), (p - high).abs());
-    let far = |a: f32, b: f32| if a > b { a } else { b };
-    Vec3::new(far(l.x, h.x), far(l.y, h.y), far(l.z, h.z))
+    Vec3::new(greater(h.x, l.x), greater(h.y, l.y), greater(h.z, l.z))
 }
 
 /// Whether a segment is proved clear of the model's box, by their six separating axes, all lengths
@@ -199,8 +198,8 @@ fn approach(
         if d.abs() > STILL {
             let (low, high) = (low / d, high / d);
             let (near, far) = if low < high { (low, high) } else { (high, low) };
-            enter = if near > enter { near } else { enter };
-            leave = if far < leave { far } else { leave };
+            enter = greater(enter, near);
+            leave = lesser(leave, far);
         } else if low > 0.0 || high < 0.0 {
             return None;
         }

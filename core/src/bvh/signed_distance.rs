@@ -42,8 +42,8 @@ use super::side_search::{Search, UNDECIDED};
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
-use crate::num::sqrt_approx;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_DISTANCE, U32};
+use crate::num::{greater, lesser, sqrt_approx};
 use crate::query::{
     Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work,
 };
@@ -177,7 +177,7 @@ fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
     let size = (high - low).max_element();
     let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
     let out = |p: Vec3| (p - high).max(low - p).to_array();
-    let most = out(query.p).into_iter().fold(0f32, |most, x| if x > most { x } else { most });
+    let most = out(query.p).into_iter().fold(0f32, greater);
     let mut near = [0f32; 3];
     let mut moved = false;
     let axes = query.p.to_array().into_iter().zip(low.to_array().into_iter().zip(high.to_array()));
@@ -336,9 +336,7 @@ impl Survey<'_> {
     /// opened.
     fn lower(&self) -> f32 {
         let distance = sqrt_approx(self.best.distance_sq);
-        self.query.lower(
-            self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }),
-        )
+        self.query.lower(self.least.into_iter().fold(distance, lesser))
     }
 
     /// A point on the way to a triangle, a sixteenth of the distance from the triangle, within the
@@ -371,7 +369,7 @@ impl Survey<'_> {
         let mut lower = self.lower();
         if self.missed < f32::INFINITY {
             let missed = lower_of_box(query, self.missed);
-            lower = if missed < lower { missed } else { lower };
+            lower = lesser(lower, missed);
         }
         let leaf = best.leaf(tree).ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
@@ -393,7 +391,7 @@ impl TriangleCollector for Survey<'_> {
             self.with_area.improve(here);
             let band = Candidates::new(self.query, self.margin, self.with_area.distance_sq).band;
             let lower = limit_of(self.query, band);
-            *limit = if lower < *limit { lower } else { *limit };
+            *limit = lesser(*limit, lower);
         }
         if let Some(by_side) = self.by_side.get_mut(facing as usize) {
             by_side.improve(here);

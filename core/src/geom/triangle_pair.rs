@@ -271,12 +271,12 @@ fn parted_along<T: Real>(
     shift: T,
 ) -> bool {
     let length = norm_1(direction);
-    let reach = |p: Point<T>| {
+    let height = |p: Point<T>| {
         let way = minus(p, from);
         (dot(direction, way), length * (T::DETERMINANT * norm_1(way) + shift) + T::UNDERFLOW)
     };
     // The vertices that are farthest out and nearest.
-    let [own, other] = [own, other].map(|points| points.map(reach));
+    let [own, other] = [own, other].map(|points| points.map(height));
     own.iter().all(|&(height, margin)| {
         other.iter().all(|&(beyond, doubt)| beyond - doubt > height + margin)
     })

@@ -8,6 +8,7 @@
 use super::bounds::Tribox;
 use super::directions::FACES;
 use super::directions::SLABS;
+use crate::num::greater;
 use core::ops::{Add, Neg, Sub};
 
 /// Vertices: four of each corner.
@@ -366,7 +367,7 @@ impl Boundary {
     #[must_use]
     pub fn support(&self, [x, y, z]: [f32; 3]) -> f32 {
         let along = self.vertices.iter().map(|v| v[0] * x + v[1] * y + v[2] * z);
-        along.fold(f32::NEG_INFINITY, |most, here| if here > most { here } else { most })
+        along.fold(f32::NEG_INFINITY, greater)
     }
 }
 

@@ -2,6 +2,7 @@
 //! first meet a model.
 
 use super::bounds::{Tribox, TriboxError};
+use crate::num::greater;
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 use crate::tribox::format::Triboxes;
 
@@ -111,7 +112,7 @@ fn least(
         let tribox = triboxes.node(node).ok_or(QueryError::Unchecked)?;
         let here = bound(&tribox).unwrap_or(f32::INFINITY);
         // Rounding may have given the parent more, and the child is a part of it.
-        let lower = if here > above { here } else { above };
+        let lower = greater(above, here);
         Ok::<ScratchEntry, QueryError>(ScratchEntry::new(lower, node))
     };
     let root = enter(0, 0.0, &mut answer.work)?;

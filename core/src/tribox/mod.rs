@@ -16,7 +16,7 @@
 //! | `snap` | planes moved outward until small faces vanish |
 //! | `measure` | distance, segments |
 //! | `moved` | bounds of rotated points |
-//! | `support` | how far triboxes reach along any direction |
+//! | `support` | the extent of triboxes along any direction |
 //! | `format/` | the bytes of the hierarchy |
 //! | `separating_axes`, `separation` | two hierarchies, one of them moved |
 //! | `distance` | a point or a segment against the hierarchy |

@@ -9,6 +9,7 @@ use super::layout::{TIGHT_HULL_BYTES, record};
 use crate::bvh::format::Bvh;
 use crate::format::Bytes;
 use crate::num::Radius16;
+use crate::num::lesser;
 
 /// The record of a tight hull. Lengths are in input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,6 +139,6 @@ impl<'a> TightHull<'a> {
     pub fn slack(&self, face: u32) -> Option<f32> {
         let stored = Radius16(u16::from_le_bytes(*self.slacks.get(face as usize)?)).get();
         // The code of a distance may be rounded up beyond the largest.
-        Some(if stored < self.record.slack { stored } else { self.record.slack })
+        Some(lesser(self.record.slack, stored))
     }
 }
