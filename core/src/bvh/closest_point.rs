@@ -51,7 +51,7 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`];
-    /// [`QueryError::NotServed`] if the blob was not built for distances.
+    /// [`QueryError::NotServed`] if the tree was not built for distances, for far points too.
     #[inline(never)]
     pub fn closest_point(
         &self,

@@ -154,11 +154,11 @@ mod tests {
             (Vec3::new(-3.0, -4.0, 0.0), 5.0),
             (Vec3::new(0.5, -2.0, 0.0), 2.0),
         ] {
-            let probe = SweptPoint::new(point, &bounds);
+            let swept = SweptPoint::new(point, &bounds);
             let lower =
-                probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
-            assert!(probe.lower(corners, 0.25, distance - 0.2).is_some());
-            assert!(probe.lower(corners, 0.25, distance - 0.3).is_none());
+                swept.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
+            assert!(swept.lower(corners, 0.25, distance - 0.2).is_some());
+            assert!(swept.lower(corners, 0.25, distance - 0.3).is_none());
             assert!(
                 lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4,
                 "{lower} {distance}"
@@ -170,17 +170,17 @@ mod tests {
     fn segment_probe_separates_what_is_apart_and_keeps_what_touches() {
         let bounds = Aabb { min: Vec3::splat(-1.0), max: Vec3::splat(1.0) };
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
-        let probe = |a: [f64; 3], b: [f64; 3]| {
+        let segment = |a: [f64; 3], b: [f64; 3]| {
             let clipped = bounds.clip(DVec3::from(a), DVec3::from(b)).expect("meets the box");
             SweptSegment::new(&clipped, &bounds)
         };
-        let through = probe([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]);
+        let through = segment([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]);
         let t = through.enter(corners, 0.0).expect("crosses");
         assert!(t <= 0.5 && t > 0.49, "{t}");
-        assert!(probe([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.25).is_none());
-        assert!(probe([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.31).is_some());
-        assert!(probe([0.2, 0.2, 1.0], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
-        assert!(probe([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
-        assert!(probe([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.51).is_some());
+        assert!(segment([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.25).is_none());
+        assert!(segment([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.31).is_some());
+        assert!(segment([0.2, 0.2, 1.0], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
+        assert!(segment([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
+        assert!(segment([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.51).is_some());
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! If [`Triboxes::open`] returned `Ok`, then every node but the root is the child of exactly one
 //! node, which has a lesser number and whose parameters hold the child's, no node is more than
-//! [`MAX_TRIBOX_DEPTH`](super::layout::MAX_TRIBOX_DEPTH) splits deep, and every node's planes touch
-//! what is between them, so that its [boundary](Tribox::boundary) is exact. Accessors return
+//! [`MAX_TRIBOX_DEPTH`](super::layout::MAX_TRIBOX_DEPTH) splits deep, and every plane of a node
+//! touches the node's tribox, so that its [boundary](Tribox::boundary) is exact. Accessors return
 //! `Option` all the same. No path can panic.
 
 use super::layout::{
