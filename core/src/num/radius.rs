@@ -1,4 +1,4 @@
-//! Radii stored in one or two bytes, never smaller than what they stand for.
+//! Radii stored in one or two bytes, rounded up.
 //!
 //! Both are the top bits of an f32, so that decoding is a shift: no table, no multiplication.
 

@@ -90,7 +90,7 @@ pub const FAN_RELATIVE: f32 = 16.0;
 /// of the model's box. Proved: 11.3 (§8). A larger value visits more.
 pub const BOX_DISTANCE: f32 = 16.0;
 
-/// Part of the best square that the lower bound of every other triangle has to reach, 1 − 2^-18. A
+/// Least ratio of the lower bound of every other triangle to the best square, 1 − 2^-18. A
 /// triangle with less is refined as a sliver. The lower end of an interval is lower by half of the
 /// missing part.
 pub const CERTIFIED_PART: f32 = 1.0 - 1.0 / 262_144.0;

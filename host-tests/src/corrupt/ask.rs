@@ -65,7 +65,9 @@ impl Asker {
                 found(tree, &near[..answer.stored]);
             }
             if let Some(answer) = answered(tree.signed_distance(point, *stop, stack)) {
-                closest(tree, &ClosestPoint { work: Work::default(), ..answer.closest }, 0);
+                let mut near = answer.closest;
+                near.work = Work::default();
+                closest(tree, &near, 0);
                 ends(answer.closest.work, 8 * once);
                 assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
                 assert!(

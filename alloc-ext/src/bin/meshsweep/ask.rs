@@ -160,7 +160,7 @@ pub fn ended(verdict: Verdict) -> Ended {
         Verdict::Yes | Verdict::No => Ended::Exact,
         Verdict::Undecided(Undecided::Steps) => Ended::Steps,
         Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
-        Verdict::Undecided(_) => Ended::Resolution,
+        _ => Ended::Resolution,
     }
 }
 

@@ -124,7 +124,7 @@ impl<const N: usize> Question<N> for Any<'_, N> {
         let contact = match found.verdict {
             Verdict::Yes => MEETS,
             Verdict::No => APART,
-            Verdict::Undecided(_) => OPEN,
+            _ => OPEN,
         };
         write_row(out, query, contact, found.triangles, found.work)
     }

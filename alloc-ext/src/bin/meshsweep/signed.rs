@@ -36,7 +36,7 @@ pub fn name(side: Side) -> &'static str {
     match side {
         Side::Outside => "outside",
         Side::Inside => "inside",
-        Side::Undecided(_) => "undefined",
+        _ => "undefined",
     }
 }
 
@@ -48,7 +48,7 @@ pub fn reason(side: Side) -> &'static str {
         Side::Undecided(Undecided::Steps) => "out of steps",
         Side::Undecided(Undecided::Scratch) => "out of stack",
         Side::Undecided(Undecided::OnSurface) => "at the surface",
-        Side::Undecided(_) => "rounding",
+        _ => "rounding",
     }
 }
 
@@ -88,7 +88,7 @@ impl Question<3> for Signed<'_> {
         point: &[f32; 3],
         answer: &SignedDistance,
     ) -> io::Result<()> {
-        let SignedDistance { distance: Interval { lower, upper }, side, closest } = *answer;
+        let SignedDistance { distance: Interval { lower, upper }, side, closest, .. } = *answer;
         let [px, py, pz] = closest.point;
         write_numbers(out, point)?;
         write!(out, "{},{},", name(side), reason(side))?;

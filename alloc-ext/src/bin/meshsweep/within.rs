@@ -81,7 +81,7 @@ impl Question<3> for Any<'_> {
         let verdict = match answer.verdict {
             Verdict::Yes => "yes",
             Verdict::No => "no",
-            Verdict::Undecided(_) => "unknown",
+            _ => "unknown",
         };
         write_numbers(out, point)?;
         write!(out, "{verdict},")?;

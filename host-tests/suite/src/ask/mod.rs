@@ -167,7 +167,7 @@ fn verdict(fold: &mut Fold, work: Work, verdict: Verdict) {
         Verdict::Yes | Verdict::No => Ended::Exact,
         Verdict::Undecided(Undecided::Steps) => Ended::Steps,
         Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
-        Verdict::Undecided(_) => Ended::Resolution,
+        _ => Ended::Resolution,
     };
     how(fold, work, ended);
 }

@@ -115,7 +115,7 @@ pub fn bounds(hulls: &Hulls<'_>) -> Bounds {
 /// What the table says of each hull, its tree, and its distances.
 pub fn contents(hulls: &Hulls<'_>, fold: &mut Fold) {
     fold.word(hulls.all.count());
-    fold.word(u32::from(hulls.all.is_nested()));
+    fold.word(0);
     for record in hulls.all.records() {
         fold.word(record.faces);
         [record.slack, record.depth, record.void_ratio].into_iter().for_each(|x| fold.f32(x));
@@ -179,7 +179,7 @@ pub fn is_within(
             fold.word(match answer.verdict {
                 Verdict::Yes => 1,
                 Verdict::No => 2,
-                Verdict::Undecided(_) => 3,
+                _ => 3,
             });
             verdict(fold, answer.work, answer.verdict);
         },

@@ -31,7 +31,7 @@ fn no_boundary_takes_more_than_112_additions_24_halvings_24_comparisons() {
 }
 
 /// Every edge of the 18 loops is run through once in each direction.
-fn edges_are_paired(of: &Boundary<f32>) -> usize {
+fn edges_are_paired(of: &Boundary) -> usize {
     let mut seen = [[0u8; VERTICES]; VERTICES];
     for face in 0..FACES {
         let vertices = of.face(face);

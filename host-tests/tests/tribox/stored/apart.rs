@@ -277,6 +277,11 @@ fn poses_that_are_none_are_refused() {
         all.separation(&all, Pose::IDENTITY, Budget::EXACT, &mut []).unwrap_err(),
         QueryError::NoScratch
     );
+    let bad = Budget::EXACT.with_absolute(f32::NAN);
+    assert_eq!(
+        all.separation(&all, Pose::IDENTITY, bad, stack).unwrap_err(),
+        QueryError::Tolerance
+    );
     // As far as there are numbers, and of no volume at all.
     let far = Pose { translation: [1e36, -1e36, 1e36], ..Pose::IDENTITY };
     assert!(all.separation(&all, far, Budget::EXACT, stack).expect("answered").is_apart());

@@ -79,7 +79,7 @@ pub fn is_within(
             let [kind, triangle] = match answer.verdict {
                 Verdict::Yes => [1, answer.triangle.unwrap_or(u32::MAX)],
                 Verdict::No => [2, 0],
-                Verdict::Undecided(_) => [3, 0],
+                _ => [3, 0],
             };
             fold.word(kind);
             fold.word(triangle);
@@ -129,7 +129,7 @@ pub fn signed(tree: &Bvh<'_>, p: Point, s: &mut Scratch<'_>, to: &mut Asked<'_, 
             fold.word(match answer.side {
                 Side::Outside => 1,
                 Side::Inside => 2,
-                Side::Undecided(_) => 3,
+                _ => 3,
             });
             ask::closest_point(fold, &answer.closest);
         },

@@ -22,7 +22,7 @@ pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'
             fold.word(match answer.verdict {
                 Verdict::No => 1,
                 Verdict::Yes => 2,
-                Verdict::Undecided(_) => 3,
+                _ => 3,
             });
             let triangles = answer.triangles.unwrap_or([u32::MAX; 2]);
             triangles.into_iter().for_each(|number| fold.word(number));

@@ -41,7 +41,7 @@ pub fn any_hit(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_,
             fold.word(match answer.verdict {
                 Verdict::Yes => 1,
                 Verdict::No => 2,
-                Verdict::Undecided(_) => 3,
+                _ => 3,
             });
         },
     );
