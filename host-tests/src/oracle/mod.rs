@@ -8,7 +8,9 @@ pub mod moved;
 pub mod polytope;
 mod segment;
 pub(crate) mod vector;
+mod winding;
 
 pub use distance::{Bounded, distance_to_mesh, distance_to_triangle, rough_distance_sq};
 pub use double::{Double, Vector};
 pub use segment::{Contact, contacts, gap_to_triangle, meets};
+pub use winding::winding_number;

@@ -1,7 +1,6 @@
 //! Signed distance.
 
 use super::scenes::{STACK, allowed_width, closed, stack};
-use super::winding::winding_number;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::{RawMesh, repair};
 use meshsweep_core::{Budget, Bvh, Ended, QueryError, Side, SignedDistance, Undecided};
@@ -9,6 +8,7 @@ use meshsweep_host_tests::generate::corpus::{IDENTITY, soups};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, inverted, joined, rough_sphere, scaled, torus, transformed,
 };
+use meshsweep_host_tests::oracle::winding_number;
 use meshsweep_host_tests::scene::Scene;
 use proptest::prelude::*;
 
@@ -16,8 +16,11 @@ fn ask(scene: &Scene, p: [f32; 3], stop: &Budget, entries: usize) -> SignedDista
     scene.bvh().signed_distance(p, *stop, &mut stack(entries)).expect("a finite question")
 }
 
+/// `None` where the point is too near the surface for f64 to tell.
 fn number(scene: &Scene, p: [f32; 3]) -> Option<i32> {
-    winding_number(p, &scene.positions, &scene.triangles, f64::from(scene.size()))
+    let Scene { positions, triangles, .. } = scene;
+    let number = winding_number(p.map(f64::from), positions, triangles, f64::from(scene.size()));
+    ((number - number.round()).abs() < 1e-3).then(|| number.round() as i32)
 }
 
 /// The side is that of the winding number, whose value on the inside is `inside`; the interval
