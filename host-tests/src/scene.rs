@@ -182,7 +182,7 @@ impl Scene {
     /// Points of every kind that distances have trouble with: on faces, at vertices, on edges, next
     /// to them, around, and far away.
     #[must_use]
-    pub fn points(&self, count: usize, rng: &mut Rng) -> Vec<Point> {
+    pub fn points(&self, count: usize, rng: &mut Rng) -> Asked<'_> {
         let size = self.size();
         let mut points = Vec::with_capacity(count);
         for i in 0..count {
@@ -205,7 +205,35 @@ impl Scene {
                 _ => self.around(1.0, rng),
             });
         }
-        points
+        Asked { scene: self, points: points.into_iter(), here: None }
+    }
+}
+
+/// Points to be asked one after the other. A test that fails meanwhile says at which point of which
+/// scene.
+#[derive(Debug)]
+pub struct Asked<'a> {
+    scene: &'a Scene,
+    points: std::vec::IntoIter<Point>,
+    here: Option<Point>,
+}
+
+impl Iterator for Asked<'_> {
+    type Item = Point;
+
+    fn next(&mut self) -> Option<Point> {
+        self.here = self.points.next();
+        self.here
+    }
+}
+
+impl Drop for Asked<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking()
+            && let Some(p) = self.here
+        {
+            eprintln!("{}: {p:?}", self.scene.name);
+        }
     }
 }
 

@@ -14,6 +14,7 @@ mod levels;
 mod mesh;
 mod parse;
 mod replay;
+mod sections;
 mod tree;
 
 pub use enclosure::{

@@ -14,6 +14,6 @@ mod triboxes;
 pub use hull::{closest, open, outer, seeds, segment};
 pub use input::random_input;
 pub use tight::{ask_tight, tight, tight_seeds};
-pub use tree::{tree_closest, tree_open, tree_overlap, tree_seeds, tree_segment, tree_session};
+pub use tree::{tree_closest, tree_coherent, tree_open, tree_overlap, tree_seeds, tree_segment};
 pub use tribox::tribox;
 pub use triboxes::{ask_triboxes, triboxes, triboxes_seeds};

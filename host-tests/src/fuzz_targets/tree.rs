@@ -131,8 +131,8 @@ pub fn tree_segment(data: &[u8]) {
     }
 }
 
-/// A session on an edited blob: small steps, jumps, another tree in between.
-pub fn tree_session(data: &[u8]) {
+/// A coherent query on an edited blob: small steps, jumps, another tree in between.
+pub fn tree_coherent(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
     let Ok(tree) = Bvh::open(&blob) else { return };
@@ -155,10 +155,10 @@ pub fn tree_session(data: &[u8]) {
         stop: &Budget,
     ) {
         let [tree, other] = trees;
-        let mut session = CoherentQuery::<N>::new();
+        let mut query = CoherentQuery::<N>::new();
         for stop in [&Budget::EXACT, stop] {
-            asker.path(&mut session, tree, path.iter().copied(), stop);
-            asker.path(&mut session, other, path.iter().copied().take(4), stop);
+            asker.path(&mut query, tree, path.iter().copied(), stop);
+            asker.path(&mut query, other, path.iter().copied().take(4), stop);
         }
     }
     let trees = [&tree, &other];

@@ -7,6 +7,7 @@ pub mod lp;
 pub mod moved;
 pub mod polytope;
 mod segment;
+pub(crate) mod vector;
 
 pub use distance::{Bounded, distance_to_mesh, distance_to_triangle, rough_distance_sq};
 pub use double::{Double, Vector};

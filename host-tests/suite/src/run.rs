@@ -38,7 +38,7 @@ pub enum Kind {
     Facing,
     /// Whether a segment meets the surface.
     AnyHit,
-    /// Closest point along a path of small steps and few jumps, by a session.
+    /// Closest point along a path of small steps and few jumps, by a coherent query.
     CoherentQuery,
     /// Closest points of eight points from the doubled box.
     Batch,
@@ -192,6 +192,16 @@ pub trait Clock {
 
 /// Nobody looks at the clock.
 impl Clock for () {}
+
+impl<C: Clock> Clock for &mut C {
+    fn query_begins(&mut self) {
+        C::query_begins(self);
+    }
+
+    fn query_ends(&mut self) {
+        C::query_ends(self);
+    }
+}
 
 /// Told what happens, in this order: begins, then kind by kind: kind begins, (query begins, query
 /// ends) × queries, block, …, kind ends.

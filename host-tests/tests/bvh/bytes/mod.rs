@@ -9,7 +9,7 @@ mod whole;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep_core::{Budget, Bvh, CoherentQuery, OpenError, Pose, SectionKind};
-use meshsweep_host_tests::corrupt::{Asker, entry, seal};
+use meshsweep_host_tests::corrupt::{self, Asker};
 use meshsweep_host_tests::generate::{Triangles, icosphere};
 
 fn blob_of((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
@@ -32,14 +32,11 @@ fn open(bytes: &[u8]) -> Result<(), OpenError> {
 
 /// Opens a blob after an edit of one section's bytes, its CRCs right.
 fn edited(
-    mut bytes: Vec<u8>,
+    bytes: Vec<u8>,
     kind: SectionKind,
     edit: impl FnOnce(&mut [u8]),
 ) -> Result<(), OpenError> {
-    let at = entry(&bytes, kind as u32);
-    edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
-    seal(&mut bytes);
-    open(&bytes)
+    corrupt::edited(bytes, kind, edit, open)
 }
 
 fn record(section: SectionKind, index: u32) -> Result<(), OpenError> {

@@ -60,7 +60,7 @@ fn check(scene: &Scene, p: [f32; 3], inside: i32, answer: &SignedDistance) -> bo
 #[test]
 fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
     for scene in closed() {
-        assert!(scene.bvh().header().is_closed(), "{}", scene.name);
+        assert!(scene.bvh().header().is_closed());
         let (mut undefined, mut clear) = (0, 0);
         for p in scene.points(480, &mut Rng::new(61)) {
             let answer = ask(scene, p, &Budget::EXACT, STACK);
@@ -70,7 +70,7 @@ fn side_is_the_winding_numbers_and_defined_wherever_the_distance_is_clear() {
                 clear += 1;
                 undefined += u32::from(!defined);
                 let ended = if defined { Ended::Exact } else { Ended::Resolution };
-                assert_eq!(answer.closest.ended, ended, "{}: {p:?}", scene.name);
+                assert_eq!(answer.closest.ended, ended);
             }
         }
         // Their triangles have no certain normals, or lie closer together than rounding can tell.
@@ -243,8 +243,7 @@ fn open_meshes_and_soups_have_no_side() {
             let answer = ask(&scene, p, &Budget::EXACT, STACK);
             assert_eq!(
                 (answer.side, answer.closest.ended),
-                (Side::Undecided(Undecided::OpenMesh), Ended::Exact),
-                "{name}: {p:?}"
+                (Side::Undecided(Undecided::OpenMesh), Ended::Exact)
             );
             check(&scene, p, 1, &answer);
         }
@@ -277,17 +276,11 @@ fn distance_is_the_closest_points() {
             );
             assert_eq!(
                 (signed.distance.upper, signed.triangle, signed.point),
-                (closest.distance.upper, closest.triangle, closest.point),
-                "{}: {p:?}",
-                scene.name
+                (closest.distance.upper, closest.triangle, closest.point)
             );
             let off = (f64::from(signed.distance.lower) - f64::from(closest.distance.lower)).abs();
             // The plain query lets its certificates fall short by 2^-19 of the distance.
-            assert!(
-                off <= 2e-6 * f64::from(signed.distance.upper) + allowed_width(scene, 0.0),
-                "{}: {p:?}",
-                scene.name
-            );
+            assert!(off <= 2e-6 * f64::from(signed.distance.upper) + allowed_width(scene, 0.0));
         }
     }
 }

@@ -50,11 +50,7 @@ fn verdict_is_true_and_unknown_only_next_to_the_distance() {
                 if !check(scene, p, d, truth, answer) {
                     let off = (truth.upper - f64::from(d)).abs();
                     let allowed = allowed_width(scene, truth.upper);
-                    assert!(
-                        off <= allowed,
-                        "{}: {p:?}: unknown at {d:e}, {off:e} off {truth:?}",
-                        scene.name
-                    );
+                    assert!(off <= allowed, "unknown at {d:e}, {off:e} off {truth:?}");
                     assert_eq!(answer.verdict, Verdict::Undecided(Undecided::Resolution));
                 }
             }

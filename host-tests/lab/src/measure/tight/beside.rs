@@ -120,8 +120,7 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
 
 /// All of it as one trade of faces for void, for the plot.
 pub fn trade(tight: &Table, beside: &Table) -> Table {
-    let mut table =
-        Table::new("tight_trade", "Void against faces", &["bound", "faces", "void %", "label"]);
+    let mut table = Table::new("tight_trade", "Void against faces", &["bound", "faces", "void %"]);
     let column = |of: &Table, name: &str| of.columns.iter().position(|column| *column == name);
     let series = [
         ("void %", "tight"),
@@ -133,18 +132,14 @@ pub fn trade(tight: &Table, beside: &Table) -> Table {
             continue;
         };
         for row in &tight.rows {
-            table.push(row![name, row[faces].clone(), row[void].clone(), row[void].text()]);
+            table.push(row![name, row[faces].clone(), row[void].clone()]);
         }
     }
-    let columns = ["kind", "faces", "void %", "bound"].map(|name| column(beside, name));
-    if let [Some(kind), Some(faces), Some(void), Some(bound)] = columns {
+    if let [Some(kind), Some(faces), Some(void)] =
+        ["kind", "faces", "void %"].map(|name| column(beside, name))
+    {
         for row in &beside.rows {
-            table.push(row![
-                row[kind].text(),
-                row[faces].clone(),
-                row[void].clone(),
-                row[bound].text()
-            ]);
+            table.push(row![row[kind].text(), row[faces].clone(), row[void].clone()]);
         }
     }
     table
