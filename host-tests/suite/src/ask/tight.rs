@@ -115,7 +115,6 @@ pub fn bounds(hulls: &Hulls<'_>) -> Bounds {
 /// What the table says of each hull, its tree, and its distances.
 pub fn contents(hulls: &Hulls<'_>, fold: &mut Fold) {
     fold.word(hulls.all.count());
-    fold.word(0);
     for record in hulls.all.records() {
         fold.word(record.faces);
         [record.slack, record.depth, record.void_ratio].into_iter().for_each(|x| fold.f32(x));
