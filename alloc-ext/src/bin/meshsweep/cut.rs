@@ -11,8 +11,7 @@ use meshsweep_core::Blob;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {
     refuse_same_file(Some(&args.output), &[&args.blob])?;
-    let bytes = blob_file::read(&args.blob)?;
-    let blob = blob_file::open(&args.blob, &bytes)?;
+    let blob = blob_file::open(&args.blob)?;
     if args.level.is_some() {
         served::require_hull(&args.blob, &blob)?;
     }
@@ -26,7 +25,7 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
     let left = Blob::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
     Output::stdout().finish(|out| {
-        let (kept, all) = (cut.len(), bytes.len());
+        let (kept, all) = (cut.len(), blob.bytes().len());
         let share = kept as f64 / all as f64 * 100.0;
         write!(
             out,

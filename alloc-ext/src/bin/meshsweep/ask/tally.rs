@@ -22,7 +22,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub fn count(&mut self, (ended, work): (Ended, Work)) {
+    pub fn count(&mut self, ended: Ended, work: Work) {
         self.work += u64::from(work.total());
         *match ended {
             Ended::Exact => &mut self.exact,
@@ -31,15 +31,6 @@ impl Tally {
             Ended::Scratch => &mut self.scratch,
             _ => &mut self.resolution,
         } += 1;
-    }
-
-    pub fn add(&mut self, other: &Tally) {
-        self.exact += other.exact;
-        self.tolerance += other.tolerance;
-        self.steps += other.steps;
-        self.scratch += other.scratch;
-        self.resolution += other.resolution;
-        self.work += other.work;
     }
 
     pub fn queries(&self) -> usize {
