@@ -95,7 +95,7 @@ fn an_open_mesh_is_built_and_its_report_says_that_it_is_open() {
     {
         let (mesh, out) = (fixture(name), directory.join("out.msw"));
         let text = ok(["build", arg(&mesh), "-o", arg(&out)]);
-        let is_open = text.contains("open: signed distance is undefined");
+        let is_open = text.contains("open: every side is undecided");
         // A tetrahedron squashed flat is closed all the same.
         assert_eq!(is_open, name != "evil/flat.obj", "{name} {text}");
         let info = info(&out);

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 // Words of the column `contact`.
 const APART: &str = "apart";
 const MEETS: &str = "meets";
-const OPEN: &str = "open";
+const UNDECIDED: &str = "undecided";
 
 /// Room for pairs at first.
 const PAIRS: usize = 256;
@@ -89,7 +89,7 @@ fn ask_any<const N: usize>(
             let contact = match found.verdict {
                 Verdict::Yes => MEETS,
                 Verdict::No => APART,
-                Verdict::Undecided(_) => OPEN,
+                Verdict::Undecided(_) => UNDECIDED,
             };
             write_row(out, query, contact, found.triangles, *work)
         },
@@ -121,7 +121,7 @@ fn ask_all<const N: usize>(
         },
         |out, query, _, Answer { found: pairs, ended, work }| {
             for pair in pairs {
-                let contact = if pair.is_certain { MEETS } else { OPEN };
+                let contact = if pair.is_certain { MEETS } else { UNDECIDED };
                 write_row(out, query, contact, Some(pair.triangles), *work)?;
             }
             match ended {
@@ -129,7 +129,7 @@ fn ask_all<const N: usize>(
                     write_row(out, query, APART, None, *work)
                 }
                 Ended::Exact | Ended::Resolution => Ok(()),
-                _ => write_row(out, query, OPEN, None, *work),
+                _ => write_row(out, query, UNDECIDED, None, *work),
             }
         },
     )

@@ -1,6 +1,6 @@
 //! `meshsweep segment`: segments in, first hits or all hits out.
 //!
-//! `unknown` means of a first hit: the segment is proved clear before `t`, and no more is certain.
+//! `undecided` means of a first hit: the segment is proved clear before `t`, and no more is certain.
 //! Of all hits it means: the stored surface is hit there, and the mesh's may be.
 
 use crate::args::{self, SegmentArgs, files};
@@ -83,7 +83,7 @@ fn ask_first(
         |out, _, segment, &Answer { found, work, .. }| match found.hit {
             _ if found.is_clear() => write_clear(out, work),
             Some(hit) if found.ended == Ended::Exact => write_hit(out, "yes", hit, work),
-            _ => write_unknown(out, segment, found.t.lower, None, work),
+            _ => write_undecided(out, segment, found.t.lower, None, work),
         },
     )
 }
@@ -122,7 +122,7 @@ fn ask_all(
                 if ended == Ended::Resolution {
                     // The surface may be from here on: `t` was rounded to nearest.
                     let from = hit.t.next_down().max(0.0);
-                    write_unknown(out, segment, from, hit.triangle, work)?;
+                    write_undecided(out, segment, from, hit.triangle, work)?;
                 } else {
                     write_hit(out, "yes", hit, work)?;
                 }
@@ -132,7 +132,7 @@ fn ask_all(
                 write_clear(out, work)
             } else if hits.is_empty() || matches!(ended, Ended::Steps | Ended::Scratch) {
                 write!(out, "{query},")?;
-                write_unknown(out, segment, 0.0, None, work)
+                write_undecided(out, segment, 0.0, None, work)
             } else {
                 Ok(())
             }
@@ -157,7 +157,7 @@ fn write_hit(out: &mut dyn Write, word: &str, hit: Hit, work: Work) -> io::Resul
 }
 
 /// The surface may be met from the parameter `t` on.
-fn write_unknown(
+fn write_undecided(
     out: &mut dyn Write,
     segment: &[f32; 6],
     t: f32,
@@ -166,5 +166,5 @@ fn write_unknown(
 ) -> io::Result<()> {
     let [a, b] = ends(*segment).map(|end| end.map(f64::from));
     let point = core::array::from_fn(|k| (a[k] + (b[k] - a[k]) * f64::from(t)) as f32);
-    write_hit(out, "unknown", Hit { t, point, triangle }, work)
+    write_hit(out, "undecided", Hit { t, point, triangle }, work)
 }

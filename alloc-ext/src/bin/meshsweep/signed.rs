@@ -35,8 +35,8 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
         // A closed standard error does not withhold the answers.
         let _ = writeln!(
             io::stderr(),
-            "{}: was built from a mesh that is not closed, so every side is undefined; distances \
-             are not",
+            "{}: was built from a mesh that is not closed, so every side is undecided; distances \
+             hold",
             file.display()
         );
     }
@@ -48,11 +48,11 @@ pub fn name(side: Side) -> &'static str {
     match side {
         Side::Outside => "outside",
         Side::Inside => "inside",
-        Side::Undecided(_) => "undefined",
+        Side::Undecided(_) => "undecided",
     }
 }
 
-/// Why a side is undefined, in a word or two; nothing if it is not.
+/// Why a side is undecided, in a word or two; nothing if it is not.
 pub fn reason(side: Side) -> &'static str {
     match side {
         Side::Outside | Side::Inside => "",

@@ -48,7 +48,7 @@ fn ask_any(
             let verdict = match found.verdict {
                 Verdict::Yes => "yes",
                 Verdict::No => "no",
-                Verdict::Undecided(_) => "unknown",
+                Verdict::Undecided(_) => "undecided",
             };
             write_numbers(out, point)?;
             write!(out, "{verdict},")?;
@@ -80,7 +80,7 @@ fn ask_all(
         },
         |out, query, _, Answer { found: (certain, triangles), ended, work }| {
             for (index, near) in triangles.iter().enumerate() {
-                let verdict = if index < *certain { "yes" } else { "unknown" };
+                let verdict = if index < *certain { "yes" } else { "undecided" };
                 write!(out, "{query},{verdict},")?;
                 write_neighbor(out, near, *work)?;
             }
@@ -88,7 +88,7 @@ fn ask_all(
                 Ended::Exact if triangles.is_empty() => "no",
                 Ended::Exact => return Ok(()),
                 // Triangles may be missing.
-                _ => "unknown",
+                _ => "undecided",
             };
             write!(out, "{query},{verdict},,,,,,")?;
             write_end(out, None, *work)

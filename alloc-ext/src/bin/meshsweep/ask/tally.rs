@@ -4,9 +4,9 @@ use meshsweep_core::{Ended, Work};
 
 /// Words for queries that ended with `Ended::Resolution`: more work does not help them.
 const RESOLUTION: &str =
-    "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching";
+    "left undecided by rounding or the blob (cut, or vertices moved to a grid), or for touching";
 
-/// The same where the blob knows the mesh by a tight hull alone, which leaves most queries open.
+/// The same where the blob knows the mesh by a tight hull alone, which leaves most queries undecided.
 const BY_HULL: &str =
     "answered as far as the hull tells: it stands off from the mesh; a finer hull tells more";
 

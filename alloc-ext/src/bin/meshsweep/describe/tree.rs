@@ -66,7 +66,7 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
     let closed = if tree.is_closed() {
         "closed: signed distance is defined"
     } else {
-        "open: signed distance is undefined"
+        "open: every side is undecided"
     };
     writeln!(out, "  {closed}")?;
     writeln!(
