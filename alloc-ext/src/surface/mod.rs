@@ -12,6 +12,7 @@ mod tree;
 pub(crate) use crate::mesh::{EdgeTable, Enclosure, SignedVolume, ends};
 pub(crate) use bounds::{Bounds, Plane};
 pub(crate) use compact::{compact, compact_in_order};
+pub use components::components_whose_boxes_meet;
 pub(crate) use components::{components, least_connected};
 pub(crate) use enclosures::Enclosures;
 pub(crate) use order::spatial_order;

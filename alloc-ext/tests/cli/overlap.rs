@@ -167,5 +167,8 @@ fn what_cannot_be_asked_is_refused_by_name() {
     let stretched = wrong(&[arg(&torus), "--matrix", "3,0,0,0,0,1,0,0,0,0,1,0"]);
     assert!(refused(&stretched, 1, "query 3,0,0").contains("beyond 2"));
     assert_eq!(wrong(&[arg(&torus), "--pose", "1,2,3"]).status.code(), Some(2));
+    let pose_first = run(["overlap", "--pose", "0,0,0,1,0,0,0", arg(&torus), arg(&torus)]);
+    let stderr = String::from_utf8_lossy(&pose_first.stderr).into_owned();
+    assert!(pose_first.status.code() == Some(2) && stderr.contains("name blobs first"), "{stderr}");
     assert_eq!(wrong(&[arg(&torus), "-o", arg(&torus)]).status.code(), Some(1));
 }

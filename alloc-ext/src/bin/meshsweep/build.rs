@@ -16,7 +16,7 @@ use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::counted::Counted;
 use meshsweep::emit::{self, Sections};
 use meshsweep::hull::{self, BuildReport, Built};
-use meshsweep::surface::VertexBits;
+use meshsweep::surface::{VertexBits, components_whose_boxes_meet};
 use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
 use meshsweep::tribox::{self, TriboxReport};
 use meshsweep_core::Blob;
@@ -172,6 +172,9 @@ impl Report<'_> {
             }
         }
         describe::write_blob(out, blob)?;
+        if blob.bvh().is_ok_and(|tree| tree.is_closed() && tree.serves_distances()) {
+            write_overlaps(out, components_whose_boxes_meet(&loaded.mesh))?;
+        }
         if let Some(reports) = tight {
             write_left_out(out, args, reports)?;
             write_margin(out, args.margin, "mesh")?;
@@ -201,6 +204,18 @@ impl Report<'_> {
         }
         writeln!(out)
     }
+}
+
+/// Says of how many connected components the inside may be answered as outside.
+fn write_overlaps(out: &mut dyn Write, components: usize) -> io::Result<()> {
+    if components == 0 {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "connected components whose boxes overlap: {components}; they are not united: where they \
+         overlap, a side is that of the nearest surface"
+    )
 }
 
 /// Names the tight hulls that the blob lacks.

@@ -86,8 +86,9 @@ impl Report<'_> {
         self.loaded.mesh.triangles.len()
     }
 
-    fn compression(&self, level: &Level) -> f64 {
-        self.faces_of_mesh() as f64 / level.faces as f64
+    /// Triangles of the mesh for each face; of a mesh without area, neither has any.
+    fn compression(&self, level: &Level) -> Option<f64> {
+        (level.faces > 0).then(|| self.faces_of_mesh() as f64 / level.faces as f64)
     }
 
     /// Void as a part of the solid.
@@ -122,14 +123,16 @@ impl Report<'_> {
              the mesh"
         )?;
         for level in self.levels {
-            let void =
-                self.void(level).map_or("-".to_owned(), |void| Percent(void * 100.0).to_string());
+            let dash = || "-".to_owned();
+            let compression =
+                self.compression(level).map_or_else(dash, |ratio| format!("{ratio:.2}"));
+            let void = self.void(level).map_or_else(dash, |void| Percent(void * 100.0).to_string());
             writeln!(
                 out,
-                "{:>8} {:>7} {:>11.2} {:>11} {:>9} {:>11}  {} to {}",
+                "{:>8} {:>7} {:>11} {:>11} {:>9} {:>11}  {} to {}",
                 level.triboxes,
                 level.faces,
-                self.compression(level),
+                compression,
                 About(level.volume),
                 void,
                 AtMost(level.error),

@@ -64,7 +64,7 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         )?;
     }
     let closed = if tree.is_closed() {
-        "closed: signed distance is defined"
+        "closed: signed distance is that of the nearest surface"
     } else {
         "open: every side is undecided"
     };
