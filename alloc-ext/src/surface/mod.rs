@@ -8,6 +8,7 @@ mod enclosures;
 mod order;
 mod precision;
 mod tree;
+mod valid;
 
 pub(crate) use crate::mesh::{EdgeTable, Enclosure, SignedVolume, ends};
 pub(crate) use bounds::{Bounds, Plane};
@@ -19,3 +20,4 @@ pub(crate) use order::spatial_order;
 pub use precision::{Grid, Stored, VertexBits, snap, store};
 pub(crate) use precision::{scale_exponent, split_exponent};
 pub(crate) use tree::{Frontier, StaticTree};
+pub(crate) use valid::require_valid;

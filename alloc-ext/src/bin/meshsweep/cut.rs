@@ -19,8 +19,7 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         served::require_tight(&args.blob, &blob, faces)?;
     }
     let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
-    let cut = cut_blob(&blob, &keep)
-        .map_err(|error| Failure::Build { file: args.blob.clone(), error })?;
+    let cut = cut_blob(&blob, &keep).map_err(|error| Failure::build(&args.blob, error))?;
     // A blob that does not open must not be written.
     let left = Blob::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;

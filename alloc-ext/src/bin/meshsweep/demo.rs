@@ -18,7 +18,8 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default());
+    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default())
+        .map_err(|error| Failure::build(file, error))?;
     let bytes = tables.to_bytes();
     let tree = Bvh::open(&bytes).map_err(|error| Failure::open(file, error))?;
     let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries()];

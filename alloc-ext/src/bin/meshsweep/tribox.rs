@@ -6,7 +6,6 @@ use crate::failure::Failure;
 use crate::mesh_file::{self, Loaded};
 use crate::number::{About, AtLeast, AtMost, Percent};
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
-use meshsweep::bvh;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
@@ -22,12 +21,8 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
         Output::probe(output)?;
     }
     let loaded = mesh_file::load(&args.mesh)?;
-    let triangles = loaded.mesh.triangles.len();
-    if triangles > bvh::MAX_TRIANGLES {
-        return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
-    }
     let started = Instant::now();
-    let bytes = box_tree(&loaded.mesh);
+    let bytes = box_tree(&loaded.mesh).map_err(|error| Failure::build(&args.mesh, error))?;
     let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
     let hierarchy = Hierarchy::new(&loaded.mesh, &tree, &args.options())
         .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })?;

@@ -1,9 +1,8 @@
 //! The volume that a mesh bounds, and the void of its hull.
 
 use super::enclosure::is_embedded;
-use super::no_volume::NoVolume;
 use super::predicates::{Face, is_degenerate};
-use crate::mesh::{Mesh, require_closed_manifold};
+use crate::mesh::{Mesh, NoVolume, require_closed_manifold};
 use crate::surface::{Enclosures, SignedVolume, components};
 use glam::DVec3;
 

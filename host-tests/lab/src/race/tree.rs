@@ -32,7 +32,8 @@ fn open<'a>(
             ..subject.mesh.as_input()
         },
         options,
-    );
+    )
+    .expect("builds");
     *blob = tables.to_bytes();
     let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
     Ok((blob.len(), tree))
@@ -70,7 +71,7 @@ pub fn build_single<'a>(
     _: &Scope,
     blob: &'a mut Vec<u8>,
 ) -> Result<Option<Box<dyn Engine + 'a>>, String> {
-    let options = TreeOptions { single: true, ..TreeOptions::default() };
+    let options = TreeOptions::default().with_f32(true);
     alone(subject, &options, blob, &[Workload::Far, Workload::Near, Workload::Segments])
 }
 
