@@ -7,7 +7,7 @@ use super::{MeshError, RawMesh, obj, ply, stl};
 /// Reads a mesh file: `.ply` (ASCII, binary of either byte order), `.obj`, `.stl` (ASCII or binary,
 /// told apart by content). Polygons are split into fans about their first vertex.
 ///
-/// Memory is bounded by a small multiple of the file's size, whatever its header announces.
+/// Memory is bounded by a small multiple of the file's size, also if its header announces more.
 ///
 /// # Errors
 /// The file cannot be read, is of another kind, does not follow its format, ends early, holds a

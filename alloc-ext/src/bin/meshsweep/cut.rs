@@ -18,7 +18,8 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
     if let Some(faces) = args.tight {
         served::require_tight(&args.blob, &blob, faces)?;
     }
-    let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
+    let mut keep = Keep::default();
+    (keep.level, keep.triboxes, keep.tight) = (args.level, args.triboxes, args.tight);
     let cut = cut_blob(&blob, &keep).map_err(|error| Failure::build(&args.blob, error))?;
     // A blob that does not open must not be written.
     let left = Blob::open(&cut).map_err(|error| Failure::open(&args.output, error))?;

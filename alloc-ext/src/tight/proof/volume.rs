@@ -243,7 +243,7 @@ mod tests {
         let hull = joined(&[(tetrahedron(1.1, -0.01), false)]);
         let solid = Solid::of(&twice).unwrap();
         assert_eq!(solid.void(&hull, 1.331 / 6.0), Err(NoVolume::Overlapping));
-        // A hull of the same volume proves nothing, whatever rounding says.
+        // A hull of the same volume proves nothing, however it is rounded.
         let once = joined(&[(tetrahedron(1.1, -0.01), false)]);
         let volume = Solid::of(&once).unwrap().volume;
         let void = Solid::of(&once).unwrap().void(&hull, volume * (1.0 - 1e-12)).unwrap();

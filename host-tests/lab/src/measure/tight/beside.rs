@@ -87,7 +87,7 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
     let leaves = counts.iter().map(|&(count, _)| count).max().unwrap_or(1);
     let bytes = box_tree(&subject.mesh).expect("builds");
     let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
-    let options = SplitOptions { leaves, ..SplitOptions::default() };
+    let options = SplitOptions::default().with_leaves(leaves);
     let all = Hierarchy::new(&subject.mesh, &tree, &options).map_err(|error| error.to_string())?;
     for (count, faces) in counts {
         let leaves = all.leaves(count);
