@@ -97,12 +97,10 @@ impl Blob {
             Self::BracketTree => Ok(box_tree(bracket(), &default)),
             // Fewer triangles: with f32 vertices and all questions the image just fits into the
             // flash of the smallest board.
-            Self::SingleTree => {
-                Ok(box_tree(torus(2.0, 0.75, 16, 10), &TreeOptions { single: true, ..default }))
-            }
+            Self::SingleTree => Ok(box_tree(torus(2.0, 0.75, 16, 10), &default.with_f32(true))),
             Self::Triboxes => Ok(torus_triboxes()),
             Self::Tight => Ok(bracket_hulls()),
-            Self::SoupTree => Ok(box_tree(soup(), &TreeOptions { cull: true, ..default })),
+            Self::SoupTree => Ok(box_tree(soup(), &default.with_cull(true))),
         }
     }
 }
@@ -122,7 +120,7 @@ fn soup() -> Triangles {
 
 fn box_tree((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build_tree(mesh.as_input(), options);
+    let (tables, _) = build_tree(mesh.as_input(), options).expect("builds");
     tables.to_bytes()
 }
 

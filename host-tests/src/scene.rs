@@ -50,7 +50,7 @@ impl Scene {
     #[must_use]
     pub fn tree(name: &str, mesh: Triangles, single: bool) -> Self {
         let mut scene = Self::new(format!("{name}{}", if single { ", f32" } else { "" }), mesh);
-        let options = TreeOptions { segments: false, single, ..TreeOptions::default() };
+        let options = TreeOptions::default().with_segments(false).with_f32(single);
         scene.bytes = tree_blob(&scene.positions, &scene.triangles, 0.0, &options);
         scene
     }
@@ -70,7 +70,7 @@ impl Scene {
         let moved = |&p| if by > 0.0 { add(p, rng.direction(), 0.99 * by) } else { p };
         let stored: Vec<Point> = scene.positions.iter().map(moved).collect();
         [scene.bytes, scene.f32_bytes] = [false, true].map(|single| {
-            let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
+            let options = TreeOptions::default().with_closest(false).with_f32(single);
             tree_blob(&stored, &scene.triangles, f64::from(by), &options)
         });
         scene
@@ -244,5 +244,8 @@ fn tree_blob(
     options: &TreeOptions,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.to_vec(), triangles.to_vec());
-    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options).0.to_bytes()
+    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options)
+        .expect("builds")
+        .0
+        .to_bytes()
 }

@@ -99,11 +99,11 @@ pub fn build(
 ) -> Result<Built, BuildError> {
     let mesh = input.mesh;
     if mesh.triangles.len() > MAX_TRIANGLES {
-        return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
+        return Err(BuildError::TooLarge { triangles: mesh.triangles.len(), most: MAX_TRIANGLES });
     }
     let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
-    let wires = wires_off_surface(mesh);
+    let wires = wires_off_surface(mesh)?;
     let started = Instant::now();
     let (history, stuck, programs) =
         collapse(&stored, mesh, options, options.base_faces, &mut on_progress);

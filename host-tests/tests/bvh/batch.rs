@@ -9,7 +9,7 @@ use std::num::NonZeroUsize;
 
 fn blob((positions, triangles): &Triangles) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    build(mesh.as_input(), &TreeOptions::default()).0.to_bytes()
+    build(mesh.as_input(), &TreeOptions::default()).expect("builds").0.to_bytes()
 }
 
 fn random(count: usize, size: f32) -> Vec<[f32; 3]> {

@@ -14,8 +14,8 @@ use meshsweep_host_tests::oracle::rough_distance_sq;
 
 fn blob((positions, triangles): &Triangles, single: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let options = TreeOptions { segments: false, single, ..TreeOptions::default() };
-    build(mesh.as_input(), &options).0.to_bytes()
+    let options = TreeOptions::default().with_segments(false).with_f32(single);
+    build(mesh.as_input(), &options).expect("builds").0.to_bytes()
 }
 
 fn stack(tree: &Bvh<'_>) -> Vec<ScratchEntry> {

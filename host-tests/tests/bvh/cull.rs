@@ -11,11 +11,11 @@ use meshsweep_host_tests::generate::{
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    build(mesh.as_input(), options).0.to_bytes()
+    build(mesh.as_input(), options).expect("builds").0.to_bytes()
 }
 
 fn culling(single: bool) -> TreeOptions {
-    TreeOptions { cull: true, single, ..TreeOptions::default() }
+    TreeOptions::default().with_cull(true).with_f32(single)
 }
 
 /// Corners of all triangles as stored, input units, by number in the input file. Products of two

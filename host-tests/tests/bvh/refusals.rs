@@ -11,8 +11,8 @@ use meshsweep_host_tests::generate::cube;
 
 fn blob(segments: bool, closest: bool) -> Vec<u8> {
     let mesh = Mesh::new(cube(1).0, cube(1).1);
-    let options = TreeOptions { segments, closest, ..TreeOptions::default() };
-    build(mesh.as_input(), &options).0.to_bytes()
+    let options = TreeOptions::default().with_segments(segments).with_closest(closest);
+    build(mesh.as_input(), &options).expect("builds").0.to_bytes()
 }
 
 /// What each question about `point` answers.

@@ -9,8 +9,8 @@ mod given;
 mod values;
 
 pub use asking::{
-    ClosestArgs, CullArgs, Engine, FieldArgs, NearestArgs, OverlapArgs, SearchArgs, SegmentArgs,
-    SignedArgs, WithinArgs,
+    ClosestArgs, CullArgs, Engine, FieldArgs, NearestArgs, OverlapArgs, PointArgs, SearchArgs,
+    SegmentArgs, SignedArgs, WithinArgs,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};

@@ -15,7 +15,7 @@
 //! | `progress` | progress bars |
 //! | all others | one command each |
 //!
-//! A new question: its arguments in `args/asking.rs`, a file like `nearest.rs` that implements
+//! A new question: its arguments in `args/asking.rs`, a file like `nearest.rs` that makes an
 //! `ask::Question`, and a line in `run`.
 
 mod args;

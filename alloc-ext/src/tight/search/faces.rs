@@ -13,9 +13,9 @@
 use super::candidate::{CandidateHull, keep_better};
 use super::hull_search::HullSearch;
 use crate::collapse::Conditions;
+use crate::error::BuildError;
 use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
 use crate::tight::moves::HullEditor;
-use crate::tight::options::WrapError;
 use crate::tight::report::{Outcome, Start};
 use std::time::Instant;
 
@@ -83,7 +83,7 @@ impl<'a> HullSearch<'a, '_> {
     }
 
     /// The best hull of a number of faces. It is polished if it descends.
-    pub(super) fn of_faces(&mut self, target: Target) -> Result<CandidateHull<'a>, WrapError> {
+    pub(super) fn of_faces(&mut self, target: Target) -> Result<CandidateHull<'a>, BuildError> {
         let mut best: Option<CandidateHull<'a>> = None;
         let large_margin = self.large_margin_voxels();
         if self.solid.is_some() && large_margin.is_none() {

@@ -7,10 +7,10 @@ use super::candidate::{CandidateHull, keep_better};
 use super::hull_search::HullSearch;
 use super::void::{FINER, LEAST_SAVING, TOO_FEW};
 use crate::collapse::Conditions;
+use crate::error::BuildError;
 use crate::tight::initial::{
     InitialHull, InitialInput, STAIR_CONDITIONS, closure_hull, grown_box, lifted_levels,
 };
-use crate::tight::options::WrapError;
 use crate::tight::report::Outcome;
 
 /// Target faces of the first level. Faces that are too far from the mesh are split; more faces
@@ -28,7 +28,7 @@ impl<'a> HullSearch<'a, '_> {
     pub(super) fn fewest_faces_by_slack(
         &mut self,
         slack: f64,
-    ) -> Result<CandidateHull<'a>, WrapError> {
+    ) -> Result<CandidateHull<'a>, BuildError> {
         let input = self.initial_input();
         let mut best: Option<CandidateHull<'a>> = None;
         if let Some(initial) = grown_box(&input) {

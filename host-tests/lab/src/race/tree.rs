@@ -36,7 +36,7 @@ struct Tree<'a> {
 /// A tree of a mesh, which may be open.
 fn open<'a>(
     subject: &Subject,
-    single: bool,
+    is_f32: bool,
     blob: &'a mut Vec<u8>,
     way: Way,
     workloads: &'static [Workload],
@@ -45,7 +45,8 @@ fn open<'a>(
         input_triangles: subject.triangles_read,
         ..subject.mesh.as_input()
     };
-    let (tables, _) = build_tree(input, &TreeOptions { single, ..TreeOptions::default() });
+    let options = TreeOptions::default().with_f32(is_f32);
+    let (tables, _) = build_tree(input, &options).map_err(|error| error.to_string())?;
     *blob = tables.to_bytes();
     let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
     let stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];

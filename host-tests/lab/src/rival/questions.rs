@@ -78,7 +78,8 @@ impl Course {
             records.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect()
         };
         let Mesh { positions, triangles, .. } = &self.subject.mesh;
-        let (tables, _) = bvh::build(self.subject.mesh.as_input(), &TreeOptions::default());
+        let (tables, _) =
+            bvh::build(self.subject.mesh.as_input(), &TreeOptions::default()).expect("builds");
         file("tree.msw", tables.to_bytes())?;
         file("vertices.f32", numbers(positions))?;
         file(

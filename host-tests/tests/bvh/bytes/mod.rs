@@ -14,7 +14,7 @@ use meshsweep_host_tests::generate::{Triangles, icosphere};
 
 fn blob_of((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    build(mesh.as_input(), options).0.to_bytes()
+    build(mesh.as_input(), options).expect("builds").0.to_bytes()
 }
 
 /// A sphere of 320 triangles: more than one level of nodes, and every section that needs no choice.
@@ -23,7 +23,7 @@ fn sphere() -> Vec<u8> {
 }
 
 fn single() -> Vec<u8> {
-    blob_of(icosphere(2), &TreeOptions { single: true, ..TreeOptions::default() })
+    blob_of(icosphere(2), &TreeOptions::default().with_f32(true))
 }
 
 fn open(bytes: &[u8]) -> Result<(), OpenError> {

@@ -378,7 +378,7 @@ fn a_shell_that_rounding_closes_has_no_sides_and_a_thicker_one_keeps_them() {
             decimal: false,
         };
         let (mesh, report) = repair(raw).expect("a mesh");
-        let bytes = build(mesh.as_input(), &TreeOptions::default()).0.to_bytes();
+        let bytes = build(mesh.as_input(), &TreeOptions::default()).expect("builds").0.to_bytes();
         let tree = Bvh::open(&bytes).expect("opens");
         let ask = |p| tree.signed_distance(p, Budget::EXACT, &mut stack(64)).expect("finite").side;
         (report.opposite_duplicate.count, ask([0.0; 3]), ask([3.0, 0.0, 0.0]))

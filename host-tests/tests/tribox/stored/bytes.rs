@@ -169,7 +169,7 @@ fn planes_that_do_not_touch_or_leave_the_parent_name_the_node() {
 fn blobs_hold_triboxes_beside_anything_or_alone() {
     let torus = mesh(&groove_block());
     let (triboxes, _) = store(torus.as_input(), 8).expect("in the domain");
-    let (tree, _) = build(torus.as_input(), &TreeOptions::default());
+    let (tree, _) = build(torus.as_input(), &TreeOptions::default()).expect("builds");
     let options = BuildOptions { base_faces: 40, ..BuildOptions::default() };
     let hull = hull::build(torus.as_input(), &options, |_| ()).expect("a hull").tables.sections();
     for parts in 1..8 {

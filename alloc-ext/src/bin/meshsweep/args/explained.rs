@@ -81,13 +81,13 @@ pub fn closest() -> String {
 
 pub fn within() -> String {
     format!(
-        "The column 'within' says yes or no, both proved; or unknown, if the distance differs \
+        "The column 'within' says yes or no, both proved; or undecided, if the distance differs \
          from D by less than rounding and the blob's surface error, or if the query ended early. \
-         To avoid collisions, treat unknown as yes. Only the surface counts: deep inside a part \
+         To avoid collisions, treat undecided as yes. Only the surface counts: deep inside a part \
          the answer is no. 'triangle' is one that is near enough; \
-         {TRIANGLES}. With --all a last row of unknown without a triangle says that the query \
+         {TRIANGLES}. With --all a last row of undecided without a triangle says that the query \
          ended early and triangles may be missing.\n\n\
-         By a tight hull, no means no for the solid with its inside, and unknown means between \
+         By a tight hull, no means no for the solid with its inside, and undecided means between \
          hull and mesh. A tighter hull may decide.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
@@ -110,11 +110,11 @@ pub fn nearest() -> String {
 
 pub fn signed() -> String {
     format!(
-        "The column 'side' says outside or inside, both proved; or undefined, and then 'reason' \
+        "The column 'side' says outside or inside, both proved; or undecided, and then 'reason' \
          says why: open mesh, the mesh bounds no solid; at the surface, the interval of the \
          distance begins at 0; rounding, single precision leaves the side undecided; out of \
          steps, out of stack, the query ended early. lower and upper are the bounds of the signed \
-         distance, negative inside. If the side is undefined, they are -upper and upper of the \
+         distance, negative inside. If the side is undecided, they are -upper and upper of the \
          distance; {TRIANGLES}.\n\n\
          The side is that of the nearest surface. Parts that overlap are not united: a point in \
          one part is outside if the front of another part is nearer. Unite them first.\n\n\
@@ -139,10 +139,10 @@ pub const FIELD: &str = "FILE is raw little-endian f32 if it is named *.f32 or *
 
 pub fn segment() -> String {
     format!(
-        "The column 'hit' says yes, with the first hit; no, which is proved; or unknown, if the \
+        "The column 'hit' says yes, with the first hit; no, which is proved; or undecided, if the \
          query ended early, the blob is cut, or rounding and the blob's surface error leave it \
          undecided. The segment is then proved clear before t, which px, py, pz belong to. With \
-         --all an unknown hit is a place where the stored triangle is met and the mesh's may be. \
+         --all an undecided hit is a place where the stored triangle is met and the mesh's may be. \
          t runs from 0 to 1 along the segment, rounded to f32; {TRIANGLES}.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
@@ -158,11 +158,11 @@ pub fn overlap() -> String {
          quaternion (qw, qx, qy, qz), which need not have length 1 and may not be 0. It is \
          rounded to a matrix of f32, and the answer is about that matrix. --matrix takes any \
          matrix with entries up to 2 as it is.\n\n\
-         The column 'contact' says apart or meets, both proved; or open, if the surfaces touch or \
+         The column 'contact' says apart or meets, both proved; or undecided, if the surfaces touch or \
          come nearer than rounding and the blobs' surface errors, or if the query ended early. \
          Only surfaces count: a mesh inside of another one is apart from it. first and second are \
          triangles that meet, counted from 0 in the order of their mesh files. With --all each \
-         line has one pair, undecided pairs included; an open without triangles says that pairs \
+         line has one pair, undecided pairs included; an undecided line without triangles says that pairs \
          may be missing. Poses count from 0. Options with poses stand after the blobs.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \

@@ -13,8 +13,7 @@ use meshsweep_core::{Hull, Level, VertIdx};
 
 /// Writes the finest tight hull of at most so many faces.
 pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
-    let bytes = blob_file::read(&args.input)?;
-    let blob = blob_file::open(&args.input, &bytes)?;
+    let blob = blob_file::open(&args.input)?;
     let hull = served::require_tight(&args.input, &blob, faces)?;
     Output::file(&args.output)?.finish(|out| write_ply(&hull_mesh(&hull), out))?;
     Output::stdout().finish(|out| {
@@ -29,8 +28,7 @@ pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
 
 /// Writes level `index` of the hull hierarchy.
 pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
-    let bytes = blob_file::read(&args.input)?;
-    let blob = blob_file::open(&args.input, &bytes)?;
+    let blob = blob_file::open(&args.input)?;
     let hierarchy = served::require_hull(&args.input, &blob)?;
     let levels = hierarchy.header().levels;
     let no_level = || Failure::Build {

@@ -26,8 +26,8 @@ const MOST_TRIBOXES: usize = 256;
 /// bits: where these are does not change how many bytes they take.
 fn hull_bytes(hull: &Mesh) -> usize {
     let faces = hull.triangles.len();
-    let options = TreeOptions { closest: true, segments: false, ..TreeOptions::default() };
-    let (tree, _) = build(hull.as_input(), &options);
+    let options = TreeOptions::default().with_closest(true).with_segments(false);
+    let (tree, _) = build(hull.as_input(), &options).expect("builds");
     let blob = tree.to_bytes();
     TIGHT_BYTES + TIGHT_HULL_BYTES + blob.len() + faces * size_of::<Radius16>()
 }
@@ -85,9 +85,9 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
     counts.extend(hulls.iter().map(|hull| (triboxes_of(hull_bytes(&hull.hull)), Some(hull.asked))));
     counts.retain(|&(count, _)| count <= MOST_TRIBOXES);
     let leaves = counts.iter().map(|&(count, _)| count).max().unwrap_or(1);
-    let bytes = box_tree(&subject.mesh);
+    let bytes = box_tree(&subject.mesh).expect("builds");
     let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
-    let options = SplitOptions { leaves, ..SplitOptions::default() };
+    let options = SplitOptions::default().with_leaves(leaves);
     let all = Hierarchy::new(&subject.mesh, &tree, &options).map_err(|error| error.to_string())?;
     for (count, faces) in counts {
         let leaves = all.leaves(count);
