@@ -4,6 +4,8 @@ use glam::{DVec2, DVec3};
 use meshsweep::lp::{HalfSpace, Interval, Outcome, minimise_on_line, minimise_on_plane};
 use meshsweep_host_tests::oracle::lp::random::Random;
 
+use super::ORDERS;
+
 const EPS: f64 = 1e-6;
 const FLOOR: HalfSpace = HalfSpace { normal: DVec3::Z, offset: 0.0 };
 const WALL: HalfSpace = HalfSpace { normal: DVec3::Y, offset: 0.0 };
@@ -132,7 +134,8 @@ fn program_on_a_plane_finds_the_least_crossing() {
             .collect();
         let objective = turned(&mut random);
         let least = least_crossing(objective, &lines);
-        let outcome = minimise_on_plane(objective.extend(0.0), floor, &mut constraints, EPS);
+        let order = ORDERS[idx % ORDERS.len()];
+        let outcome = minimise_on_plane(objective.extend(0.0), floor, &mut constraints, EPS, order);
         match outcome {
             Outcome::Infeasible => assert!(least == f64::INFINITY, "{idx}: {least}"),
             Outcome::Unbounded => {
