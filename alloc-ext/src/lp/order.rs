@@ -5,9 +5,8 @@ use crate::random::SplitMix;
 
 /// The order in which the constraints of a program are inserted.
 ///
-/// The order decides the time, not the answer: verdicts are the same, and so are optima to within
-/// rounding. Only constraints that contradict each other by no more than rounding may be called
-/// feasible in one order and infeasible in another.
+/// The order decides the time, not the answer: optima agree to within rounding, and so do verdicts
+/// unless the program hangs on rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
     /// The next constraint is the one that the optimum so far violates most.
@@ -21,6 +20,11 @@ pub enum Order {
     ///
     /// Whatever the program, the expected work over all seeds is linear in the number of
     /// constraints: see [`Work::tests`].
+    ///
+    /// Degenerate case: bundles of nearly coplanar planes that leave a single point. This order may
+    /// start within one bundle, where lines of intersection keep few digits, and so miss the
+    /// point. Of 100,000 programs made of such bundles it calls about 50 infeasible, and
+    /// [`Order::MostViolated`] none.
     Shuffled(u64),
 }
 

@@ -45,7 +45,7 @@ fn worst_violation(point: DVec3, constraints: &[HalfSpace]) -> f64 {
 }
 
 impl Tally {
-    fn check(&mut self, program: &Program, verdict: &Verdict, eps: f64, order: Order, name: &str) {
+    fn check(&mut self, program: &Program, verdict: Verdict, eps: f64, order: Order, name: &str) {
         let Program { objective, constraints } = program;
         let outcome = minimise(*objective, &mut constraints.clone(), eps, order);
         match (outcome, verdict) {

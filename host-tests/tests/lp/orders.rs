@@ -9,8 +9,10 @@ use meshsweep_host_tests::oracle::lp::random::Random;
 const EPS: f64 = 1e-6;
 const SEEDS: u64 = 200;
 
-/// The bound on expected tests a constraint: see `Work::tests`.
+/// The bound on expected tests a constraint: see `Work::tests`. Spheres reach it.
 const TESTS: f64 = 10.0;
+/// How much the mean of [`SEEDS`] may exceed it by chance.
+const CHANCE: f64 = 1.05;
 
 fn tests(program: &Program, order: Order) -> u64 {
     let mut constraints = program.constraints.clone();
@@ -33,7 +35,7 @@ fn shuffled_order_takes_linear_work_whatever_the_program() {
             let program = large(&mut Random::new(40), count);
             let mean = mean_tests(&program);
             println!("{family:?} {count}: {mean:.2} tests a constraint");
-            assert!((1.0..=TESTS).contains(&mean), "{family:?} {count}: {mean}");
+            assert!((1.0..=TESTS * CHANCE).contains(&mean), "{family:?} {count}: {mean}");
         }
     }
 }
@@ -54,9 +56,8 @@ fn shuffled_order_takes_linear_work_on_small_programs() {
                 constraints += program.constraints.len();
             }
         }
-        let mean = tests as f64 / constraints as f64;
-        println!("{family:?}: {mean:.2} tests a constraint");
-        assert!(constraints == 0 || mean <= TESTS, "{family:?}: {mean}");
+        println!("{family:?}: {tests} tests of {constraints} constraints");
+        assert!(tests as f64 <= TESTS * constraints as f64, "{family:?}");
     }
 }
 
