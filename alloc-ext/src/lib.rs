@@ -35,6 +35,7 @@ pub mod hausdorff;
 pub mod hull;
 pub mod lp;
 pub mod mesh;
+mod random;
 pub mod surface;
 pub mod tight;
 pub mod tribox;

@@ -56,6 +56,7 @@ mod half_space;
 mod insertion;
 mod interval;
 mod line;
+mod order;
 mod plane;
 mod tolerance;
 
@@ -64,6 +65,8 @@ pub use half_space::HalfSpace;
 use insertion::insert;
 pub use interval::Interval;
 use line::Plane;
+use order::Run;
+pub use order::{Order, Work};
 use tolerance::DESCENT;
 
 /// What a program came to.
@@ -95,21 +98,28 @@ pub enum Outcome {
 /// below 1e-9 the rounding of `objective / eps` (1e-16 of it) moves the answer on flat stars by
 /// more than 1e-7.
 ///
-/// Deterministic: the same input, in the same order, gives the same bits. `constraints` are
+/// Deterministic: the same input and the same `order` give the same bits. `constraints` are
 /// permuted.
 ///
 /// A half-space without normal and with a positive offset makes the program infeasible. Parallel,
 /// equal and redundant half-spaces are no special case. If `eps` is not positive or any number is
 /// not finite: [`Outcome::Infeasible`].
 ///
-/// About 300 ns for a star of 10 planes; no allocation.
+/// About 300 ns for a star of 10 planes; no allocation. For the growth with the number of
+/// constraints see [`Order`].
 #[must_use]
-pub fn minimise(objective: DVec3, constraints: &mut [HalfSpace], eps: f64) -> Outcome {
+pub fn minimise(
+    objective: DVec3,
+    constraints: &mut [HalfSpace],
+    eps: f64,
+    order: Order,
+) -> Outcome {
     if !(are_finite(constraints) && objective.is_finite()) {
         return Outcome::Infeasible;
     }
-    let optimum = optimum::<false>(-objective / eps, constraints);
-    outcome(objective, eps, optimum, |pull| optimum_of_cone(pull, constraints))
+    let mut run = Run::start(order, constraints);
+    let optimum = optimum::<false>(&mut run, -objective / eps, constraints);
+    outcome(objective, eps, optimum, |pull| optimum_of_cone(&mut run, pull, constraints))
 }
 
 /// [`minimise`] for a program that the caller knows to be bounded, without the test for a ray: half
@@ -123,19 +133,42 @@ pub fn minimise_bounded(
     objective: DVec3,
     constraints: &mut [HalfSpace],
     eps: f64,
+    order: Order,
 ) -> Option<DVec3> {
-    let finite = eps > 0.0 && are_finite(constraints) && objective.is_finite();
-    if finite { optimum::<false>(-objective / eps, constraints) } else { None }
+    minimise_counted(objective, constraints, eps, order).0
 }
 
-fn optimum_of_cone(pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
-    optimum::<true>(pull, constraints)
+/// [`minimise_bounded`], and what it cost.
+#[must_use]
+#[inline]
+pub fn minimise_counted(
+    objective: DVec3,
+    constraints: &mut [HalfSpace],
+    eps: f64,
+    order: Order,
+) -> (Option<DVec3>, Work) {
+    if !(eps > 0.0 && are_finite(constraints) && objective.is_finite()) {
+        return (None, Work::default());
+    }
+    let mut run = Run::start(order, constraints);
+    let optimum = optimum::<false>(&mut run, -objective / eps, constraints);
+    (optimum, Work { tests: run.tests })
+}
+
+fn optimum_of_cone(run: &mut Run, pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
+    optimum::<true>(run, pull, constraints)
 }
 
 /// The point nearest to `pull` that satisfies `constraints`.
 #[inline(always)]
-fn optimum<const CONE: bool>(pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
-    insert::<CONE>(pull, constraints, |h, _, inserted| plane::nearest::<CONE>(h, pull, inserted))
+fn optimum<const CONE: bool>(
+    run: &mut Run,
+    pull: DVec3,
+    constraints: &mut [HalfSpace],
+) -> Option<DVec3> {
+    insert::<CONE>(run, pull, constraints, |run, h, _, inserted| {
+        plane::nearest::<CONE>(run, h, pull, inserted)
+    })
 }
 
 /// [`minimise`] in two variables: among the points of the boundary of `plane` only.
@@ -147,12 +180,16 @@ pub fn minimise_on_plane(
     plane: HalfSpace,
     constraints: &mut [HalfSpace],
     eps: f64,
+    order: Order,
 ) -> Outcome {
     if !(are_finite(constraints) && are_finite(&[plane]) && objective.is_finite()) {
         return Outcome::Infeasible;
     }
-    let optimum = plane::nearest::<false>(&plane, -objective / eps, constraints);
-    outcome(objective, eps, optimum, |pull| plane::nearest::<true>(&plane, pull, constraints))
+    let mut run = Run::start(order, constraints);
+    let optimum = plane::nearest::<false>(&mut run, &plane, -objective / eps, constraints);
+    outcome(objective, eps, optimum, |pull| {
+        plane::nearest::<true>(&mut run, &plane, pull, constraints)
+    })
 }
 
 /// [`minimise`] in one variable: among the points that lie on the boundaries of both `planes` only.
@@ -169,11 +206,20 @@ pub fn minimise_on_line(
         return Outcome::Infeasible;
     }
     let [first, second] = planes;
+    // No order matters on a line.
+    let mut run = Run::start(Order::MostViolated, &mut []);
     let optimum = Plane::of::<false>(&first).and_then(|first| {
-        line::nearest::<false>(&first, &second, None, -objective / eps, constraints)
+        line::nearest::<false>(&mut run, &first, &second, None, -objective / eps, constraints)
     });
     outcome(objective, eps, optimum, |pull| {
-        line::nearest::<true>(&Plane::of::<true>(&first)?, &second, None, pull, constraints)
+        line::nearest::<true>(
+            &mut run,
+            &Plane::of::<true>(&first)?,
+            &second,
+            None,
+            pull,
+            constraints,
+        )
     })
 }
 

@@ -47,7 +47,6 @@ mod initial;
 mod moves;
 mod options;
 mod proof;
-mod random;
 mod report;
 mod search;
 mod store;
