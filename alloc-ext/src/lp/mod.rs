@@ -30,20 +30,20 @@
 //! ray, and zero if there is none.
 //!
 //! # Decisions
-//! *No shuffle.* Seidel inserts in random order, and a violated constraint meets all before it.
-//! Here the next constraint is always a violated one, chosen by a rule, and meets only those that
-//! were inserted: four or five for a star. The rule uses no chance, so the answer has the same bits
-//! in every run. The price is that no bound on the expected time holds; the worst case is cubic in
-//! the number of constraints. (30,000 tangent planes of a sphere take 19 insertions.)
+//! *Two orders, one loop.* In Seidel's random order ([`Order::Shuffled`]) a violated constraint
+//! meets all before it, and the expected work is linear, whatever the program. The default
+//! ([`Order::MostViolated`]) inserts a violated constraint that is chosen by a rule. It meets only
+//! those that were inserted: four or five for a star. The rule uses no chance, and it avoids lines
+//! where nearly coplanar planes meet. The price is that no bound on the expected time holds; the
+//! worst case is cubic in the number of constraints.
 //!
 //! | ns per solve, 10 planes, `eps` = 1e-6 | noisy | smooth | flat | aligned | crease | ridge | corner | mean |
 //! | --- | --- | --- | --- | --- | --- | --- | --- | --- |
-//! | random order | 534 | 558 | 319 | 71 | 467 | 374 | 336 | 380 |
-//! | most violated first | 686 | 761 | 215 | 79 | 380 | 451 | 555 | 447 |
-//! | most violated first, far points pulled back to the star | 430 | 378 | 235 | 88 | 346 | 329 | 426 | 319 |
+//! | shuffled | 634 | 700 | 380 | 94 | 582 | 562 | 530 | 497 |
+//! | most violated, far points pulled back to the star | 433 | 478 | 245 | 80 | 394 | 436 | 581 | 378 |
 //!
-//! `cargo bench -p meshsweep-lab --bench lp` prints the last row. The other rows are historical: no
-//! command prints them.
+//! `cargo bench -p meshsweep-lab --bench lp` prints both rows. Far points that are not pulled back
+//! took 447 ns instead of 319 (historical: no command prints that).
 //!
 //! *No symbolic `eps`.* With an infinitesimal one, a flat star whose planes differ by rounding
 //! would send the vertex to the far end of the star, for the objective does fall in that direction.
