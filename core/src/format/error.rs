@@ -82,7 +82,7 @@ impl core::fmt::Display for OpenError {
             OpenError::Version { found } => {
                 write!(
                     f,
-                    "format version {found}, and this reader knows version 1: build the blob again"
+                    "format version {found}, and this reader knows version 2: build the blob again"
                 )
             }
             OpenError::VertexFormat { found } => write!(f, "unknown vertex format {found}"),

@@ -52,6 +52,7 @@ pub fn check_blob(bytes: &[u8]) -> Result<CheckReport, String> {
     bounds::groups(&blob)?;
     bounds::reaches(&blob)?;
     bounds::radii(&blob)?;
+    bounds::errors(&blob)?;
     bounds::cover(&blob, &mut report)?;
     bounds::capacities(&blob)?;
     levels::volumes(&blob, &meshes)?;

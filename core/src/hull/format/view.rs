@@ -94,6 +94,8 @@ pub struct Split<'a> {
     pub right: usize,
     /// No point of the fine triangles is farther than this from `vertex`, local frame.
     pub reach: f32,
+    /// The largest finite certified radius of the triangles that the split removes, local frame.
+    pub error: f32,
     /// Number of the split's first triangle, for [`Hull::radius`].
     pub first_triangle: u32,
     ring: Bytes<'a>,
@@ -343,12 +345,13 @@ impl<'a> Hull<'a> {
     pub fn split(&self, split: SplitIdx) -> Option<Split<'a>> {
         let i = split.usize();
         let Widths { vertex: wv, ring: wr, .. } = self.widths;
-        let bytes = wv + wr + 2;
+        let bytes = wv + wr + 3;
         let at = i.wrapping_mul(bytes);
         let vertex = VertIdx(self.splits.index(at, wv)?);
         let start = self.splits.index(at + wv, wr)?;
         let right = usize::from(self.splits.u8(at + wv + wr)?);
         let reach = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
+        let error = Radius8(self.splits.u8(at + wv + wr + 2)?).get();
         let end = if split.0.checked_add(1)? < self.header.splits {
             self.splits.index(at + bytes + wv, wr)?
         } else {
@@ -361,6 +364,7 @@ impl<'a> Hull<'a> {
             origin: VertIdx(self.header.base_vertices.checked_add(split.0.checked_mul(2)?)?),
             right,
             reach,
+            error,
             first_triangle: self
                 .header
                 .base_triangles

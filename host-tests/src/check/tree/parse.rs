@@ -140,10 +140,10 @@ impl TreeBlob {
     /// Reads all sections. Leaves are found through the links, so that vertices and triangles that
     /// no node names are an error.
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, String> {
-        if bytes.get(..10) != Some(b"meshswep\x01\x00".as_slice())
+        if bytes.get(..10) != Some(b"meshswep\x02\x00".as_slice())
             || word(bytes, 16) != u32::try_from(bytes.len()).ok()
         {
-            return Err("not a whole blob of version 1".into());
+            return Err("not a whole blob of version 2".into());
         }
         let at = |offset: usize| word(bytes, offset).ok_or("the header is cut short".to_owned());
         let table_end = (at(12)? as usize).min(bytes.len()).max(160);
