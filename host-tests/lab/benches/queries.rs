@@ -9,7 +9,7 @@ use std::path::Path;
 
 use divan::Bencher;
 use meshsweep::collapse::Priority;
-use meshsweep_core::{Budget, Face, Hit, Hull, RefinedHull, ScratchEntry, Search};
+use meshsweep_core::{Budget, Hit, Hull, RefinedHull, ScratchEntry, Search};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::{Points, points, segments};
 use meshsweep_lab::measure::rival::Rival;
@@ -90,16 +90,16 @@ fn segment_outer_hits(bencher: Bencher<'_, '_>, file: &str) {
     let subject = subject(file);
     let bytes = blob(&subject);
     let model = Hull::open(&bytes).expect("opens");
-    let words = model.refined_words();
-    let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
-    let mut candidates = vec![Face::EMPTY; 1024];
+    let mut refined = Box::new(RefinedHull::<1024>::new());
+    let mut scratch = [ScratchEntry::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 16];
-    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     let asked = segments(&subject, QUERIES);
     let mut next = asked.iter().cycle();
     bencher.bench_local(|| {
         let [a, b] = black_box(next.next().copied().unwrap_or_default());
-        model.outer_hits(a, b, Search::First, &mut front, &mut hits, Budget::EXACT)
+        refined.reset();
+        let first = Search::First;
+        model.outer_hits(a, b, first, &mut refined, &mut hits, Budget::EXACT, &mut scratch)
     });
 }
 

@@ -17,9 +17,11 @@ mod replay;
 mod tree;
 
 pub use enclosure::{
-    EnclosureProof, Surface, check_enclosure, check_enclosure_files, check_margin, read_surface,
+    EnclosureProof, Surface, Winding, check_enclosure, check_enclosure_files, check_margin,
+    read_surface,
 };
 pub use exact::side;
+pub use mesh::{Mesh, canonical};
 pub use parse::{Blob, Node};
 pub use tree::{TreeProof, check_tree};
 

@@ -9,12 +9,13 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 34] = [
+const QUESTIONS: [&str; 35] = [
     "ask_hull_open",
     "ask_hull_closest",
     "ask_hull_first_hit",
     "ask_hull_all_hits",
     "ask_hull_outer_hits",
+    "ask_hull_refine",
     "ask_tree_open",
     "ask_tree_closest",
     "ask_tree_follow",

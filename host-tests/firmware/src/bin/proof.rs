@@ -9,6 +9,7 @@ mod bare;
 use bare::Input;
 use meshsweep_suite::ask::{hull, tight, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::hull::Focus;
 
 #[unsafe(no_mangle)]
 extern "C" fn ask_hull_open(input: &Input<'_>, fold: &mut Fold) {
@@ -22,7 +23,7 @@ extern "C" fn ask_hull_open(input: &Input<'_>, fold: &mut Fold) {
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_hull_closest(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
+extern "C" fn ask_hull_closest(input: &Input<'_>, scratch: &mut hull::Scratch<'_>, fold: &mut Fold) {
     #[cfg(feature = "inject_panic")]
     fold.byte([1, 2, 3][input.any]);
     if let Ok(model) = hull::open(input.blob) {
@@ -42,23 +43,48 @@ extern "C" fn ask_tree_open(input: &Input<'_>, fold: &mut Fold) {
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_hull_first_hit(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
+extern "C" fn ask_hull_first_hit(input: &Input<'_>, scratch: &mut hull::Scratch<'_>, fold: &mut Fold) {
     if let Ok(model) = hull::open(input.blob) {
         hull::first_hit(&model, [input.a, input.b], scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_hull_all_hits(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
+extern "C" fn ask_hull_all_hits(input: &Input<'_>, scratch: &mut hull::Scratch<'_>, fold: &mut Fold) {
     if let Ok(model) = hull::open(input.blob) {
         hull::all_hits(&model, [input.a, input.b], scratch, &mut (), fold);
     }
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_hull_outer_hits(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
+extern "C" fn ask_hull_outer_hits<'t>(
+    input: &Input<'t>,
+    scratch: &mut hull::Scratch<'t>,
+    fold: &mut Fold,
+) {
     if let Ok(model) = hull::open(input.blob) {
         hull::outer_hits(&model, [input.a, input.b], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_hull_refine<'t>(
+    input: &Input<'t>,
+    scratch: &mut hull::Scratch<'t>,
+    fold: &mut Fold,
+) {
+    if let Ok(model) = hull::open(input.blob) {
+        let [radius, cosine, error] = input.b;
+        let focuses = [
+            Focus::Everywhere,
+            Focus::Ball { centre: input.a, radius },
+            Focus::Box { a: input.a, b: input.b },
+            Focus::Segment { a: input.a, b: input.b, radius },
+            Focus::Eye { position: input.a, axis: input.b, cosine, error_per_distance: error },
+        ];
+        for focus in focuses {
+            hull::refine(&model, &focus, error, scratch, &mut (), fold);
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use meshsweep_suite::ask::hull::{self, Scratch};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_closest(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
+extern "C" fn ask_closest(input: &Input<'_>, scratch: &mut Scratch<'_>, fold: &mut Fold) {
     if let Ok(model) = hull::open(input.blob) {
         hull::closest(&model, input.a, scratch, &mut (), fold);
     }

@@ -10,7 +10,7 @@ use meshsweep_suite::ask::hull::{self, Scratch};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_outer_hits(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
+extern "C" fn ask_outer_hits<'t>(input: &Input<'t>, scratch: &mut Scratch<'t>, fold: &mut Fold) {
     if let Ok(model) = hull::open(input.blob) {
         hull::outer_hits(&model, [input.a, input.b], scratch, &mut (), fold);
     }

@@ -11,7 +11,7 @@ use meshsweep_suite::ask::hull::{self, Scratch};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
-extern "C" fn ask_first_hit(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
+extern "C" fn ask_first_hit(input: &Input<'_>, scratch: &mut Scratch<'_>, fold: &mut Fold) {
     if let Ok(model) = hull::open(input.blob) {
         hull::first_hit(&model, [input.a, input.b], scratch, &mut (), fold);
     }

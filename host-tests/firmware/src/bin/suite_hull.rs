@@ -8,7 +8,7 @@ mod suite;
 use meshsweep_suite::ask::hull::{Model, Scratch};
 use suite::Shared;
 
-static SCRATCH: Shared<Scratch> = Shared::new(Scratch::new());
+static SCRATCH: Shared<Scratch<'static>> = Shared::new(Scratch::new());
 
 #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
 #[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
