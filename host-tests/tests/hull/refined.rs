@@ -180,7 +180,7 @@ fn any_focus(scene: &Scene, rng: &mut Rng) -> (Focus, f32) {
     };
     let error = match rng.below(4) {
         0 => 0.0,
-        _ => size * 0.5f32.powi(4 + rng.below(12) as i32),
+        _ => size * 0.5f32.powf(rng.range(4.0, 16.0)),
     };
     (focus, error)
 }
