@@ -139,13 +139,19 @@ impl FocusQuery {
         Ok(FocusQuery { shape, error: length(error)? })
     }
 
+    /// Whether an error may need a split anywhere in the focus.
+    #[inline(always)]
+    pub(crate) fn is_above(&self, error: f32) -> bool {
+        error > self.error
+    }
+
     /// How much a split is needed, by its vertex, star radius and error: 0 if it is not. Else the
     /// error, or for an eye the error over the distance, at least over the star radius.
     ///
     /// Rounding may call a split needed that is not, by a few units of f32, but not the reverse.
     #[inline]
     pub(crate) fn need(&self, vertex: Vec3, reach: f32, error: f32) -> f32 {
-        if error <= self.error {
+        if !self.is_above(error) {
             return 0.0;
         }
         match self.shape {

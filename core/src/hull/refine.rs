@@ -88,7 +88,7 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
     ///
     /// A performed split is kept while a focus and an error larger by an eighth need it, so that
     /// small motions change little. If `SPLITS` are too few, the splits of the greatest need are
-    /// performed, up to a factor of two.
+    /// performed, and at least half of the memory is used.
     ///
     /// `changes` gets the splits that were undone and performed, in this order. A caller that
     /// removes and adds the faces of each change, one after the other, has the faces of the hull.
@@ -189,7 +189,7 @@ impl Update<'_, '_> {
                     self.coarsen(1.0)?;
                 }
                 Pass::Done(left) if left > 0.0 && !was_full && self.has_room() => {
-                    let floor = self.state.floor / 2.0;
+                    let floor = self.state.floor / FLOOR_STEP;
                     self.state.floor = if floor < LEAST_FLOOR { 0.0 } else { floor };
                 }
                 Pass::Done(left) => {
@@ -202,10 +202,11 @@ impl Update<'_, '_> {
         }
     }
 
-    /// Whether an eighth of the memory is free.
+    /// Whether half of the memory is free. A step of the floor frees about a third: errors are as
+    /// long as faces, so faces go with the square. So a floor that has risen stays, and splits are
+    /// not performed and undone in turns.
     fn has_room(&self) -> bool {
-        let capacity = self.state.splits.capacity();
-        capacity - self.state.splits.len() > capacity / 8
+        self.state.splits.len() <= self.state.splits.capacity() / 2
     }
 
     /// Performs the needed splits of all existing vertices.
@@ -240,6 +241,9 @@ impl Update<'_, '_> {
     #[inline(always)]
     fn meet(&mut self, vertex: VertIdx, split: SplitIdx, left: &mut f32) -> Option<Option<Pass>> {
         let [reach, error] = self.hull.reach_and_error(split)?;
+        if !self.query.is_above(error) {
+            return Some(None);
+        }
         let need = self.query.need(self.hull.position(vertex)?, reach, error);
         if need > self.state.floor {
             return Some(if self.perform(split)? { None } else { Some(Pass::Full(need)) });
@@ -300,7 +304,10 @@ impl Update<'_, '_> {
     fn need_at(&self, position: usize, factor: f32) -> Option<f32> {
         let split = self.state.splits.get(position)?;
         let [reach, error] = self.hull.reach_and_error(split)?;
-        let vertex = self.hull.position(self.hull.split(split)?.vertex)?;
+        if !self.query.is_above(error * factor) {
+            return Some(0.0);
+        }
+        let vertex = self.hull.position(self.hull.replaced_by(split)?)?;
         Some(self.query.need(vertex, reach * factor, error * factor))
     }
 
@@ -320,7 +327,7 @@ impl Update<'_, '_> {
 /// faces.
 const KEPT: f32 = 1.125;
 
-/// A floor rises by at least this factor: two steps of stored errors.
+/// A floor rises by at least this factor, and falls by it: two steps of stored errors.
 const FLOOR_STEP: f32 = 1.25;
 
 /// A floor below the least stored error other than 0 is none.

@@ -1,14 +1,13 @@
 //! Questions to fixtures that a simulator counts: the first so many of a seeded list.
 
+mod refine;
 mod tree;
 mod triboxes;
 
 use std::hint::black_box;
 use std::path::Path;
 
-use meshsweep_core::{
-    Budget, Change, Focus, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
-};
+use meshsweep_core::{Budget, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
 
 use crate::workload::{Points, Subject, points, segments};
 
@@ -28,6 +27,9 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<String, St
     if let Some(question) = question.strip_prefix("tree ") {
         let (work, triangles) = tree::ask(fixtures, question, queries)?;
         return Ok(format!("{} {} {triangles}", work.splits, work.triangles));
+    }
+    if let Some(question) = question.strip_prefix("refine ") {
+        return refine::ask(fixtures, question, queries);
     }
     match question.strip_prefix("triboxes ") {
         Some(question) => triboxes::ask(fixtures, question, queries),
@@ -50,19 +52,7 @@ fn hull(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
         }
         return Ok(());
     }
-    let mut refined = RefinedHull::<SPLITS>::new();
-    if question == "refine" {
-        // As a tip that moves by a thousandth of the diagonal.
-        let [least, greatest] = model.bounds();
-        let size = greatest[0] - least[0];
-        let mut changes = [Change::EMPTY; 64];
-        for centre in points(&subject, Points::Path, PLACED).into_iter().take(queries) {
-            let focus = Focus::Ball { centre, radius: size / 8.0 };
-            let update = refined.update(&model, &focus, size / 1024.0, &mut changes);
-            black_box(update.map_err(failed)?);
-        }
-        return Ok(());
-    }
+    let mut refined = Box::new(RefinedHull::<SPLITS>::new());
     let search = match question {
         "first_hit" => None,
         "outer_first" => Some(Search::First),

@@ -21,7 +21,7 @@ const QUESTIONS: [&str; 17] = [
     "first_hit",
     "outer_first",
     "outer_all",
-    "refine",
+    "refine bracket.msw 0.06 0.0005",
     "tree bracket.stl far",
     "tree bracket.stl near",
     "tree bracket.stl path",

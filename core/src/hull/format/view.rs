@@ -410,6 +410,13 @@ impl<'a> Hull<'a> {
         VertIdx(self.header.base_vertices.wrapping_add(split.0.wrapping_mul(2)).wrapping_add(which))
     }
 
+    /// The vertex that a split replaces, without the rest of its record.
+    #[inline(always)]
+    pub(crate) fn replaced_by(&self, split: SplitIdx) -> Option<VertIdx> {
+        let Widths { vertex: wv, ring: wr, .. } = self.widths;
+        self.splits.index(split.usize().wrapping_mul(wv + wr + 3), wv).map(VertIdx)
+    }
+
     /// Star radius and error of a split, without the rest of its record.
     #[inline(always)]
     pub(crate) fn reach_and_error(&self, split: SplitIdx) -> Option<[f32; 2]> {
