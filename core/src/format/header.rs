@@ -204,7 +204,7 @@ impl Header {
 
     /// Bytes of one split record.
     pub fn split_bytes(&self) -> usize {
-        self.vertex_index_bytes() + self.ring_index_bytes() + 2
+        self.vertex_index_bytes() + self.ring_index_bytes() + 3
     }
 
     /// Bytes of one base group.

@@ -29,6 +29,7 @@ pub struct Split {
     pub right: usize,
     /// Claimed greatest distance of the ring and the new vertices from it.
     pub reach: f64,
+    pub error: f64,
 }
 
 /// A record of the level table.
@@ -295,11 +296,11 @@ fn read_splits(
     for _ in 0..splits {
         let (vertex, start) = (records.uint(wv)?, records.uint(wr)?);
         let (right, reach) = (records.uint(1)? as usize, small_radius(records.uint(1)? as u8));
-        heads.push((vertex, start, right, reach));
+        heads.push((vertex, start, right, [reach, small_radius(records.uint(1)? as u8)]));
     }
     records.end()?;
     let mut read = Vec::new();
-    for (i, &(vertex, start, right, reach)) in heads.iter().enumerate() {
+    for (i, &(vertex, start, right, [reach, error])) in heads.iter().enumerate() {
         let end = heads.get(i + 1).map_or(ring_entries, |next| next.1);
         let length =
             end.checked_sub(start).ok_or(format!("split {i}: its ring ends before it begins"))?;
@@ -307,7 +308,7 @@ fn read_splits(
         if right == 0 || right >= ring.len() {
             return Err(format!("split {i}: its right wing is not in its ring"));
         }
-        read.push(Split { vertex, ring, right, reach });
+        read.push(Split { vertex, ring, right, reach, error });
     }
     rings.end()?;
     Ok(read)

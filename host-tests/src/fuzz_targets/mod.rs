@@ -11,7 +11,7 @@ mod tree;
 mod tribox;
 mod triboxes;
 
-pub use hull::{closest, open, outer, seeds, segment};
+pub use hull::{closest, open, outer, refine, seeds, segment};
 pub use input::random_input;
 pub use tight::{ask_tight, tight, tight_seeds};
 pub use tree::{tree_closest, tree_coherent, tree_open, tree_overlap, tree_seeds, tree_segment};

@@ -66,11 +66,13 @@ pub enum Kind {
     TriboxesDistance,
     /// Where a segment first enters a leaf.
     TriboxesClip,
+    /// The hull refined for a focus that moves.
+    Refine,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 30] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -79,6 +81,7 @@ impl Kind {
         Self::FirstHit,
         Self::AllHits,
         Self::OuterHits,
+        Self::Refine,
         Self::Stopped,
         Self::Within,
         Self::Nearest,
@@ -135,6 +138,7 @@ impl Kind {
             Self::TriboxesCandidates => "triboxes_candidates",
             Self::TriboxesDistance => "triboxes_distance",
             Self::TriboxesClip => "triboxes_clip",
+            Self::Refine => "refine",
         }
     }
 

@@ -39,6 +39,7 @@ mod output;
 mod overlap;
 mod progress;
 mod queries;
+mod refine;
 mod segment;
 mod served;
 mod signed;
@@ -71,6 +72,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Field(args)) => field::run(&args),
         Some(Command::Segment(args)) => segment::run(&args),
         Some(Command::Hull(args)) => hull::run(&args),
+        Some(Command::Refine(args)) => refine::run(&args),
         Some(Command::Cut(args)) => cut::run(&args),
         Some(Command::Tribox(args)) => tribox::run(&args),
     }

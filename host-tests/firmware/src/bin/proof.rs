@@ -8,6 +8,7 @@
 mod bare;
 
 use bare::Input;
+use meshsweep_suite::ask::hull::Focus;
 use meshsweep_suite::ask::{Asked, hull, tight, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Motion, Point};
@@ -48,6 +49,19 @@ ask! {
     };
     ask_hull_outer_hits: hull::Model<'t>, |model, input, scratch, fold| {
         hull::outer_hits(model, ends(input), scratch, &mut (), fold)
+    };
+    ask_hull_refine: hull::Model<'t>, |model, input, scratch, fold| {
+        let [radius, cosine, error] = input.b;
+        let focuses = [
+            Focus::Everywhere,
+            Focus::Ball { centre: input.a, radius },
+            Focus::Box { a: input.a, b: input.b },
+            Focus::Segment { a: input.a, b: input.b, radius },
+            Focus::Eye { position: input.a, axis: input.b, cosine, error_per_distance: error },
+        ];
+        for focus in focuses {
+            hull::refine(model, &focus, error, scratch, &mut (), fold);
+        }
     };
     ask_tree_closest: tree::Bvh<'t>, |tree, input, scratch, fold| {
         tree::closest(tree, input.a, scratch, &mut Asked::new((), fold))

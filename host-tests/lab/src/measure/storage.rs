@@ -24,23 +24,13 @@ pub fn sections(blob: &Blob<'_>) -> Table {
 
 /// Capacities and counts.
 pub fn limits(model: &Hull<'_>) -> Table {
-    let columns = [
-        "nodes",
-        "splits",
-        "queue entries",
-        "queue bytes",
-        "front words",
-        "front bytes",
-        "longest chain",
-    ];
+    let columns = ["nodes", "splits", "queue entries", "queue bytes", "longest chain"];
     let mut table = Table::new("capacities", "Memory that no query outgrows", &columns);
     table.push(row![
         model.header().nodes,
         model.header().splits,
         model.scratch_entries(),
         model.scratch_entries() * size_of::<ScratchEntry>(),
-        model.refined_words(),
-        2 * model.refined_words() * size_of::<u32>(),
         model.header().dependency_depth,
     ]);
     table

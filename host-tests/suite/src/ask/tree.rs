@@ -80,7 +80,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        kind != Kind::OuterHits && !kind.is_triboxes()
+        !matches!(kind, Kind::OuterHits | Kind::Refine) && !kind.is_triboxes()
     }
 
     fn ask(

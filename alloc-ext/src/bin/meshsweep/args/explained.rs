@@ -24,8 +24,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     triangle\n  \
     segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
-    hull      hull --level, cut, and closest and segment with --engine cover: 35 to 50 bytes a \
-    triangle more\n  \
+    hull      hull --level, refine, cut, and closest and segment with --engine cover: 36 to 51 \
+    bytes a triangle more\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 \
     bytes a tribox\n  \
     tight     closest and within, by an interval, and hull --tight: hulls of few faces, 16 to 23 \
@@ -206,6 +206,17 @@ pub const HULL: &str = "The hull of a mesh is closed, does not cross itself, and
     meshsweep hull scan.ply --faces 500 --effort 4 -o hull.ply\n  \
     meshsweep hull part.msw --level 0 -o coarsest.ply\n  \
     meshsweep hull hulls.msw --tight 200 -o hull.ply";
+
+pub const REFINE: &str = "The hull is closed and encloses the mesh. Where it meets the focus, no \
+    face is farther than --error from the part of the mesh that it stands for, unless the output \
+    says what is left. Without a focus that is everywhere. With --eye the error may be larger: as \
+    long as one of --pixels at the distance of the face. The blob is built --for hull.\n\n\
+    Examples:\n  \
+    meshsweep refine part.msw --error 0.1 -o hull.ply\n  \
+    meshsweep refine part.msw --near 10,0,5 --within 4 --error 0.01 -o hull.ply\n  \
+    meshsweep refine part.msw --box 0,0,0,10,10,5 --error 0.01 -o hull.ply\n  \
+    meshsweep refine part.msw --segment 0,0,9,0,0,-9 --within 1 --error 0 -o hull.ply\n  \
+    meshsweep refine part.msw --eye 0,0,90 --look 0,0,-1 --fov 50 --pixels 1000 -o hull.ply";
 
 pub const CUT: &str = "meshsweep info lists the levels. --level leaves the box tree out: it holds \
     all of the surface or nothing.\n\n\
