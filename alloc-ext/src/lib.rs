@@ -16,7 +16,7 @@
 //! | [`mesh`] | mesh files, defects of a mesh, repair, report |
 //! | [`surface`] | the triangle surface that all builders share |
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
-//! | [`hausdorff`] | certified distances between two meshes |
+//! | `hausdorff` | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`cut`] | a coarser blob out of a finer one |
@@ -31,7 +31,7 @@ pub mod counted;
 pub mod cut;
 pub mod emit;
 mod error;
-pub mod hausdorff;
+mod hausdorff;
 pub mod hull;
 pub mod lp;
 pub mod mesh;
@@ -41,3 +41,4 @@ pub mod tight;
 pub mod tribox;
 
 pub use error::BuildError;
+pub use hausdorff::Farthest;
