@@ -1,13 +1,14 @@
-//! The hull hierarchy: nested outer hulls under split tables, and the cover tree over the surface.
+//! The hull hierarchy: nested outer hulls under split tables.
 //!
 //! | where | what lies there |
 //! | --- | --- |
 //! | `format/` | the bytes: indices, tables, the check of opening |
 //! | `refined_hull` | the hull refined where a query needs it |
 //! | `hull_faces` | the triangles of one level |
-//! | `sweep_queue` | the priority queue of the sweeping process |
-//! | `closest_point` | closest point on the cover tree |
-//! | `segment_hits` | first hit and all hits on the cover tree |
+//! | `sweep` | the front of the sweeping process |
+//! | `sweep_queue` | its triangles that wait |
+//! | `closest_point` | closest point by a sweep |
+//! | `segment_hits` | first hit and all hits by a sweep |
 //! | `outer_hits` | hits from outside on the refined hull |
 
 mod closest_point;
@@ -16,6 +17,7 @@ mod hull_faces;
 mod outer_hits;
 mod refined_hull;
 mod segment_hits;
+mod sweep;
 mod sweep_queue;
 
 pub use format::{Hull, Level};

@@ -7,7 +7,7 @@
 //! makes it was performed, and one bit set holds that. There is no selective coarsening. A query
 //! starts from the base hull again and clears the bits (Platis & Theoharis 2003, 3.2.2).
 
-use crate::hull::format::{Hull, Split, SplitIdx, VertIdx};
+use crate::hull::format::{Hull, Instance, Named, Split, SplitIdx, VertIdx};
 
 /// A face of the refined hull: a base triangle, or the fine triangle `slot` of a split.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +38,15 @@ impl Face {
 
     pub(crate) fn enter_at(self) -> f32 {
         self.enter
+    }
+
+    /// The number of the face among the triangles of all levels.
+    pub(crate) fn instance(self, model: &Hull<'_>) -> Instance {
+        model.instance(if self.split == u32::MAX {
+            Named::Base(self.slot)
+        } else {
+            Named::Fine(SplitIdx(self.split), self.slot)
+        })
     }
 
     /// Corners of the face.

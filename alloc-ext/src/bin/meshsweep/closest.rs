@@ -72,7 +72,7 @@ impl Question<3> for Closest<'_> {
     fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<ClosestPoint, QueryError> {
         match &self.by {
             By::Engine(Engine::Tree(tree)) => tree.closest_point(point, self.budget, scratch),
-            By::Engine(Engine::Cover(hull)) => hull.closest_point(point, self.budget, scratch),
+            By::Engine(Engine::Hull(hull)) => hull.closest_point(point, self.budget, scratch),
             By::Tight(hull) => hull.closest_point(point, self.budget, scratch),
         }
     }

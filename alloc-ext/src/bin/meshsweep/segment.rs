@@ -22,7 +22,7 @@ const HITS: usize = 64;
 pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     let SegmentArgs { blob: file, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], &args.segments))?;
-    if args.engine == Some(args::Engine::Cover) && args.facing.is_some() {
+    if args.engine == Some(args::Engine::Hull) && args.facing.is_some() {
         let what = "--facing is for the box tree; leave it out, or use --engine tree".to_owned();
         return Err(Failure::Usage { what });
     }
@@ -66,7 +66,7 @@ impl Caster<'_> {
                      about {farthest:.1e}"
                 )
             }
-            Engine::Cover(hull) => {
+            Engine::Hull(hull) => {
                 let farthest = tolerance::HULL_FAR * hull.scale();
                 format!("a coordinate may be about {farthest:.1e} at most")
             }
@@ -100,7 +100,7 @@ impl Question<6> for First<'_> {
         let ([a, b], budget) = (ends(segment), self.0.search.budget());
         match &self.0.engine {
             Engine::Tree(tree) => tree.first_hit(a, b, self.0.facing, budget, scratch),
-            Engine::Cover(hull) => hull.first_hit(a, b, budget, scratch),
+            Engine::Hull(hull) => hull.first_hit(a, b, budget, scratch),
         }
     }
 
@@ -153,7 +153,7 @@ impl Question<6> for All<'_> {
             Hit::EMPTY,
             |hits| match &self.0.engine {
                 Engine::Tree(tree) => tree.all_hits(a, b, self.0.facing, hits, budget, scratch),
-                Engine::Cover(hull) => hull.all_hits(a, b, hits, budget, scratch),
+                Engine::Hull(hull) => hull.all_hits(a, b, hits, budget, scratch),
             },
             |found| (found.stored, found.dropped),
         )
