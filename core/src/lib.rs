@@ -42,7 +42,7 @@
 //! | `format` | bytes that all structures share: header, section table, CRC, reading numbers |
 //! | `query` | types that all questions share: [`Budget`], [`Scratch`], intervals, work counters, errors |
 //! | `bvh` | the box tree over fans, one file per question |
-//! | `hull` | split tables: levels, the refined hull, the cover tree |
+//! | `hull` | split tables: levels, the refined hull, the sweep |
 //! | `tribox` | bounds of eighteen planes, and their hierarchy |
 //! | `tight` | tight hulls, each stored as a box tree |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |

@@ -279,7 +279,8 @@ impl Sweep<'_, '_> {
     fn run(&mut self, tolerance: Option<[f64; 2]>) -> Option<Ended> {
         let Sweep { front, nearest } = self;
         let surface_error = f64::from(front.model.header().surface_error);
-        let mut met_tolerance = false;
+        // Least key of the triangles that the tolerance spared.
+        let mut spared = f64::INFINITY;
         front.begin(nearest)?;
         while let Some(Taken { entry, least }) =
             front.queue.take(nearest.next.take(), nearest.best.is_none())
@@ -290,14 +291,13 @@ impl Sweep<'_, '_> {
             let tolerated = tolerance.is_some_and(|[relative, absolute]| {
                 // The reported interval: with the stored surface's error, and rounded to f32
                 // outward.
-                let low = (key.min(nearest.lower) - surface_error) * (1.0 - REPORTED);
+                let low = (key.min(spared).min(nearest.lower) - surface_error) * (1.0 - REPORTED);
                 let high = (nearest.upper + surface_error) * (1.0 + REPORTED);
                 high <= low * (1.0 + relative) || high - low <= absolute
             });
             if beaten || tolerated {
                 if !beaten {
-                    nearest.lower = nearest.lower.min(key);
-                    met_tolerance = true;
+                    spared = spared.min(key);
                 }
                 if least {
                     break;
@@ -305,17 +305,17 @@ impl Sweep<'_, '_> {
                 continue;
             }
             if front.is_spent() {
-                nearest.lower = nearest.lower.min(key).min(f64::from(front.queue.lower()));
+                let waiting = f64::from(front.queue.lower());
+                nearest.lower = nearest.lower.min(spared).min(key).min(waiting);
                 return Some(Ended::Steps);
             }
             front.open(instance, nearest)?;
         }
         let dropped = f64::from(front.queue.dropped());
-        if dropped < nearest.upper {
-            nearest.lower = nearest.lower.min(dropped);
-            return Some(Ended::Scratch);
-        }
-        Some(if met_tolerance {
+        nearest.lower = nearest.lower.min(spared).min(dropped);
+        Some(if dropped < nearest.upper {
+            Ended::Scratch
+        } else if spared < nearest.upper {
             Ended::Tolerance
         } else if front.model.is_cut() {
             Ended::Resolution

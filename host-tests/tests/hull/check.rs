@@ -284,11 +284,6 @@ fn levels_rise_in_faces_and_fall_in_void() {
             scene.name
         );
         assert!(levels.is_sorted_by(|x, y| x.void_ratio >= y.void_ratio), "{}", scene.name);
-        assert!(
-            levels.is_sorted_by(|x, y| x.surface_to_hull >= y.surface_to_hull),
-            "{}",
-            scene.name
-        );
         assert_eq!(
             levels.last().map(|l| l.faces as usize),
             Some(scene.triangles.len()),

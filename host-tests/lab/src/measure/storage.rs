@@ -54,18 +54,10 @@ pub fn sections(blob: &Blob<'_>) -> Table {
 
 /// Capacities and counts.
 pub fn limits(model: &Hull<'_>) -> Table {
-    let columns = [
-        "nodes",
-        "splits",
-        "queue entries",
-        "queue bytes",
-        "front words",
-        "front bytes",
-        "longest chain",
-    ];
+    let columns =
+        ["splits", "queue entries", "queue bytes", "front words", "front bytes", "longest chain"];
     let mut table = Table::new("capacities", "Memory that no query outgrows", &columns);
     table.push(row![
-        model.header().nodes,
         model.header().splits,
         model.scratch_entries(),
         model.scratch_entries() * size_of::<ScratchEntry>(),
@@ -101,8 +93,7 @@ pub fn proofs(bytes: &[u8]) -> Result<Table, String> {
 
 /// The level table.
 pub fn levels(model: &Hull<'_>) -> Table {
-    let columns =
-        ["level", "faces", "splits", "nodes", "hull to surface", "surface to hull", "void %"];
+    let columns = ["level", "faces", "splits", "hull to surface", "surface to hull", "void %"];
     let mut table = Table::new("levels", "Levels; distances certified, of the diagonal", &columns);
     let [low, high] = model.header().surface_box.map(glam::Vec3::from_array);
     let diagonal = f64::from((high - low).length());
@@ -111,7 +102,6 @@ pub fn levels(model: &Hull<'_>) -> Table {
             index,
             level.faces,
             level.splits,
-            level.nodes,
             fixed(f64::from(level.hull_to_surface) / diagonal, 6),
             fixed(f64::from(level.surface_to_hull) / diagonal, 6),
             fixed(100.0 * f64::from(level.void_ratio), 2),

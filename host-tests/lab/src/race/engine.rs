@@ -108,7 +108,7 @@ pub const ENTRANTS: [Entrant; 8] = [
     },
     Entrant {
         name: "hull",
-        remark: "closest_point, first_hit on the cover tree, f64 at the end",
+        remark: "closest_point, first_hit by a sweep, f64 at the end",
         counted: true,
         build: hull::build,
     },

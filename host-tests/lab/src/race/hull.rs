@@ -1,4 +1,4 @@
-//! The library's split hierarchy: certified answers from the cover tree of swept triangles.
+//! The library's split hierarchy: certified answers from a sweep of swept triangles.
 
 use meshsweep::collapse::Priority;
 use meshsweep_core::{Budget, Hull, ScratchEntry};
