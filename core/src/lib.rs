@@ -78,7 +78,7 @@ pub use format::layout::{BuildFor, SectionKind};
 pub use format::{OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;
-pub use hull::{Face, Hull, HullFace, Level, OuterHits, RefinedHull, Search};
+pub use hull::{Face, Hull, HullFace, Level, OuterHits, RefinedHull, Search, Sweep};
 pub use query::{
     AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, QueryError, Scratch,
     ScratchEntry, Side, Undecided, Verdict, Work,

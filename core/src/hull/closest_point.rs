@@ -78,9 +78,9 @@ fn closest_point(
     } else {
         let tolerance = (relative > 0.0 || absolute > 0.0)
             .then(|| [f64::from(relative), frame.length(absolute)]);
-        let mut sweep = Sweep { front: Front::new(hull, scratch, steps), nearest };
+        let mut sweep = Fresh { front: Front::new(hull, scratch, steps), nearest };
         ended = sweep.run(tolerance).ok_or(QueryError::Unchecked)?;
-        work = Work { exact: sweep.nearest.exact, ..sweep.front.work };
+        work = sweep.nearest.work(sweep.front.work);
         nearest = sweep.nearest;
     }
     if nearest.best.is_none() {
@@ -93,7 +93,7 @@ fn closest_point(
 }
 
 /// The best triangle so far.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Best {
     distance_sq: f64,
     /// Of the surface or, of a cut blob, of a hull.
@@ -102,7 +102,8 @@ struct Best {
 }
 
 /// A point, and what the triangles that were looked at say of its distance.
-struct Nearest {
+#[derive(Debug)]
+pub(super) struct Nearest {
     p: DVec3,
     swept: SweptPoint,
     /// Beyond [`F32_BOUNDS`]: bounds in f64.
@@ -121,7 +122,7 @@ struct Nearest {
 }
 
 impl Nearest {
-    fn new(model: &Hull<'_>, p: DVec3) -> Option<Self> {
+    pub(super) fn new(model: &Hull<'_>, p: DVec3) -> Option<Self> {
         // In f32's normal range the conversion is exact; below, it costs less than
         // `tolerance::UNDERFLOW`.
         let swept = SweptPoint::new(p.as_vec3(), &model.hull_box());
@@ -142,7 +143,7 @@ impl Nearest {
 
     /// Bounds of up to four triangles, infinite above the limit.
     #[inline(always)]
-    fn bounds(&self, found: &[Candidate]) -> [f32; LANES] {
+    pub(super) fn bounds(&self, found: &[Candidate]) -> [f32; LANES] {
         let mut bounds = [f32::INFINITY; LANES];
         if self.distant {
             self.distant_bounds(found, &mut bounds);
@@ -168,14 +169,14 @@ impl Nearest {
             let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
             let radius = f64::from(candidate.radius) * (1.0 + U64);
             let lower = point_triangle(self.p, a, b, c).lower - radius;
-            if lower <= self.upper {
+            if lower <= f64::from(self.upper_f32) {
                 *bound = down_to_f32(lower.max(0.0));
             }
         }
     }
 
-    /// Evaluates a triangle that is not refined.
-    fn evaluate(&mut self, candidate: &Candidate) {
+    /// Evaluates a triangle that is not refined, and returns a lower bound of its distance.
+    pub(super) fn evaluate(&mut self, candidate: &Candidate) -> f64 {
         self.exact += 1;
         let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
         let d = point_triangle(self.p, a, b, c);
@@ -200,11 +201,49 @@ impl Nearest {
             let point = a + (b - a) * d.u + (c - a) * d.v;
             self.best = Some(Best { distance_sq: d.distance_sq, instance, point });
         }
+        lower
+    }
+
+    pub(super) fn upper(&self) -> f64 {
+        self.upper
+    }
+
+    pub(super) fn lower(&self) -> f64 {
+        self.lower
+    }
+
+    /// The nearest triangle so far.
+    pub(super) fn instance(&self) -> Option<Instance> {
+        self.best.map(|best| best.instance)
+    }
+
+    /// Triangles that were not looked at may be as near as this.
+    pub(super) fn lower_to(&mut self, bound: f64) {
+        self.lower = self.lower.min(bound);
+    }
+
+    /// Nothing is nearer than this.
+    pub(super) fn raise_to(&mut self, bound: f64) {
+        self.lower = self.lower.max(bound);
+    }
+
+    /// Bounds above this are infinite.
+    pub(super) fn limit(&self) -> f32 {
+        self.upper_f32
+    }
+
+    pub(super) fn set_limit(&mut self, limit: f32) {
+        self.upper_f32 = limit;
+    }
+
+    /// The work of a front, and of the triangles evaluated here.
+    pub(super) fn work(&self, front: Work) -> Work {
+        Work { exact: self.exact, ..front }
     }
 
     /// The interval that the surface's box gives, with any point of the surface. From far enough
     /// away every point is the closest, within a rounding of f32.
-    fn from_box(&mut self, model: &Hull<'_>) -> Option<()> {
+    pub(super) fn from_box(&mut self, model: &Hull<'_>) -> Option<()> {
         let header = model.header();
         (self.lower, self.upper) = Aabb::of(header.surface_box).distance_range(self.p);
         // No split removes a triangle of the last one.
@@ -219,7 +258,13 @@ impl Nearest {
         Some(())
     }
 
-    fn answer(&self, model: &Hull<'_>, frame: &Frame, work: Work, ended: Ended) -> ClosestPoint {
+    pub(super) fn answer(
+        &self,
+        model: &Hull<'_>,
+        frame: &Frame,
+        work: Work,
+        ended: Ended,
+    ) -> ClosestPoint {
         let triangle = self.best.and_then(|best| model.number(best.instance));
         let upper = self.upper;
         let point = self.best.map_or(DVec3::ZERO, |best| best.point);
@@ -270,14 +315,14 @@ impl Visit for Nearest {
 }
 
 /// State of one query.
-struct Sweep<'a, 'm> {
+struct Fresh<'a, 'm> {
     front: Front<'a, 'm>,
     nearest: Nearest,
 }
 
-impl Sweep<'_, '_> {
+impl Fresh<'_, '_> {
     fn run(&mut self, tolerance: Option<[f64; 2]>) -> Option<Ended> {
-        let Sweep { front, nearest } = self;
+        let Fresh { front, nearest } = self;
         let surface_error = f64::from(front.model.header().surface_error);
         // Least key of the triangles that the tolerance spared.
         let mut spared = f64::INFINITY;

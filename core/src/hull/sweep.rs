@@ -100,7 +100,15 @@ impl Batch {
 /// Children of a triangle.
 const CHILDREN: usize = 3;
 
+/// Triangles and groups of all levels.
+fn triangles(model: &Hull<'_>) -> u32 {
+    let h = model.header();
+    let triangles = h.rings.saturating_add(h.base_triangles).saturating_add(2 * h.splits);
+    triangles.saturating_add(model.base_groups())
+}
+
 /// The triangles that wait.
+#[derive(Debug)]
 pub(crate) struct Front<'a, 'm> {
     pub(crate) model: Hull<'a>,
     pub(crate) queue: SweepQueue<'m>,
@@ -113,10 +121,8 @@ impl<'a, 'm> Front<'a, 'm> {
     /// An empty front that may replace `steps` triangles. There are fewer than the tables hold. So
     /// a search also ends on tables that open and yet name a triangle more than once.
     pub(crate) fn new(model: &Hull<'a>, scratch: &'m mut [ScratchEntry], steps: u32) -> Self {
-        let h = model.header();
-        let triangles = h.rings.saturating_add(h.base_triangles).saturating_add(2 * h.splits);
         Front {
-            steps: steps.min(triangles.saturating_add(model.base_groups())),
+            steps: steps.min(triangles(model)),
             model: *model,
             queue: SweepQueue::new(scratch, model.scratch_entries()),
             work: Work::NONE,
@@ -138,6 +144,44 @@ impl<'a, 'm> Front<'a, 'm> {
         }
         batch.flush(visitor, &mut self.queue);
         Some(())
+    }
+
+    /// A front whose queue never goes depth first, and that may replace no triangle yet.
+    pub(crate) fn best_first(model: &Hull<'a>, scratch: &'m mut [ScratchEntry]) -> Self {
+        Front { queue: SweepQueue::best_first(scratch), work: Work::NONE, model: *model, steps: 0 }
+    }
+
+    /// From now on, `steps` triangles may be replaced.
+    pub(crate) fn allow(&mut self, steps: u32) {
+        self.work = Work::NONE;
+        self.steps = steps.min(triangles(&self.model));
+    }
+
+    /// The triangle or group of a number. It is not counted as work.
+    pub(crate) fn look(&self, instance: Instance) -> Option<Candidate> {
+        let (corners, radius) = match self.model.named(instance) {
+            Named::Group(index) => {
+                let (corners, radius) = self.model.base_group(index)?;
+                let corners = self.model.positions(corners)?;
+                return Some(Candidate { corners, radius, instance, fate: Fate::Splits });
+            }
+            Named::Base(index) => (self.model.base_triangle(index)?, index),
+            Named::Fine(split, slot) => {
+                let split = self.model.split(split)?;
+                (split.fine(slot as usize)?, split.first_triangle.checked_add(slot)?)
+            }
+        };
+        let fate = self.fate(self.model.removed_by(corners));
+        let radius = self.model.radius(radius)?;
+        Some(Candidate { corners: self.model.positions(corners)?, radius, instance, fate })
+    }
+
+    fn fate(&self, split: Option<SplitIdx>) -> Fate {
+        match split {
+            Some(_) => Fate::Splits,
+            None if self.model.is_cut() => Fate::Cut,
+            None => Fate::Surface,
+        }
     }
 
     /// Whether no triangle may be replaced any more.
@@ -244,11 +288,7 @@ impl<'a, 'm> Front<'a, 'm> {
     #[inline(always)]
     fn candidate(&mut self, triangle: &Triangle) -> Option<Candidate> {
         let Triangle { instance, ends, radius } = *triangle;
-        let fate = match self.model.stored_split(triangle.split()) {
-            Some(_) => Fate::Splits,
-            None if self.model.is_cut() => Fate::Cut,
-            None => Fate::Surface,
-        };
+        let fate = self.fate(self.model.stored_split(triangle.split()));
         let counter =
             if fate == Fate::Surface { &mut self.work.triangles } else { &mut self.work.nodes };
         *counter += 1;
