@@ -1,8 +1,8 @@
 //! Closest point by the sweeping process (Guéziec 2000, 3.2 and 4.3) on the split tables.
 //!
-//! Triangles are bounded in f32, rounded down with a proved margin. The few triangles of the surface
-//! that may hold the answer are evaluated in f64, so that the interval is as wide as one rounding of
-//! f32.
+//! Triangles are bounded in f32, rounded down with a proved margin. The few triangles of the
+//! surface that may hold the answer are evaluated in f64, so that the interval is as wide as one
+//! rounding of f32.
 
 use super::sweep::{Candidate, Fate, Front, Visit};
 use super::sweep_queue::{SweepQueue, Taken, before};
@@ -71,7 +71,7 @@ fn closest_point(
     let mut nearest = Nearest::new(hull, p).ok_or(QueryError::Unchecked)?;
     let (mut work, mut ended) = (Work::NONE, Ended::Exact);
     if p.abs().max_element() > HULL_FAR {
-        nearest.from_box(hull).ok_or(QueryError::Unchecked)?;
+        nearest.settle_by_box(hull).ok_or(QueryError::Unchecked)?;
         if hull.is_cut() {
             ended = Ended::Resolution;
         }
@@ -86,7 +86,7 @@ fn closest_point(
     if nearest.best.is_none() {
         // Stopped before any triangle was reached: only the box is known.
         let lower = nearest.lower;
-        nearest.from_box(hull).ok_or(QueryError::Unchecked)?;
+        nearest.settle_by_box(hull).ok_or(QueryError::Unchecked)?;
         nearest.lower = nearest.lower.max(lower.min(nearest.upper));
     }
     Ok(nearest.answer(hull, &frame, work, ended))
@@ -243,7 +243,7 @@ impl Nearest {
 
     /// The interval that the surface's box gives, with any point of the surface. From far enough
     /// away every point is the closest, within a rounding of f32.
-    pub(super) fn from_box(&mut self, model: &Hull<'_>) -> Option<()> {
+    pub(super) fn settle_by_box(&mut self, model: &Hull<'_>) -> Option<()> {
         let header = model.header();
         (self.lower, self.upper) = Aabb::of(header.surface_box).distance_range(self.p);
         // No split removes a triangle of the last one.

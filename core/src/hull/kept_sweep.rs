@@ -189,7 +189,7 @@ impl Sweep<'_, '_> {
         self.front.allow(budget.steps);
         if self.p.abs().max_element() > HULL_FAR {
             let mut far = self.point()?;
-            far.from_box(&self.front.model)?;
+            far.settle_by_box(&self.front.model)?;
             let ended = if self.front.model.is_cut() { Ended::Resolution } else { Ended::Exact };
             return Some(far.answer(&self.front.model, &self.frame, Work::NONE, ended));
         }
@@ -224,7 +224,7 @@ impl Sweep<'_, '_> {
             let work = keep.nearest.work(self.front.work);
             if self.best.is_none() {
                 let mut known = self.point()?;
-                known.from_box(&self.front.model)?;
+                known.settle_by_box(&self.front.model)?;
                 return Some(known.answer(&self.front.model, &self.frame, work, ended));
             }
             return Some(keep.nearest.answer(&self.front.model, &self.frame, work, ended));

@@ -1,8 +1,8 @@
 //! First hit and all hits of a segment, on the split tables.
 //!
 //! A triangle is refined if the segment may meet the swept triangle that contains its part of the
-//! surface, whether or not it crosses a hull face. So hits below an unbroken hull (Platis & Theoharis 2003,
-//! Figure 5) are found, wherever the segment starts.
+//! surface, whether or not it crosses a hull face. So hits below an unbroken hull (Platis &
+//! Theoharis 2003, Figure 5) are found, wherever the segment starts.
 
 use super::sweep::{Candidate, Fate, Front, Visit};
 use super::sweep_queue::{SweepQueue, Taken};

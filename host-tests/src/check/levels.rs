@@ -46,8 +46,8 @@ pub(super) fn volumes(blob: &Blob, hulls: &[Vec<[u32; 3]>]) -> Result<(), String
     Ok(())
 }
 
-/// The hull of each level is as near the surface as the table says, at sampled points, and its radii
-/// are below the table's.
+/// The hull of each level is as near the surface as the table says, at sampled points, and its
+/// radii are below the table's.
 pub(super) fn distances(
     blob: &Blob,
     hulls: &[Vec<[u32; 3]>],

@@ -1,8 +1,9 @@
 //! Checked views of an opened blob.
 //!
 //! If [`Hull::open`] returned `Ok`, then every index that the blob stores is in range, every ring
-//! vertex exists before its split, and every coordinate is finite. Accessors return `Option` all the same. An index past the end gives `None` (or some
-//! record, where its byte offset wraps on a 32-bit target). No path can panic.
+//! vertex exists before its split, and every coordinate is finite. Accessors return `Option` all
+//! the same. An index past the end gives `None` (or some record, where its byte offset wraps on a
+//! 32-bit target). No path can panic.
 
 use super::index::{SplitIdx, TriIdx, VertIdx};
 use super::layout::{LEFT_BEFORE, LEVEL_BYTES, RIGHT_BEFORE, RIGHT_WING, level};
