@@ -45,7 +45,7 @@ fn build_reports_mesh_sections_memory_and_levels() {
         "source starts",
         "tree fans",
         "total",
-        "queue",
+        "scratch: ",
         "void %",
         "surface error 0 ",
         "1948 triangles in ",
