@@ -110,9 +110,12 @@ pub(super) struct Nearest {
     distant: bool,
     /// No point of a cut hull's triangles is farther than this from the surface.
     hull_to_surface: f64,
-    /// Not below the distance; f64 for the answer, f32 rounded up for pruning.
+    /// Not below the distance.
     upper: f64,
-    upper_f32: f32,
+    /// Bounds above this are infinite: `upper`, unless [`set_limit`](Self::set_limit) raised it. In
+    /// f32 rounded up, for pruning.
+    limit: f64,
+    limit_f32: f32,
     /// Least lower bound of all triangles that are not refined further.
     lower: f64,
     best: Option<Best>,
@@ -133,7 +136,8 @@ impl Nearest {
             distant: p.abs().max_element() > F32_BOUNDS,
             hull_to_surface: f64::from(last.hull_to_surface),
             upper: f64::INFINITY,
-            upper_f32: f32::INFINITY,
+            limit: f64::INFINITY,
+            limit_f32: f32::INFINITY,
             lower: f64::INFINITY,
             best: None,
             exact: 0,
@@ -155,7 +159,7 @@ impl Nearest {
         }
         let supports = lanes.supports(found.len());
         for ((bound, support), candidate) in bounds.iter_mut().zip(supports).zip(found) {
-            if let Some(lower) = self.swept.bound(support, candidate.radius, self.upper_f32) {
+            if let Some(lower) = self.swept.bound(support, candidate.radius, self.limit_f32) {
                 *bound = lower;
             }
         }
@@ -169,7 +173,7 @@ impl Nearest {
             let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
             let radius = f64::from(candidate.radius) * (1.0 + U64);
             let lower = point_triangle(self.p, a, b, c).lower - radius;
-            if lower <= f64::from(self.upper_f32) {
+            if lower <= self.limit {
                 *bound = down_to_f32(lower.max(0.0));
             }
         }
@@ -190,7 +194,7 @@ impl Nearest {
         };
         if upper < self.upper {
             self.upper = upper;
-            self.upper_f32 = up_to_f32(upper);
+            self.set_limit(upper);
         }
         let instance = candidate.instance;
         let nearer = self.best.is_none_or(|best| {
@@ -208,10 +212,6 @@ impl Nearest {
         self.upper
     }
 
-    pub(super) fn lower(&self) -> f64 {
-        self.lower
-    }
-
     /// The nearest triangle so far.
     pub(super) fn instance(&self) -> Option<Instance> {
         self.best.map(|best| best.instance)
@@ -227,13 +227,27 @@ impl Nearest {
         self.lower = self.lower.max(bound);
     }
 
-    /// Bounds above this are infinite.
-    pub(super) fn limit(&self) -> f32 {
-        self.upper_f32
+    /// Whether the interval meets a tolerance, relative or absolute, if nothing is nearer than
+    /// `bound`: as it is reported, with the stored surface's error, and rounded to f32 outward.
+    pub(super) fn is_within(
+        &self,
+        [relative, absolute]: [f64; 2],
+        bound: f64,
+        surface_error: f64,
+    ) -> bool {
+        let low = (bound.min(self.lower) - surface_error) * (1.0 - REPORTED);
+        let high = (self.upper + surface_error) * (1.0 + REPORTED);
+        high <= low * (1.0 + relative) || high - low <= absolute
     }
 
-    pub(super) fn set_limit(&mut self, limit: f32) {
-        self.upper_f32 = limit;
+    /// Bounds above this are infinite.
+    pub(super) fn limit(&self) -> f32 {
+        self.limit_f32
+    }
+
+    pub(super) fn set_limit(&mut self, limit: f64) {
+        self.limit = limit;
+        self.limit_f32 = up_to_f32(limit);
     }
 
     /// The work of a front, and of the triangles evaluated here.
@@ -303,7 +317,7 @@ impl Visit for Nearest {
                 }
             }
             let (bound, lane) = nearest;
-            if bound > self.upper_f32 || bound == f32::INFINITY {
+            if bound > self.limit_f32 || bound == f32::INFINITY {
                 break;
             }
             bounds[lane % LANES] = f32::INFINITY;
@@ -323,7 +337,7 @@ struct Fresh<'a, 'm> {
 impl Fresh<'_, '_> {
     fn run(&mut self, tolerance: Option<[f64; 2]>) -> Option<Ended> {
         let Fresh { front, nearest } = self;
-        let surface_error = f64::from(front.model.header().surface_error);
+        let error = f64::from(front.model.header().surface_error);
         // Least key of the triangles that the tolerance spared.
         let mut spared = f64::INFINITY;
         front.begin(nearest)?;
@@ -332,14 +346,9 @@ impl Fresh<'_, '_> {
         {
             let key = f64::from(entry.key());
             let instance = Instance(entry.node());
-            let beaten = entry.key() > nearest.upper_f32;
-            let tolerated = tolerance.is_some_and(|[relative, absolute]| {
-                // The reported interval: with the stored surface's error, and rounded to f32
-                // outward.
-                let low = (key.min(spared).min(nearest.lower) - surface_error) * (1.0 - REPORTED);
-                let high = (nearest.upper + surface_error) * (1.0 + REPORTED);
-                high <= low * (1.0 + relative) || high - low <= absolute
-            });
+            let beaten = entry.key() > nearest.limit_f32;
+            let tolerated =
+                tolerance.is_some_and(|within| nearest.is_within(within, key.min(spared), error));
             if beaten || tolerated {
                 if !beaten {
                     spared = spared.min(key);
@@ -358,9 +367,12 @@ impl Fresh<'_, '_> {
         }
         let dropped = f64::from(front.queue.dropped());
         nearest.lower = nearest.lower.min(spared).min(dropped);
+        // Beyond a cut, a triangle that was evaluated later may have widened the interval again.
+        let is_met = spared < nearest.upper
+            && tolerance.is_some_and(|within| nearest.is_within(within, spared, error));
         Some(if dropped < nearest.upper {
             Ended::Scratch
-        } else if spared < nearest.upper {
+        } else if is_met {
             Ended::Tolerance
         } else if front.model.is_cut() {
             Ended::Resolution

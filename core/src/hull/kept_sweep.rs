@@ -9,8 +9,8 @@ use super::closest_point::Nearest;
 use super::sweep::{Candidate, Fate, Front, Visit};
 use super::sweep_queue::SweepQueue;
 use crate::hull::format::{Hull, Instance};
-use crate::num::tolerance::{HULL_FAR, REPORTED};
-use crate::num::{down_to_f32, up_to_f32};
+use crate::num::down_to_f32;
+use crate::num::tolerance::HULL_FAR;
 use crate::query::{Budget, ClosestPoint, Ended, Frame, QueryError, ScratchEntry, Work};
 use glam::DVec3;
 
@@ -233,7 +233,7 @@ impl Sweep<'_, '_> {
 
     /// Refines until no triangle that waits may be nearer than the best one.
     fn run(&mut self, keep: &mut Keep, budget: &Budget) -> Option<Ended> {
-        let surface_error = f64::from(self.front.model.header().surface_error);
+        let error = f64::from(self.front.model.header().surface_error);
         let (relative, absolute) = (f64::from(budget.relative), self.frame.length(budget.absolute));
         let margin = self.margin();
         let mut ended = self.ended();
@@ -246,10 +246,8 @@ impl Sweep<'_, '_> {
                 self.front.queue.push(entry);
                 break;
             }
-            let low = (bound.min(keep.nearest.lower()) - surface_error) * (1.0 - REPORTED);
-            let high = (keep.nearest.upper() + surface_error) * (1.0 + REPORTED);
             let is_near_enough = (relative > 0.0 || absolute > 0.0)
-                && (high <= low * (1.0 + relative) || high - low <= absolute);
+                && keep.nearest.is_within([relative, absolute], bound, error);
             if is_near_enough || self.front.is_spent() {
                 ended = if is_near_enough { Ended::Tolerance } else { Ended::Steps };
                 let waiting = bound_of(self.front.queue.lower(), self.moved);
@@ -387,6 +385,6 @@ impl Sweep<'_, '_> {
 impl Keep {
     /// Triangles farther than the nearest by more than this are not kept.
     fn limit_to(&mut self, margin: f64) {
-        self.nearest.set_limit(up_to_f32(self.nearest.upper() + margin));
+        self.nearest.set_limit(self.nearest.upper() + margin);
     }
 }
