@@ -38,7 +38,9 @@ pub struct Work {
     /// order, in expectation over seeds: at most `m` on a line, `3m` on a plane, `10m` in space. An
     /// optimum in `d` variables depends on `d` constraints at most, so the `i`-th one changes it
     /// with a probability of at most `d/i`. Only then a program with one variable less is solved:
-    /// `T(d, m) ≤ Σ 1 + d/i · T(d − 1, i − 1) ≤ m + d · T(d − 1, m)`.
+    /// `T(d, m) ≤ Σ 1 + d/i · T(d − 1, i − 1) ≤ m + d · T(d − 1, m)`. This takes shuffles for
+    /// random permutations, and leaves out the second look at a line whose ends rounding cannot
+    /// tell apart.
     pub tests: u64,
 }
 

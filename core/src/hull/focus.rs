@@ -131,7 +131,8 @@ impl FocusQuery {
                     position: local(position)?,
                     axis: if axis.is_finite() { axis } else { Vec3::X },
                     cosine,
-                    sine: libm::sqrtf(1.0 - cosine * cosine),
+                    // `1 − c²` would cancel where the cone is narrow.
+                    sine: libm::sqrtf((1.0 - cosine) * (1.0 + cosine)),
                     error_per_distance,
                 }
             }
@@ -146,13 +147,18 @@ impl FocusQuery {
     }
 
     /// How much a split is needed, by its vertex, star radius and error: 0 if it is not. Else the
-    /// error, or for an eye the error over the distance, at least over the star radius.
+    /// error, or for an eye the error over the distance, at least over the star radius. Finite. A
+    /// split whose star radius is not known, because the stored one is infinite, is needed
+    /// everywhere.
     ///
     /// Rounding may call a split needed that is not, by a few units of f32, but not the reverse.
     #[inline]
     pub(crate) fn need(&self, vertex: Vec3, reach: f32, error: f32) -> f32 {
         if !self.is_above(error) {
             return 0.0;
+        }
+        if !reach.is_finite() {
+            return error;
         }
         match self.shape {
             Shape::Everywhere => error,
@@ -184,7 +190,8 @@ impl FocusQuery {
                     || (forward >= -reach && beside <= reach);
                 let distance = (centre_distance - reach).max(0.0);
                 if is_seen && error > error_per_distance * distance {
-                    error / distance.max(reach)
+                    // The eye may stand in a star of no extent.
+                    (error / distance.max(reach)).min(f32::MAX)
                 } else {
                     0.0
                 }

@@ -10,18 +10,9 @@ use super::sweep::{Candidate, Fate, Front, Visit};
 use super::sweep_queue::SweepQueue;
 use crate::hull::format::{Hull, Instance};
 use crate::num::down_to_f32;
-use crate::num::tolerance::HULL_FAR;
+use crate::num::tolerance::{HULL_FAR, SUMMED, SWEEP_KEPT, SWEEP_MOTION};
 use crate::query::{Budget, ClosestPoint, Ended, Frame, QueryError, ScratchEntry, Work};
 use glam::DVec3;
-
-/// Part of the hulls' size by which triangles may be farther than the nearest and still be kept.
-const KEPT: f64 = 1.0 / 32.0;
-
-/// Motion, in the local frame, after which a sweep begins anew: keys in f32 lose too much.
-const FARTHEST_MOTION: f64 = 16.0;
-
-/// Motions are summed with less than four roundings each.
-const SUMMED: f64 = 1.0 + 1.0 / (1u64 << 48) as f64;
 
 /// A sweep about one point that may move. It lives in the caller's scratch.
 #[derive(Debug)]
@@ -152,7 +143,7 @@ impl Sweep<'_, '_> {
         let p = self.frame.local(point)?;
         self.moved = (self.moved + p.distance(self.p)) * SUMMED;
         self.p = p;
-        if self.holds == Holds::Rest || self.moved.is_nan() || self.moved > FARTHEST_MOTION {
+        if self.holds == Holds::Rest || self.moved.is_nan() || self.moved > SWEEP_MOTION {
             self.holds = Holds::Nothing;
         }
         Ok(())
@@ -373,7 +364,7 @@ impl Sweep<'_, '_> {
 
     fn margin(&self) -> f64 {
         let hull = self.front.model.hull_box();
-        KEPT * f64::from((hull.max - hull.min).length())
+        SWEEP_KEPT * f64::from((hull.max - hull.min).length())
     }
 
     /// How a complete search ends.

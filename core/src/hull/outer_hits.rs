@@ -94,6 +94,7 @@ impl<'t> Hull<'t> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<OuterHits, QueryError> {
+        budget.check()?;
         outer_hits(self, [a, b], search, erased(&mut refined.state), hits, budget.steps, scratch)
     }
 }

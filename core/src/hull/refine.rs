@@ -88,15 +88,19 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
     ///
     /// A performed split is kept while a focus and an error larger by an eighth need it, so that
     /// small motions change little. If `SPLITS` are too few, the splits of the greatest need are
-    /// performed, and at least half of the memory is used.
+    /// performed. Splits of equal need are then performed all or none, so memory may stay free, and
+    /// each update may try them again.
     ///
-    /// `changes` gets the splits that were undone and performed, in this order. A caller that
-    /// removes and adds the faces of each change, one after the other, has the faces of the hull.
-    /// If some were [`dropped`](Refinement::dropped), take [`faces`](Self::faces) instead. An empty
-    /// slice is fine.
+    /// `changes` gets the splits that were undone and performed, in the order in which that was
+    /// done. A caller that removes and adds the faces of each change, one after the other, has the
+    /// faces of the hull, if nothing but updates with this hull changed the state: a
+    /// [`reset`](Self::reset), [`Hull::outer_hits`] and an update with another hull leave no
+    /// record. If some were [`dropped`](Refinement::dropped), take [`faces`](Self::faces) instead.
+    /// An empty slice is fine.
     ///
-    /// Cost: linear in the base hull's vertices and the performed splits, some hundred instructions
-    /// each, and some thousand for each change.
+    /// Cost: some hundred instructions for each vertex of the base hull and each performed split,
+    /// and some thousand for each change. An update that runs out of memory, or has memory again,
+    /// takes that several times.
     ///
     /// ```
     /// use meshsweep_core::{Change, Focus, Hull, RefinedHull};
@@ -167,8 +171,16 @@ struct Update<'a, 't> {
 enum Pass {
     /// The memory is too short for a split of this need.
     Full(f32),
-    /// All needs above the floor are met. The largest error among the others, 0 without.
-    Done(f32),
+    /// All needs above the floor are met. What is left of the others.
+    Done(Left),
+}
+
+/// The largest error and the largest need of splits that a focus needs and a pass leaves out; 0
+/// without.
+#[derive(Clone, Copy, Default)]
+struct Left {
+    error: f32,
+    need: f32,
 }
 
 impl Update<'_, '_> {
@@ -183,35 +195,37 @@ impl Update<'_, '_> {
                     // out one needed split at least, so the loop ends.
                     if was_full {
                         let least = self.least_need(need)?;
-                        self.state.floor = least.max(self.state.floor * FLOOR_STEP);
+                        // Needs are finite, so the greatest floor leaves out all.
+                        self.state.floor = least.max(self.state.floor * FLOOR_STEP).min(f32::MAX);
                     }
                     was_full = true;
                     self.coarsen(1.0)?;
                 }
-                Pass::Done(left) if left > 0.0 && !was_full && self.has_room() => {
-                    let floor = self.state.floor / FLOOR_STEP;
+                Pass::Done(left) if left.need > 0.0 && !was_full && self.has_room() => {
+                    // Below a need that is left, so that each such pass performs a split.
+                    let floor = self.state.floor.min(left.need) / FLOOR_STEP;
                     self.state.floor = if floor < LEAST_FLOOR { 0.0 } else { floor };
                 }
                 Pass::Done(left) => {
-                    if left == 0.0 {
+                    if left.need == 0.0 {
                         self.state.floor = 0.0;
                     }
-                    return Some(left);
+                    return Some(left.error);
                 }
             }
         }
     }
 
-    /// Whether half of the memory is free. A step of the floor frees about a third: errors are as
-    /// long as faces, so faces go with the square. So a floor that has risen stays, and splits are
-    /// not performed and undone in turns.
+    /// Whether half of the memory is free. A step of the floor frees about a third where needs
+    /// differ: errors are as long as faces, so faces go with the square. So a floor that has risen
+    /// mostly stays, and few splits are performed and undone in turns.
     fn has_room(&self) -> bool {
         self.state.splits.len() <= self.state.splits.capacity() / 2
     }
 
     /// Performs the needed splits of all existing vertices.
     fn refine(&mut self) -> Option<Pass> {
-        let mut left = 0f32;
+        let mut left = Left::default();
         for vertex in 0..self.hull.header().base_vertices {
             let vertex = VertIdx(vertex);
             if let Some(split) = self.hull.split_of(vertex)
@@ -239,7 +253,7 @@ impl Update<'_, '_> {
 
     /// Performs the split of an existing vertex if it is needed. The inner `Some` ends the pass.
     #[inline(always)]
-    fn meet(&mut self, vertex: VertIdx, split: SplitIdx, left: &mut f32) -> Option<Option<Pass>> {
+    fn meet(&mut self, vertex: VertIdx, split: SplitIdx, left: &mut Left) -> Option<Option<Pass>> {
         let [reach, error] = self.hull.reach_and_error(split)?;
         if !self.query.is_above(error) {
             return Some(None);
@@ -249,7 +263,7 @@ impl Update<'_, '_> {
             return Some(if self.perform(split)? { None } else { Some(Pass::Full(need)) });
         }
         if need > 0.0 {
-            *left = left.max(error);
+            *left = Left { error: left.error.max(error), need: left.need.max(need) };
         }
         Some(None)
     }

@@ -34,9 +34,13 @@ impl<const SPLITS: usize> Default for RefinedHull<'_, SPLITS> {
     }
 }
 
+/// Most splits of a [`RefinedHull`].
+const MOST_SPLITS: usize = 1 << 24;
+
 impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
-    /// The base hull. May initialise a `static`.
+    /// The base hull. May initialise a `static`. More than 2^24 `SPLITS` do not compile.
     pub const fn new() -> Self {
+        const { assert!(SPLITS <= MOST_SPLITS, "positions of splits are products of 32 bits") }
         RefinedHull {
             state: Refined { hull: 0, floor: 0.0, splits: SplitSet::<[SplitSlot; SPLITS]>::new() },
             bytes: PhantomData,

@@ -4,8 +4,11 @@
 use super::scenes::all;
 use glam::DVec3;
 use meshsweep_core::internal::hull::format::SplitIdx;
-use meshsweep_core::{Change, Focus, Hull, QueryError, RefinedHull, Refinement, VertIdx};
+use meshsweep_core::{
+    Budget, Change, Focus, Hull, QueryError, RefinedHull, Refinement, Search, SectionKind, VertIdx,
+};
 use meshsweep_host_tests::check::{Mesh, Surface, Winding, canonical};
+use meshsweep_host_tests::corrupt::{entries, seal};
 use meshsweep_host_tests::generate::Rng;
 use meshsweep_host_tests::oracle::distance_to_triangle;
 use meshsweep_host_tests::scene::Scene;
@@ -423,5 +426,72 @@ fn a_focus_that_is_no_place_is_a_typed_error_and_changes_nothing() {
     ] {
         assert_eq!(refined.update(&hull, &focus, error, &mut []), Err(refusal), "{focus:?}");
         assert_eq!(refined.splits(), splits);
+    }
+}
+
+/// The bracket's hierarchy with another star radius in every split.
+fn with_star_radius(code: u8) -> Vec<u8> {
+    let mut blob = include_bytes!("../../../fixtures/bracket.msw").to_vec();
+    let (bytes, at) = {
+        let hull = Hull::open(&blob).expect("opens");
+        let header = hull.header();
+        let bytes = header.vertex_index_bytes() + header.ring_index_bytes() + 3;
+        let splits = header.splits as usize;
+        let at = entries(&blob).into_iter().find(|e| e.kind == SectionKind::Splits as u32);
+        let at = at.expect("has splits").offset as usize;
+        (bytes, at..at + splits * bytes)
+    };
+    for record in blob[at].chunks_exact_mut(bytes) {
+        record[bytes - 2] = code;
+    }
+    seal(&mut blob);
+    blob
+}
+
+#[test]
+fn an_update_ends_where_an_eye_stands_in_a_star_of_no_extent() {
+    let blob = with_star_radius(0);
+    let hull = Hull::open(&blob).expect("opens");
+    let position = hull.vertex(hull.split(SplitIdx(0)).expect("a split").vertex).expect("a vertex");
+    let eye = Focus::Eye { position, axis: [0.0; 3], cosine: -1.0, error_per_distance: 1e9 };
+    fn update<const SPLITS: usize>(hull: &Hull<'_>, focuses: [&Focus; 2]) {
+        let mut refined = RefinedHull::<SPLITS>::new();
+        for focus in focuses.into_iter().cycle().take(6) {
+            let found = refined.update(hull, focus, 0.0, &mut []).expect("a place");
+            assert!(SPLITS > 0 || found.error_left > 0.0);
+        }
+    }
+    for focuses in [[&eye, &eye], [&eye, &Focus::Everywhere]] {
+        update::<0>(&hull, focuses);
+        update::<1>(&hull, focuses);
+        update::<5>(&hull, focuses);
+        update::<64>(&hull, focuses);
+    }
+}
+
+#[test]
+fn a_split_of_unknown_star_radius_is_needed_by_every_focus() {
+    let blob = with_star_radius(u8::MAX);
+    let hull = Hull::open(&blob).expect("opens");
+    let focuses = [
+        Focus::Ball { centre: [1e6; 3], radius: 0.0 },
+        Focus::Eye { position: [1e6; 3], axis: [1.0; 3], cosine: 0.9, error_per_distance: 1.0 },
+    ];
+    for focus in focuses {
+        let mut refined = RefinedHull::<ALL>::new();
+        let found = refined.update(&hull, &focus, 0.0, &mut []).expect("a place");
+        assert!(found.performed > 800 && found.error_left == 0.0, "{found:?}");
+    }
+}
+
+#[test]
+fn hits_from_outside_refuse_a_budget_that_is_none() {
+    let scene = &all()[0];
+    let hull = scene.model();
+    let mut refined = RefinedHull::<4>::new();
+    for budget in [Budget::EXACT.with_relative(f32::NAN), Budget::EXACT.with_absolute(-1.0)] {
+        let (a, b) = ([9.0; 3], [8.0; 3]);
+        let asked = hull.outer_hits(a, b, Search::First, &mut refined, &mut [], budget, &mut []);
+        assert_eq!(asked.err(), Some(QueryError::Tolerance));
     }
 }

@@ -178,3 +178,20 @@ fn bundles_of_planes_through_common_points_are_feasible() {
     assert_eq!(missed[0], 0, "{:?}", ORDERS[0]);
     assert!(missed[1..].iter().all(|&missed| missed <= 100), "{missed:?}");
 }
+
+#[test]
+fn the_same_program_in_the_same_order_gives_the_same_bits() {
+    for family in FAMILIES {
+        let mut random = Random::new(22);
+        for _ in 0..200 {
+            let program = family.program(&mut random);
+            let bits = |outcome| match outcome {
+                Outcome::Optimal(point) => Some(point.to_array().map(f64::to_bits)),
+                _ => None,
+            };
+            for order in ORDERS {
+                assert_eq!(bits(solve_in(&program, order)), bits(solve_in(&program, order)));
+            }
+        }
+    }
+}
