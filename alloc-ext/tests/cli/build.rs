@@ -255,7 +255,7 @@ fn components_that_may_overlap_are_counted_where_signs_are_promised() {
     let directory = scratch("overlapping_components");
     let note = "connected components whose boxes overlap: 2; they are not united";
     let apart = report(&directory, "apart.obj", &tetrahedra(&[0.0, 3.0]));
-    assert!(!apart.contains("connected components"), "{apart}");
+    assert!(!apart.contains("boxes overlap"), "{apart}");
     let text = report(&directory, "overlap.obj", &tetrahedra(&[0.0, 9.0, 1.0]));
     assert!(text.contains(note), "{text}");
     // Inside one component, beside the front of another one: as the report says.

@@ -22,7 +22,8 @@ const FINE: f64 = 1.0 / 512.0;
 
 /// Distances between `hull` and `mesh`, which may be any triangles and wires.
 ///
-/// Cost: that of [`farthest`] for each face of the hull, and once for all of the mesh.
+/// Cost: a branch and bound by nearest points for each face of the hull, and once for all of the
+/// mesh.
 pub fn distances(hull: &Mesh, mesh: &Mesh) -> Distances {
     let (hull_surface, mesh_surface) = (Obstacle::of(hull), Obstacle::of(mesh));
     let to = |surface: &Obstacle, p: DVec3| {
