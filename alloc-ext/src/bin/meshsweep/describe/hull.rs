@@ -35,8 +35,8 @@ fn distances(header: &Header, level: &Level) -> LevelDistances {
     }
 }
 
-/// Bytes of a queue with which no query overflows.
-fn queue_bytes(hull: &Hull<'_>) -> usize {
+/// Bytes of scratch memory with which no query overflows.
+fn scratch_bytes(hull: &Hull<'_>) -> usize {
     hull.scratch_entries() * size_of::<ScratchEntry>()
 }
 
@@ -66,9 +66,9 @@ pub(super) fn write(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
 fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     writeln!(
         out,
-        "  queue: {}, {} bytes of RAM: no query on the cover tree can overflow it",
+        "  scratch: {}, {} bytes of RAM: no query on the cover tree can overflow it",
         Counted(hull.scratch_entries(), "entry"),
-        queue_bytes(hull)
+        scratch_bytes(hull)
     )?;
     writeln!(
         out,
@@ -135,7 +135,7 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
         "hull_box": hull_box,
         "capacities": {
             "queue": hull.scratch_entries(),
-            "queue_bytes": queue_bytes(hull),
+            "queue_bytes": scratch_bytes(hull),
             "dependency_depth": hull.header().dependency_depth,
         },
         "levels": levels,
