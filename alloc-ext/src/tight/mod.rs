@@ -13,7 +13,6 @@
 //! | `options.rs` | the goal and the options of a hull |
 //! | `report.rs` | measures of a hull and of the work for it; progress |
 //! | `components.rs` | splits a mesh into the components that get a hull each |
-//! | `random.rs` | the same pseudo-random numbers in every run |
 //! | `initial/` | the first hull: a progressive level, a voxel closure, or the grown bounding box |
 //! | `moves/` | local edits of a hull: vertex placement, collapse, flip, split, kick |
 //! | `proof/` | exact predicates, distances, enclosure: whether an edit keeps the invariant |

@@ -10,7 +10,7 @@ pub enum Goal {
     Faces(usize),
     /// The fewest faces found whose void is at most this.
     ///
-    /// The void is the volume of the hull beyond the mesh's, as a part of the mesh's volume. A
+    /// The void is the volume of the hull beyond the mesh's, as a fraction of the mesh's volume. A
     /// margin counts as void. The mesh must be closed and must not overlap itself; a proved overlap
     /// is an error.
     Void(f64),

@@ -45,7 +45,7 @@ pub struct Report {
     pub faces: usize,
     /// Volume, in the mesh's unit.
     pub volume: f64,
-    /// Volume beyond that of the mesh, as a part of the mesh's volume; or why the mesh has no
+    /// Volume beyond that of the mesh, as a fraction of the mesh's volume; or why the mesh has no
     /// volume.
     pub void: Result<f64, NoVolume>,
     /// Whether the mesh crosses or touches itself, which is tested only where a void is asked for.

@@ -31,8 +31,9 @@ impl Bvh<'_> {
     /// All triangles of the input mesh that are, or may be, at most `distance` from `point` (both
     /// in input units), into `out`, by rising distance.
     ///
-    /// Order, ties, triangles without area and far points as for [`nearest`](Bvh::nearest). An
-    /// empty `out` counts. After an error its contents are undefined. `scratch` as for
+    /// Order, ties, triangles without area and far points as for [`nearest`](Bvh::nearest). With
+    /// an empty `out`, [`AllWithin::dropped`] is the number of triangles. After an error the contents
+    /// of `out` are undefined. `scratch` as for
     /// [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters.
     ///
     /// Cost: linear in everything within the distance, dropped triangles too; log n for each

@@ -1,11 +1,10 @@
 //! The closest point, with an interval of the distance.
 
 use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::{Lanes, nearest_within};
-use super::leaf_distance::{LeafNearest, nearest_triangle};
-use super::point_query::{PointQuery, at_least, at_most, bounds};
+use super::leaf_distance::{Lanes, LeafNearest, nearest_triangle, nearest_within};
+use super::point_query::PointQuery;
 use super::triangle_bounds::{distance_of_box, nearness, refine_sliver, seen_from};
-use crate::bvh::format::{Bvh, FanLeaf};
+use crate::bvh::format::{Bvh, FanLeaf, at_least, at_most};
 use crate::geom::fan::lower_bound;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
 use crate::num::{greater, sqrt_approx};
@@ -183,11 +182,11 @@ impl<'a> Closest<'a> {
     #[inline(always)]
     fn improve(&mut self, near: &LeafNearest, visit: &LeafVisit<'_>) {
         let distance_sq = near.distance_sq;
-        let known = self.best.node != u32::MAX;
-        if distance_sq == self.best.distance_sq && known && self.comes_later(visit) {
+        let has_best = self.best.node != u32::MAX;
+        if distance_sq == self.best.distance_sq && has_best && self.comes_later(visit) {
             return;
         }
-        self.best = Best { distance_sq, node: visit.node, child: visit.lane, lanes: near.lanes };
+        self.best = Best { distance_sq, node: visit.node, child: visit.child, lanes: near.lanes };
         self.refine_below = self.query.refine_below(distance_sq);
         let beyond = self.query.limit(distance_sq);
         if beyond < self.beyond {
@@ -200,14 +199,15 @@ impl<'a> Closest<'a> {
     #[cold]
     fn comes_later(&self, visit: &LeafVisit<'_>) -> bool {
         let first = |node, child| Some(self.tree.links(node)?.triangle(child));
-        first(visit.node, visit.lane) > first(self.best.node, self.best.child)
+        first(visit.node, visit.child) > first(self.best.node, self.best.child)
     }
 
     /// Refines triangles whose lower bound falls short of the best distance by more than rounding:
     /// slivers, and triangles next to the point.
     ///
-    /// The best distance only falls. So a triangle that falls short of the last one fell short of
-    /// all before it, and the order of visits does not change the result.
+    /// After the first leaf `refine_below` only falls. So a triangle whose lower bound is below the
+    /// last value is refined in every order of visits. Refining any other triangle changes neither
+    /// the distance nor its lower bound. So the result does not depend on the order.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, visit: &LeafVisit<'_>) {
@@ -221,7 +221,7 @@ impl<'a> Closest<'a> {
             }
             let better = refine_sliver(query, &seen, near);
             let (best_sq, lanes) = (self.best.distance_sq, &self.best.lanes);
-            let here = visit.node == self.best.node && visit.lane == self.best.child;
+            let here = visit.node == self.best.node && visit.child == self.best.child;
             let first = !here || lane < lanes.at(best_sq).0;
             let nearer = better.distance_sq < best_sq || (better.distance_sq == best_sq && first);
             if better.distance_sq < near.distance_sq && nearer {
@@ -328,7 +328,7 @@ fn from_afar(
     point: [f32; 3],
     query: &PointQuery,
 ) -> Result<ClosestPoint, QueryError> {
-    let (low, high) = bounds(tree);
+    let (low, high) = tree.grid_bounds();
     let point = Vec3::from_array(point);
     let corners = [low, high].map(|corner| Vec3::from_array(query.units.point(corner)).abs());
     let size = point.abs().max(corners[0]).max(corners[1]).max_element();

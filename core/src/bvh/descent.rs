@@ -1,4 +1,5 @@
-//! The descent that all questions about one point or one segment share.
+//! The descent of one tree from its root, for a point or a segment. Coherent queries, overlap and
+//! culling do not use it.
 //!
 //! The nearest child is followed at once. The other children within the limit go on a stack in the
 //! caller's memory, unsorted. Sorted children, or a heap, visit fewer nodes and take longer: they
@@ -7,20 +8,23 @@
 //! Keys never fall from parent to child. So the leaves that can change an answer are the same in
 //! every order of visits.
 
-use super::node::{LANE_MASK, WIDE, nearest_lane};
+use super::node::{CHILD_MASK, WIDE, least_key};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// A point or a segment that is prepared for the descent.
+///
+/// It sets the unit of all keys, bounds and limits: for a point, squared distances in grid units;
+/// for a segment, its parameters.
 pub(crate) trait NodeQuery {
     /// Refuses a tree without the boxes that the query needs.
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;
 
-    /// Keys of the children of a node: lower bounds, not below its bound, with the lane in the low
-    /// bits. Children beyond the limit may have any greater key. `None` says that the tree is
-    /// unchecked.
+    /// Keys of the children of a node: lower bounds, not below its bound, with the number of the
+    /// child in the low bits. Children beyond the limit may have any greater key. `None` says that
+    /// the tree is unchecked.
     fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[f32; WIDTH]>;
 }
 
@@ -29,24 +33,26 @@ pub(crate) struct OpenedNode {
     pub(crate) node: u32,
     /// Children.
     pub(crate) count: u32,
-    /// Lower bound of everything below the node.
+    /// Lower bound of everything below the node, in the unit of keys.
     pub(crate) bound: f32,
-    /// The visitor's limit.
+    /// The visitor's limit, in the unit of keys.
     pub(crate) limit: f32,
 }
 
 /// A leaf that a descent has reached.
 pub(crate) struct LeafVisit<'a> {
     pub(crate) leaf: FanLeaf<'a>,
-    /// Lower bound of all its triangles.
+    /// Lower bound of all its triangles, in the unit of [`NodeQuery`].
     pub(crate) key: f32,
+    /// The leaf's parent.
     pub(crate) node: u32,
-    pub(crate) lane: u32,
+    /// Number of the leaf among the children of `node`.
+    pub(crate) child: u32,
 }
 
 /// A question's visitor for leaves.
 pub(crate) trait LeafVisitor {
-    /// Nothing with a greater key can change the answer.
+    /// Nothing with a greater key can change the answer. The unit is that of [`NodeQuery`].
     fn limit(&self) -> f32;
 
     /// Looks at a leaf. `Some(false)` ends the descent. `None` says that the tree is unchecked.
@@ -169,7 +175,7 @@ fn walk(
         let keys = query.keys(tree, &opened)?;
         work.splits += 1;
         work.nodes += links.count;
-        let nearest = nearest_lane(&keys);
+        let nearest = least_key(&keys);
         let limit = visitor.limit();
         let mut is_wanted = nearest <= limit;
         if is_wanted {
@@ -177,19 +183,19 @@ fn walk(
         }
         // The nearest child's links are read already. An entry from the stack has to read its
         // parent's links again.
-        let mut child = links.child(nearest.to_bits() & LANE_MASK);
+        let mut child = links.child(nearest.to_bits() & CHILD_MASK);
         let mut entry = ScratchEntry::new(nearest, node);
         loop {
             if is_wanted {
-                bound = f32::from_bits(entry.key().to_bits() & !LANE_MASK);
+                bound = f32::from_bits(entry.key().to_bits() & !CHILD_MASK);
                 if !child.is_leaf() {
                     node = child.at;
                     break;
                 }
                 work.triangles += child.shape.triangles() as u32;
                 let leaf = tree.leaf_at(child.at, child.shape)?;
-                let lane = entry.key().to_bits() & LANE_MASK;
-                let visit = LeafVisit { leaf, key: bound, node: entry.node(), lane };
+                let child = entry.key().to_bits() & CHILD_MASK;
+                let visit = LeafVisit { leaf, key: bound, node: entry.node(), child };
                 if !visitor.leaf(&visit)? {
                     return Some(Descent::Answered);
                 }
@@ -209,8 +215,7 @@ fn walk(
                     break;
                 }
             }
-            let lane = entry.key().to_bits() & LANE_MASK;
-            child = tree.child(entry.node(), lane)?;
+            child = tree.child(entry.node(), entry.key().to_bits() & CHILD_MASK)?;
         }
     }
 }

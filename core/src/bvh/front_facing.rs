@@ -39,10 +39,10 @@ impl Bvh<'_> {
     /// of leaves whose normal cone proves that they show their back (Galin & Akkouche 2005, 6.4).
     ///
     /// A triangle faces a viewpoint if its corners run counter-clockwise seen from there. Edge-on
-    /// and degenerate triangles do not. A triangle that is left out certainly shows its back, as
-    /// stored; with vertices on the grid the input may differ for triangles seen nearly edge-on. A
-    /// stored triangle may face the eye or not: on scans a leaf with its eight triangles spans an
-    /// angle.
+    /// and degenerate triangles do not. No triangle that is left out faces the eye, as it is stored.
+    /// If a grid moved its vertices, the input's triangle may face the eye where it is seen nearly
+    /// edge-on. A triangle in the slice may show its back: one cone holds the normals of all
+    /// triangles of a leaf, up to eight.
     ///
     /// Cost: linear in the leaves, some fifteen operations for each fan. No scratch, no budget.
     ///
@@ -66,8 +66,8 @@ impl Bvh<'_> {
         let mut found = FrontFacing::default();
         for node in 0..self.header().nodes {
             let links = self.links(node).ok_or(QueryError::Unchecked)?;
-            for lane in links.inner..links.count.min(WIDTH as u32) {
-                let leaf = self.leaf_at(links.vertex(lane), links.shape(lane));
+            for child in links.inner..links.count.min(WIDTH as u32) {
+                let leaf = self.leaf_at(links.vertex(child), links.shape(child));
                 let leaf = leaf.ok_or(QueryError::Unchecked)?;
                 let cone = self.cone(found.leaves).ok_or(QueryError::Unchecked)?;
                 let count = leaf.shape().triangles() as u32;
@@ -77,7 +77,7 @@ impl Bvh<'_> {
                     found.culled += count;
                     continue;
                 }
-                let first = links.triangle(lane);
+                let first = links.triangle(child);
                 for triangle in first..first.saturating_add(count) {
                     match triangles.get_mut(found.stored) {
                         Some(slot) => {

@@ -18,8 +18,8 @@ pub(crate) fn nearest_triangle(leaf: &FanLeaf<'_>, p: Vec3) -> Option<LeafNeares
     nearest_within(leaf, p, f32::INFINITY)
 }
 
-/// The nearest triangle of a leaf. On vector targets also the edges of all its triangles, as they
-/// lie from the query point.
+/// The nearest triangle of a leaf. On vector targets also the edges of the leaf's triangles, seen
+/// from the query point.
 pub(crate) type LeafSeen = (LeafNearest, Option<Edges8>);
 
 /// The nearest triangle of a leaf. Triangles that are proved to be beyond the squared limit may be
@@ -28,7 +28,7 @@ pub(crate) type LeafSeen = (LeafNearest, Option<Edges8>);
 pub(crate) struct LeafNearest {
     /// Its squared distance.
     pub(crate) distance_sq: f32,
-    /// Least squared lower bound of all triangles of the leaf.
+    /// Least squared lower bound of the triangles that were not left out.
     pub(crate) lower_bound_sq: f32,
     /// From this [`lane`](Self::lane) finds the triangle.
     pub(crate) lanes: Lanes,

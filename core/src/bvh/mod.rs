@@ -5,12 +5,12 @@
 //! | where | what lies there |
 //! | --- | --- |
 //! | `format/` | the bytes: header, nodes, leaves, the check of [`Bvh::open`] |
-//! | `node/` | the node kernels: eight boxes at a time |
+//! | `node/` | the box tests: eight boxes at a time |
 //! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
-//! | `descent` | the descent of all questions about one point or one segment |
+//! | `descent` | the descent of one tree, for a point or a segment |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
-//! | `triangle_visitor` | the visitor of all questions about more than the nearest triangle |
-//! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of all segment questions |
+//! | `triangle_visitor` | the visitor of point questions that look at triangles one by one |
+//! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
 //! | `neighbors` | the heap of nearest triangles in the caller's slice |
@@ -20,8 +20,21 @@
 //! | `overlap/` | two trees, one of them moved |
 //! | `coherent/` | a query that moves |
 //!
-//! A new question is a file here: an `impl Bvh` with its method, its answer type, and a
-//! [`LeafVisitor`](descent::LeafVisitor) for the descent. `within` is a short example.
+//! Two numbers lead to a triangle from its node: `child` is the number of the leaf among the node's
+//! children, `lane` the number of the triangle in the leaf.
+//!
+//! A tree is *unchecked* if its view does not fit its bytes. No view that `open` returned is. So a
+//! function that reads the bytes returns `None`, or
+//! [`QueryError::Unchecked`](crate::QueryError::Unchecked), instead of a panic.
+//!
+//! A new question is a file here: an `impl Bvh` with its method, its answer type, and one of these:
+//!
+//! | the question looks at | it implements | short example |
+//! | --- | --- | --- |
+//! | triangles, by their distance from a point | `triangle_visitor::TriangleCollector` | `all_within` |
+//! | triangles that a segment meets | `segment_leaf::CrossingCollector` | `any_hit` |
+//! | leaves as a whole | `descent::LeafVisitor` | `closest_point` |
+//!
 //! `core/docs/guide.md` lists the other places.
 
 mod all_hits;

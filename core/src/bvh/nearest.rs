@@ -29,9 +29,10 @@ pub struct KNearest {
 impl Bvh<'_> {
     /// The `out.len()` triangles nearest to `point` (input units), by rising distance, into `out`.
     ///
-    /// Distances are compared as computed. Equal ones go by number in the blob. So two triangles
-    /// that f32 or the stored surface cannot tell apart may stand in either order, always the same
-    /// one; each has its own interval. Triangles without area count like others.
+    /// The order is that of the computed distances, then that of the numbers in the blob. It is the
+    /// same in every run. Computed distances carry rounding and the surface error. So of two
+    /// triangles whose intervals overlap, the farther one may come first. Triangles without area
+    /// count like others.
     ///
     /// If `out` is longer than the mesh, all triangles are stored. If it is empty, nothing is
     /// looked at. After an error its contents are undefined. `scratch` as for

@@ -2,7 +2,7 @@
 
 use super::descent::{NodeQuery, OpenedNode};
 use super::node::{NodeFrame, box_distances};
-use crate::bvh::format::Bvh;
+use crate::bvh::format::{Bvh, Units};
 use crate::geom::fan::WIDTH;
 use crate::num::sqrt_approx;
 use crate::num::tolerance::{
@@ -11,66 +11,12 @@ use crate::num::tolerance::{
 use crate::query::{Budget, QueryError, ScratchEntry};
 use glam::Vec3;
 
-/// Conversion between input units and grid units, by powers of two.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Units {
-    /// `2^-(scale + grid)` in two factors, each within f32's range.
-    inward: [f32; 2],
-    /// The inverse of `inward`.
-    outward: [f32; 2],
-    /// Surface error, grid units.
-    pub(crate) surface_error: f32,
-}
+/// Factor of the square of a box's rounding in [`PointQuery::limit`]: with it and a relative 2^-10
+/// the limit holds without a root.
+const ALLOWANCE: f32 = 2100.0;
 
-impl Units {
-    #[inline(always)]
-    pub(crate) fn of(tree: &Bvh<'_>) -> Units {
-        let scale = tree.scale();
-        Units { inward: scale.inward, outward: scale.outward, surface_error: scale.surface_error }
-    }
-
-    /// A length or coordinate in grid units: exact unless it leaves f32's range.
-    #[inline(always)]
-    pub(crate) fn inward(&self, x: f32) -> f32 {
-        x * self.inward[0] * self.inward[1]
-    }
-
-    /// A coordinate in input units, kept finite.
-    #[inline(always)]
-    pub(crate) fn point(&self, p: Vec3) -> [f32; 3] {
-        p.to_array().map(|x| (x * self.outward[0] * self.outward[1]).clamp(-f32::MAX, f32::MAX))
-    }
-
-    /// A lower bound in input units: at least 0, and below f32's normal range 0.
-    #[inline(always)]
-    pub(crate) fn lower(&self, x: f32) -> f32 {
-        at_least(x * self.outward[0] * self.outward[1])
-    }
-
-    /// An upper bound in input units; infinite where f32 ends.
-    #[inline(always)]
-    pub(crate) fn upper(&self, x: f32) -> f32 {
-        if x == 0.0 { 0.0 } else { at_most(x * self.outward[0] * self.outward[1]) }
-    }
-
-    /// A length or coordinate in input units times a power of two.
-    #[inline(always)]
-    pub(crate) fn outward(&self, x: f32, power: f32) -> f32 {
-        x * self.outward[0] * power * self.outward[1]
-    }
-}
-
-/// A lower bound in f32's normal range, or 0.
-#[inline(always)]
-pub(crate) fn at_least(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE { x.min(f32::MAX) } else { 0.0 }
-}
-
-/// An upper bound in f32's normal range, or infinite.
-#[inline(always)]
-pub(crate) fn at_most(x: f32) -> f32 {
-    if x >= f32::MIN_POSITIVE { x } else { f32::MIN_POSITIVE }
-}
+/// Its root, rounded down.
+const ALLOWANCE_ROOT: f32 = 45.0;
 
 /// A query point.
 #[derive(Clone, Copy, Debug)]
@@ -111,10 +57,10 @@ impl PointQuery {
         if !(x.is_finite() && y.is_finite() && z.is_finite()) {
             return Err(QueryError::NotFinite);
         }
-        let units = Units::of(tree);
+        let units = tree.units();
         let p = Vec3::new(units.inward(x), units.inward(y), units.inward(z));
         let header = tree.header();
-        let (low, high) = bounds(tree);
+        let (low, high) = tree.grid_bounds();
         let farthest = (p - low).abs().max((p - high).abs());
         let size = farthest.x + farthest.y + farthest.z;
         let fan = FAN_DISTANCE * U32 * header.star_radius;
@@ -126,14 +72,14 @@ impl PointQuery {
             units,
             shortfall_sq,
             rounding: fan,
-            allowance: 2100.0 * off * off,
+            allowance: ALLOWANCE * off * off,
             far: !near,
         })
     }
 
     /// A node with a greater squared bound holds nothing that is computed as near as `distance_sq`.
     ///
-    /// (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + 2100·b², so no root is needed.
+    /// (√B·(1 + 16u) + b)² ≤ B·(1 + 2^-10) + [`ALLOWANCE`]·b², so no root is needed.
     #[inline(always)]
     pub(crate) fn limit(&self, distance_sq: f32) -> f32 {
         distance_sq * (1.0 + 1.0 / 1024.0) + self.allowance
@@ -156,15 +102,14 @@ impl PointQuery {
         )
     }
 
-    /// Rounding of a box's distance, grid units. `allowance` is 2100 times its square, and 2100 is
-    /// a little more than 45².
+    /// Rounding of a box's distance, grid units, taken back from `allowance`.
     #[inline(always)]
     pub(crate) fn box_error(&self) -> f32 {
-        sqrt_approx(self.limit(0.0)) * (1.0 / 45.0)
+        sqrt_approx(self.limit(0.0)) * (1.0 / ALLOWANCE_ROOT)
     }
 
-    /// The part of a distance's error that does not grow with the distance: rounding and surface
-    /// error, grid units.
+    /// The error of a distance that does not grow with the distance: rounding and surface error,
+    /// grid units.
     pub(crate) fn fixed_error(&self) -> f32 {
         self.rounding + self.units.surface_error
     }
@@ -191,10 +136,4 @@ impl NodeQuery for PointQuery {
         let frame = NodeFrame::of(record, self.p);
         Some(box_distances(record, &frame, opened.count, opened.bound))
     }
-}
-
-/// Corners of the tree's box, grid units.
-#[inline(always)]
-pub(crate) fn bounds(tree: &Bvh<'_>) -> (Vec3, Vec3) {
-    (tree.scale().low, tree.scale().high)
 }

@@ -17,7 +17,7 @@
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::point_query::PointQuery;
-use super::side_search::{Search, UNDECIDED};
+use super::side_search::Search;
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use crate::bvh::format::FanLeaf;
 use crate::num::tolerance::{
@@ -100,7 +100,7 @@ pub(crate) struct Candidates<'p> {
 }
 
 impl<'p> Candidates<'p> {
-    /// `margin` is the part of rounding that does not grow with the distance.
+    /// `margin` is the rounding that does not grow with the distance.
     #[inline]
     pub(crate) fn new(query: &'p PointQuery, margin: f32, distance_sq: f32) -> Self {
         let distance = sqrt_approx(distance_sq);
@@ -110,16 +110,16 @@ impl<'p> Candidates<'p> {
     }
 }
 
-/// The side by the feature that all candidates share. `corners` are those of any candidate.
+/// The side by the feature that all candidates share, if that proves one. `corners` are those of any candidate.
 pub(crate) fn side_of_shared_feature(
     search: &mut Search<'_, '_>,
     candidates: &Candidates<'_>,
     corners: [Vec3; 3],
-) -> Result<Side, QueryError> {
+) -> Result<Option<Side>, QueryError> {
     let limit = limit_of(candidates.query, candidates.band);
     let mut shared = Shared { candidates, limit, corners, kept: [true; 3] };
     if !search.descend(candidates.query, &mut shared)? {
-        return Ok(UNDECIDED);
+        return Ok(None);
     }
     let ([a, b, c], p) = (corners, candidates.query.p);
     match shared.kept {
@@ -129,7 +129,7 @@ pub(crate) fn side_of_shared_feature(
         [true, true, false] => about_edge(search, candidates, limit, [a, b], p),
         [false, true, true] => about_edge(search, candidates, limit, [b, c], p),
         [true, false, true] => about_edge(search, candidates, limit, [c, a], p),
-        _ => Ok(UNDECIDED),
+        _ => Ok(None),
     }
 }
 
@@ -164,6 +164,16 @@ impl LeafVisitor for Shared<'_> {
     }
 }
 
+/// Error of the sum about a vertex, in units of η²: 2π, rounded up.
+const VERTEX_FEATURE_ERROR: f32 = 6.5;
+
+/// The same about an edge: 1, and more than the further terms up to [`LARGEST_ETA`].
+const EDGE_FEATURE_ERROR: f32 = 1.2;
+
+/// From this η on the sum is not used. Below, the next term about an edge, η⁴/4, is less than a
+/// fiftieth of the first.
+const LARGEST_ETA: f32 = 0.25;
+
 /// A sum of weighted unit normals, and its rounding.
 #[derive(Default)]
 struct Sum {
@@ -190,24 +200,24 @@ impl Sum {
         self.eta = greater(self.eta, eta);
     }
 
-    /// The side by the product with `to_query`.
+    /// The side by the product with `to_query`; `None` if rounding leaves it undecided.
     ///
     /// `feature_error`: the error of the product in units of η², because the feature is not exactly
     /// the closest. `inexact`: the sum of absolute values whose roundings `to_query` carries.
-    fn side(&self, to_query: Vec3, feature_error: f32, inexact: f32) -> Side {
+    fn side(&self, to_query: Vec3, feature_error: f32, inexact: f32) -> Option<Side> {
         let product = self.normal.dot(to_query);
         let count = self.count;
         let roundings = 16.0 * self.unsure + (32.0 + 2.0 * count) * self.weight + 64.0 * count;
         let margin = U32 * (norm_1(to_query) * roundings + 16.0 * self.weight * inexact)
             + feature_error * self.eta * self.eta * norm_1(to_query);
-        if self.broken || self.count == 0.0 || margin.is_nan() {
-            UNDECIDED
+        if self.broken || self.count == 0.0 || margin.is_nan() || self.eta >= LARGEST_ETA {
+            None
         } else if product > margin {
-            Side::Outside
+            Some(Side::Outside)
         } else if product < -margin {
-            Side::Inside
+            Some(Side::Inside)
         } else {
-            UNDECIDED
+            None
         }
     }
 }
@@ -242,11 +252,11 @@ fn about_vertex(
     limit: f32,
     vertex: Vec3,
     p: Vec3,
-) -> Result<Side, QueryError> {
+) -> Result<Option<Side>, QueryError> {
     let s = p - vertex;
     let far = sqrt_approx(s.dot(s));
     if !(far > 0.0 && far <= candidates.feature_limit) {
-        return Ok(UNDECIDED);
+        return Ok(None);
     }
     let u = s * (1.0 / far);
     let mut sum = Sum::default();
@@ -286,9 +296,9 @@ fn about_vertex(
         sum.add(normal, size, angle, eta);
     };
     if !search.descend(candidates.query, &mut Star { limit, each })? {
-        return Ok(UNDECIDED);
+        return Ok(None);
     }
-    Ok(if sum.eta < 0.25 { sum.side(s, 6.5, 0.0) } else { UNDECIDED })
+    Ok(sum.side(s, VERTEX_FEATURE_ERROR, 0.0))
 }
 
 fn about_edge(
@@ -297,7 +307,7 @@ fn about_edge(
     limit: f32,
     [a, b]: [Vec3; 2],
     p: Vec3,
-) -> Result<Side, QueryError> {
+) -> Result<Option<Side>, QueryError> {
     let (edge, s) = (b - a, p - a);
     let (along, length_sq) = (s.dot(edge), edge.dot(edge));
     let rounding = SIGN_COSINE * U32 * norm_1(s) * norm_1(edge);
@@ -307,7 +317,7 @@ fn about_edge(
     if !(along > rounding && length_sq - along > rounding && far > 0.0)
         || far + SIGN_COSINE * U32 * norm_1(s) > candidates.feature_limit
     {
-        return Ok(UNDECIDED);
+        return Ok(None);
     }
     let u = across * (1.0 / far);
     let mut sum = Sum::default();
@@ -334,7 +344,7 @@ fn about_edge(
         sum.add(normal, size, 1.0, if reached > 0.0 { reached } else { 0.0 });
     };
     if !search.descend(candidates.query, &mut Star { limit, each })? {
-        return Ok(UNDECIDED);
+        return Ok(None);
     }
-    Ok(if sum.eta < 0.25 { sum.side(across, 1.2, norm_1(s)) } else { UNDECIDED })
+    Ok(sum.side(across, EDGE_FEATURE_ERROR, norm_1(s)))
 }

@@ -3,6 +3,15 @@
 //! The fan kernels flag the triangles of a leaf that the line may meet. Only flagged triangles are
 //! tested one by one. Each test gives the interval of parameters in which the *input's* triangle
 //! can be met.
+//!
+//! | word | meaning |
+//! | --- | --- |
+//! | flagged | the line may meet the triangle, by the quick test of the whole leaf |
+//! | crossing | the segment may meet the input's triangle, by the test of the triangle alone |
+//! | certain | the segment meets the input's triangle: proved |
+//! | stored | the segment meets the stored triangle, as computed |
+//! | shadow | a vertex projected along the segment onto a plane; the line is the plane's origin |
+//! | covered | the shadows of undecided triangles of one fan together contain the origin: proved |
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::node::WIDE;
@@ -33,11 +42,11 @@ pub(crate) struct HitPlace {
     pub(crate) lane: u32,
 }
 
-/// The part of a segment question that takes the triangles that may be met, in any order.
+/// Takes the triangles that a segment may meet, in any order.
 pub(crate) trait CrossingCollector {
     /// A triangle that is met later than this cannot change the answer.
     fn limit(&self) -> f32;
-    /// A triangle of the wanted facing. `None` says that the tree is unchecked.
+    /// A triangle of the wanted facing that the segment crosses. `None` says that the tree is unchecked.
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;
     /// The input's surface is met, not later than this.
     fn certain(&mut self, upper: f32);
@@ -121,8 +130,10 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
             Facing::Back => -ray.front(),
         };
         let wanted = |second: bool| if second && shape.second_reversed() { -sign } else { sign };
-        let mut is_met = false;
+        let mut is_certain = false;
+        // For each fan its undecided triangles, and their greatest parameter.
         let (mut undecided, mut upper) = ([0u32; 2], [0f32; 2]);
+        // Whether the segment reaches all of them, if the line does.
         let mut within = [true; 2];
         let mut left = flagged;
         while left != 0 {
@@ -147,9 +158,9 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
             if crossing.upper < bound {
                 crossing.upper = bound;
             }
-            self.collector.meet(&crossing, visit.node, visit.lane, lane)?;
+            self.collector.meet(&crossing, visit.node, visit.child, lane)?;
             if crossing.certain {
-                is_met = true;
+                is_certain = true;
                 self.collector.certain(crossing.upper);
             } else {
                 undecided[fan & 1] |= 1 << lane;
@@ -159,7 +170,7 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
                 }
             }
         }
-        if is_met || !C::COVERS {
+        if is_certain || !C::COVERS {
             return Some(());
         }
         for fan in 0..2 {
@@ -169,9 +180,9 @@ impl<C: CrossingCollector> SegmentVisitor<'_, C> {
                 let centre = ray.shadow(leaf.centre(fan));
                 let turns =
                     ray.cover(centre, |i| ray.shadow(leaf.ring(i)), undecided[fan], from, to);
-                let met =
+                let is_covered =
                     turns.is_some_and(|turns| turns != 0 && turns as f32 * wanted(fan == 1) >= 0.0);
-                if met {
+                if is_covered {
                     self.collector.certain(upper[fan]);
                 }
             }

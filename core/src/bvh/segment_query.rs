@@ -3,8 +3,7 @@
 
 use super::descent::{NodeQuery, OpenedNode};
 use super::node::box_entries;
-use super::point_query::{Units, bounds};
-use crate::bvh::format::Bvh;
+use crate::bvh::format::{Bvh, Units};
 use crate::bvh::node::Slabs;
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
@@ -44,11 +43,11 @@ impl SegmentQuery {
         if !(finite(a) & finite(b)) {
             return Err(QueryError::NotFinite);
         }
-        let units = Units::of(tree);
+        let units = tree.units();
         let inward =
             |[x, y, z]: [f32; 3]| Vec3::new(units.inward(x), units.inward(y), units.inward(z));
         let (a, b) = (inward(a), inward(b));
-        let (low, high) = bounds(tree);
+        let (low, high) = tree.grid_bounds();
         let far = farthest(a, low, high);
         let size = norm_1(far);
         let far_b = farthest(b, low, high);
@@ -85,9 +84,9 @@ impl SegmentQuery {
         let margin = |far: f32| surface + (BOX_ENTRY * U32 * far + BOX_ENTRY * U32);
         let margin = [margin(far.x), margin(far.y), margin(far.z)];
         let end = if start > 0.0 { (1.0 - start) * (1.0 + 4.0 * U32) } else { 1.0 };
-        let (from, along) = (origin.to_array(), direction.to_array());
+        let from = origin.to_array();
         SegmentQuery {
-            ray: FanRay::new(from, along, inverse, end, surface, norm_1(far)),
+            ray: FanRay::new(from, direction.to_array(), inverse, end, surface, norm_1(far)),
             slabs: Slabs::new(from, inverse, margin),
             units,
             origin,
@@ -162,16 +161,16 @@ fn misses([a, b]: [Vec3; 2], [low, high]: [Vec3; 2], surface_error: f32, size: f
     let margin = 2.0 * surface_error + size * (32.0 * U32) + LEAST_DENOMINATOR;
     let (d, m) = (b - a, (a - low) + (b - high));
     let (half, d_abs) = ((high - low) + Vec3::splat(margin), d.abs());
-    let along = |m: f32, half: f32, d: f32| m.abs() > half + d;
-    if along(m.x, half.x, d_abs.x) | along(m.y, half.y, d_abs.y) | along(m.z, half.z, d_abs.z) {
+    let apart = |m: f32, half: f32, d: f32| m.abs() > half + d;
+    if apart(m.x, half.x, d_abs.x) | apart(m.y, half.y, d_abs.y) | apart(m.z, half.z, d_abs.z) {
         return true;
     }
-    let across = |[m, n]: [f32; 2], [d, e]: [f32; 2], [h, k]: [f32; 2]| {
+    let apart_across = |[m, n]: [f32; 2], [d, e]: [f32; 2], [h, k]: [f32; 2]| {
         (m * e - n * d).abs() > (h * e.abs() + k * d.abs()) + LEAST_DENOMINATOR
     };
-    across([m.x, m.y], [d.x, d.y], [half.x, half.y])
-        | across([m.y, m.z], [d.y, d.z], [half.y, half.z])
-        | across([m.z, m.x], [d.z, d.x], [half.z, half.x])
+    apart_across([m.x, m.y], [d.x, d.y], [half.x, half.y])
+        | apart_across([m.y, m.z], [d.y, d.z], [half.y, half.z])
+        | apart_across([m.z, m.x], [d.z, d.x], [half.z, half.x])
 }
 
 /// Moves a far start along the segment to the place where it enters the model's box, enlarged by
@@ -208,7 +207,8 @@ fn approach(
         return None;
     }
     let start = enter * (1.0 - 16.0 * U32);
-    let origin = Vec3::new(along(a.x, b.x, start), along(a.y, b.y, start), along(a.z, b.z, start));
+    let at = |a: f32, b: f32| interpolate(a, b, start);
+    let origin = Vec3::new(at(a.x, b.x), at(a.y, b.y), at(a.z, b.z));
     let far = farthest(origin, low, high);
     let off = 2.0 * U32 * norm_1(origin) + (64.0 * U32 * U32) * (size + norm_1(direction));
     Some(SegmentQuery::at(units, origin, direction, far, start, off))
@@ -216,13 +216,14 @@ fn approach(
 
 /// `a + t·(b − a)`, computed with twice f32's precision and rounded once (Dekker 1971; Knuth, TAOCP
 /// 4.2.2).
-fn along(a: f32, b: f32, t: f32) -> f32 {
+fn interpolate(a: f32, b: f32, t: f32) -> f32 {
     let (d, d_rest) = two_sum(b, -a);
     let (p, p_rest) = two_product(t, d);
     let (s, s_rest) = two_sum(a, p);
     s + (s_rest + (p_rest + t * d_rest))
 }
 
+/// The product `a·b`, rounded, and its rounding (Dekker 1971).
 fn two_product(a: f32, b: f32) -> (f32, f32) {
     let halves = |x: f32| {
         let c = 4097.0 * x;

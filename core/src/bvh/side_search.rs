@@ -4,10 +4,7 @@
 use super::descent::{Descent, LeafVisitor, descend};
 use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;
-use crate::query::{Ended, QueryError, ScratchEntry, Side, Undecided, Work};
-
-/// No side is proved so far.
-pub(crate) const UNDECIDED: Side = Side::Undecided(Undecided::Feature);
+use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// The state that the descents of one question share.
 pub(crate) struct Search<'a, 't> {

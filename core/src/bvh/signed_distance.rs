@@ -36,9 +36,9 @@
 //!    the edge. From a sixteenth of the distance it can.
 
 use super::descent::{Descent, descend};
-use super::point_query::{PointQuery, bounds};
+use super::point_query::PointQuery;
 use super::pseudonormal::{Candidates, ViewedSide, side_of_shared_feature, viewed_side};
-use super::side_search::{Search, UNDECIDED};
+use super::side_search::Search;
 use super::triangle_bounds::{limit_of, lower_of_box, witness};
 use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
 use crate::bvh::format::{Bvh, FanLeaf};
@@ -132,9 +132,9 @@ impl Bvh<'_> {
             closed && closest.distance.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
         let mut side = match &survey {
             Some(survey) if clear => search.side(survey)?,
-            _ => UNDECIDED,
+            _ => None,
         };
-        if side == UNDECIDED
+        if side.is_none()
             && clear
             && search.truncated.is_none()
             && let Some(nearby) = outside_of_box(tree, &query)
@@ -142,7 +142,7 @@ impl Bvh<'_> {
             let survey = search.survey(&nearby)?;
             side = search.side(&survey)?;
         }
-        if side == UNDECIDED
+        if side.is_none()
             && clear
             && search.truncated.is_none()
             && let Some(survey) = &survey
@@ -152,28 +152,29 @@ impl Bvh<'_> {
         closest.work = search.work;
         if let Some(why) = search.truncated {
             closest.ended = why;
-        } else if side == UNDECIDED && closed {
+        } else if side.is_none() && closed {
             closest.ended = Ended::Resolution;
         }
-        if side == UNDECIDED {
-            side = Side::Undecided(match search.truncated {
-                _ if !closed => Undecided::OpenMesh,
-                Some(why) => why.undecided(),
-                None if closest.distance.lower > 0.0 => Undecided::Feature,
-                None => Undecided::OnSurface,
-            });
-        }
+        let side = side.unwrap_or(Side::Undecided(match search.truncated {
+            _ if !closed => Undecided::OpenMesh,
+            Some(why) => why.undecided(),
+            None if closest.distance.lower > 0.0 => Undecided::Feature,
+            None => Undecided::OnSurface,
+        }));
         Ok(SignedDistance::new(closest, side))
     }
 }
 
-/// Searches from nearer places, at most. Each time the distance falls to a sixteenth.
+/// Searches from nearer places, at most.
 const NEARER: usize = 3;
+
+/// How far each of them goes towards the surface: a sixteenth of the distance is left.
+const WAY_TO_NEARER: f32 = 0.9375;
 
 /// A point outside the model's box, a quarter of the model's size from it. `None` if the query is
 /// not outside.
 fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
-    let (low, high) = bounds(tree);
+    let (low, high) = tree.grid_bounds();
     let size = (high - low).max_element();
     let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
     let out = |p: Vec3| (p - high).max(low - p).to_array();
@@ -219,13 +220,13 @@ impl Search<'_, '_> {
         Ok(survey)
     }
 
-    /// The side of points on the way to the surface.
+    /// The side of points on the way to the surface, if it is proved.
     ///
     /// The ball about the surveyed point that touches the surface is empty, so the winding number
     /// is the same in all of it. Nearer to the surface, the distances of two features differ more.
     /// Where components overlap, equally near surfaces may show different sides. So the ways to the
     /// closest triangles of either facing must agree.
-    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
+    fn side_from_nearer(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
         let band = Candidates::new(survey.query, survey.margin, survey.with_area.distance_sq).band;
         let mut agreed = None;
         for (place, lower) in survey.by_side.into_iter().zip(survey.least) {
@@ -233,12 +234,12 @@ impl Search<'_, '_> {
                 continue;
             }
             let side = self.side_on_the_way(survey, place)?;
-            if side == UNDECIDED || agreed.is_some_and(|agreed| agreed != side) {
-                return Ok(UNDECIDED);
+            if side.is_none() || agreed.is_some() && agreed != side {
+                return Ok(None);
             }
-            agreed = Some(side);
+            agreed = side;
         }
-        Ok(agreed.unwrap_or(UNDECIDED))
+        Ok(agreed)
     }
 
     /// The first decided side of the points on the way to a triangle, and from there to the closest
@@ -247,31 +248,31 @@ impl Search<'_, '_> {
         &mut self,
         survey: &Survey<'_>,
         place: LeafTriangle,
-    ) -> Result<Side, QueryError> {
+    ) -> Result<Option<Side>, QueryError> {
         let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
             let Some(query) = nearer else { break };
             let survey = self.survey(&query)?;
             let side = self.side(&survey)?;
-            if side != UNDECIDED || self.truncated.is_some() {
+            if side.is_some() || self.truncated.is_some() {
                 return Ok(side);
             }
             nearer = survey.nearer(self.tree, survey.best);
         }
-        Ok(UNDECIDED)
+        Ok(None)
     }
 
-    /// The side of the surveyed point, which is known to be clear of the surface.
-    fn side(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
+    /// The side of the surveyed point, if it is proved. The point is clear of the surface.
+    fn side(&mut self, survey: &Survey<'_>) -> Result<Option<Side>, QueryError> {
         let Survey { query, margin, with_area, least, .. } = *survey;
         if self.truncated.is_some() || with_area.is_none() {
-            return Ok(UNDECIDED);
+            return Ok(None);
         }
         let candidates = Candidates::new(query, margin, with_area.distance_sq);
         let [front, back, unclear, _] = least.map(|lower| lower <= candidates.band);
         match (front, back, unclear) {
-            (true, false, false) => Ok(Side::Outside),
-            (false, true, false) => Ok(Side::Inside),
+            (true, false, false) => Ok(Some(Side::Outside)),
+            (false, true, false) => Ok(Some(Side::Inside)),
             _ => {
                 let leaf = with_area.leaf(self.tree).ok_or(QueryError::Unchecked)?;
                 side_of_shared_feature(self, &candidates, leaf.corners(with_area.lane as usize))
@@ -344,7 +345,7 @@ impl Survey<'_> {
     fn nearer(&self, tree: &Bvh<'_>, to: LeafTriangle) -> Option<PointQuery> {
         let query = self.query;
         let leaf = to.leaf(tree)?;
-        let place = query.p + (witness(query, &leaf, to.lane as usize) - query.p) * 0.9375;
+        let place = query.p + (witness(query, &leaf, to.lane as usize) - query.p) * WAY_TO_NEARER;
         let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
         let way = nearer.p - query.p;
         let empty = query.units.inward(self.lower());

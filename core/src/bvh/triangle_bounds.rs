@@ -1,4 +1,4 @@
-//! Bounds of single triangles of a leaf, for questions about more than the nearest triangle.
+//! Bounds of single triangles of a leaf, for questions that look at triangles one by one.
 
 use super::point_query::PointQuery;
 use crate::bvh::format::FanLeaf;

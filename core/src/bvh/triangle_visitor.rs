@@ -1,4 +1,5 @@
-//! The visitor of all questions about more than the nearest triangle.
+//! The visitor of point questions that look at triangles one by one: more than the nearest one
+//! counts.
 
 use super::descent::{LeafVisit, LeafVisitor};
 use super::leaf_distance::nearest_triangle;
@@ -14,7 +15,9 @@ pub(crate) struct LeafTriangle {
     /// In the blob.
     pub(crate) number: u32,
     pub(crate) node: u32,
+    /// Number of the leaf among the children of `node`.
     pub(crate) child: u32,
+    /// Number of the triangle in the leaf.
     pub(crate) lane: u32,
 }
 
@@ -41,12 +44,12 @@ pub(crate) enum Next {
     Nothing,
 }
 
-/// The part of a question that takes triangles one by one, in any order.
+/// Takes the triangles of a question one by one, in any order.
 pub(crate) trait TriangleCollector {
     /// Takes a triangle whose squared lower bound is not beyond `limit`. May lower the limit.
     fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, limit: &mut f32);
 
-    /// Looks at the nearest triangle of a leaf. `None` says that the tree is unchecked.
+    /// Looks at the nearest triangle of a leaf, before [`take`](Self::take). `None` says that the tree is unchecked.
     #[inline(always)]
     fn nearest(&mut self, _: &LeafVisit<'_>, _distance_sq: f32, _limit: f32) -> Option<Next> {
         Some(Next::Triangles)
@@ -90,7 +93,7 @@ impl<C: TriangleCollector> TriangleVisitor<'_, C> {
     #[inline(never)]
     fn each(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
         let TriangleVisitor { tree, query, limit, collector } = self;
-        let LeafVisit { leaf, node, lane: child, .. } = visit;
+        let LeafVisit { leaf, node, child, .. } = visit;
         let first = tree.links(*node)?.triangle(*child);
         each_triangle(query, leaf, |lane, distance_sq, lower_bound_sq| {
             if lower_bound_sq > *limit {

@@ -15,13 +15,12 @@ use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Ve
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Within {
-    /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther; of a tight hull,
-    /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the
-    /// difference from the distance asked about is within the surface error and rounding. For a
-    /// tight hull: a tighter hull may decide.
+    /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther. Undecided for
+    /// [`Resolution`](Undecided::Resolution): the difference from the distance asked about is within
+    /// the surface error and rounding.
     pub verdict: Verdict,
     /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
-    /// the closest one. `None` of a tight hull, which knows no triangles.
+    /// the closest one. `None` of a structure that knows no triangles.
     pub triangle: Option<u32>,
     /// The work of the search.
     pub work: Work,
@@ -161,7 +160,7 @@ impl Threshold<'_> {
     #[cold]
     #[inline(never)]
     fn number(&self, visit: &LeafVisit<'_>, distance_sq: f32) -> Option<u32> {
-        let first = self.tree.links(visit.node)?.triangle(visit.lane);
+        let first = self.tree.links(visit.node)?.triangle(visit.child);
         let here = |lane: &usize| {
             nearness(&seen_from(&visit.leaf, *lane, self.query.p)).distance_sq == distance_sq
         };

@@ -7,11 +7,10 @@ use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Side};
 /// points that f32 in grid units puts on the box's planes. Those are too near for a distance above
 /// 0.
 pub(crate) fn is_outside_box(tree: &Bvh<'_>, point: [f32; 3]) -> bool {
-    let scale = tree.scale();
-    let [inward, rest] = scale.inward;
-    let (low, high) = (scale.low.to_array(), scale.high.to_array());
-    point.into_iter().zip(low.into_iter().zip(high)).any(|(x, (low, high))| {
-        let x = x * inward * rest;
+    let (units, (low, high)) = (tree.units(), tree.grid_bounds());
+    let corners = low.to_array().into_iter().zip(high.to_array());
+    point.into_iter().zip(corners).any(|(x, (low, high))| {
+        let x = units.inward(x);
         x < low || x > high
     })
 }

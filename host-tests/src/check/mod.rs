@@ -54,11 +54,11 @@ pub fn check_blob(bytes: &[u8]) -> Result<CheckReport, String> {
     let meshes = replay::replay(&blob, &mut report)?;
     bounds::boxes(&blob)?;
     bounds::reaches(&blob)?;
-    bounds::errors(&blob)?;
     bounds::sources(&blob)?;
     bounds::dependencies(&blob)?;
     let forest = forest::Forest::of(&blob)?;
     forest.covers(&blob, &mut report)?;
+    bounds::errors(&blob)?;
     forest.capacity(&blob)?;
     bounds::groups(&blob, &forest)?;
     levels::volumes(&blob, &meshes)?;

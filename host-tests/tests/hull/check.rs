@@ -176,7 +176,7 @@ fn a_triangle_under_another_parent_is_caught() {
     let mut caught = 0;
     for split in 0..40 {
         for bit in [64, 128] {
-            let bytes = edited(|b| b[entry(b, SPLITS).offset as usize + 6 * split + 4] ^= bit);
+            let bytes = edited(|b| b[entry(b, SPLITS).offset as usize + 7 * split + 4] ^= bit);
             // The parent beside may contain it too.
             if let Err(error) = check_blob(&bytes) {
                 let why = ["leaves out", "its own part", "queue entries"];

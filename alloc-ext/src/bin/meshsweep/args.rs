@@ -41,7 +41,7 @@ impl Arguments {
 }
 
 /// The command line. A negative number is a value, so that its own error names its range.
-fn command() -> clap::Command {
+pub fn command() -> clap::Command {
     Arguments::command().mut_subcommands(|command| command.allow_negative_numbers(true))
 }
 

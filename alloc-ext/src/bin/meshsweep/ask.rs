@@ -29,7 +29,7 @@ pub struct Question<'a, const N: usize> {
     pub search: &'a SearchArgs,
     /// Whether the blob knows the mesh by a tight hull alone.
     pub is_by_hull: bool,
-    /// How far away the numbers of a row may be, for a row that is farther away.
+    /// How far away a query may be, in words, for the refusal of one that is farther.
     pub limit: Option<String>,
 }
 
@@ -152,22 +152,23 @@ pub fn ended(verdict: Verdict) -> Ended {
     }
 }
 
-/// Asks for all of something in the room that there is, and once more if something is dropped.
-/// `counts` are the numbers of stored and dropped ones.
+/// Asks a question whose answers go into `buffer`: hits, pairs, triangles. If some did not fit, it
+/// makes the buffer longer and asks once more. `counts` gives the numbers of stored and of dropped
+/// answers. Returns the result of the question and the stored answers.
 pub fn all<T: Copy, F>(
-    room: &mut Vec<T>,
+    buffer: &mut Vec<T>,
     empty: T,
     mut ask: impl FnMut(&mut [T]) -> Result<F, QueryError>,
     counts: fn(&F) -> (usize, u32),
 ) -> Result<(F, Vec<T>), QueryError> {
-    let mut found = ask(room)?;
+    let mut found = ask(buffer)?;
     let (stored, dropped) = counts(&found);
     if dropped > 0 {
-        room.resize(stored + dropped as usize, empty);
-        found = ask(room)?;
+        buffer.resize(stored + dropped as usize, empty);
+        found = ask(buffer)?;
     }
     let stored = counts(&found).0;
-    Ok((found, room.iter().take(stored).copied().collect()))
+    Ok((found, buffer.iter().take(stored).copied().collect()))
 }
 
 /// Numbers, each with a comma after it.

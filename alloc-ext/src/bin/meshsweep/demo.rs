@@ -48,7 +48,7 @@ pub fn run() -> Result<(), Failure> {
              {:.1} a triangle; a query needs {} bytes of RAM.",
             bytes.len(),
             bytes.len() as f64 / triangles as f64,
-            describe::tree::stack_bytes(&tree)
+            describe::tree::scratch_bytes(&tree)
         )?;
         writeln!(
             out,

@@ -38,11 +38,11 @@ pub enum Failure {
     Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
-    /// The blob was built without the part that the question needs. `other` names an engine that
+    /// The blob was built without the structure that the question needs. `other` names an engine that
     /// has it; `served` lists the questions that the blob serves.
     NotServed {
         file: PathBuf,
-        part: &'static str,
+        structure: &'static str,
         build_for: String,
         other: Option<&'static str>,
         served: String,
@@ -204,8 +204,8 @@ impl fmt::Display for Failure {
             Failure::Open { file, error } => {
                 write!(f, "{}: {error}; {}", file.display(), remedy(error))
             }
-            Failure::NotServed { file, part, build_for, other, served } => {
-                write!(f, "{}: has no {part}, and serves {served}", file.display())?;
+            Failure::NotServed { file, structure, build_for, other, served } => {
+                write!(f, "{}: has no {structure}, and serves {served}", file.display())?;
                 write!(
                     f,
                     "; build one from the mesh: meshsweep build MESH -o BLOB --for {build_for}"

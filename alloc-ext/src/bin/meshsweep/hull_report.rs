@@ -44,14 +44,15 @@ pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.crosses {
         writeln!(
             out,
-            "  the mesh crosses or touches itself: its volume counts what overlaps more than \
-             once, so that the void may be more than that"
+            "  the mesh crosses or touches itself: its volume may count places more than once, so that \
+             the true void may be larger"
         )?;
     }
     if let Start::VoxelClosure { edge, .. } = report.start {
         writeln!(
             out,
-            "  the hull began as the outside of the cubes of edge {} that its triangles meet",
+            "  the hull began as a voxel closure: the outside of the voxels of edge {} that the mesh \
+             meets",
             About(edge)
         )?;
     }
@@ -61,7 +62,7 @@ pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.filled > 0 {
         writeln!(
             out,
-            "  {} filled: a cavity, or a part inside another",
+            "  {} filled: a cavity, or a connected component inside another",
             Counted(report.filled, "shell")
         )?;
     }

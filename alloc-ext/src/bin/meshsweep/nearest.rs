@@ -17,11 +17,11 @@ pub fn run(args: &NearestArgs) -> Result<(), Failure> {
     let header = "query,rank,lower,upper,px,py,pz,triangle,work";
     Question::new(header, Queries::read(points)?, search).ask(
         || {
-            let mut room = vec![Neighbor::EMPTY; count as usize];
+            let mut buffer = vec![Neighbor::EMPTY; count as usize];
             let mut scratch = search.scratch(tree.scratch_entries());
             move |point| {
-                let near = tree.nearest(point, &mut room, search.budget(), &mut scratch)?;
-                let found: Vec<Neighbor> = room.iter().take(near.stored).copied().collect();
+                let near = tree.nearest(point, &mut buffer, search.budget(), &mut scratch)?;
+                let found: Vec<Neighbor> = buffer.iter().take(near.stored).copied().collect();
                 Ok(Answer { found, ended: near.ended, work: near.work })
             }
         },

@@ -14,7 +14,7 @@ const APART: &str = "apart";
 const MEETS: &str = "meets";
 const UNDECIDED: &str = "undecided";
 
-/// Room for pairs at first.
+/// Pairs that fit the buffer at first.
 const PAIRS: usize = 256;
 
 pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
@@ -107,13 +107,13 @@ fn ask_all<const N: usize>(
     question.ask(
         || {
             let mut scratch = search.scratch(Bvh::OVERLAP_ENTRIES);
-            let mut room = vec![TrianglePair::EMPTY; PAIRS];
+            let mut buffer = vec![TrianglePair::EMPTY; PAIRS];
             move |row| {
                 let pose = pose_of(row);
                 let (all, found) = ask::all(
-                    &mut room,
+                    &mut buffer,
                     TrianglePair::EMPTY,
-                    |room| first.overlaps(&second, pose, room, search.budget(), &mut scratch),
+                    |buffer| first.overlaps(&second, pose, buffer, search.budget(), &mut scratch),
                     |all| (all.stored, all.dropped),
                 )?;
                 Ok(Answer { found, ended: all.ended, work: all.work })

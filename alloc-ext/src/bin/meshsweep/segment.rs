@@ -14,7 +14,7 @@ use meshsweep_core::internal::num::{exp2, tolerance};
 use meshsweep_core::{BuildFor, Ended, Hit, Work};
 use std::io::{self, Write};
 
-/// Room for hits at first.
+/// Hits that fit the buffer at first.
 const HITS: usize = 64;
 
 pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
@@ -99,11 +99,11 @@ fn ask_all(
     question.ask(
         || {
             let mut scratch = args.search.scratch(engine.scratch_entries());
-            let mut room = vec![Hit::EMPTY; HITS];
+            let mut buffer = vec![Hit::EMPTY; HITS];
             move |segment| {
                 let [a, b] = ends(segment);
                 let (all, found) = ask::all(
-                    &mut room,
+                    &mut buffer,
                     Hit::EMPTY,
                     |hits| match &engine {
                         Engine::Tree(tree) => {

@@ -4,37 +4,46 @@ use crate::failure::Failure;
 use meshsweep_core::{Blob, BuildFor, Bvh, Hull, TightHull};
 use std::path::Path;
 
+/// Whether a blob serves a question.
+type Serves = fn(&Blob<'_>) -> bool;
+
+/// The questions, by the names of the commands.
+const QUESTIONS: [(&str, Serves); 13] = [
+    ("closest", |blob| knows_triangles(blob) || blob.hull().is_ok() || has_tight_distances(blob)),
+    ("within", |blob| knows_triangles(blob) || has_tight_distances(blob)),
+    ("nearest", knows_triangles),
+    ("field", knows_triangles),
+    ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| tree.is_closed())),
+    ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
+    ("overlap", |blob| tree(blob, BuildFor::Segment).is_some()),
+    ("cull", |blob| tree(blob, BuildFor::Cull).is_some()),
+    ("hull --level", |blob| blob.hull().is_ok()),
+    ("refine", |blob| blob.hull().is_ok()),
+    ("hull --tight", |blob| blob.tight_hulls().is_ok()),
+    ("triboxes", |blob| blob.triboxes().is_ok()),
+    ("cut", |blob| blob.hull().is_ok() || blob.triboxes().is_ok() || blob.tight_hulls().is_ok()),
+];
+
 /// The questions that a blob serves, by the names of the commands.
 pub fn questions(blob: &Blob<'_>) -> Vec<&'static str> {
-    let serves = |build_for| tree(blob, build_for).is_some();
-    let distances = serves(BuildFor::Closest);
-    let hull = blob.hull().is_ok();
-    let tight = finest_tight(blob).is_some_and(|hull| hull.bvh().serves_distances());
-    [
-        ("closest", distances || hull || tight),
-        ("within", distances || tight),
-        ("nearest", distances),
-        ("field", distances),
-        ("signed", distances && blob.bvh().is_ok_and(|tree| tree.is_closed())),
-        ("segment", serves(BuildFor::Segment) || hull),
-        ("overlap", serves(BuildFor::Segment)),
-        ("cull", serves(BuildFor::Cull)),
-        ("hull --level", hull),
-        ("refine", hull),
-        ("hull --tight", blob.tight_hulls().is_ok()),
-        ("triboxes", blob.triboxes().is_ok()),
-        ("cut", hull || blob.triboxes().is_ok() || blob.tight_hulls().is_ok()),
-    ]
-    .into_iter()
-    .filter_map(|(question, serves)| serves.then_some(question))
-    .collect()
+    let served = QUESTIONS.into_iter().filter(|(_, serves)| serves(blob));
+    served.map(|(question, _)| question).collect()
 }
 
-/// The same for people. A question that is served in part is marked.
+/// Whether the blob knows the distances of the mesh's own triangles.
+fn knows_triangles(blob: &Blob<'_>) -> bool {
+    tree(blob, BuildFor::Closest).is_some()
+}
+
+/// Whether the blob knows distances by a tight hull.
+fn has_tight_distances(blob: &Blob<'_>) -> bool {
+    finest_tight(blob).is_some_and(|hull| hull.bvh().serves_distances())
+}
+
+/// The same for people. A question that is served without all of its options is marked.
 pub fn listed(blob: &Blob<'_>) -> String {
-    let knows_triangles = tree(blob, BuildFor::Closest).is_some();
     let said = |question| match question {
-        "within" if !knows_triangles => "within without --all",
+        "within" if !knows_triangles(blob) => "within without --all",
         other => other,
     };
     questions(blob).into_iter().map(said).collect::<Vec<_>>().join(", ")
@@ -61,17 +70,17 @@ fn not_served(
     build_for: BuildFor,
     other: Option<&'static str>,
 ) -> Failure {
-    let part = match build_for {
+    let structure = match build_for {
         BuildFor::Closest => "box tree for distances",
         BuildFor::Segment => "box tree for segments",
         BuildFor::Cull => "box tree with normal cones",
         BuildFor::Hull => "hull hierarchy",
         BuildFor::Triboxes => "triboxes",
         BuildFor::Tight => "tight hulls",
-        _ => "such part",
+        _ => "such structure",
     };
     let (file, build_for) = (file.to_owned(), build_for.to_string());
-    Failure::NotServed { file, part, build_for, other, served: listed(blob) }
+    Failure::NotServed { file, structure, build_for, other, served: listed(blob) }
 }
 
 /// The blob's box tree for these questions.
@@ -113,7 +122,7 @@ pub fn tight_hull<'a>(
 ) -> Result<Option<TightHull<'a>>, Failure> {
     let hull = match faces {
         Some(faces) => require_tight(file, blob, faces)?,
-        None if blob.hull().is_ok() || tree(blob, BuildFor::Closest).is_some() => return Ok(None),
+        None if blob.hull().is_ok() || knows_triangles(blob) => return Ok(None),
         None => match finest_tight(blob) {
             Some(hull) => hull,
             None => return Ok(None),
@@ -124,7 +133,7 @@ pub fn tight_hull<'a>(
     }
     Err(Failure::NotServed {
         file: file.to_owned(),
-        part: "tight hull for distances",
+        structure: "tight hull for distances",
         build_for: "tight --tight-for closest".to_owned(),
         other: None,
         served: listed(blob),
@@ -143,14 +152,14 @@ impl Engine<'_> {
     pub fn scratch_entries(&self) -> usize {
         match self {
             Engine::Tree(tree) => tree.scratch_entries(),
-            Engine::Hull(hull) => hull.scratch_entries() + COMFORTABLE_QUEUE,
+            Engine::Hull(hull) => hull.scratch_entries() + COMFORTABLE_SCRATCH,
         }
     }
 }
 
 /// Least number of scratch entries of a hull hierarchy unless `--queue` says otherwise: enough to
 /// search best first, and small beside a cache.
-const COMFORTABLE_QUEUE: usize = 4096;
+const COMFORTABLE_SCRATCH: usize = 4096;
 
 /// The engine that `--engine` chooses; or else the box tree, if the blob has one.
 pub fn choose<'a>(
@@ -166,5 +175,24 @@ pub fn choose<'a>(
         (Some(false), tree, Err(_)) => refuse(BuildFor::Hull, tree.map(|_| "tree")),
         (Some(true), None, hull) => refuse(build_for, hull.ok().map(|_| "hull")),
         (None, None, Err(_)) => refuse(build_for, None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::QUESTIONS;
+    use crate::args;
+
+    /// Commands that ask a blob nothing: they take a mesh, or print what a blob holds.
+    const OTHERS: [&str; 3] = ["build", "info", "tribox"];
+
+    #[test]
+    fn every_command_that_asks_a_blob_has_a_row() {
+        let command = args::command();
+        let names = command.get_subcommands().map(|command| command.get_name());
+        for name in names.filter(|name| !OTHERS.contains(name)) {
+            let is_asked = |(question, _): &(&str, _)| question.split(' ').next() == Some(name);
+            assert!(QUESTIONS.iter().any(is_asked), "{name} has no row");
+        }
     }
 }

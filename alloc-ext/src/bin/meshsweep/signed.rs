@@ -58,7 +58,7 @@ pub fn reason(side: Side) -> &'static str {
         Side::Outside | Side::Inside => "",
         Side::Undecided(Undecided::OpenMesh) => "open mesh",
         Side::Undecided(Undecided::Steps) => "out of steps",
-        Side::Undecided(Undecided::Scratch) => "out of stack",
+        Side::Undecided(Undecided::Scratch) => "out of scratch memory",
         Side::Undecided(Undecided::OnSurface) => "at the surface",
         _ => "rounding",
     }

@@ -86,7 +86,7 @@ impl Report<'_> {
         (level.faces > 0).then(|| self.faces_of_mesh() as f64 / level.faces as f64)
     }
 
-    /// Void as a part of the solid.
+    /// Void as a fraction of the solid.
     fn void(&self, level: &Level) -> Option<f64> {
         self.solid.filter(|&volume| volume > 0.0).map(|volume| level.void(volume))
     }

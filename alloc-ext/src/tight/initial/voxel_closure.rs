@@ -98,7 +98,7 @@ pub(super) fn voxel_closure(
     })
 }
 
-/// Range in which an edge is cut, as parts of it from its inner end, so that no triangle of the
+/// Range in which an edge is cut, as fractions of it from its inner end, so that no triangle of the
 /// surface is a needle or a point.
 const ENDS: [f64; 2] = [0.05, 0.995];
 

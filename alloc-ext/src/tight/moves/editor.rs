@@ -31,7 +31,8 @@ pub(crate) struct Shape {
     pub min_compactness: f64,
     /// Cosine of the largest turn of a face.
     pub min_turn: f64,
-    /// Least part of a face's area that a collapse keeps, seen along the old normal; `None`: any.
+    /// Least fraction of a face's area that a collapse keeps, seen along the old normal; `None`:
+    /// any.
     pub upright: Option<f64>,
     /// Largest valence.
     pub max_valence: usize,

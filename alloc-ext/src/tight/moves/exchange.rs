@@ -13,7 +13,7 @@ use glam::DVec3;
 const SPLIT: PlacementObjective =
     PlacementObjective { centre_weight: 0.05, tilt: DVec3::ZERO, upright: Some(0.05) };
 
-/// A split is tried for a collapse if it gains this part of the collapse's cost. The vertices
+/// A split is tried for a collapse if it gains this fraction of the collapse's cost. The vertices
 /// around both settle afterwards and gain more.
 const HOPE: f64 = 0.5;
 

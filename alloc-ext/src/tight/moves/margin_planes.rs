@@ -26,7 +26,7 @@ use std::cell::Cell;
 /// Weights below this are rounding: such a point does not move with the vertex.
 const LIGHT: f64 = 1e-6;
 
-/// Part of the clearance below which a point counts as too near.
+/// Fraction of the clearance below which a point counts as too near.
 const LEAST_CLEARANCE: f64 = 0.5;
 
 /// A new face, the tetrahedron that its vertex sweeps, and the planes found for it so far.

@@ -27,9 +27,9 @@ use glam::DVec3;
 pub(crate) struct PlacementObjective {
     /// Weight of the second term, which keeps the vertex near the star's centre.
     pub centre_weight: f64,
-    /// Added to the direction of least volume, as a part of its length.
+    /// Added to the direction of least volume, as a fraction of its length.
     pub tilt: DVec3,
-    /// Least part of a face's area that its new face keeps, seen along the old normal; `None`: any.
+    /// Least fraction of a face's area that its new face keeps, seen along the old normal; `None`: any.
     pub upright: Option<f64>,
 }
 

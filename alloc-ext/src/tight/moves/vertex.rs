@@ -96,8 +96,8 @@ impl HullEditor<'_> {
         }
     }
 
-    /// Settles and flips until a round gains less than `least` of the void. No hull has less volume
-    /// than `floor`.
+    /// Settles and flips until a round gains at most the fraction `least` of the volume beyond
+    /// `floor`, or the rounds are used up.
     pub fn relax(&mut self, floor: f64, least: f64, rounds: usize) {
         for _ in 0..rounds {
             let before = self.shell.volume();

@@ -32,7 +32,7 @@ const MOST_PIECES: usize = 4000;
 /// Steps of the distance field in the largest distance.
 const FIELD_STEPS: f64 = 8.0;
 
-/// Least part by which an edit brings the worst face nearer.
+/// Least fraction by which an edit brings the worst face nearer.
 const NEARER: f64 = 0.05;
 
 /// A hull is given up if fewer than one in this many of its far faces came nearer in a round.
@@ -134,7 +134,7 @@ impl HullEditor<'_> {
                 continue;
             }
             far.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            // Rounds come to an end, because each edit brings its faces nearer by a part.
+            // Rounds come to an end, because each edit brings its faces nearer by a fraction.
             let mut moved = 0;
             let mut changed: Vec<u32> = Vec::new();
             for &(_, f) in &far {

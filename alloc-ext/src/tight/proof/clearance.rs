@@ -18,7 +18,7 @@ use crate::surface::Bounds;
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
 
-/// Bound of the rounding of a test, as a part of S. The module derives it.
+/// Bound of the rounding of a test, as a fraction of S. The module derives it.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A distance to keep, rounded up so that every test against it is a proof.

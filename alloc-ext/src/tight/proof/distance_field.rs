@@ -16,7 +16,7 @@ pub(crate) struct DistanceField {
 /// Number of points at which all are forgotten.
 const CAPACITY: usize = 1 << 19;
 
-/// More than the rounding of a bound, as a part of it.
+/// More than the rounding of a bound, as a fraction of it.
 const ROUNDING: f64 = 1e-12;
 
 impl DistanceField {

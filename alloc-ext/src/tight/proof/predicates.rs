@@ -14,7 +14,7 @@ fn coord(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
 
-/// Bound of a determinant's rounding, as a part of the product of its rows' sums of magnitudes.
+/// Bound of a determinant's rounding, as a fraction of the product of its rows' sums of magnitudes.
 ///
 /// Each entry is a difference of coordinates, rounded once. The determinant is three sums of three
 /// products. Each is off by less than eight roundings of its size, and nothing underflows.

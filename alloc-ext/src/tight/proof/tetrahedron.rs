@@ -14,7 +14,7 @@ pub(crate) struct Tetrahedron {
     bounds: Bounds,
 }
 
-/// Triangles with less double area than this part of the sum of two squared edges have no plane:
+/// Triangles with less double area than this fraction of the sum of two squared edges have no plane:
 /// their corners are nearly on a line.
 const FLAT: f64 = 1e-10;
 

@@ -56,7 +56,7 @@ impl Solid {
         value + bound < self.least
     }
 
-    /// Void of a hull: its volume beyond the mesh's, as a part of the mesh's volume.
+    /// Void of a hull: its volume beyond the mesh's, as a fraction of the mesh's volume.
     pub fn void(&self, hull: &Mesh, volume: f64) -> Result<f64, NoVolume> {
         let triangles: Triangles =
             (0..hull.triangles.len()).filter_map(|t| hull.corners(t)).collect();

@@ -13,8 +13,10 @@ pub(crate) struct CandidateHull<'a> {
 }
 
 impl CandidateHull<'_> {
-    /// Reached goals win. Among hulls that are stuck, or that a slack is asked of, fewer faces win;
-    /// among hulls that are too loose the smaller slack wins; then the smaller volume wins.
+    /// A hull that reached its goal or ran out of time is better than a stuck one, and that is
+    /// better than one that is too loose. Of two that are too loose the smaller slack wins. Of two
+    /// that are stuck, or that keep a distance limit, fewer faces win, then the smaller volume. Of
+    /// all others the smaller volume wins.
     fn is_better_than(&self, other: &Self) -> bool {
         if let (Outcome::TooLoose, Outcome::TooLoose) = (self.stop, other.stop) {
             return self.editor.slack() < other.editor.slack();

@@ -6,7 +6,7 @@ use crate::tight::initial::InitialHull;
 use crate::tight::moves::{HullEditor, Shape};
 use crate::tight::report::{Outcome, Progress, Stage};
 
-/// Conditions of collapses as long as enough edges pass them: the hull keeps room to move.
+/// Conditions of collapses as long as enough edges pass them: later edits find places for vertices.
 const SHAPE: Shape =
     Shape { min_compactness: 0.01, min_turn: 0.25, upright: Some(0.05), max_valence: 24 };
 
@@ -14,10 +14,22 @@ const SHAPE: Shape =
 const LOOSE: Shape =
     Shape { min_compactness: 0.001, min_turn: -0.9, upright: None, max_valence: 48 };
 
-/// Part of the faces that a stage leaves. The hull settles before the next stage.
+/// Fraction of the faces that a stage leaves. The hull relaxes before the next stage.
 pub(super) const STAGE: f64 = 0.7;
 
+/// After edits that change the number of faces, a hull relaxes until a round gains at most this
+/// fraction of the volume beyond the floor. Polishing gains the rest.
+const RELAXED: f64 = 1e-2;
+
+/// Most rounds in which it relaxes.
+const RELAX_ROUNDS: usize = 4;
+
 impl<'a> HullSearch<'a, '_> {
+    /// Settles and flips after edits that changed the number of faces.
+    pub(super) fn relax(&self, editor: &mut HullEditor<'a>) {
+        editor.relax(self.floor(), RELAXED, RELAX_ROUNDS);
+    }
+
     pub(super) fn editor(&self, initial: InitialHull) -> HullEditor<'a> {
         let mut editor = HullEditor::new(self.obstacle, initial.shell, self.rounding(), SHAPE);
         editor.deadline = self.deadline;
@@ -53,7 +65,7 @@ impl<'a> HullSearch<'a, '_> {
                 stop = Outcome::Stuck;
                 break;
             }
-            editor.relax(self.floor(), 1e-2, 4);
+            self.relax(editor);
         }
         editor.drop_enclosed();
         stop

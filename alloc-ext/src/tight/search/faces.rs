@@ -1,11 +1,16 @@
 //! The tightest hull of a number of faces.
 //!
-//! | mesh | initial hulls, in this order |
+//! A row holds unless a row above it does.
+//!
+//! | mesh and goal | initial hulls, in this order |
 //! | --- | --- |
-//! | bounds a volume | levels of its own progressive hull; the voxel closures if none is proved |
-//! | any other | all of these compete: voxel closures from fine to coarse, the grown box |
-//! | margin that is large beside the mesh | one voxel closure as fine as the margin needs |
-//! | any, few faces | all of these compete: levels, voxel closures, the grown box; each is polished at once |
+//! | the hull comes down to few faces | all compete: levels if the mesh bounds a volume and the margin is not large; the closure of the next row if it is; voxel closures; the grown box. Each is polished at once. Levels alone if one is the solid itself |
+//! | margin that is large beside the mesh | one voxel closure as fine as the margin needs; if it is missing or stuck, the hulls of the last row until one reaches the goal |
+//! | bounds a volume | levels of its own progressive hull; if they are stuck, the hulls of the last row until one reaches the goal; if none is proved, the last row |
+//! | any other | all compete: voxel closures from fine to coarse, the grown box |
+//!
+//! The coarsest closure is skipped once a hull has reached the goal. A hull that only comes up to
+//! the goal, by splits, reaches it always, and is not polished here.
 //!
 //! With few faces a coarse closure may come to less volume, because it has fewer handles and narrow
 //! places.
@@ -38,7 +43,7 @@ fn finest(faces: usize) -> usize {
     voxels.clamp(40, 160)
 }
 
-/// A margin above this part of the mesh's longest side is a few voxels of the first closure.
+/// A margin above this fraction of the mesh's longest side is a few voxels of the first closure.
 const LARGE_MARGIN: f64 = 0.02;
 
 /// Least and most voxels along the longest side of the closure for a large margin.
@@ -223,7 +228,7 @@ impl<'a> HullSearch<'a, '_> {
             self.grow(&mut editor, target.faces);
         }
         editor.refine(target.faces);
-        editor.relax(self.floor(), 1e-2, 4);
+        self.relax(&mut editor);
         let mut hull = CandidateHull { editor, start, filled, stop };
         if target.is_few() && stop == Outcome::Reached {
             self.finish(&mut hull);
@@ -236,7 +241,7 @@ impl<'a> HullSearch<'a, '_> {
         let mut faces = GROWTH.0;
         while (faces as usize) < target && !editor.is_late() {
             editor.refine(faces as usize);
-            editor.relax(self.floor(), 1e-2, 4);
+            self.relax(editor);
             self.polish(editor);
             faces *= GROWTH.1;
         }

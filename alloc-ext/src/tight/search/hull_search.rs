@@ -32,7 +32,7 @@ impl<'a> HullSearch<'a, '_> {
         self.solid.map(|solid| solid.volume)
     }
 
-    /// The volume that gains are measured against.
+    /// The volume that gains are measured against: the mesh's, or 0 if it bounds none.
     pub(super) fn floor(&self) -> f64 {
         self.volume().unwrap_or(0.0)
     }

@@ -1,4 +1,5 @@
-//! Searches for a goal: which initial hulls are tried, and how each is brought to the goal.
+//! Searches for a goal: which initial hulls are tried, and how each is brought to the goal. The
+//! initial hulls are made in `tight/initial/`, the edits in `tight/moves/`.
 //!
 //! | file | what lies there |
 //! | --- | --- |
@@ -9,6 +10,17 @@
 //! | `candidate.rs` | [`CandidateHull`]: a hull that reached its goal or not; which of two is better |
 //! | `descent.rs` | brings a hull down to fewer faces in stages |
 //! | `polish.rs` | exchanges, flips and kicks in rounds |
+//!
+//! | word | meaning |
+//! | --- | --- |
+//! | shell | the surface of a hull while it is edited |
+//! | star | the faces around a vertex or an edge, which one edit replaces |
+//! | settle | move a vertex to the place of least volume that keeps the invariant |
+//! | kick | move a vertex in a random direction and settle its neighbours; kept if the volume falls |
+//! | exchange | split an edge where the hull is loose, collapse one where it is not |
+//! | void | volume of the hull beyond that of the mesh, as a fraction of the mesh's volume |
+//! | slack | the largest distance of a point of the hull from the mesh |
+//! | floor | the volume that gains are measured against: the mesh's, or 0 if it bounds none |
 
 mod candidate;
 mod descent;

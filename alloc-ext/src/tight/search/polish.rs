@@ -17,14 +17,25 @@ const STARS: f64 = 10_000.0;
 /// Further stars for each face.
 const STARS_PER_FACE: f64 = 10.0;
 
-/// Polishing ends when this many rounds together gain less than [`LEAST_PART`] of the void.
+/// Polishing ends when this many rounds together gain at most [`LEAST_FRACTION`] of the volume
+/// beyond the floor.
 const IDLE_ROUNDS: usize = 3;
 
 /// See [`IDLE_ROUNDS`].
-const LEAST_PART: f64 = 2e-4;
+const LEAST_FRACTION: f64 = 2e-4;
 
-/// Length of the random part of a kick, where the direction of least volume has length 1.
+/// Length of the random direction of a kick, where the direction of least volume has length 1.
 const STRENGTH: f64 = 1.5;
+
+/// At the beginning the hull relaxes until a round gains less than this fraction of the volume
+/// beyond the floor, but for so many rounds at most.
+const RELAXED: (f64, usize) = (2e-3, 30);
+
+/// Exchanges of a round: one for so many faces, within these limits.
+const FACES_PER_EXCHANGE: usize = 10;
+
+/// See [`FACES_PER_EXCHANGE`].
+const EXCHANGES: [usize; 2] = [8, 60];
 
 /// Every edge's flip is tried once in this many rounds: most flips gain nothing.
 const FLIP_ROUNDS: usize = 3;
@@ -37,7 +48,8 @@ impl Polish {
     }
 
     /// Exchanges, flips and kicks in rounds until the stars or the time are used up, or little is
-    /// gained. No hull has less volume than `floor`.
+    /// gained beyond the volume `floor`. A hull may have less volume than that if components of the
+    /// mesh overlap.
     pub fn run(
         &mut self,
         editor: &mut HullEditor<'_>,
@@ -45,11 +57,13 @@ impl Polish {
         mut on_progress: impl FnMut(u64, u64),
     ) {
         editor.star_limit = Some(self.until);
-        editor.relax(floor, 2e-3, 30);
+        let [fewest, most] = EXCHANGES;
+        editor.relax(floor, RELAXED.0, RELAXED.1);
         let mut past = vec![editor.shell.volume()];
         let mut round = 0;
         while !editor.is_spent() {
-            editor.exchange((editor.shell.face_count() / 10).clamp(8, 60));
+            let exchanges = editor.shell.face_count() / FACES_PER_EXCHANGE;
+            editor.exchange(exchanges.clamp(fewest, most));
             editor.flip_all();
             if round % FLIP_ROUNDS == 0 {
                 editor.flip_search();
@@ -58,10 +72,10 @@ impl Polish {
             editor.flip_all();
             round += 1;
             on_progress(editor.placer.stars.min(self.until) - self.from, self.until - self.from);
-            past.push(editor.shell.volume());
-            if let [.., before, _, _, now] = past[..]
-                && round >= IDLE_ROUNDS
-                && before - now <= LEAST_PART * (now - floor)
+            let now = editor.shell.volume();
+            past.push(now);
+            if let Some(before) = past.iter().rev().nth(IDLE_ROUNDS)
+                && before - now <= LEAST_FRACTION * (now - floor)
             {
                 break;
             }

@@ -6,10 +6,12 @@
 //! | initial hull | when it is tried |
 //! | --- | --- |
 //! | grown box | first, once |
-//! | level of the mesh's own progressive hull | in each round, with [`FINER`] times the faces of the round before, until it has the mesh's faces; not if there is none, or if the margin is large |
-//! | two voxel closures | in each round without a level, or whose level was the finest and too loose; then with twice the voxels |
+//! | level of the mesh's own progressive hull | in each round up to the finest level, which has as many faces as the mesh; not if the mesh bounds no volume or the margin is large |
+//! | two voxel closures of one grid | in a round before any level is proved; in a round after which no finer level is left, unless the slack is below the steps of the grid |
 //!
-//! Rounds end with the first hull within the slack, or with the finest level and closures.
+//! The next round's level has [`FINER`] times the faces. The next closures have twice the voxels.
+//! Rounds end with the first hull within the slack, with the finest closures, with the time, or
+//! after the first round if the slack is below the steps of the grid.
 
 use super::candidate::{CandidateHull, keep_better};
 use super::hull_search::HullSearch;
@@ -149,14 +151,14 @@ impl<'a> HullSearch<'a, '_> {
             // Large hulls are far hulls: with least volume within its present slack the hull may
             // come nearer.
             editor.limit_distance(editor.slack());
-            editor.relax(self.floor(), 1e-2, 4);
+            self.relax(&mut editor);
             is_within = editor.bring_within(slack);
         }
         if !is_within {
             editor.drop_enclosed();
             return CandidateHull { editor, start, filled, stop: Outcome::TooLoose };
         }
-        editor.relax(self.floor(), 1e-2, 4);
+        self.relax(&mut editor);
         let mut faces = usize::MAX;
         loop {
             self.descend(&mut editor, TOO_FEW + 1);
@@ -166,7 +168,7 @@ impl<'a> HullSearch<'a, '_> {
             if saved < (now / LEAST_SAVING).max(2) || editor.is_late() {
                 return CandidateHull { editor, start, filled, stop: Outcome::Reached };
             }
-            // Less volume leaves more room for the volume that the next collapses add.
+            // Collapses add volume within the slack: from less volume more of them are possible.
             self.polish(&mut editor);
         }
     }

@@ -1,7 +1,8 @@
 //! The fewest faces for a void.
 //!
-//! A hull comes down in stages as long as its void is not too large, then by halves of the
-//! difference.
+//! The search begins with a hull of many faces. It removes faces in stages as long as the void
+//! stays within the goal. After the first stage that fails, it bisects between the fewest faces that are
+//! enough and the most that are too few.
 
 use super::candidate::CandidateHull;
 use super::descent::STAGE;
@@ -12,8 +13,8 @@ use crate::mesh::NoVolume;
 use crate::tight::moves::HullEditor;
 use crate::tight::report::Outcome;
 
-/// Faces that the search begins with.
-const FINEST: usize = 2000;
+/// Faces of the first hull. Only if its void is too large, a finer one follows.
+const FIRST_FACES: usize = 2000;
 
 /// Factor of the number of faces if these are not enough.
 pub(super) const FINER: usize = 4;
@@ -30,18 +31,18 @@ impl<'a> HullSearch<'a, '_> {
         &mut self,
         void: f64,
     ) -> Result<CandidateHull<'a>, BuildError> {
-        let mut faces = FINEST;
+        let mut faces = FIRST_FACES;
         let mut best = self.of_faces(Target { faces, descends: false })?;
-        while !self.has_void(&best.editor, void)
+        while !self.is_within_void(&best.editor, void)
             && faces < self.mesh.triangles.len()
             && !best.editor.is_late()
         {
             faces = faces.saturating_mul(FINER);
             best = self.of_faces(Target { faces, descends: false })?;
         }
-        if !self.has_void(&best.editor, void) {
+        if !self.is_within_void(&best.editor, void) {
             let polished = self.polish(&mut best.editor);
-            if !self.has_void(&best.editor, void) {
+            if !self.is_within_void(&best.editor, void) {
                 best.stop = match polished {
                     Outcome::OutOfTime => Outcome::OutOfTime,
                     _ => Outcome::TooLoose,
@@ -62,11 +63,11 @@ impl<'a> HullSearch<'a, '_> {
             }
             let mut trial = CandidateHull { editor: best.editor.clone(), ..best };
             trial.stop = self.descend(&mut trial.editor, next);
-            if trial.stop == Outcome::Reached && !self.has_void(&trial.editor, void) {
+            if trial.stop == Outcome::Reached && !self.is_within_void(&trial.editor, void) {
                 self.polish(&mut trial.editor);
             }
             let is_found = |search: &Self, trial: &CandidateHull<'_>| {
-                trial.stop == Outcome::Reached && search.has_void(&trial.editor, void)
+                trial.stop == Outcome::Reached && search.is_within_void(&trial.editor, void)
             };
             if !is_found(self, &trial) && next <= FEW_FACES && !self.is_late() {
                 // With few faces the initial hull decides.
@@ -87,7 +88,8 @@ impl<'a> HullSearch<'a, '_> {
         }
     }
 
-    /// Requires that the hull does not prove the mesh's volume to count places more than once.
+    /// Refuses a mesh that overlaps itself, as a hull of less volume proves. The mesh's volume then
+    /// counts places more than once, and no void can be measured against it.
     fn require_measure(&self, editor: &HullEditor<'a>) -> Result<(), BuildError> {
         let shell = &editor.shell;
         let corner = |p: glam::DVec3| p.as_vec3().to_array();
@@ -99,7 +101,8 @@ impl<'a> HullSearch<'a, '_> {
         }
     }
 
-    fn has_void(&self, editor: &HullEditor<'a>, void: f64) -> bool {
+    /// Whether the void is at most `void`. False if the mesh bounds no volume.
+    fn is_within_void(&self, editor: &HullEditor<'a>, void: f64) -> bool {
         self.volume().is_some_and(|volume| editor.shell.volume() <= volume * (1.0 + void))
     }
 }

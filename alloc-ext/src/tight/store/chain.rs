@@ -151,7 +151,7 @@ pub struct HullReport {
     pub wrapped: Report,
     /// Distances both ways between hull and mesh, input units.
     pub distances: Distances,
-    /// Volume beyond that of the mesh, as a part of the mesh's volume; or why the mesh has no
+    /// Volume beyond that of the mesh, as a fraction of the mesh's volume; or why the mesh has no
     /// volume.
     pub void: Result<f64, NoVolume>,
     /// Bytes in the blob.

@@ -16,7 +16,7 @@ pub struct Distances {
     pub depth: Farthest,
 }
 
-/// Accuracy of the slacks as a part of the largest: finer than the steps of two bytes at the large
+/// Accuracy of the slacks as a fraction of the largest: finer than the steps of two bytes at the large
 /// slacks.
 const FINE: f64 = 1.0 / 512.0;
 

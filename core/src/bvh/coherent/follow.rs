@@ -1,11 +1,11 @@
 //! One search of a coherent query. It updates the front as far as the answer depends on it.
 
-use super::front::{Child, Known, TraversalFront};
-use super::leaf_shape::has_no_sliver;
+use super::front::{BoundKind, Child, TraversalFront};
 use super::planes::{Planes, VisitedLeaf, middle};
+use super::sliver::has_no_sliver;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::leaf_distance::nearest_and_edges;
-use crate::bvh::node::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
+use crate::bvh::node::{CHILD_MASK, NodeFrame, box_distances, least_key};
 use crate::bvh::point_query::PointQuery;
 use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
 use crate::num::tolerance::{FAN_DISTANCE, ROOT_AND_PRODUCTS, SHORTFALL, U32};
@@ -30,7 +30,7 @@ pub(crate) struct Nearest {
 impl Nearest {
     const NONE: Nearest = Nearest {
         distance_sq: f32::INFINITY,
-        child: Child::NONE,
+        child: Child::PLACEHOLDER,
         lane: 0,
         v: 0.0,
         w: 0.0,
@@ -49,6 +49,23 @@ pub(crate) enum NoAnswer {
     Lost,
     /// The tree is unchecked.
     Unchecked,
+}
+
+/// The cost of a search, in half leaves. It decides when plain queries take over, and changes no
+/// answer's bits.
+mod cost {
+    /// The triangles of a leaf.
+    pub(super) const LEAF: u32 = 2;
+    /// Whether a leaf has slivers.
+    pub(super) const SHAPE: u32 = 1;
+    /// The plane of a leaf.
+    pub(super) const PLANE: u32 = 1;
+    /// The boxes of a node, and their entries.
+    pub(super) const NODE: u32 = 3;
+    /// Entries that are read for a cost of 1 to activate some.
+    pub(super) const ENTRIES_READ: u32 = 24;
+    /// Entries that are read and moved for a cost of 1 to evict some.
+    pub(super) const ENTRIES_MOVED: u32 = 12;
 }
 
 /// One search and its state.
@@ -73,7 +90,7 @@ pub(crate) struct Follow<'a, 't> {
     pub(crate) box_error: f32,
     /// Greatest error of a triangle's bound, in addition to [`SHORTFALL`] of the bound itself.
     shortfall: f32,
-    /// Work so far, in half leaves.
+    /// Work so far, in half leaves: see [`cost`].
     pub(crate) cost: u32,
     /// Nodes that may be opened.
     steps: u32,
@@ -136,7 +153,7 @@ impl<'a, 't> Follow<'a, 't> {
             next = 1;
         }
         loop {
-            while next < self.front.extent.active {
+            while next < self.front.state.active {
                 let Some((key, child)) = self.front.get(next) else { break };
                 if key <= self.bound {
                     self.visit(next, child)?;
@@ -149,13 +166,13 @@ impl<'a, 't> Follow<'a, 't> {
                 }
                 next += 1;
             }
-            if self.bound < self.front.extent.rest || !self.front.has_inactive() {
+            if self.bound < self.front.state.rest || !self.front.has_inactive() {
                 break;
             }
             self.front.activate(self.bound + self.ahead);
-            self.cost += self.front.extent.count as u32 / 24;
+            self.cost += self.front.state.count as u32 / cost::ENTRIES_READ;
         }
-        if self.bound >= self.front.extent.dropped || self.best.at == usize::MAX {
+        if self.bound >= self.front.state.dropped || self.best.at == usize::MAX {
             return Err(NoAnswer::Lost);
         }
         if self.sliver_lower_sq < self.refine_below {
@@ -170,8 +187,8 @@ impl<'a, 't> Follow<'a, 't> {
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn visit(&mut self, i: usize, mut child: Child) -> Result<(), NoAnswer> {
         loop {
-            match child.known() {
-                Known::Triangles => {
+            match child.bound_kind() {
+                BoundKind::Triangles => {
                     let key = self.front.key(self.planes.bound(child, self.way) - self.box_error);
                     if key > self.bound {
                         self.front.set(i, key, child);
@@ -179,23 +196,23 @@ impl<'a, 't> Follow<'a, 't> {
                     }
                     return self.look(i, child);
                 }
-                Known::Sliver => {
+                BoundKind::Sliver => {
                     let key = self.box_key(child)?;
                     self.front.set(i, key, child);
                     return if key <= self.bound { self.look(i, child) } else { Ok(()) };
                 }
-                Known::Nothing => {}
+                BoundKind::Box => {}
             }
-            let found = self.tree.child(child.node(), child.lane()).ok_or(NoAnswer::Unchecked)?;
+            let found = self.tree.child(child.node(), child.index()).ok_or(NoAnswer::Unchecked)?;
             if found.is_leaf() {
                 let leaf = self.tree.leaf_at(found.at, found.shape).ok_or(NoAnswer::Unchecked)?;
-                self.cost += 1;
-                let known = if has_no_sliver(&leaf).ok_or(NoAnswer::Unchecked)? {
-                    Known::Triangles
+                self.cost += cost::SHAPE;
+                let kind = if has_no_sliver(&leaf).ok_or(NoAnswer::Unchecked)? {
+                    BoundKind::Triangles
                 } else {
-                    Known::Sliver
+                    BoundKind::Sliver
                 };
-                return self.look(i, child.with(known));
+                return self.look(i, child.with(kind));
             }
             self.open(found.at, Some(i))?;
             let Some((key, nearest)) = self.front.get(i) else { return Ok(()) };
@@ -218,15 +235,15 @@ impl<'a, 't> Follow<'a, 't> {
         let keys = box_distances(record, &NodeFrame::of(record, self.query.p), links.count, 0.0);
         self.work.splits += 1;
         self.work.nodes += links.count;
-        self.cost += 3;
-        let nearest = nearest_lane(&keys);
+        self.cost += cost::NODE;
+        let nearest = least_key(&keys);
         let horizon = self.bound + self.ahead;
         if !self.front.has_room(WIDTH) {
             self.front.evict(entry.map_or(0, |i| i + 1), horizon);
-            self.cost += self.front.extent.count as u32 / 12;
+            self.cost += self.front.state.count as u32 / cost::ENTRIES_MOVED;
         }
         if let Some(i) = entry {
-            let lane = nearest.to_bits() & LANE_MASK;
+            let lane = nearest.to_bits() & CHILD_MASK;
             self.front.set(i, self.key_of_box(nearest), Child::new(node, lane));
         }
         for (lane, key) in (0..links.count).zip(keys) {
@@ -247,10 +264,10 @@ impl<'a, 't> Follow<'a, 't> {
     #[cold]
     fn box_key(&mut self, child: Child) -> Result<f32, NoAnswer> {
         let record = self.tree.frame(child.node()).ok_or(NoAnswer::Unchecked)?;
-        let count = child.lane() + 1;
+        let count = child.index() + 1;
         let keys = box_distances(record, &NodeFrame::of(record, self.query.p), count, 0.0);
         self.work.nodes += count;
-        let key = keys.get(child.lane() as usize).copied().ok_or(NoAnswer::Unchecked)?;
+        let key = keys.get(child.index() as usize).copied().ok_or(NoAnswer::Unchecked)?;
         Ok(self.key_of_box(key))
     }
 
@@ -258,10 +275,10 @@ impl<'a, 't> Follow<'a, 't> {
     #[cfg_attr(any(target_arch = "x86_64", target_arch = "aarch64"), inline(always))]
     #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), inline(never))]
     fn look(&mut self, i: usize, child: Child) -> Result<(), NoAnswer> {
-        let leaf = self.tree.leaf(child.node(), child.lane()).ok_or(NoAnswer::Unchecked)?;
+        let leaf = self.tree.leaf(child.node(), child.index()).ok_or(NoAnswer::Unchecked)?;
         let (near, edges) = nearest_and_edges(&leaf, self.query.p).ok_or(NoAnswer::Unchecked)?;
         self.work.triangles += leaf.shape().triangles() as u32;
-        self.cost += 2;
+        self.cost += cost::LEAF;
         let distance_sq = near.distance_sq;
         if distance_sq < self.best.distance_sq
             || (distance_sq == self.best.distance_sq && self.comes_first(child))
@@ -275,11 +292,11 @@ impl<'a, 't> Follow<'a, 't> {
         if near.lower_bound_sq < self.refine_below {
             self.sliver_lower_sq = lesser(self.sliver_lower_sq, near.lower_bound_sq);
         }
-        if child.known() == Known::Triangles {
+        if child.bound_kind() == BoundKind::Triangles {
             let key = self.key_of_triangles(near.lower_bound_sq);
             self.front.set(i, key, child);
             if key > self.bound {
-                self.cost += 1;
+                self.cost += cost::PLANE;
                 let looked = VisitedLeaf { fans: &leaf, p: self.query.p, edges: edges.as_ref() };
                 self.planes.put(
                     child,
@@ -299,7 +316,7 @@ impl<'a, 't> Follow<'a, 't> {
     /// first.
     #[cold]
     fn comes_first(&self, child: Child) -> bool {
-        let first = |child: Child| Some(self.tree.links(child.node())?.triangle(child.lane()));
+        let first = |child: Child| Some(self.tree.links(child.node())?.triangle(child.index()));
         first(child) <= first(self.best.child)
     }
 
@@ -335,8 +352,8 @@ impl<'a, 't> Follow<'a, 't> {
     /// is the least key of the other entries.
     #[cold]
     #[inline(never)]
-    pub(crate) fn second(&mut self, best: &Nearest, others: f32) -> f32 {
-        let Some(leaf) = self.tree.leaf(best.child.node(), best.child.lane()) else { return 0.0 };
+    pub(crate) fn least_other_key(&mut self, best: &Nearest, others: f32) -> f32 {
+        let Some(leaf) = self.tree.leaf(best.child.node(), best.child.index()) else { return 0.0 };
         let mut lower_bound_sq = f32::MAX;
         self.each(&leaf, |_, lane, near| {
             if lane != best.lane {
@@ -348,17 +365,17 @@ impl<'a, 't> Follow<'a, 't> {
     }
 
     /// The triangle `lane` of the first entry's leaf, if it is certainly still the nearest. All
-    /// other triangles have keys of at least `second`.
+    /// other triangles have keys of at least `others`.
     #[inline(always)]
-    pub(crate) fn same(&mut self, lane: usize, second: f32) -> Option<Nearest> {
+    pub(crate) fn same(&mut self, lane: usize, others: f32) -> Option<Nearest> {
         let (_, child) = self.front.get(0)?;
-        let leaf = self.tree.leaf(child.node(), child.lane())?;
+        let leaf = self.tree.leaf(child.node(), child.index())?;
         let which = usize::from(lane >= leaf.shape().turn());
         let fan = PointFan::new(self.query.p - leaf.centre(which));
         let (e, g) = (fan.spoke(leaf.spoke(lane, which)), fan.spoke(leaf.spoke(lane + 1, which)));
         let Nearness { distance_sq, lower_bound_sq, v, w } = fan.triangle(&e, &g);
         self.work.triangles += 1;
-        let certain = self.horizon(distance_sq) < second
+        let certain = self.horizon(distance_sq) < others
             && lower_bound_sq >= self.query.refine_below(distance_sq);
         if certain { Some(Nearest { distance_sq, child, lane, v, w, at: 0 }) } else { None }
     }

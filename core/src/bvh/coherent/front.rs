@@ -12,15 +12,15 @@ use crate::num::lesser;
 use crate::num::tolerance::PATH_SUM;
 
 /// A child of a node and the kind of its bound in 32 bits: 24 for the node (a blob has no more), 5
-/// for the kind (2 in use), 3 for the lane.
+/// for the kind (2 in use), 3 for the number of the child in the node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Child(u32);
 
 /// The kind of bound that an entry's key holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Known {
-    /// The bound of a box.
-    Nothing,
+pub(crate) enum BoundKind {
+    /// The bound of the child's box.
+    Box,
     /// The bound of a leaf's triangles.
     Triangles,
     /// A leaf with a sliver: its key has to be the bound of its box.
@@ -28,11 +28,13 @@ pub(crate) enum Known {
 }
 
 impl Child {
-    pub(crate) const NONE: Child = Child(0);
+    /// Fills memory without an entry. Nothing compares with it: the first child of the root has the
+    /// same bits.
+    pub(crate) const PLACEHOLDER: Child = Child(0);
 
     #[inline(always)]
-    pub(crate) fn new(node: u32, lane: u32) -> Child {
-        Child(node << 8 | lane & 7)
+    pub(crate) fn new(node: u32, index: u32) -> Child {
+        Child(node << 8 | index & 7)
     }
 
     #[inline(always)]
@@ -41,34 +43,34 @@ impl Child {
     }
 
     #[inline(always)]
-    pub(crate) fn lane(self) -> u32 {
+    pub(crate) fn index(self) -> u32 {
         self.0 & 7
     }
 
-    /// Node and lane, without the kind of the bound.
+    /// Node and number, without the kind of the bound.
     #[inline(always)]
     pub(crate) fn without_bound(self) -> u32 {
         self.0 & 0xFFFF_FF07
     }
 
     #[inline(always)]
-    pub(crate) fn known(self) -> Known {
+    pub(crate) fn bound_kind(self) -> BoundKind {
         match self.0 >> 3 & 3 {
-            0 => Known::Nothing,
-            1 => Known::Triangles,
-            _ => Known::Sliver,
+            0 => BoundKind::Box,
+            1 => BoundKind::Triangles,
+            _ => BoundKind::Sliver,
         }
     }
 
     #[inline(always)]
-    pub(crate) fn with(self, known: Known) -> Child {
-        Child(self.0 & !(3 << 3) | (known as u32) << 3)
+    pub(crate) fn with(self, kind: BoundKind) -> Child {
+        Child(self.0 & !(3 << 3) | (kind as u32) << 3)
     }
 }
 
-/// The state of a front, beside its entries.
+/// The counters and bounds of a front, beside its entries.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Extent {
+pub(crate) struct FrontState {
     /// Entries.
     pub(crate) count: usize,
     /// Active entries. They stand first.
@@ -81,28 +83,28 @@ pub(crate) struct Extent {
     pub(crate) path: f32,
 }
 
-impl Extent {
-    pub(crate) const EMPTY: Extent =
-        Extent { count: 0, active: 0, rest: f32::INFINITY, dropped: f32::INFINITY, path: 0.0 };
+impl FrontState {
+    pub(crate) const EMPTY: FrontState =
+        FrontState { count: 0, active: 0, rest: f32::INFINITY, dropped: f32::INFINITY, path: 0.0 };
 }
 
 /// Entries in the caller's memory.
 pub(crate) struct TraversalFront<'a> {
     pub(crate) keys: &'a mut [f32],
     pub(crate) children: &'a mut [Child],
-    pub(crate) extent: &'a mut Extent,
+    pub(crate) state: &'a mut FrontState,
 }
 
 impl TraversalFront<'_> {
     /// Removes all entries.
     pub(crate) fn clear(&mut self) {
-        *self.extent = Extent::EMPTY;
+        *self.state = FrontState::EMPTY;
     }
 
     /// The query has moved by `step`.
     #[inline(always)]
     pub(crate) fn advance(&mut self, step: f32) {
-        self.extent.path = (self.extent.path + step) * (1.0 + PATH_SUM);
+        self.state.path = (self.state.path + step) * (1.0 + PATH_SUM);
     }
 
     /// Sets the path length to 0 and lowers all keys by it. Keys of a longer path would round too
@@ -110,24 +112,23 @@ impl TraversalFront<'_> {
     #[cold]
     #[inline(never)]
     pub(crate) fn rebase(&mut self) {
-        let Extent { count, rest, dropped, path, .. } = *self.extent;
+        let FrontState { count, rest, dropped, path, .. } = *self.state;
         let less = |key: f32| if key > path { (key - path) * (1.0 - PATH_SUM) } else { 0.0 };
         self.keys.iter_mut().take(count).for_each(|key| *key = less(*key));
-        (self.extent.rest, self.extent.dropped, self.extent.path) =
-            (less(rest), less(dropped), 0.0);
+        (self.state.rest, self.state.dropped, self.state.path) = (less(rest), less(dropped), 0.0);
     }
 
     /// Key of a lower bound from the present query. A negative bound counts as 0.
     #[inline(always)]
     pub(crate) fn key(&self, bound: f32) -> f32 {
         let bound = if bound > 0.0 { bound } else { 0.0 };
-        (bound + self.extent.path) * (1.0 - PATH_SUM)
+        (bound + self.state.path) * (1.0 - PATH_SUM)
     }
 
     /// An entry with a greater key holds nothing within `max_distance`.
     #[inline(always)]
     pub(crate) fn horizon(&self, max_distance: f32) -> f32 {
-        (max_distance + self.extent.path) * (1.0 + PATH_SUM)
+        (max_distance + self.state.path) * (1.0 + PATH_SUM)
     }
 
     #[inline(always)]
@@ -153,46 +154,46 @@ impl TraversalFront<'_> {
     /// Whether `more` entries fit.
     #[inline(always)]
     pub(crate) fn has_room(&self, more: usize) -> bool {
-        self.extent.count + more <= self.keys.len().min(self.children.len())
+        self.state.count + more <= self.keys.len().min(self.children.len())
     }
 
     /// Adds an entry, active if its key is within `horizon`. If it does not fit, it is dropped.
     #[inline(always)]
     pub(crate) fn insert(&mut self, key: f32, child: Child, horizon: f32) {
-        let last = self.extent.count;
+        let last = self.state.count;
         if !self.has_room(1) {
-            self.extent.dropped = lesser(self.extent.dropped, key);
+            self.state.dropped = lesser(self.state.dropped, key);
             return;
         }
         self.set(last, key, child);
-        self.extent.count = last + 1;
+        self.state.count = last + 1;
         if key <= horizon {
-            self.swap(last, self.extent.active);
-            self.extent.active += 1;
+            self.swap(last, self.state.active);
+            self.state.active += 1;
         } else {
-            self.extent.rest = lesser(self.extent.rest, key);
+            self.state.rest = lesser(self.state.rest, key);
         }
     }
 
     /// Makes entry `i` inactive. Another active one takes its place.
     #[inline(always)]
     pub(crate) fn deactivate(&mut self, i: usize, key: f32) {
-        let last = self.extent.active.saturating_sub(1);
+        let last = self.state.active.saturating_sub(1);
         self.swap(i, last);
-        self.extent.active = last;
-        self.extent.rest = lesser(self.extent.rest, key);
+        self.state.active = last;
+        self.state.rest = lesser(self.state.rest, key);
     }
 
     /// Whether there are entries that are not active.
     #[inline(always)]
     pub(crate) fn has_inactive(&self) -> bool {
-        self.extent.active < self.extent.count
+        self.state.active < self.state.count
     }
 
     /// Makes all entries within `horizon` active.
     pub(crate) fn activate(&mut self, horizon: f32) {
-        let (mut active, mut rest) = (self.extent.active, f32::INFINITY);
-        let inactive = active..self.extent.count;
+        let (mut active, mut rest) = (self.state.active, f32::INFINITY);
+        let inactive = active..self.state.count;
         for i in inactive {
             let Some(&key) = self.keys.get(i) else { break };
             if key <= horizon {
@@ -202,7 +203,7 @@ impl TraversalFront<'_> {
                 rest = lesser(rest, key);
             }
         }
-        (self.extent.active, self.extent.rest) = (active, rest);
+        (self.state.active, self.state.rest) = (active, rest);
     }
 
     /// Frees memory. Deactivates the active entries from `from` on that are beyond `horizon`, then
@@ -211,16 +212,16 @@ impl TraversalFront<'_> {
     #[inline(never)]
     pub(crate) fn evict(&mut self, from: usize, horizon: f32) {
         let mut i = from;
-        while i < self.extent.active {
+        while i < self.state.active {
             match self.keys.get(i) {
                 Some(&key) if key > horizon => self.deactivate(i, key),
                 _ => i += 1,
             }
         }
-        let Extent { count, active, .. } = *self.extent;
+        let FrontState { count, active, .. } = *self.state;
         let keys = self.keys.get(active..count).unwrap_or(&[]);
         let mean = keys.iter().sum::<f32>() / keys.len().max(1) as f32;
-        let (mut kept, mut dropped) = (active, self.extent.dropped);
+        let (mut kept, mut dropped) = (active, self.state.dropped);
         for i in active..count {
             let Some((key, child)) = self.get(i) else { break };
             if key < mean {
@@ -230,15 +231,15 @@ impl TraversalFront<'_> {
                 dropped = lesser(dropped, key);
             }
         }
-        (self.extent.count, self.extent.dropped) = (kept, dropped);
+        (self.state.count, self.state.dropped) = (kept, dropped);
     }
 
     /// No entry but the first, and no dropped entry, has a lesser key.
     #[inline(always)]
-    pub(crate) fn second(&self) -> f32 {
-        let active = self.keys.get(1..self.extent.active).unwrap_or(&[]);
+    pub(crate) fn least_other_key(&self) -> f32 {
+        let active = self.keys.get(1..self.state.active).unwrap_or(&[]);
         active
             .iter()
-            .fold(lesser(self.extent.rest, self.extent.dropped), |second, &key| lesser(second, key))
+            .fold(lesser(self.state.rest, self.state.dropped), |least, &key| lesser(least, key))
     }
 }

@@ -2,16 +2,16 @@
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `query` | [`CoherentQuery`]: the state of a moving query, and when it starts anew |
+//! | `query` | [`CoherentQuery`]: the state of a moving query, and when the front is used |
 //! | `follow` | one search over the front |
 //! | `front` | the set of nodes that is kept between queries |
 //! | `planes` | planes that separate the closest triangle from the leaves around it |
-//! | `leaf_shape` | leaves without slivers |
+//! | `sliver` | leaves without slivers |
 
 mod follow;
 mod front;
-mod leaf_shape;
 mod planes;
 mod query;
+mod sliver;
 
 pub use query::{CoherentClosest, CoherentQuery};

@@ -136,13 +136,14 @@ fn separate_narrow(leaf: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec
 /// the model's size, not to its distance from the origin.
 #[inline(always)]
 pub(crate) fn middle(tree: &Bvh<'_>) -> Vec3 {
-    (tree.scale().low + tree.scale().high) * 0.5
+    let (low, high) = tree.grid_bounds();
+    (low + high) * 0.5
 }
 
 /// Leaves of a node get different places.
 #[inline(always)]
 fn place(child: Child) -> usize {
-    (child.without_bound() >> 8).wrapping_mul(5).wrapping_add(child.lane()) as usize % PLANES
+    (child.without_bound() >> 8).wrapping_mul(5).wrapping_add(child.index()) as usize % PLANES
 }
 
 #[inline(always)]

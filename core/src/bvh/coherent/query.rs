@@ -4,7 +4,7 @@
 //! sections 3.3 and 5.1.
 
 use super::follow::{Follow, Nearest, NoAnswer};
-use super::front::{Child, Extent, Known, TraversalFront};
+use super::front::{BoundKind, Child, FrontState, TraversalFront};
 use super::planes::Planes;
 use crate::bvh::closest_point::Hint;
 use crate::bvh::format::Bvh;
@@ -59,7 +59,7 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
         CoherentQuery {
             memory: Memory::EMPTY,
             keys: [0.0; N],
-            children: [Child::NONE; N],
+            children: [Child::PLACEHOLDER; N],
             bytes: PhantomData,
         }
     }
@@ -110,18 +110,22 @@ impl<'t, const N: usize> CoherentQuery<'t, N> {
 /// ones are read about once in as many queries.
 const AHEAD: f32 = 8.0;
 /// Cost of a query in addition to its nodes and leaves.
-const BASE: u32 = 4;
-/// Debt at which the front rests, as a multiple of a plain query's cost. While it rests, plain
-/// queries answer.
-const CREDIT: u32 = 4;
-/// Plain queries in the first rest, and in the longest.
-const REST: (u32, u32) = (8, 256);
-/// A rest ends early after this many steps in a row that are much [`SHORTER`] than the step at
+const BASE_COST: u32 = 4;
+/// Active entries that are read for a cost of 1.
+const ENTRIES_READ: u32 = 8;
+/// Plain queries that a search may cost: on a kept front, and one that begins with an empty front.
+const MOST_COST: (u32, u32) = (2, 4);
+/// Excess cost at which the front pauses, as a multiple of a plain query's cost. During a pause
+/// plain queries answer.
+const MOST_EXCESS: u32 = 4;
+/// Plain queries in the first pause, and in the longest. Each pause is twice as long as the last.
+const PAUSE: (u32, u32) = (8, 256);
+/// A pause ends early after this many steps in a row that are much [`SHORTER`] than the step at
 /// which it began.
-const WAKE: u32 = 3;
+const SHORT_STEPS: u32 = 3;
 /// Ratio of two steps from which on the second counts as much shorter.
 const SHORTER: f32 = 8.0;
-/// After this many queries in a row without debt the next rest is a first one again.
+/// After this many queries in a row without excess cost the next pause is as short as the first.
 const RELIABLE: u32 = 64;
 
 /// The rule that decides whether the front pays.
@@ -130,59 +134,68 @@ const RELIABLE: u32 = 64;
 /// front's cost counts one and a half times. With vectors it takes that long, because each step has
 /// to wait for the leaf before it. The rule is the same on every target, so the answers are too.
 #[derive(Clone, Copy, Debug)]
-struct Pace {
-    /// Cost of a plain query here. 0 before the first.
-    plain: u32,
-    /// Excess of the front's cost over that of plain queries, lately.
-    debt: u32,
-    /// Plain queries left in this rest.
-    resting: u32,
-    /// Plain queries of the next rest.
-    rest: u32,
-    /// Length of the step at which this rest began.
-    too_long: f32,
+struct FrontPolicy {
+    /// Cost of a plain query here: a moving average. 0 before the first.
+    plain_cost: u32,
+    /// Sum of the front's cost beyond that of plain queries. Cheaper queries lower it, not below 0.
+    excess: u32,
+    /// Plain queries left in this pause.
+    pause_left: u32,
+    /// Plain queries of the next pause.
+    next_pause: u32,
+    /// Length of the step at which this pause began.
+    pause_step: f32,
     /// Steps in a row since then that were much shorter.
-    short: u32,
-    /// Queries from the front in a row without debt.
-    good: u32,
+    short_steps: u32,
+    /// Queries from the front in a row without excess.
+    without_excess: u32,
 }
 
-impl Pace {
-    const EMPTY: Pace =
-        Pace { plain: 0, debt: 0, resting: 0, rest: REST.0, too_long: 0.0, short: 0, good: 0 };
+impl FrontPolicy {
+    const EMPTY: FrontPolicy = FrontPolicy {
+        plain_cost: 0,
+        excess: 0,
+        pause_left: 0,
+        next_pause: PAUSE.0,
+        pause_step: 0.0,
+        short_steps: 0,
+        without_excess: 0,
+    };
 
     /// Whether to ask the front.
     #[inline(always)]
-    fn follows(&mut self, step: f32) -> bool {
-        if self.resting > 0 {
-            self.short = if step * SHORTER < self.too_long { self.short + 1 } else { 0 };
-            self.resting = if self.short < WAKE { self.resting - 1 } else { 0 };
+    fn uses_front(&mut self, step: f32) -> bool {
+        if self.pause_left > 0 {
+            let is_shorter = step * SHORTER < self.pause_step;
+            self.short_steps = if is_shorter { self.short_steps + 1 } else { 0 };
+            self.pause_left = if self.short_steps < SHORT_STEPS { self.pause_left - 1 } else { 0 };
             return false;
         }
-        self.plain > 0
+        self.plain_cost > 0
     }
 
     /// Counts a query from the front.
     #[inline(always)]
-    fn spend(&mut self, cost: u32, step: f32) {
+    fn count_front_query(&mut self, cost: u32, step: f32) {
         let cost = cost + cost / 2;
-        self.debt = (self.debt + cost).saturating_sub(self.plain);
-        self.good = if self.debt == 0 { self.good + 1 } else { 0 };
-        if self.debt > CREDIT * self.plain {
-            (self.debt, self.good) = (0, 0);
-            (self.too_long, self.short) = (step, 0);
-            self.resting = self.rest;
-            self.rest = (2 * self.rest).min(REST.1);
-        } else if self.good == RELIABLE {
-            (self.rest, self.good) = (REST.0, 0);
+        self.excess = (self.excess + cost).saturating_sub(self.plain_cost);
+        self.without_excess = if self.excess == 0 { self.without_excess + 1 } else { 0 };
+        if self.excess > MOST_EXCESS * self.plain_cost {
+            (self.excess, self.without_excess) = (0, 0);
+            (self.pause_step, self.short_steps) = (step, 0);
+            self.pause_left = self.next_pause;
+            self.next_pause = (2 * self.next_pause).min(PAUSE.1);
+        } else if self.without_excess == RELIABLE {
+            (self.next_pause, self.without_excess) = (PAUSE.0, 0);
         }
     }
 
-    /// Counts a plain query.
+    /// Counts a plain query: 4/3 for a node, 2/7 for a triangle.
     #[inline(always)]
-    fn plain_query(&mut self, work: &Work) {
-        let cost = BASE + work.splits + work.splits / 3 + work.triangles * 2 / 7;
-        self.plain = if self.plain == 0 { cost } else { (3 * self.plain + cost).div_ceil(4) };
+    fn count_plain_query(&mut self, work: &Work) {
+        let cost = BASE_COST + work.splits + work.splits / 3 + work.triangles * 2 / 7;
+        let average = (3 * self.plain_cost + cost).div_ceil(4);
+        self.plain_cost = if self.plain_cost == 0 { cost } else { average };
     }
 }
 
@@ -191,12 +204,12 @@ impl Pace {
 struct Memory {
     /// Address and number of the tree's nodes, which identify the tree.
     of: (usize, u32),
-    extent: Extent,
+    state: FrontState,
     planes: Planes,
     last: Last,
     /// Leaf of the last plain query's answer.
     hint: Hint,
-    pace: Pace,
+    policy: FrontPolicy,
 }
 
 /// The last answer.
@@ -205,7 +218,7 @@ struct Last {
     /// The query, grid units.
     p: Vec3,
     /// Whether the front's first entry is the answer's leaf.
-    known: bool,
+    is_first_entry: bool,
     /// The triangle's place in the leaf, and its number in the input file.
     lane: usize,
     child: Child,
@@ -213,25 +226,25 @@ struct Last {
     /// Upper bound of the distance by the last plain query, grid units.
     plain_upper: f32,
     /// No other triangle has a lesser key. 0 if unknown.
-    second: f32,
+    least_other_key: f32,
 }
 
 impl Memory {
     const EMPTY: Memory = Memory {
         of: (0, 0),
-        extent: Extent::EMPTY,
+        state: FrontState::EMPTY,
         planes: Planes::EMPTY,
         last: Last {
             p: Vec3::ZERO,
-            known: false,
+            is_first_entry: false,
             lane: 0,
-            child: Child::NONE,
+            child: Child::PLACEHOLDER,
             triangle: None,
             plain_upper: f32::INFINITY,
-            second: 0.0,
+            least_other_key: 0.0,
         },
         hint: Hint::NONE,
-        pace: Pace::EMPTY,
+        policy: FrontPolicy::EMPTY,
     };
 
     #[inline]
@@ -259,20 +272,20 @@ impl Memory {
         let step = sqrt_approx(d.x * d.x + d.y * d.y + d.z * d.z) * (1.0 + ROOT_AND_PRODUCTS)
             + LEAST_DENOMINATOR;
         self.last.p = query.p;
-        if self.pace.follows(step) {
+        if self.policy.uses_front(step) {
             match self.follow(keys, children, tree, &query, (step, budget.steps), &mut spent) {
                 Ok(answer) => return Ok(answer),
                 Err(NoAnswer::Unchecked) => return Err(QueryError::Unchecked),
                 Err(NoAnswer::Undecided) => {}
-                Err(NoAnswer::Lost) => self.extent = Extent::EMPTY,
+                Err(NoAnswer::Lost) => self.state = FrontState::EMPTY,
             }
         } else {
             // The path was not counted, so the keys are no bounds any more.
-            self.extent = Extent::EMPTY;
-            (self.last.known, self.last.second) = (false, 0.0);
+            self.state = FrontState::EMPTY;
+            (self.last.is_first_entry, self.last.least_other_key) = (false, 0.0);
         }
         let mut closest = tree.closest_point_from(point, &mut self.hint, *budget, scratch)?;
-        self.pace.plain_query(&closest.work);
+        self.policy.count_plain_query(&closest.work);
         self.last.plain_upper =
             query.units.inward(closest.distance.upper) + query.units.surface_error;
         closest.work.nodes = closest.work.nodes.saturating_add(spent.nodes);
@@ -292,22 +305,22 @@ impl Memory {
         (step, steps): (f32, u32),
         spent: &mut Work,
     ) -> Result<CoherentClosest, NoAnswer> {
-        let Memory { extent, planes, last, pace, .. } = self;
-        let fresh = extent.count == 0;
-        let mut front = TraversalFront { keys, children, extent };
+        let Memory { state, planes, last, policy, .. } = self;
+        let fresh = state.count == 0;
+        let mut front = TraversalFront { keys, children, state };
         front.advance(if fresh { 0.0 } else { step });
         let mut follow = Follow::new(tree, query, front, planes, AHEAD * step, steps);
-        let path = follow.front.extent.path;
+        let path = follow.front.state.path;
         if path > follow.box_error * LONG_PATH {
-            last.second = if last.second > path {
-                (last.second - path) * (1.0 - ROOT_AND_PRODUCTS)
+            last.least_other_key = if last.least_other_key > path {
+                (last.least_other_key - path) * (1.0 - ROOT_AND_PRODUCTS)
             } else {
                 0.0
             };
             follow.front.rebase();
         }
-        let same = if last.second > follow.horizon(0.0) {
-            follow.same(last.lane, last.second)
+        let same = if last.least_other_key > follow.horizon(0.0) {
+            follow.same(last.lane, last.least_other_key)
         } else {
             None
         };
@@ -315,15 +328,16 @@ impl Memory {
             Some(nearest) => nearest,
             None => {
                 let found = if fresh {
-                    follow.begin(last.plain_upper + step, 4 * pace.plain)
+                    follow.begin(last.plain_upper + step, MOST_COST.1 * policy.plain_cost)
                 } else {
-                    follow.nearest(last.known, 2 * pace.plain)
+                    follow.nearest(last.is_first_entry, MOST_COST.0 * policy.plain_cost)
                 };
-                pace.spend(BASE + follow.front.extent.active as u32 / 8 + follow.cost, step);
+                let read = follow.front.state.active as u32 / ENTRIES_READ;
+                policy.count_front_query(BASE_COST + read + follow.cost, step);
                 *spent = follow.work;
-                (last.known, last.second) = (false, 0.0);
+                (last.is_first_entry, last.least_other_key) = (false, 0.0);
                 let nearest = found?;
-                last.known = true;
+                last.is_first_entry = true;
                 if (last.child, last.lane) != (nearest.child, nearest.lane)
                     || last.triangle.is_none()
                 {
@@ -336,21 +350,21 @@ impl Memory {
         let distance = sqrt_approx(nearest.distance_sq);
         let below = query.refine_below(nearest.distance_sq);
         let error = tree.header().star_radius * (FAN_DISTANCE * U32) + query.units.surface_error;
-        let path = follow.front.extent.path;
-        let safe = |second: f32| {
-            0.5 * ((second - path) * (1.0 - ROOT_AND_PRODUCTS)
+        let path = follow.front.state.path;
+        let safe = |other_key: f32| {
+            0.5 * ((other_key - path) * (1.0 - ROOT_AND_PRODUCTS)
                 - distance * (1.0 + ROOT_AND_PRODUCTS))
                 - error
         };
-        if same.is_none() && nearest.child.known() == Known::Triangles {
-            let others = follow.front.second();
+        if same.is_none() && nearest.child.bound_kind() == BoundKind::Triangles {
+            let others = follow.front.least_other_key();
             if safe(others) > step {
-                last.second = follow.second(&nearest, others);
+                last.least_other_key = follow.least_other_key(&nearest, others);
             }
         }
-        let safe_radius = safe(last.second);
+        let safe_radius = safe(last.least_other_key);
         let leaf =
-            tree.leaf(nearest.child.node(), nearest.child.lane()).ok_or(NoAnswer::Unchecked)?;
+            tree.leaf(nearest.child.node(), nearest.child.index()).ok_or(NoAnswer::Unchecked)?;
         let closest = ClosestPoint {
             distance: Interval::new(
                 query.lower(sqrt_approx(if below > 0.0 { below } else { 0.0 })),
@@ -367,6 +381,6 @@ impl Memory {
 
 /// The triangle's number in the input file.
 fn number(tree: &Bvh<'_>, nearest: &Nearest) -> Option<u32> {
-    let first = tree.links(nearest.child.node())?.triangle(nearest.child.lane());
+    let first = tree.links(nearest.child.node())?.triangle(nearest.child.index());
     tree.source(first.wrapping_add(nearest.lane as u32))
 }

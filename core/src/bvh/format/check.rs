@@ -5,7 +5,8 @@ use super::layout::{
     BVH_BYTES, FAN_PADDING, SOURCE_BLOCK, SOURCE_ENTRY_BYTES, SOURCE_PADDING, boxes,
 };
 use super::leaf::{FanLeaf, LeafShape};
-use super::view::{Bvh, GridScale};
+use super::units::Units;
+use super::view::Bvh;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
 use crate::geom::fan::WIDTH;
@@ -59,7 +60,8 @@ impl<'a> Bvh<'a> {
             header: BvhHeader::EMPTY,
             scale_exponent: header.scale_exponent,
             input_triangles: header.input_triangles,
-            scale: GridScale::of(&BvhHeader::EMPTY, 0),
+            units: Units::new(&BvhHeader::EMPTY, 0),
+            grid_bounds: BvhHeader::EMPTY.grid_bounds(),
             links: &[],
             frames: &[],
             boxes: &[],
@@ -86,7 +88,8 @@ impl<'a> Bvh<'a> {
             return Err(OpenError::MissingSection { section: SectionKind::Bvh });
         }
         tree.header = BvhHeader::read(Bytes(head))?;
-        tree.scale = GridScale::of(&tree.header, tree.scale_exponent);
+        tree.units = Units::new(&tree.header, tree.scale_exponent);
+        tree.grid_bounds = tree.header.grid_bounds();
         Ok(tree)
     }
 
@@ -162,7 +165,7 @@ impl<'a> Bvh<'a> {
             if !sound {
                 return Err(bad);
             }
-            if (0..links.inner).any(|lane| links.shape(lane) != LeafShape(0)) {
+            if (0..links.inner).any(|child| links.shape(child) != LeafShape(0)) {
                 return Err(bad);
             }
             if links.count > links.inner
@@ -170,8 +173,8 @@ impl<'a> Bvh<'a> {
             {
                 return Err(bad);
             }
-            for lane in links.inner..links.count {
-                let shape = links.shape(lane);
+            for child in links.inner..links.count {
+                let shape = links.shape(child);
                 if !shape.is_sound() {
                     return Err(bad);
                 }
@@ -184,7 +187,7 @@ impl<'a> Bvh<'a> {
                 }
                 self.check_leaf(&leaf, leaves - 1)?;
             }
-            if (links.count..WIDTH as u32).any(|lane| links.shape(lane) != LeafShape(0)) {
+            if (links.count..WIDTH as u32).any(|child| links.shape(child) != LeafShape(0)) {
                 return Err(bad);
             }
         }

@@ -3,6 +3,7 @@
 use super::layout::{BVH_BYTES, BVH_CLOSED, BVH_F32, field};
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError};
+use glam::Vec3;
 
 /// The box tree's header.
 ///
@@ -67,6 +68,16 @@ impl BvhHeader {
     /// Bytes of one leaf vertex.
     pub fn vertex_bytes(&self) -> usize {
         if self.is_f32() { 12 } else { 6 }
+    }
+
+    /// Corners of the box of the stored vertices, grid units.
+    pub(super) fn grid_bounds(&self) -> (Vec3, Vec3) {
+        let [ox, oy, oz] = self.grid_origin;
+        let corner = |[x, y, z]: [u16; 3]| {
+            let sum = |stored: u16, origin: i32| i32::from(stored).wrapping_add(origin) as f32;
+            Vec3::new(sum(x, ox), sum(y, oy), sum(z, oz))
+        };
+        (corner(self.low), corner(self.high))
     }
 
     pub(crate) fn read(bytes: Bytes<'_>) -> Result<BvhHeader, OpenError> {

@@ -5,6 +5,7 @@
 //! | `layout` | sizes and limits of the sections |
 //! | `header` | the tree's own header |
 //! | `view` | [`Bvh`]: nodes, links, boxes and source numbers where they lie |
+//! | `units` | grid units and input units |
 //! | `leaf` | [`FanLeaf`]: one or two fans where they lie |
 //! | `cone` | the bytes of a leaf's normal cone |
 //! | `check` | the check of `Bvh::open` |
@@ -14,8 +15,10 @@ mod cone;
 mod header;
 pub mod layout;
 mod leaf;
+mod units;
 mod view;
 
 pub use header::BvhHeader;
 pub use leaf::{CORNERS, FanLeaf, GridRing, LeafShape};
+pub(crate) use units::{Units, at_least, at_most};
 pub use view::{Bvh, BvhChild, Links};

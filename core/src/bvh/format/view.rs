@@ -9,6 +9,7 @@ use super::layout::{
     BOXES_BYTES, CONE_BYTES, FRAME_BYTES, LINK_BYTES, SOURCE_BLOCK, SOURCE_ENTRY_BYTES,
 };
 use super::leaf::{FanLeaf, LeafShape};
+use super::units::Units;
 use crate::format::Bytes;
 use glam::Vec3;
 
@@ -19,53 +20,15 @@ pub struct Bvh<'a> {
     pub(crate) header: BvhHeader,
     pub(crate) scale_exponent: i32,
     pub(crate) input_triangles: u32,
-    pub(crate) scale: GridScale,
+    pub(super) units: Units,
+    /// Corners of the box of the stored vertices, grid units: computed once, for every query.
+    pub(super) grid_bounds: (Vec3, Vec3),
     pub(crate) links: &'a [[u8; LINK_BYTES]],
     pub(crate) frames: &'a [[u8; FRAME_BYTES]],
     pub(crate) boxes: &'a [[u8; BOXES_BYTES]],
     pub(crate) fans: &'a [u8],
     pub(crate) source: Bytes<'a>,
     pub(crate) cones: &'a [[u8; CONE_BYTES]],
-}
-
-/// Numbers that every query needs of the header, computed once.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GridScale {
-    /// Grid units of an input unit: a power of two, in two factors within f32's range.
-    pub(crate) inward: [f32; 2],
-    /// The inverse.
-    pub(crate) outward: [f32; 2],
-    /// Surface error, grid units.
-    pub(crate) surface_error: f32,
-    /// Corners of the tree's box, grid units.
-    pub(crate) low: Vec3,
-    /// See [`low`](Self::low).
-    pub(crate) high: Vec3,
-}
-
-/// `2^exponent`, exactly, within f32's range.
-fn power(exponent: i32) -> f32 {
-    f32::from_bits(((127 + exponent.clamp(-126, 127)).cast_unsigned()) << 23)
-}
-
-impl GridScale {
-    pub(crate) fn of(header: &BvhHeader, scale_exponent: i32) -> GridScale {
-        let exponent = scale_exponent.wrapping_add(header.grid_exponent);
-        let half = exponent / 2;
-        let rest = exponent.wrapping_sub(half);
-        let [ox, oy, oz] = header.grid_origin;
-        let corner = |[x, y, z]: [u16; 3]| {
-            let sum = |stored: u16, origin: i32| i32::from(stored).wrapping_add(origin) as f32;
-            Vec3::new(sum(x, ox), sum(y, oy), sum(z, oz))
-        };
-        GridScale {
-            inward: [power(half.wrapping_neg()), power(rest.wrapping_neg())],
-            outward: [power(half), power(rest)],
-            surface_error: header.surface_error * power(header.grid_exponent.wrapping_neg()),
-            low: corner(header.low),
-            high: corner(header.high),
-        }
-    }
 }
 
 /// Links to the children of a node: inner nodes first, then leaves.
@@ -110,12 +73,12 @@ fn nibbles(shapes: u32) -> u32 {
     (shapes & 0x0F0F_0F0F).wrapping_mul(0x0101_0101) >> 24
 }
 
-/// The shapes of the children before `lane`.
+/// The shapes of the children before number `index`.
 #[inline(always)]
-fn before(shapes: [u32; 2], lane: u32) -> [u32; 2] {
-    let below = !(u32::MAX << (8 * (lane & 3)));
+fn before(shapes: [u32; 2], index: u32) -> [u32; 2] {
+    let below = !(u32::MAX << (8 * (index & 3)));
     let [low, high] = shapes;
-    if lane < 4 { [low & below, 0] } else { [low, high & below] }
+    if index < 4 { [low & below, 0] } else { [low, high & below] }
 }
 
 impl Links {
@@ -150,38 +113,38 @@ impl Links {
         out
     }
 
-    /// Shape of child `lane`; 0 for a node.
+    /// Shape of child number `index`; 0 for a node.
     #[inline(always)]
-    pub fn shape(&self, lane: u32) -> LeafShape {
+    pub fn shape(&self, index: u32) -> LeafShape {
         let [low, high] = self.shapes;
-        let word = if lane < 4 { low } else { high };
-        LeafShape((word >> (8 * (lane & 3))) as u8)
+        let word = if index < 4 { low } else { high };
+        LeafShape((word >> (8 * (index & 3))) as u8)
     }
 
-    /// Child `lane`.
+    /// Child number `index`.
     #[inline(always)]
-    pub fn child(&self, lane: u32) -> BvhChild {
-        let (node, vertex) = (self.first_node.wrapping_add(lane), self.vertex(lane));
-        BvhChild { at: if lane < self.inner { node } else { vertex }, shape: self.shape(lane) }
+    pub fn child(&self, index: u32) -> BvhChild {
+        let (node, vertex) = (self.first_node.wrapping_add(index), self.vertex(index));
+        BvhChild { at: if index < self.inner { node } else { vertex }, shape: self.shape(index) }
     }
 
-    /// First triangle of leaf `lane`.
-    pub fn triangle(&self, lane: u32) -> u32 {
+    /// First triangle of the leaf that is child `index`.
+    pub fn triangle(&self, index: u32) -> u32 {
         // Vertices less two for each leaf and less one for each second fan.
-        let [low, high] = before(self.shapes, lane);
+        let [low, high] = before(self.shapes, index);
         let turns = |shapes: u32| {
             ((shapes >> 4 | shapes >> 5 | shapes >> 6) & 0x0101_0101).wrapping_mul(0x0101_0101)
                 >> 24
         };
-        let leaves = lane.saturating_sub(self.inner);
+        let leaves = index.saturating_sub(self.inner);
         let less = 2 * leaves + turns(low) + turns(high);
         self.first_triangle.wrapping_add(nibbles(low) + nibbles(high)).wrapping_sub(less)
     }
 
-    /// First vertex of leaf `lane`.
+    /// First vertex of the leaf that is child `index`.
     #[inline(always)]
-    pub fn vertex(&self, lane: u32) -> u32 {
-        let [low, high] = before(self.shapes, lane);
+    pub fn vertex(&self, index: u32) -> u32 {
+        let [low, high] = before(self.shapes, index);
         self.first_vertex.wrapping_add(nibbles(low) + nibbles(high))
     }
 }
@@ -196,9 +159,8 @@ impl Bvh<'_> {
 
     /// Least and greatest corner of the box of the stored vertices, input units, rounded to f32.
     pub fn bounds(&self) -> [[f32; 3]; 2] {
-        let [first, second] = self.scale.outward;
-        [self.scale.low, self.scale.high]
-            .map(|corner| corner.to_array().map(|x| x * first * second))
+        let (low, high) = self.grid_bounds;
+        [low, high].map(|corner| corner.to_array().map(|x| self.units.outward(x, 1.0)))
     }
 
     /// Triangles of the tree.
@@ -209,10 +171,9 @@ impl Bvh<'_> {
     /// No point of the input surface is farther than this from the stored surface, nor the other
     /// way round. Input units, rounded up.
     pub fn surface_error(&self) -> f32 {
-        let [first, second] = self.scale.outward;
-        let error = self.scale.surface_error * first * second;
+        let error = self.units.outward(self.units.surface_error, 1.0);
         // Below f32's normal range the product may have been rounded down.
-        if self.scale.surface_error > 0.0 && error < f32::MIN_POSITIVE {
+        if self.units.surface_error > 0.0 && error < f32::MIN_POSITIVE {
             f32::MIN_POSITIVE
         } else {
             error
@@ -259,10 +220,16 @@ impl<'a> Bvh<'a> {
         self.scale_exponent
     }
 
-    /// Units and box, for queries.
+    /// The grid units.
     #[inline(always)]
-    pub(crate) fn scale(&self) -> &GridScale {
-        &self.scale
+    pub(crate) fn units(&self) -> Units {
+        self.units
+    }
+
+    /// [`bounds`](Self::bounds) in grid units.
+    #[inline(always)]
+    pub(crate) fn grid_bounds(&self) -> (Vec3, Vec3) {
+        self.grid_bounds
     }
 
     /// Links of a node.
@@ -288,16 +255,16 @@ impl<'a> Bvh<'a> {
         self.cones.get(leaf as usize).copied()
     }
 
-    /// Child `lane` of `node`.
+    /// Child number `index` of `node`.
     #[inline(always)]
-    pub fn child(&self, node: u32, lane: u32) -> Option<BvhChild> {
-        Some(self.links(node)?.child(lane))
+    pub fn child(&self, node: u32, index: u32) -> Option<BvhChild> {
+        Some(self.links(node)?.child(index))
     }
 
-    /// Child `lane` of `node` if it is a leaf.
+    /// Child number `index` of `node` if it is a leaf.
     #[inline(always)]
-    pub fn leaf(&self, node: u32, lane: u32) -> Option<FanLeaf<'a>> {
-        let child = self.child(node, lane)?;
+    pub fn leaf(&self, node: u32, index: u32) -> Option<FanLeaf<'a>> {
+        let child = self.child(node, index)?;
         if child.is_leaf() { self.leaf_at(child.at, child.shape) } else { None }
     }
 

@@ -4,13 +4,13 @@
 //! skips an axis on which the point is inside. Both give the same bits.
 
 use super::frame::NodeFrame;
-use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
+use super::keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::geom::fan::WIDTH;
 use crate::num::greater;
 
 /// Keys of a node's children: squared distances from the point, grid units. No key is below the
-/// parent's, and the low three bits hold the lane. Lanes from `count` on are [`NO_CHILD`].
+/// parent's, and the low three bits hold the number of the child. Keys from `count` on are [`NO_CHILD`].
 ///
 /// The distance is a lower bound up to the rounding of `core/docs/rounding.md` §8.
 #[inline(always)]
@@ -26,12 +26,12 @@ pub fn box_distances(
     narrow(record, frame, count, parent)
 }
 
-/// The key of one lane.
+/// The key of one child.
 #[inline(always)]
-fn key(distance_sq: f32, parent: f32, count: u32, lane: u32) -> f32 {
+fn key(distance_sq: f32, parent: f32, count: u32, child: u32) -> f32 {
     let far = greater(parent, distance_sq);
-    let far = if lane < count { far } else { NO_CHILD };
-    f32::from_bits(far.to_bits() & !LANE_MASK | lane)
+    let far = if child < count { far } else { NO_CHILD };
+    f32::from_bits(far.to_bits() & !CHILD_MASK | child)
 }
 
 #[inline(always)]
@@ -81,21 +81,21 @@ pub(crate) fn narrow(
     let [wx, wy, wz] = frame.weight;
     let count = (count as usize).min(WIDTH);
     let mut sum = [0f32; WIDTH];
-    along(lx, hx, qx, wx, count, &mut sum);
-    along(ly, hy, qy, wy, count, &mut sum);
-    along(lz, hz, qz, wz, count, &mut sum);
+    add_along(lx, hx, qx, wx, count, &mut sum);
+    add_along(ly, hy, qy, wy, count, &mut sum);
+    add_along(lz, hz, qz, wz, count, &mut sum);
     // No number here is negative. So bits compare as numbers do, and cost less.
     let parent = parent.to_bits();
-    for (lane, (key, sum)) in (0u32..).zip(keys.iter_mut().zip(sum)).take(count) {
+    for (child, (key, sum)) in (0u32..).zip(keys.iter_mut().zip(sum)).take(count) {
         let far = sum.to_bits().max(parent);
-        *key = f32::from_bits(far & !LANE_MASK | lane);
+        *key = f32::from_bits(far & !CHILD_MASK | child);
     }
     keys
 }
 
 /// Adds the squared distances along one axis.
 #[inline(never)]
-fn along(
+fn add_along(
     low: &[u8; WIDTH],
     high: &[u8; WIDTH],
     q: f32,

@@ -5,12 +5,13 @@
 //! segment meets one row of planes before the other. Which row that is depends on the direction
 //! alone, so it is chosen once for each segment.
 
-use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
+use super::keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::num::{greater, lesser};
 
-/// A segment as the boxes see it, grid units. See `core/docs/rounding.md` §9.
+/// The line of a segment for the slab test: its distance from the planes of a box, axis by axis, as
+/// parameters of the segment. Grid units. See `core/docs/rounding.md` §9.
 #[derive(Clone, Copy, Debug)]
 pub struct Slabs {
     origin: [f32; 3],
@@ -49,8 +50,8 @@ impl Slabs {
 }
 
 /// Keys of a node's children: the parameters at which the segment enters their boxes. No key is
-/// below `from`, and the low three bits hold the lane. Boxes that the segment does not enter up to
-/// `limit`, and lanes from `count` on, have [`NO_CHILD`] or more.
+/// below `from`, and the low three bits hold the number of the child. Boxes that the segment does
+/// not enter up to `limit`, and keys from `count` on, have [`NO_CHILD`] or more.
 #[inline(always)]
 pub fn box_entries(
     record: &[u8; BOXES_BYTES],
@@ -59,8 +60,8 @@ pub fn box_entries(
     from: f32,
     limit: f32,
 ) -> [f32; WIDTH] {
-    let Some(sides) = Sides::of(record, slabs) else { return [NO_CHILD; WIDTH] };
-    if WIDE { wide(&sides, count, from, limit) } else { narrow(&sides, count, from, limit) }
+    let Some(planes) = SlabPlanes::of(record, slabs) else { return [NO_CHILD; WIDTH] };
+    if WIDE { wide(&planes, count, from, limit) } else { narrow(&planes, count, from, limit) }
 }
 
 /// Planes of the boxes along one axis, in the order in which the segment meets them.
@@ -73,26 +74,27 @@ struct Axis<'a> {
     step: f32,
 }
 
-pub(crate) struct Sides<'a>([Axis<'a>; 3]);
+/// The planes of a node's boxes along the three axes.
+pub(crate) struct SlabPlanes<'a>([Axis<'a>; 3]);
 
-impl<'a> Sides<'a> {
+impl<'a> SlabPlanes<'a> {
     #[inline(always)]
     pub(crate) fn of(record: &'a [u8; BOXES_BYTES], slabs: &Slabs) -> Option<Self> {
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<8>()?;
         let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
         let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
-        let side = |axis: usize, origin: f32, unit: f32| {
+        let along = |axis: usize, origin: f32, unit: f32| {
             let (enter, leave, step) = slabs.axis(axis, origin, unit);
             let row = slabs.near[axis];
             Axis { near: &rows[row & 7], far: &rows[(row ^ 1) & 7], enter, leave, step }
         };
-        Some(Sides([side(0, ox, ux), side(1, oy, uy), side(2, oz, uz)]))
+        Some(SlabPlanes([along(0, ox, ux), along(1, oy, uy), along(2, oz, uz)]))
     }
 }
 
 #[inline(always)]
 pub(crate) fn wide(
-    Sides([x, y, z]): &Sides<'_>,
+    SlabPlanes([x, y, z]): &SlabPlanes<'_>,
     count: u32,
     from: f32,
     limit: f32,
@@ -110,8 +112,8 @@ pub(crate) fn wide(
         let enter = greater(greater(from, enter_z), greater(enter_y, enter_x));
         let leave = lesser(lesser(limit, leave_z), lesser(leave_y, leave_x));
         let key = if enter <= leave { enter } else { NO_CHILD };
-        // An absent lane may hold any box: its key is overwritten.
-        let bits = key.to_bits() & !LANE_MASK & present[i] | NO_CHILD.to_bits() & !present[i];
+        // The box of an absent child may be any: its key is overwritten.
+        let bits = key.to_bits() & !CHILD_MASK & present[i] | NO_CHILD.to_bits() & !present[i];
         keys[i] = f32::from_bits(bits | i as u32);
     }
     in_memory(keys)
@@ -120,13 +122,18 @@ pub(crate) fn wide(
 /// Stops at the first axis on which the box is missed. From axis to axis the entry only grows and
 /// the exit only falls, so the keys are those of `wide`.
 #[inline(always)]
-pub(crate) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32) -> [f32; WIDTH] {
+pub(crate) fn narrow(
+    SlabPlanes(axes): &SlabPlanes<'_>,
+    count: u32,
+    from: f32,
+    limit: f32,
+) -> [f32; WIDTH] {
     let mut keys = [NO_CHILD; WIDTH];
-    for (lane, key) in keys.iter_mut().enumerate().take(count as usize) {
+    for (child, key) in keys.iter_mut().enumerate().take(count as usize) {
         let (mut enter, mut leave) = (from, limit);
         let overlaps = axes.iter().all(|axis| {
-            // Lanes are below 8, but LLVM does not see it on all targets.
-            let (Some(&near), Some(&far)) = (axis.near.get(lane), axis.far.get(lane)) else {
+            // `child` is below 8, but LLVM does not see it on all targets.
+            let (Some(&near), Some(&far)) = (axis.near.get(child), axis.far.get(child)) else {
                 return false;
             };
             enter = greater(enter, f32::from(near) * axis.step + axis.enter);
@@ -134,7 +141,7 @@ pub(crate) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32)
             enter <= leave
         });
         if overlaps {
-            *key = f32::from_bits(enter.to_bits() & !LANE_MASK | lane as u32);
+            *key = f32::from_bits(enter.to_bits() & !CHILD_MASK | child as u32);
         }
     }
     keys

@@ -8,7 +8,7 @@ use crate::bvh::format::layout::FRAME_BYTES;
 use crate::bvh::format::layout::boxes;
 use glam::Vec3;
 
-/// Box coordinates of a point, and the lengths of steps.
+/// A query point in the frame of one node: its box coordinates, and the lengths of their steps.
 #[derive(Clone, Copy, Debug)]
 pub struct NodeFrame {
     /// Box coordinates of the point.

@@ -1,16 +1,16 @@
-//! The node kernels: eight child boxes at a time.
+//! The box tests: a point or a segment against the eight child boxes of a node at once. The boxes
+//! of two trees are tested in `overlap/axis_intervals.rs`.
 //!
-//! A node's eight child boxes share a frame: an integer rotation matrix from a quaternion of four
-//! bytes, an origin on the grid, a power of two for each axis. A point is brought into the frame
-//! once for each node. Then the test is the plain axis-aligned one, in 8 bits. Segments have boxes
-//! of their own, which are axis-aligned.
+//! For points, the child boxes of a node share a frame: a rotation, an origin on the grid, a step
+//! for each axis. A point is brought into the frame once for each node. Then the test is the plain
+//! axis-aligned one, in 8 bits. Segments have boxes of their own, which are axis-aligned.
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `keys` | a child's bound with its lane in the low bits |
-//! | `frame` | a point in the frame of a node's boxes |
+//! | `keys` | a child's bound with its number in the low bits |
+//! | `frame` | [`NodeFrame`]: a point in the frame of a node's boxes |
 //! | `box_distances` | a point against eight boxes |
-//! | `box_entries` | a segment against eight boxes |
+//! | `box_entries` | [`Slabs`], a segment prepared for the test; a segment against eight boxes |
 
 mod box_distances;
 mod box_entries;
@@ -22,4 +22,4 @@ mod tests;
 pub use box_distances::box_distances;
 pub use box_entries::{Slabs, box_entries};
 pub use frame::NodeFrame;
-pub use keys::{LANE_MASK, NO_CHILD, WIDE, in_memory, nearest_lane};
+pub use keys::{CHILD_MASK, NO_CHILD, WIDE, in_memory, least_key};

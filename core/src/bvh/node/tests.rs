@@ -109,7 +109,7 @@ fn entries_have_the_same_bits() {
         let margin = [[1e-6; 3], [1.0; 3], [1e3; 3]][noise.below(3) as usize];
         let slabs = Slabs::new(from, inverse, margin);
         for (bound, limit) in [(0.0, 1.0), (0.25, 1.0), (0.0, 0.5), (0.5, 0.25), (1.0, 1.0)] {
-            let sides = box_entries::Sides::of(&record, &slabs).expect("long enough");
+            let sides = box_entries::SlabPlanes::of(&record, &slabs).expect("long enough");
             let wide = box_entries::wide(&sides, count as u32, bound, limit);
             let narrow = box_entries::narrow(&sides, count as u32, bound, limit);
             for (lane, (wide, narrow)) in wide.into_iter().zip(narrow).enumerate() {

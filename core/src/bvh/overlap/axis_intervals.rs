@@ -5,7 +5,7 @@
 //! they separate few more boxes (van den Bergen, *Efficient Collision Detection of Complex
 //! Deformable Models using AABB Trees*, 1997).
 
-use super::relative_pose::{DIRECTIONS, Side};
+use super::relative_pose::{DIRECTIONS, TreeFrame};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::bvh::node::{WIDE, in_memory};
 use crate::geom::fan::WIDTH;
@@ -20,12 +20,16 @@ pub(crate) struct AxisIntervals {
 
 /// Along one axis, the sums and the differences of the boxes' high and low bytes: twice the
 /// middles, and the lengths.
-type Boxes = ([f32; WIDTH], [f32; WIDTH]);
+type SumsAndDifferences = ([f32; WIDTH], [f32; WIDTH]);
 
 impl AxisIntervals {
     /// Intervals of a node's first `count` children.
     #[inline(always)]
-    pub(crate) fn of(side: &Side, record: &[u8; BOXES_BYTES], count: u32) -> Option<AxisIntervals> {
+    pub(crate) fn of(
+        frame: &TreeFrame,
+        record: &[u8; BOXES_BYTES],
+        count: u32,
+    ) -> Option<AxisIntervals> {
         let rows = record.as_chunks::<WIDTH>().0.first_chunk::<6>()?;
         let words = record.as_chunks::<4>().0.get(boxes::ORIGIN / 4..)?.first_chunk::<6>()?;
         let [ox, oy, oz, ux, uy, uz] = words.map(f32::from_le_bytes);
@@ -35,12 +39,12 @@ impl AxisIntervals {
             sums_and_differences(ly, hy),
             sums_and_differences(lz, hz),
         ];
-        let [x, y, z] = side.origin;
+        let [x, y, z] = frame.origin;
         let start = [(ox - x) - 128.0 * ux, (oy - y) - 128.0 * uy, (oz - z) - 128.0 * uz];
         let mut intervals =
             AxisIntervals { low: [[0.0; WIDTH]; DIRECTIONS], high: [[0.0; WIDTH]; DIRECTIONS] };
         let out = intervals.low.iter_mut().zip(&mut intervals.high);
-        let directions = side.rows.iter().zip(side.shift).zip(side.grow);
+        let directions = frame.rows.iter().zip(frame.shift).zip(frame.grow);
         for ((low, high), ((row, shift), grow)) in out.zip(directions) {
             along(row, start, [ux, uy, uz], &boxes, [shift, grow], count, low, high);
         }
@@ -49,7 +53,7 @@ impl AxisIntervals {
 }
 
 #[inline(always)]
-fn sums_and_differences(low: &[u8; WIDTH], high: &[u8; WIDTH]) -> Boxes {
+fn sums_and_differences(low: &[u8; WIDTH], high: &[u8; WIDTH]) -> SumsAndDifferences {
     let (mut sum, mut difference) = ([0f32; WIDTH], [0f32; WIDTH]);
     for i in 0..WIDTH {
         let (low, high) = (f32::from(low[i]), f32::from(high[i]));
@@ -65,7 +69,7 @@ fn along(
     &[a, b, c]: &[f32; 3],
     [x, y, z]: [f32; 3],
     [ux, uy, uz]: [f32; 3],
-    [bx, by, bz]: &[Boxes; 3],
+    [bx, by, bz]: &[SumsAndDifferences; 3],
     [shift, grow]: [f32; 2],
     count: u32,
     low: &mut [f32; WIDTH],
@@ -74,20 +78,20 @@ fn along(
     let from = (a * x + b * y) + (c * z + shift);
     let (nx, ny, nz) = ((a * ux) * 0.5, (b * uy) * 0.5, (c * uz) * 0.5);
     let (wx, wy, wz) = (nx.abs(), ny.abs(), nz.abs());
-    let lane = |i: usize| {
+    let interval = |i: usize| {
         let middle = (nx * bx.0[i] + ny * by.0[i]) + (nz * bz.0[i] + from);
         let half = (wx * bx.1[i] + wy * by.1[i]) + (wz * bz.1[i] + grow);
         (middle - half, middle + half)
     };
     if WIDE {
         for i in 0..WIDTH {
-            (low[i], high[i]) = lane(i);
+            (low[i], high[i]) = interval(i);
         }
     } else {
         let count = (count as usize).min(WIDTH);
         for (i, (low, high)) in low.iter_mut().zip(high).enumerate().take(count) {
             if i < WIDTH {
-                (*low, *high) = lane(i);
+                (*low, *high) = interval(i);
             }
         }
     }
@@ -103,19 +107,19 @@ pub(crate) struct Pairs {
     pub(crate) deepest: [u32; 2],
 }
 
-/// All pairs of the first node's `rows` and the second's `lanes`, as bits.
+/// All pairs of the first node's `rows` and the second's `columns`, as bits.
 #[inline(always)]
-pub(crate) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, lanes: u32) -> Pairs {
+pub(crate) fn pairs(a: &AxisIntervals, b: &AxisIntervals, rows: u32, columns: u32) -> Pairs {
     let mut pairs = Pairs { bits: [0; 2], deepest: [0; 2] };
     let mut depth = -1.0;
     let mut left = rows;
     while left != 0 {
         let i = left.trailing_zeros();
         left &= left - 1;
-        let depths = if WIDE { wide(a, b, i as usize) } else { narrow(a, b, i as usize, lanes) };
+        let depths = if WIDE { wide(a, b, i as usize) } else { narrow(a, b, i as usize, columns) };
         let (mut meeting, mut bit) = (0u32, 1u32);
         for (j, &deep) in (0u32..).zip(&depths) {
-            if deep >= 0.0 && lanes & bit != 0 {
+            if deep >= 0.0 && columns & bit != 0 {
                 meeting |= bit;
                 if deep > depth {
                     depth = deep;
@@ -147,10 +151,10 @@ pub(crate) fn wide(a: &AxisIntervals, b: &AxisIntervals, i: usize) -> [f32; WIDT
 
 /// The same for the wanted children alone. It stops at the first direction that separates them.
 #[inline(always)]
-pub(crate) fn narrow(a: &AxisIntervals, b: &AxisIntervals, i: usize, lanes: u32) -> [f32; WIDTH] {
+pub(crate) fn narrow(a: &AxisIntervals, b: &AxisIntervals, i: usize, columns: u32) -> [f32; WIDTH] {
     let mut depths = [-1f32; WIDTH];
     for (j, depth) in depths.iter_mut().enumerate() {
-        if lanes >> j & 1 != 0 {
+        if columns >> j & 1 != 0 {
             let mut least = f32::MAX;
             let directions = a.low.iter().zip(&a.high).zip(b.low.iter().zip(&b.high));
             for ((from, to), (low, high)) in directions {

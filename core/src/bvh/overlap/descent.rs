@@ -78,10 +78,10 @@ pub(crate) fn descend(
         }
         // Finds the next pair with a node to open, and visits the pairs of leaves before it.
         loop {
-            let Some((parents, lanes)) = next.take().or_else(|| take(stack, &mut used)) else {
+            let Some((parents, indices)) = next.take().or_else(|| take(stack, &mut used)) else {
                 return Ok((truncated, work));
             };
-            let child = |tree: &Bvh<'_>, which: usize| tree.child(parents[which], lanes[which]);
+            let child = |tree: &Bvh<'_>, which: usize| tree.child(parents[which], indices[which]);
             let children = [
                 child(a, 0).ok_or(QueryError::Unchecked)?,
                 child(b, 1).ok_or(QueryError::Unchecked)?,
@@ -93,7 +93,7 @@ pub(crate) fn descend(
                     if opens {
                         (children[which].at, u32::MAX)
                     } else {
-                        (parents[which], 1 << lanes[which])
+                        (parents[which], 1 << indices[which])
                     }
                 };
                 let ((first, rows), (second, columns)) = (down(opens_a, 0), down(opens_b, 1));
@@ -101,7 +101,7 @@ pub(crate) fn descend(
                 wanted = [rows, columns];
                 break;
             }
-            let go_on = models.leaves(parents, lanes, children, visitor, &mut work);
+            let go_on = models.leaves(parents, indices, children, visitor, &mut work);
             if !go_on.ok_or(QueryError::Unchecked)? {
                 return Ok((truncated, work));
             }
@@ -123,13 +123,13 @@ fn take(stack: &mut [[ScratchEntry; 2]], used: &mut usize) -> Option<([u32; 2], 
     let [[a, low], [b, high]] = slot.map(ScratchEntry::words);
     let (word, base) = if low != 0 { (low, 0) } else { (high, 4) };
     let bit = word.trailing_zeros() & 31;
-    let lanes = [base + (bit >> 3), bit & 7];
-    let rest = without([low, high], lanes);
+    let indices = [base + (bit >> 3), bit & 7];
+    let rest = without([low, high], indices);
     *slot = entry([a, b], rest);
     if rest == [0; 2] {
         *used = top;
     }
-    Some(([a, b], lanes))
+    Some(([a, b], indices))
 }
 
 #[inline(always)]
@@ -151,7 +151,7 @@ impl Models<'_> {
     fn opened(&self, [first, second]: &[BvhChild; 2]) -> Option<[bool; 2]> {
         Some(match (first.is_leaf(), second.is_leaf()) {
             (false, false) => {
-                let [unit_a, unit_b] = [self.pose.sides[0].unit, self.pose.sides[1].unit];
+                let [unit_a, unit_b] = [self.pose.frames[0].unit, self.pose.frames[1].unit];
                 let (x, y) = (size(self.a, first.at)? * unit_a, size(self.b, second.at)? * unit_b);
                 [x * LARGER >= y, y * LARGER >= x]
             }
@@ -164,12 +164,12 @@ impl Models<'_> {
     fn pairs(&self, nodes: [u32; 2], wanted: [u32; 2], work: &mut Work) -> Option<Pairs> {
         let side = |tree: &Bvh<'_>, which: usize| {
             let (count, boxes) = (tree.links(nodes[which])?.count, tree.boxes(nodes[which])?);
-            let intervals = AxisIntervals::of(&self.pose.sides[which], boxes, count)?;
+            let intervals = AxisIntervals::of(&self.pose.frames[which], boxes, count)?;
             Some((intervals, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
         };
-        let ((first, rows), (second, lanes)) = (side(self.a, 0)?, side(self.b, 1)?);
-        work.nodes = work.nodes.saturating_add(rows.count_ones() * lanes.count_ones());
-        Some(pairs(&first, &second, rows, lanes))
+        let ((first, rows), (second, columns)) = (side(self.a, 0)?, side(self.b, 1)?);
+        work.nodes = work.nodes.saturating_add(rows.count_ones() * columns.count_ones());
+        Some(pairs(&first, &second, rows, columns))
     }
 
     /// Visits a pair of leaves. `true` to go on.
@@ -177,7 +177,7 @@ impl Models<'_> {
     fn leaves(
         &self,
         nodes: [u32; 2],
-        lanes: [u32; 2],
+        indices: [u32; 2],
         [first, second]: [BvhChild; 2],
         visitor: &mut impl PairVisitor,
         work: &mut Work,
@@ -191,7 +191,7 @@ impl Models<'_> {
                 bits &= bits - 1;
                 let contact = pair.meet(i, j as usize, work);
                 if contact != Contact::Apart {
-                    let place = [[nodes[0], lanes[0], i as u32], [nodes[1], lanes[1], j]];
+                    let place = [[nodes[0], indices[0], i as u32], [nodes[1], indices[1], j]];
                     if !visitor.pair(place, contact)? {
                         return Some(false);
                     }

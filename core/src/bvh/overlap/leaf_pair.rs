@@ -109,10 +109,10 @@ impl Facets {
 
     /// On which side of each plane `wanted` each vertex of the other leaf certainly lies.
     #[inline(always)]
-    fn sides(&self, wanted: u32, other: &Corners) -> Sides {
+    fn sides(&self, wanted: u32, other: &Corners) -> VertexSides {
         let [nx, ny, nz] = &self.normal;
         let [x, y, z] = &other.at;
-        let mut sides = Sides { above: [0; SLOTS], below: [0; SLOTS] };
+        let mut sides = VertexSides { above: [0; SLOTS], below: [0; SLOTS] };
         let vertices = x.iter().zip(y).zip(z).zip(sides.above.iter_mut().zip(&mut sides.below));
         for (((&x, &y), &z), (above, below)) in vertices.take(other.used) {
             let height = |i: usize| nx[i] * x + ny[i] * y + nz[i] * z - self.height[i];
@@ -143,12 +143,12 @@ impl Facets {
 
 /// For each vertex of a leaf the planes of the other leaf's triangles that it is above, and those
 /// that it is below.
-struct Sides {
+struct VertexSides {
     above: [u32; SLOTS],
     below: [u32; SLOTS],
 }
 
-impl Sides {
+impl VertexSides {
     /// The planes that have all vertices of a triangle on one side.
     #[inline(always)]
     fn separating_planes(&self, slots: [usize; 3]) -> u32 {
@@ -168,8 +168,8 @@ impl Sides {
     }
 }
 
-/// Boxes of a leaf's triangles.
-struct Boxes {
+/// TriangleBoxes of a leaf's triangles.
+struct TriangleBoxes {
     low: [[f32; WIDTH]; 3],
     high: [[f32; WIDTH]; 3],
 }
@@ -180,11 +180,11 @@ struct Extent {
     high: [f32; 3],
 }
 
-impl Boxes {
+impl TriangleBoxes {
     #[inline(always)]
-    fn of(corners: &Corners) -> Option<Boxes> {
+    fn of(corners: &Corners) -> Option<TriangleBoxes> {
         let first = LANES_BELOW.get(corners.turn)?;
-        let mut boxes = Boxes { low: [[0.0; WIDTH]; 3], high: [[0.0; WIDTH]; 3] };
+        let mut boxes = TriangleBoxes { low: [[0.0; WIDTH]; 3], high: [[0.0; WIDTH]; 3] };
         for ((x, low), high) in corners.at.iter().zip(&mut boxes.low).zip(&mut boxes.high) {
             for i in 0..WIDTH {
                 let (c, e, g) = (blend(first[i], x), x[RING + i], x[RING + 1 + i]);
@@ -212,7 +212,7 @@ impl Extent {
 
     /// Which of the first `count` boxes, among those `wanted`, are within `error` along every axis.
     #[inline(always)]
-    fn near(&self, boxes: &Boxes, count: usize, wanted: u32, error: f32) -> u32 {
+    fn near(&self, boxes: &TriangleBoxes, count: usize, wanted: u32, error: f32) -> u32 {
         let mut bits = wanted & u32::MAX >> (32 - count.clamp(1, WIDTH));
         let axes = self.low.iter().zip(&self.high).zip(boxes.low.iter().zip(&boxes.high));
         if WIDE {
@@ -251,15 +251,15 @@ pub(crate) struct LeafPair<'a> {
     a: Corners,
     b: Corners,
     /// On which sides of the second leaf's planes the first leaf's vertices lie, and the reverse.
-    sides: [Sides; 2],
+    sides: [VertexSides; 2],
 }
 
 impl<'a> LeafPair<'a> {
     #[inline(always)]
     pub(crate) fn new(pose: &'a RelativePose, a: &FanLeaf<'a>, b: &FanLeaf<'a>) -> LeafPair<'a> {
         let (mut first, mut second) = (Corners::stored(a), Corners::stored(b));
-        let [side, _] = &pose.sides;
-        let unit = side.unit;
+        let [frame, _] = &pose.frames;
+        let unit = frame.unit;
         let base = first.corner(0).map(|x| x * unit);
         for (axis, base) in first.at.iter_mut().zip(base) {
             for x in axis {
@@ -274,7 +274,7 @@ impl<'a> LeafPair<'a> {
                 axis[i] = ((a * x[i] + b * y[i]) + (c * z[i] + shift)) - base;
             }
         }
-        let none = || Sides { above: [0; SLOTS], below: [0; SLOTS] };
+        let none = || VertexSides { above: [0; SLOTS], below: [0; SLOTS] };
         LeafPair { pose, leaves: [*a, *b], a: first, b: second, sides: [none(), none()] }
     }
 
@@ -321,7 +321,7 @@ impl<'a> LeafPair<'a> {
         if whole.is_beyond(&other, error) {
             return Some(near);
         }
-        let (first, second) = (Boxes::of(&self.a)?, Boxes::of(&self.b)?);
+        let (first, second) = (TriangleBoxes::of(&self.a)?, TriangleBoxes::of(&self.b)?);
         let rows = other.near(&first, self.a.triangles, u32::MAX, error);
         let lanes = whole.near(&second, self.b.triangles, u32::MAX, error);
         if rows == 0 || lanes == 0 {
@@ -363,7 +363,7 @@ impl<'a> LeafPair<'a> {
     fn meet_exactly(&self, i: usize, j: usize) -> Contact {
         let RelativePose { matrix, shift_exact, vertex_error_exact, .. } = *self.pose;
         let [first, second] = &self.leaves;
-        let unit = f64::from(self.pose.sides[0].unit);
+        let unit = f64::from(self.pose.frames[0].unit);
         let wide = |leaf: &FanLeaf<'_>, slots: [usize; 3]| {
             let stored = leaf.stored_vertices();
             slots.map(|slot| stored.map(|axis| f64::from(axis.get(slot).copied().unwrap_or(0.0))))

@@ -20,9 +20,9 @@ pub(crate) const DIRECTIONS: usize = 6;
 /// to the larger one.
 const RATIO: i32 = 40;
 
-/// A tree's frame along the directions.
+/// The place of a tree along the directions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Side {
+pub(crate) struct TreeFrame {
     /// A place `q` of this tree, in its grid units from `origin`, is at `rows[d]·q + shift[d]`
     /// along direction d.
     pub(crate) rows: [[f32; 3]; DIRECTIONS],
@@ -38,7 +38,7 @@ pub(crate) struct Side {
 /// The pose of both trees in common units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativePose {
-    pub(crate) sides: [Side; 2],
+    pub(crate) frames: [TreeFrame; 2],
     /// A place `q` of the second tree is at `matrix·q + shift`.
     pub(crate) matrix: [[f32; 3]; 3],
     pub(crate) shift: [f32; 3],
@@ -57,7 +57,7 @@ fn origin(tree: &Bvh<'_>) -> [f64; 3] {
 /// Extent of a tree's box from its origin along each axis, in grid units, and one more for boxes
 /// without extent.
 fn extent(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let (low, high) = (tree.scale().low, tree.scale().high);
+    let (low, high) = tree.grid_bounds();
     let along = |low: f32, high: f32, origin: f64| {
         let (low, high) = ((f64::from(low) - origin).abs(), (f64::from(high) - origin).abs());
         1.0 + greater(high, low)
@@ -115,8 +115,8 @@ impl RelativePose {
         ];
         let (extent_a, extent_b) =
             (extent(a, into).map(|x| x * unit_a), extent(b, from).map(|x| x * unit_b));
-        let error_a = f64::from(a.scale().surface_error) * unit_a;
-        let error_b = f64::from(b.scale().surface_error) * (unit_b * stretch(&rotation));
+        let error_a = f64::from(a.units().surface_error) * unit_a;
+        let error_b = f64::from(b.units().surface_error) * (unit_b * stretch(&rotation));
         let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
         let [c0, c1, c2] = columns;
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -153,14 +153,14 @@ impl RelativePose {
             return Err(QueryError::PoseOutOfDomain);
         }
         let narrow = |v: [f64; 3]| v.map(|x| x as f32);
-        let first = Side {
+        let first = TreeFrame {
             rows: directions.map(|d| narrow(d.map(|x| x * unit_a))),
             shift: [0.0; DIRECTIONS],
             origin: narrow(into),
             grow,
             unit: unit_a as f32,
         };
-        let second = Side {
+        let second = TreeFrame {
             rows: back.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: away.map(|x| x as f32),
             origin: narrow(from),
@@ -169,7 +169,7 @@ impl RelativePose {
         };
         let larger = greater(error_b, error_a);
         Ok(Some(RelativePose {
-            sides: [first, second],
+            frames: [first, second],
             matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: narrow(shift_exact),
             shift_exact,

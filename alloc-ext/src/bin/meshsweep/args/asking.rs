@@ -51,8 +51,9 @@ pub struct ClosestArgs {
     /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
-    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// inside it [default: the finest of all, if the blob has no other structure for distances]
+    /// Ask the finest tight hull of at most FACES faces; the interval is that of the distance to the
+    /// mesh inside the hull [default: the finest hull, if the blob has no other structure for
+    /// distances]
     #[arg(
         long,
         value_name = "FACES",
@@ -75,8 +76,8 @@ pub struct WithinArgs {
     /// query's number, from 0, is the first column
     #[arg(long)]
     pub all: bool,
-    /// Ask the finest tight hull of at most so many faces: an interval of the distance to the mesh
-    /// inside it [default: the finest of all, if the blob has no other structure for distances]
+    /// Ask the finest tight hull of at most FACES faces; the answer is about the mesh inside the
+    /// hull [default: the finest hull, if the blob has no other structure for distances]
     #[arg(
         long,
         value_name = "FACES",

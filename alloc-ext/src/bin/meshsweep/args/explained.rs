@@ -4,11 +4,11 @@ pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is n
     hull is as tight as asked for, 2 wrong usage.";
 
 /// `--queue` of the commands with `--engine`.
-pub const QUEUE: &str = "Stack or queue entries to search with [default: what the blob needs; on \
-    the hull hierarchy no less than 4096]";
+pub const QUEUE: &str = "Scratch entries to search with [default: what the blob needs; on the \
+    hull hierarchy 4096 more]";
 
 /// `--queue` of pairs of nodes.
-pub const PAIRS: &str = "Stack entries to search with [default: 256, which always suffice]";
+pub const PAIRS: &str = "Scratch entries to search with [default: 256, which always suffice]";
 
 const QUERIES: &str = "Queries are arguments, files, or both, in any number. They are answered in \
     the order given. A file holds one query on a line: decimal numbers with commas, semicolons or \
@@ -42,7 +42,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     segments and for overlap, about 2 bytes a face, which only the library asks.\n\n\
     Values of --vertex-bits:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
-    16     vertices move to a grid of 16 bits an axis; a tight hull moves only its own\n  \
+    16     vertices move to a grid of 16 bits an axis; with tight only those of the hulls, \
+    not the mesh's\n  \
     24     hull: a grid of 24 bits an axis; box tree: 32\n  \
     32     single precision; box tree: 8 bytes a triangle more, and no hit is undecided because \
     of the grid\n\
@@ -113,7 +114,7 @@ pub fn signed() -> String {
         "The column 'side' says outside or inside, both proved; or undecided, and then 'reason' \
          says why: open mesh, the mesh bounds no solid; at the surface, the interval of the \
          distance begins at 0; rounding, single precision leaves the side undecided; out of \
-         steps, out of stack, the query ended early. lower and upper are the bounds of the signed \
+         steps, out of scratch memory, the query ended early. lower and upper are the bounds of the signed \
          distance, negative inside. If the side is undecided, they are -upper and upper of the \
          distance; {TRIANGLES}.\n\n\
          The side is that of the nearest surface. Parts that overlap are not united: a point in \
@@ -141,8 +142,8 @@ pub fn segment() -> String {
     format!(
         "The column 'hit' says yes, with the first hit; no, which is proved; or undecided, if the \
          query ended early, the blob is cut, or rounding and the blob's surface error leave it \
-         undecided. The segment is then proved clear before t, which px, py, pz belong to. With \
-         --all an undecided hit is a place where the stored triangle is met and the mesh's may be. \
+         undecided. The segment is then proved clear before t, and px, py, pz is its point at t. \
+         With --all an undecided hit is a place where the stored triangle is met and the mesh's may be. \
          t runs from 0 to 1 along the segment, rounded to f32; {TRIANGLES}.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
@@ -233,7 +234,7 @@ pub const TRIBOX: &str = "A tribox is the intersection of nine slabs, along the 
     their planes.\n\n\
     'faces' counts the faces of all triboxes. 'compression' is the mesh's triangles divided by \
     them. 'void %' is the volume beside the solid. 'hull error' is how far a tribox reaches \
-    beyond the convex hull of its part. 'largest distance' is from the union's boundary to the \
+    beyond the convex hull of the triangles in it. 'largest distance' is from the union's boundary to the \
     mesh, between two proved bounds. Lengths are in the mesh's unit. The written vertices are \
     exact, and the triboxes enclose the mesh.\n\n\
     Examples:\n  \

@@ -7,8 +7,8 @@ use std::num::NonZeroUsize;
 pub enum Margin {
     /// In the mesh's unit.
     Length(f64),
-    /// As a part of the longest edge of the box.
-    Part(f64),
+    /// As a fraction of the longest edge of the box.
+    Fraction(f64),
 }
 
 pub fn margin(text: &str) -> Result<Margin, String> {
@@ -20,7 +20,7 @@ pub fn margin(text: &str) -> Result<Margin, String> {
         parsed.ok_or_else(|| wanted.to_owned())
     };
     match text.strip_suffix('%') {
-        Some(percent) => Ok(Margin::Part(number(percent)? / 100.0)),
+        Some(percent) => Ok(Margin::Fraction(number(percent)? / 100.0)),
         None => Ok(Margin::Length(number(text)?)),
     }
 }
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn margins_are_lengths_or_percentages() {
         assert_eq!(margin("2.5"), Ok(Margin::Length(2.5)));
-        assert_eq!(margin("10%"), Ok(Margin::Part(0.1)));
+        assert_eq!(margin("10%"), Ok(Margin::Fraction(0.1)));
         assert_eq!(margin("0"), Ok(Margin::Length(0.0)));
         for wrong in ["", "%", "-1", "nan", "inf", "1e39", "10 percent"] {
             assert!(margin(wrong).is_err(), "{wrong}");

@@ -47,7 +47,7 @@ impl Tally {
             (self.exact, "exact"),
             (self.tolerance, "within tolerance"),
             (self.steps, "out of steps"),
-            (self.scratch, "out of stack or queue"),
+            (self.scratch, "out of scratch memory"),
             (self.resolution, if is_by_hull { BY_HULL } else { RESOLUTION }),
         ];
         let counted = counts.into_iter().filter(|(count, _)| *count > 0);

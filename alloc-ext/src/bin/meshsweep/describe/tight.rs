@@ -1,6 +1,6 @@
 //! Tight hulls: faces, void, distances, bytes, memory.
 
-use super::tree::{format_name, stack_bytes};
+use super::tree::{format_name, scratch_bytes};
 use crate::number::{AtMost, Percent};
 use meshsweep::counted::Counted;
 use meshsweep_core::{TightHull, TightHulls, TightRecord};
@@ -17,7 +17,7 @@ fn bytes(hull: &TightHull<'_>) -> usize {
     hull.bytes().len() + 2 * hull.record().faces as usize
 }
 
-/// Void as a part of the mesh's volume, if the mesh bounds one. The void of such a mesh is not 0.
+/// Void as a fraction of the mesh's volume, if the mesh bounds one. The void of such a mesh is not 0.
 pub fn void(record: &TightRecord) -> Option<f32> {
     (record.void_ratio != 0.0).then_some(record.void_ratio)
 }
@@ -31,8 +31,8 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
     writeln!(out, "  {}: {encloses}", Counted(hulls.count(), "hull"))?;
     writeln!(
         out,
-        "     faces    void %     bytes  stack bytes  coordinates  hull to mesh, at most  mesh to \
-         hull, at most"
+        "     faces    void %     bytes  scratch bytes  coordinates  hull to mesh, at most  mesh \
+         to hull, at most"
     )?;
     for hull in all(hulls) {
         let record = hull.record();
@@ -40,10 +40,10 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
             .map_or("-".to_owned(), |void| Percent(f64::from(void) * 100.0).to_string());
         writeln!(
             out,
-            "  {:>8} {void:>9} {:>9} {:>12}  {:<11}  {:>21}  {:>21}",
+            "  {:>8} {void:>9} {:>9} {:>14}  {:<11}  {:>21}  {:>21}",
             record.faces,
             bytes(&hull),
-            stack_bytes(hull.bvh()),
+            scratch_bytes(hull.bvh()),
             format_name(hull.bvh()),
             AtMost(record.slack),
             AtMost(record.depth)
@@ -65,7 +65,7 @@ pub(super) fn as_json(hulls: &TightHulls<'_>) -> Value {
             "serves_distances": hull.bvh().serves_distances(),
             "serves_segments": hull.bvh().serves_segments(),
             "stack_entries": hull.bvh().header().stack_entries,
-            "stack_bytes": stack_bytes(hull.bvh()),
+            "stack_bytes": scratch_bytes(hull.bvh()),
         })
     };
     json!({ "hulls": all(hulls).map(hull).collect::<Vec<_>>() })

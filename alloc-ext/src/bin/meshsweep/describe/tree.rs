@@ -9,8 +9,8 @@ use meshsweep_core::{Bvh, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// Bytes of a stack with which no query overflows.
-pub fn stack_bytes(tree: &Bvh<'_>) -> usize {
+/// Bytes of scratch memory with which no query overflows.
+pub fn scratch_bytes(tree: &Bvh<'_>) -> usize {
     tree.scratch_entries() * size_of::<ScratchEntry>()
 }
 
@@ -22,8 +22,8 @@ fn half_widths(tree: &Bvh<'_>, diagonal: f64) -> [f64; 2] {
     let u = f64::from(U32);
     let near = f64::from(tree.surface_error())
         + f64::from(FAN_DISTANCE) * u * f64::from(h.star_radius) * unit;
-    // Other triangles than slivers are certified to that part of the squared distance: half of it
-    // for the distance, a quarter at either end.
+    // Triangles that are no slivers are certified to that fraction of the squared distance. So the
+    // distance is certified to half of it: a quarter at either end.
     let relative = f64::from(FAN_RELATIVE) * u + (1.0 - f64::from(CERTIFIED_PART)) / 4.0;
     [near, near + relative * diagonal]
 }
@@ -96,9 +96,9 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
     )?;
     writeln!(
         out,
-        "  stack: {}, {} bytes of RAM: no query about a point or a segment can overflow it",
+        "  scratch: {}, {} bytes of RAM: no query about a point or a segment can overflow it",
         Counted(h.stack_entries, "entry"),
-        stack_bytes(tree)
+        scratch_bytes(tree)
     )
 }
 
@@ -126,6 +126,6 @@ pub(super) fn as_json(tree: &Bvh<'_>, diagonal: f64) -> Value {
         "depth": shape.depth,
         "bounds": bounds(tree),
         "stack_entries": h.stack_entries,
-        "stack_bytes": stack_bytes(tree),
+        "stack_bytes": scratch_bytes(tree),
     })
 }

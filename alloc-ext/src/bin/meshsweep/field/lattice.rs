@@ -18,7 +18,7 @@ impl Lattice {
         let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
         let margin = match margin {
             Margin::Length(length) => length,
-            Margin::Part(part) => part * longest,
+            Margin::Fraction(fraction) => fraction * longest,
         };
         let extent = |k: usize| high[k] - low[k] + 2.0 * margin;
         let step =
@@ -47,7 +47,7 @@ mod tests {
 
     #[test]
     fn the_first_and_last_samples_are_a_margin_outside_the_box() {
-        let lattice = Lattice::around(BOX, [13, 5, 3], Margin::Part(0.1)).unwrap();
+        let lattice = Lattice::around(BOX, [13, 5, 3], Margin::Fraction(0.1)).unwrap();
         assert_eq!(lattice.point([0; 3]), [-1.0, -1.0, -1.0]);
         assert_eq!(lattice.point([12, 4, 2]), [11.0, 6.0, 1.0]);
         assert_eq!(lattice.step, [1.0, 1.75, 1.0]);
@@ -61,6 +61,6 @@ mod tests {
             Lattice::around(BOX, [2; 3], Margin::Length(3.4e38)).map(|l| l.size),
             Some([2; 3])
         );
-        assert_eq!(Lattice::around([[0.0; 3], [3.4e38; 3]], [2; 3], Margin::Part(0.5)), None);
+        assert_eq!(Lattice::around([[0.0; 3], [3.4e38; 3]], [2; 3], Margin::Fraction(0.5)), None);
     }
 }
