@@ -5,12 +5,14 @@
 //! f32, rounded down with a proved margin; The few triangles that may hold the answer are evaluated
 //! in f64, so that the interval is as wide as one rounding of f32.
 
-use super::sweep_queue::{SweepQueue, Taken, before};
 use crate::geom::{Aabb, LANES, Lanes, Support, SweptPoint, point_triangle};
 use crate::hull::format::{Children, Hull, NodeIdx, TriIdx};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
 use crate::num::{down_to_f32, up_to_f32};
-use crate::query::{Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, Work};
+use crate::query::{
+    Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Taken,
+    Work, before,
+};
 use glam::{DVec3, Vec3};
 
 impl Hull<'_> {

@@ -5,7 +5,6 @@
 //! | `format/` | the bytes: indices, tables, the check of opening |
 //! | `refined_hull` | the hull refined where a query needs it |
 //! | `hull_faces` | the triangles of one level |
-//! | `sweep_queue` | the priority queue of the sweeping process |
 //! | `closest_point` | closest point on the cover tree |
 //! | `segment_hits` | first hit and all hits on the cover tree |
 //! | `outer_hits` | hits from outside on the refined hull |
@@ -16,7 +15,6 @@ mod hull_faces;
 mod outer_hits;
 mod refined_hull;
 mod segment_hits;
-mod sweep_queue;
 
 pub use format::{Hull, Level};
 pub use hull_faces::HullFace;
