@@ -6,7 +6,7 @@ pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
 pub const VERSION_MAJOR: u16 = 1;
 /// A reader accepts any minor version. It ignores the additions of a later one.
-pub const VERSION_MINOR: u16 = 3;
+pub const VERSION_MINOR: u16 = 4;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
 /// Bytes of one entry of the section table: kind, offset, length, CRC, each a u32.
@@ -68,11 +68,13 @@ pub enum SectionKind {
     /// Tight hulls of the mesh: each a blob with a box tree of its own, and the distances of its
     /// faces from the mesh.
     TightHulls = 20,
+    /// Polygonal curves, and a hierarchy of capsules over their points.
+    Curves = 21,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 20] = [
+    pub const ALL: [SectionKind; 21] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -93,6 +95,7 @@ impl SectionKind {
         SectionKind::TreeCones,
         SectionKind::Triboxes,
         SectionKind::TightHulls,
+        SectionKind::Curves,
     ];
 
     /// Whether the section belongs to the hull hierarchy.
@@ -112,6 +115,7 @@ impl SectionKind {
             SectionKind::TreeCones => BuildFor::Cull,
             SectionKind::Triboxes => BuildFor::Triboxes,
             SectionKind::TightHulls => BuildFor::Tight,
+            SectionKind::Curves => BuildFor::Curve,
             _ if self.is_hull() => BuildFor::Hull,
             _ => BuildFor::Closest,
         }
@@ -140,6 +144,7 @@ impl SectionKind {
             SectionKind::TreeCones => "tree normal cones",
             SectionKind::Triboxes => "triboxes",
             SectionKind::TightHulls => "tight hulls",
+            SectionKind::Curves => "curves",
         }
     }
 }
@@ -160,6 +165,8 @@ pub enum BuildFor {
     Triboxes,
     /// Tight hulls.
     Tight,
+    /// Polygonal curves.
+    Curve,
 }
 
 impl core::fmt::Display for BuildFor {
@@ -171,6 +178,7 @@ impl core::fmt::Display for BuildFor {
             BuildFor::Cull => "cull",
             BuildFor::Triboxes => "triboxes",
             BuildFor::Tight => "tight",
+            BuildFor::Curve => "curve",
         })
     }
 }
