@@ -147,7 +147,8 @@ impl<'a> Search<'a> {
         steps: u32,
     ) -> Option<Ended> {
         let surface_error = self.capsules.curve.frame.surface_error();
-        let mut met_tolerance = false;
+        // Least key of what a tolerance left.
+        let mut left = f64::INFINITY;
         let mut next = Some(Capsules::ROOT);
         while let Some(Taken { entry, least }) = queue.take(next.take(), self.best.is_none()) {
             let key = f64::from(entry.key());
@@ -162,7 +163,7 @@ impl<'a> Search<'a> {
                 self.others = self.others.min(key);
                 if !beaten {
                     self.lower = self.lower.min(key);
-                    met_tolerance = true;
+                    left = left.min(key);
                 }
                 if least {
                     break;
@@ -193,7 +194,8 @@ impl<'a> Search<'a> {
             self.lower = self.lower.min(dropped);
             return Some(Ended::Scratch);
         }
-        Some(if met_tolerance { Ended::Tolerance } else { Ended::Exact })
+        // What a closer segment has beaten since is not missing.
+        Some(if left <= self.upper { Ended::Tolerance } else { Ended::Exact })
     }
 
     /// Runs at least so far away are not looked at.

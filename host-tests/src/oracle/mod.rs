@@ -5,9 +5,11 @@ mod double;
 pub(crate) mod dyadic;
 pub mod lp;
 pub mod moved;
+mod polyline;
 pub mod polytope;
 mod segment;
 
 pub use distance::{Bounded, distance_to_mesh, distance_to_triangle, rough_distance_sq};
 pub use double::{Double, Vector};
+pub use polyline::distance_to_segments;
 pub use segment::{Contact, contacts, gap_to_triangle, meets};

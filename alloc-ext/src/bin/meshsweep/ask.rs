@@ -164,6 +164,15 @@ pub fn ended(verdict: Verdict) -> Ended {
     }
 }
 
+/// A verdict as a column says it.
+pub fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Yes => "yes",
+        Verdict::No => "no",
+        Verdict::Undecided(_) => "unknown",
+    }
+}
+
 /// Asks for all of something in the room that there is, and once more if something is dropped.
 /// `counts` are the numbers of stored and dropped ones.
 pub fn all<T: Copy, F>(

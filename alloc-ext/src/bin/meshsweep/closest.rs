@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
-use crate::{blob_file, served};
+use crate::{blob_file, curve, served};
 use meshsweep_core::{
     Budget, BuildFor, ClosestPoint, Ended, Hint, Interval, QueryError, ScratchEntry, TightHull,
     Work,
@@ -23,6 +23,13 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
     let bytes = blob_file::read(file)?;
     let blob = blob_file::open(file, &bytes)?;
+    if let Ok(curve) = blob.curve()
+        && args.engine.is_none()
+        && args.tight.is_none()
+    {
+        let budget = args.search.budget().with_relative(args.rel).with_absolute(args.abs);
+        return curve::closest(curve, args, Queries::read(&args.input.points)?, budget);
+    }
     let tree_chosen = args.engine.map(|engine| engine == args::Engine::Tree);
     let hull = match tree_chosen {
         Some(_) => None,

@@ -3,6 +3,7 @@
 use crate::unmet::Unmet;
 use meshsweep::BuildError;
 use meshsweep::counted::Counted;
+use meshsweep::curve::CurveError;
 use meshsweep::mesh::MeshError;
 use meshsweep::tight::WrapError;
 use meshsweep_core::{OpenError, QueryError, TriboxError};
@@ -35,6 +36,8 @@ pub enum Failure {
     BlobForMesh { file: PathBuf },
     /// The blob cannot be built or cut.
     Build { file: PathBuf, error: BuildError },
+    /// The curve is refused.
+    Curve { file: PathBuf, error: CurveError },
     /// The tight hull cannot be made.
     Wrap { file: PathBuf, error: WrapError },
     /// No hull is as tight as asked for.
@@ -200,6 +203,8 @@ impl fmt::Display for Failure {
                     file.display()
                 )
             }
+            // The error begins with a line of the file, or with what all of the file lacks.
+            Failure::Curve { file, error } => write!(f, "{}, {error}", file.display()),
             Failure::Wrap { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Unmet { file, unmet } => {
                 write!(f, "{}: {unmet}; nothing is written", file.display())

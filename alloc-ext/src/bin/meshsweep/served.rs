@@ -8,11 +8,11 @@ use std::path::Path;
 pub fn questions(blob: &Blob<'_>) -> Vec<&'static str> {
     let serves = |build_for| tree(blob, build_for).is_some();
     let distances = serves(BuildFor::Closest);
-    let hull = blob.hull().is_ok();
+    let (hull, curve) = (blob.hull().is_ok(), blob.curve().is_ok());
     let tight = finest_tight(blob).is_some_and(|hull| hull.bvh().serves_distances());
     [
-        ("closest", distances || hull || tight),
-        ("within", distances || tight),
+        ("closest", distances || hull || tight || curve),
+        ("within", distances || tight || curve),
         ("nearest", distances),
         ("field", distances),
         ("signed", distances && blob.bvh().is_ok_and(|tree| tree.is_closed())),
@@ -67,6 +67,7 @@ fn not_served(
         BuildFor::Hull => "hull hierarchy",
         BuildFor::Triboxes => "triboxes",
         BuildFor::Tight => "tight hulls",
+        BuildFor::Curve => "curves",
         _ => "such part",
     };
     let (file, build_for) = (file.to_owned(), build_for.to_string());

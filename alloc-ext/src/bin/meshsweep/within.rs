@@ -1,14 +1,13 @@
 //! `meshsweep within`: whether points are within a distance of the surface, or of which triangles.
 
 use crate::args::{SearchArgs, WithinArgs, files};
-use crate::ask::{self, Question, write_end, write_neighbor, write_numbers};
+use crate::ask::{self, Question, verdict_name, write_end, write_neighbor, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
-use crate::{blob_file, served};
+use crate::{blob_file, curve, served};
 use meshsweep_core::{
-    AllWithin, BuildFor, Bvh, Ended, Neighbor, QueryError, ScratchEntry, TightHull, Verdict,
-    Within, Work,
+    AllWithin, BuildFor, Bvh, Ended, Neighbor, QueryError, ScratchEntry, TightHull, Within, Work,
 };
 use std::io::{self, Write};
 
@@ -20,6 +19,12 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
     let bytes = blob_file::read(file)?;
     let blob = blob_file::open(file, &bytes)?;
+    if let Ok(curve) = blob.curve()
+        && !args.all
+        && args.tight.is_none()
+    {
+        return curve::within(curve, args, Queries::read(&args.input.points)?);
+    }
     let hull = if args.all { None } else { served::tight_hull(file, &blob, args.tight)? };
     let tree = match &hull {
         Some(hull) => *hull.bvh(),
@@ -78,13 +83,8 @@ impl Question<3> for Any<'_> {
         point: &[f32; 3],
         answer: &Within,
     ) -> io::Result<()> {
-        let verdict = match answer.verdict {
-            Verdict::Yes => "yes",
-            Verdict::No => "no",
-            Verdict::Undecided(_) => "unknown",
-        };
         write_numbers(out, point)?;
-        write!(out, "{verdict},")?;
+        write!(out, "{},", verdict_name(answer.verdict))?;
         write_end(out, answer.triangle, answer.work)
     }
 }
