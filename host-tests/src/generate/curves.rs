@@ -65,7 +65,7 @@ pub fn spiral(segments: usize) -> Polyline {
 /// Long strokes side by side, there and back.
 #[must_use]
 pub fn zig_zag(segments: usize) -> Polyline {
-    let point = |k: usize| [((k + 1) / 2 % 2) as f64, (k / 2) as f64 / segments as f64, 0.25];
+    let point = |k: usize| [(k.div_ceil(2) % 2) as f64, (k / 2) as f64 / segments as f64, 0.25];
     open((0..=segments).map(point).collect())
 }
 

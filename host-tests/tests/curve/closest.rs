@@ -134,7 +134,7 @@ fn of_equal_distances_the_first_segment_is_named() {
     let repeated = first(&[open(vec![c, c, b]), open(vec![c, c, c])], [2.0, 5.0, 0.0]);
     assert_eq!((repeated.segment, repeated.t), (name(0, 0), 0.0));
     let square = Polyline { points: vec![a, b, c, [0.0, 1.0, 0.0]], is_closed: true };
-    let centre = first(&[square.clone()], [0.5, 0.5, 0.0]);
+    let centre = first(std::slice::from_ref(&square), [0.5, 0.5, 0.0]);
     assert_eq!((centre.segment, centre.distance.lower <= 0.5), (name(0, 0), true));
     // The closing segment is the last one. No segment joins two polylines.
     assert_eq!(first(&[square], [-1.0, 0.5, 0.0]).segment, name(0, 3));

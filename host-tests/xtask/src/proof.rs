@@ -9,7 +9,7 @@ use crate::process;
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
 /// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 34] = [
+const QUESTIONS: [&str; 37] = [
     "ask_hull_open",
     "ask_hull_closest",
     "ask_hull_first_hit",
@@ -44,6 +44,9 @@ const QUESTIONS: [&str; 34] = [
     "ask_tight_open",
     "ask_tight_closest",
     "ask_tight_is_within",
+    "ask_curve_open",
+    "ask_curve_closest",
+    "ask_curve_is_within",
 ];
 
 /// Links the proof image for each target.

@@ -7,7 +7,7 @@
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::{hull, tight, tree, tribox, triboxes};
+use meshsweep_suite::ask::{curve, hull, tight, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
 
 #[unsafe(no_mangle)]
@@ -333,5 +333,35 @@ extern "C" fn ask_tight_is_within(
 ) {
     if let Ok(opened) = tight::open(input.blob) {
         tight::is_within(&opened, input.a, input.b[0], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_curve_open(input: &Input<'_>, fold: &mut Fold) {
+    match curve::open(input.blob) {
+        Ok(opened) => {
+            fold.point(curve::bounds(&opened)[0]);
+            curve::contents(&opened, fold);
+        }
+        Err(refused) => fold.word(refused.0),
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_curve_closest(input: &Input<'_>, scratch: &mut curve::Scratch, fold: &mut Fold) {
+    if let Ok(opened) = curve::open(input.blob) {
+        curve::closest(&opened, input.a, scratch, &mut (), fold);
+        curve::stopped(&opened, input.a, input.b[0], scratch, &mut (), fold);
+    }
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn ask_curve_is_within(
+    input: &Input<'_>,
+    scratch: &mut curve::Scratch,
+    fold: &mut Fold,
+) {
+    if let Ok(opened) = curve::open(input.blob) {
+        curve::is_within(&opened, input.a, input.b[0], scratch, &mut (), fold);
     }
 }
