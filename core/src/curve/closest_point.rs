@@ -117,10 +117,12 @@ struct Search<'a> {
     /// Not below the distance; f64 for the answer, f32 rounded up for pruning.
     upper: f64,
     upper_f32: f32,
-    /// Least lower bound of all evaluated segments and of all runs that were left.
+    /// Least lower bound of all evaluated segments.
     lower: f64,
-    /// The same without the best segment: everything else is at least as far.
+    /// The same without the best one.
     others: f64,
+    /// Least bound of all runs that were left. In f32, because f64 is slow on a Cortex-M.
+    left: f32,
     best: Option<Best>,
     work: Work,
 }
@@ -133,6 +135,7 @@ impl<'a> Search<'a> {
             upper_f32: f32::INFINITY,
             lower: f64::INFINITY,
             others: f64::INFINITY,
+            left: f32::INFINITY,
             best: None,
             work: Work::NONE,
         }
@@ -147,24 +150,19 @@ impl<'a> Search<'a> {
         steps: u32,
     ) -> Option<Ended> {
         let surface_error = self.capsules.curve.frame.surface_error();
-        // Least key of what a tolerance left.
-        let mut left = f64::INFINITY;
         let mut next = Some(Capsules::ROOT);
         while let Some(Taken { entry, least }) = queue.take(next.take(), self.best.is_none()) {
-            let key = f64::from(entry.key());
-            let beaten = entry.key() > self.upper_f32;
-            let tolerated = tolerant && {
-                // The reported interval: with the stored curve's error, and rounded to f32 outward.
-                let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
-                let high = (self.upper + surface_error) * (1.0 + REPORTED);
-                high <= low * (1.0 + relative) || high - low <= absolute
-            };
-            if beaten || tolerated {
-                self.others = self.others.min(key);
-                if !beaten {
-                    self.lower = self.lower.min(key);
-                    left = left.min(key);
-                }
+            let is_done = entry.key() > self.upper_f32
+                || (tolerant && {
+                    // The reported interval: with the stored curve's error, and rounded to f32
+                    // outward.
+                    let key = f64::from(entry.key());
+                    let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
+                    let high = (self.upper + surface_error) * (1.0 + REPORTED);
+                    high <= low * (1.0 + relative) || high - low <= absolute
+                });
+            if is_done {
+                self.leave(entry.key());
                 if least {
                     break;
                 }
@@ -173,14 +171,15 @@ impl<'a> Search<'a> {
             match self.capsules.item(entry) {
                 Item::Segment(segment) => self.evaluate(segment)?,
                 Item::Node(_) if self.work.splits >= steps => {
-                    self.leave(key.min(f64::from(queue.lower())));
+                    self.leave(entry.key());
+                    self.leave(queue.lower());
                     return Some(Ended::Steps);
                 }
                 Item::Node(node) => {
                     let [near, far] = self.capsules.open(node, &mut self.work)?;
                     queue.begin_children(2);
                     if far.key() > self.upper_f32 {
-                        self.others = self.others.min(f64::from(far.key()));
+                        self.leave(far.key());
                     } else {
                         queue.push(far);
                     }
@@ -188,20 +187,22 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        let dropped = f64::from(queue.dropped());
-        self.others = self.others.min(dropped);
-        if dropped < self.upper {
-            self.lower = self.lower.min(dropped);
-            return Some(Ended::Scratch);
-        }
-        // What a closer segment has beaten since is not missing.
-        Some(if left <= self.upper { Ended::Tolerance } else { Ended::Exact })
+        self.leave(queue.dropped());
+        Some(if f64::from(queue.dropped()) <= self.upper {
+            Ended::Scratch
+        } else if f64::from(self.left) <= self.upper {
+            Ended::Tolerance
+        } else {
+            Ended::Exact
+        })
     }
 
-    /// Runs at least so far away are not looked at.
-    fn leave(&mut self, key: f64) {
-        self.lower = self.lower.min(key);
-        self.others = self.others.min(key);
+    /// Runs with this bound or a greater one are not looked at.
+    #[inline(always)]
+    fn leave(&mut self, key: f32) {
+        if key < self.left {
+            self.left = key;
+        }
     }
 
     fn evaluate(&mut self, number: u32) -> Option<()> {
@@ -237,12 +238,13 @@ impl<'a> Search<'a> {
             self.evaluate(0)?;
         }
         let best = self.best?;
-        let (mut lower, mut upper) = (self.lower.min(self.upper), self.upper);
+        let left = f64::from(self.left);
+        let (mut lower, mut upper) = (self.lower.min(left).min(self.upper), self.upper);
         if is_far {
             (lower, upper) = self.capsules.curve.bounds.distance_range(self.capsules.p);
         }
         // Both distances may be off by the error of the stored curve, and both change by motion.
-        let (others, error) = (self.others.min(FARTHEST), frame.surface_error());
+        let (others, error) = (self.others.min(left).min(FARTHEST), frame.surface_error());
         let gap = 0.5 * (others - best.upper) - error - 8.0 * U64 * (others + error);
         let safe_motion = down_to_f32(frame.input_length(gap).clamp(0.0, f64::from(f32::MAX)));
         Some(CurveClosest {
