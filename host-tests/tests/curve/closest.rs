@@ -5,7 +5,7 @@ use super::scenes::{Scene, scenes, scratch};
 use meshsweep::curve::Polyline;
 use meshsweep_core::{Blob, Budget, CurveClosest, CurveSegment, Ended, QueryError};
 use meshsweep_host_tests::generate::Rng;
-use meshsweep_host_tests::generate::curves::{circle, open, tool_path};
+use meshsweep_host_tests::generate::curves::{circle, open, spiral, tool_path, walk, zig_zag};
 use meshsweep_host_tests::oracle::Bounded;
 
 /// The interval contains the truth, and the point and the segment are not farther than its end.
@@ -161,18 +161,44 @@ fn wrong_questions_are_refused_and_far_ones_answered() {
     }
 }
 
-#[test]
-fn a_long_tool_path_is_answered_with_little_work() {
-    let scene = Scene::new("tool path", &[tool_path(2000)], false);
+/// Capsules and f64 segments of a query, in mean.
+fn work(scene: &Scene, far: bool, entries: usize) -> [f64; 2] {
     let curve = scene.curve();
-    assert!(curve.scratch_entries() <= 24, "{}", curve.scratch_entries());
-    let (mut nodes, mut exact, mut queries) = (0, 0, 0);
-    for p in scene.points(400, 3) {
-        let near = curve.closest_point(p, Budget::EXACT, &mut scratch(64)).expect("finite");
-        (nodes, exact, queries) = (nodes + near.work.nodes, exact + near.work.exact, queries + 1);
+    let points = scene.points(1000, 3);
+    let wanted = |kind: usize| if far { kind >= 8 } else { (4..7).contains(&kind) };
+    let asked = || points.iter().enumerate().filter(|(k, _)| wanted(k % 10));
+    let works = asked().map(|(_, &p)| {
+        let near = curve.closest_point(p, Budget::EXACT, &mut scratch(entries)).expect("finite");
+        [near.work.nodes, near.work.exact].map(f64::from)
+    });
+    let sum = works.fold([0.0; 2], |sum, work| [sum[0] + work[0], sum[1] + work[1]]);
+    sum.map(|x| x / asked().count() as f64)
+}
+
+/// Prints the table of `core/DESIGN.md` with `--nocapture`.
+#[test]
+fn work_grows_far_slower_than_the_segments() {
+    let paths: [(&str, fn(usize) -> Polyline); 4] = [
+        ("tool path", tool_path),
+        ("spiral", spiral),
+        ("zig-zag", zig_zag),
+        ("walk", |n| walk(n, 1)),
+    ];
+    for (name, path) in paths {
+        for segments in [250, 2000, 16_000] {
+            let scene = Scene::new("work", &[path(segments)], false);
+            let enough = scene.curve().scratch_entries();
+            let [far, near] = [true, false].map(|far| work(&scene, far, 1000));
+            let [deep_far, deep_near] = [true, false].map(|far| work(&scene, far, enough));
+            println!(
+                "{name} {segments}: stack {enough}, best first {far:.0?} {near:.0?}, \
+                 depth first {deep_far:.0?} {deep_near:.0?}"
+            );
+            let most = 60.0 + 0.2 * segments as f64;
+            assert!(far[0] < most && near[0] < most && deep_far[0] < 1.5 * most, "{name}");
+            assert!(enough <= 40, "{name} {enough}");
+        }
     }
-    println!("{} capsules, {} segments in f64 a query", nodes / queries, exact / queries);
-    assert!(nodes / queries < 200 && exact / queries < 12, "{nodes} {exact} {queries}");
 }
 
 #[test]
