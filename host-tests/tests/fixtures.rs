@@ -76,7 +76,7 @@ fn committed_fence_is_what_the_builder_makes_of_its_file() {
     let polylines = read_csv(&read("fence.csv"), true).expect("CSV");
     assert!(bytes == store(&polylines, false).expect("finite").0.to_bytes());
     let curve = Curve::open(&bytes).expect("opens");
-    assert_eq!((curve.segment_count(), curve.is_closed(1)), (68, Some(true)));
+    assert_eq!((curve.segment_count(), curve.is_closed(1)), (72, Some(true)));
 }
 
 #[test]

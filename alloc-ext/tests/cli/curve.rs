@@ -54,7 +54,7 @@ fn info_and_build_tell_what_the_blob_holds() {
     let output = directory.join("path.msw");
     let report = ok(["build", arg(&path), "-o", arg(&output)]);
     assert!(report.contains("1 point repeated: kept"), "{report}");
-    assert!(report.contains("serves closest, within\n"), "{report}");
+    assert!(report.contains("serves closest, within without --all\n"), "{report}");
     assert!(report.contains("3 segments of 2 polylines, 0 closed\n"), "{report}");
     let text = ok(["info", arg(&output)]);
     assert!(text.contains("bytes per segment") && !text.contains("triangle"), "{text}");

@@ -15,19 +15,25 @@ pub fn open(points: Vec<[f64; 3]>) -> Polyline {
 /// Coordinates are multiples of a 64th.
 #[must_use]
 pub fn fence() -> Vec<Polyline> {
-    let ring = |centre: [f64; 2], half: [f64; 2], radius: f64, points: usize| {
-        let point = |k: usize| {
-            let angle = 2.0 * PI * (k as f64 + 0.5) / points as f64;
-            let on_axis = |centre: f64, half: f64, way: f64| {
-                let corner = if way < 0.0 { radius - half } else { half - radius };
-                ((centre + corner + radius * way) * 64.0).round() / 64.0
-            };
-            let (x, y) = (cos(angle), sin(angle));
-            [on_axis(centre[0], half[0], x), on_axis(centre[1], half[1], y), 0.0]
+    let ring = |centre: [f64; 2], half: [f64; 2], radius: f64, steps: usize| {
+        let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+        let arc = |(quarter, signs): (usize, [f64; 2])| {
+            (0..=steps).map(move |step| {
+                let angle = 0.5 * PI * (quarter as f64 + step as f64 / steps as f64);
+                let way = [cos(angle), sin(angle)];
+                let [x, y] = [0, 1].map(|axis| {
+                    let middle = centre[axis] + signs[axis] * (half[axis] - radius);
+                    ((middle + radius * way[axis]) * 64.0).round() / 64.0
+                });
+                [x, y, 0.0]
+            })
         };
-        Polyline { points: (0..points).map(point).collect(), is_closed: true }
+        let mut points: Vec<[f64; 3]> = corners.into_iter().enumerate().flat_map(arc).collect();
+        points.dedup();
+        points.pop_if(|last| *last == [centre[0] + half[0], centre[1], 0.0]);
+        Polyline { points, is_closed: true }
     };
-    vec![ring([50.0, 30.0], [50.0, 30.0], 12.0, 48), ring([30.0, 24.0], [5.0, 5.0], 5.0, 20)]
+    vec![ring([50.0, 30.0], [50.0, 30.0], 12.0, 12), ring([30.0, 24.0], [5.0, 5.0], 5.0, 5)]
 }
 
 /// CSV of polylines: a header, then blank lines between them.
