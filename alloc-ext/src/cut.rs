@@ -7,6 +7,7 @@ use meshsweep_core::{Blob, Hull};
 
 /// Parts of a blob to keep. A structure without a number stays as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Keep {
     /// The finest level of the hull hierarchy. A box tree cannot be cut: it is left out.
     pub level: Option<u32>,
@@ -14,6 +15,26 @@ pub struct Keep {
     pub triboxes: Option<u32>,
     /// The tight hulls of at most so many faces, at least the coarsest.
     pub tight: Option<u32>,
+}
+
+impl Keep {
+    /// Sets the [finest level](Self::level).
+    #[must_use]
+    pub const fn with_level(self, level: u32) -> Self {
+        Self { level: Some(level), ..self }
+    }
+
+    /// Sets the number of [triboxes](Self::triboxes).
+    #[must_use]
+    pub const fn with_triboxes(self, triboxes: u32) -> Self {
+        Self { triboxes: Some(triboxes), ..self }
+    }
+
+    /// Sets the number of faces of [tight hulls](Self::tight).
+    #[must_use]
+    pub const fn with_tight(self, faces: u32) -> Self {
+        Self { tight: Some(faces), ..self }
+    }
 }
 
 /// A blob that was cut.

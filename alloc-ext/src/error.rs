@@ -1,5 +1,6 @@
 //! Why there is no blob.
 
+use crate::mesh::NoVolume;
 use meshsweep_core::{OpenError, TriboxError};
 use std::fmt;
 
@@ -7,15 +8,57 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// More records than a blob can address.
+    /// More triangles, wires among them, than the structure can number.
     TooLarge {
         /// Triangles of the mesh.
         triangles: usize,
+        /// Most triangles of the structure.
+        most: usize,
+    },
+    /// A triangle names a vertex that is not there.
+    NoSuchVertex {
+        /// The triangle; wires count after the triangles.
+        triangle: usize,
+        /// The vertex.
+        vertex: u32,
+        /// Vertices of the mesh.
+        vertices: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    NotFinite {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// [`Mesh::source`](crate::mesh::Mesh::source) is longer or shorter than the triangles.
+    SourceNumbers {
+        /// Triangles of the mesh.
+        triangles: usize,
+        /// Length of `source`.
+        numbers: usize,
     },
     /// The signed volume is not positive: the mesh is inside out where it passes through itself.
     NotPositive {
         /// The volume, input units.
         volume: f64,
+    },
+    /// A tight hull was asked for, and the mesh has no triangle and no wire.
+    Empty,
+    /// A tight hull of a void was asked for, and the mesh has no volume to measure it against.
+    NoVolume(NoVolume),
+    /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the
+    /// mesh is as small as the steps of its coordinates.
+    NoRoom,
+    /// The margin is negative or not a finite number.
+    BadMargin {
+        /// The margin asked for.
+        margin: f64,
+    },
+    /// The mesh with its margin leaves the range of single precision.
+    MarginTooLarge,
+    /// The slack is not more than the margin.
+    SlackWithinMargin {
+        /// The margin.
+        margin: f64,
     },
     /// Triboxes do not hold the mesh's coordinates.
     Triboxes(TriboxError),
@@ -39,13 +82,46 @@ pub enum BuildError {
 impl fmt::Display for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooLarge { triangles } => write!(
+            Self::TooLarge { triangles, most } => write!(
                 f,
-                "{triangles} triangles are more than a blob can hold (20 million): simplify or split the mesh"
+                "{triangles} triangles are more than the {most} that the structure holds: simplify \
+                 or split the mesh"
+            ),
+            Self::NoSuchVertex { triangle, vertex, vertices } => write!(
+                f,
+                "triangle {triangle} names vertex {vertex}, and the mesh has {vertices}: run repair"
+            ),
+            Self::NotFinite { vertex } => {
+                write!(f, "vertex {vertex} has a coordinate that is not finite: run repair")
+            }
+            Self::SourceNumbers { triangles, numbers } => write!(
+                f,
+                "{triangles} triangles have {numbers} numbers in the input file: give one to each"
             ),
             Self::NotPositive { volume } => write!(
                 f,
                 "the enclosed volume is {volume}: the mesh passes through itself and is inside out there; unite its parts first"
+            ),
+            Self::Empty => f.write_str("the mesh has no triangles; give one that has"),
+            Self::NoVolume(why) => write!(
+                f,
+                "{why}; there is no volume to measure void against: ask for faces or slack"
+            ),
+            Self::NoRoom => f.write_str(
+                "there are no coordinates of single precision around the mesh to put a hull on; \
+                 move or scale it",
+            ),
+            Self::BadMargin { margin } => {
+                write!(f, "a margin is a finite number, at least 0, and this one is {margin}")
+            }
+            Self::MarginTooLarge => f.write_str(
+                "the mesh and its margin leave the range of single precision, 3.4e38; ask for \
+                 less, or scale both down",
+            ),
+            Self::SlackWithinMargin { margin } => write!(
+                f,
+                "no hull can be within the slack: it is not more than {margin:e}, the margin with \
+                 what rounding may take from it; ask for a larger slack"
             ),
             Self::Triboxes(error) => write!(f, "{error}; choose a larger unit"),
             Self::NoLevel { levels: 0, .. } => {

@@ -37,6 +37,7 @@ pub mod hausdorff;
 pub mod hull;
 pub mod lp;
 pub mod mesh;
+mod random;
 pub mod surface;
 pub mod tight;
 pub mod tribox;

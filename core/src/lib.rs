@@ -30,7 +30,9 @@
 //! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`] |
-//! | the faces of a nested hull; hits from outside | [`Hull::faces`], [`Hull::outer_hits`] |
+//! | the faces of a nested hull | [`Hull::faces`] |
+//! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
+//! | hits from outside on that hull | [`Hull::outer_hits`] |
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
@@ -82,7 +84,7 @@ pub use format::layout::{BuildFor, SectionKind};
 pub use format::{OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;
-pub use hull::{Face, Hull, HullFace, Level, OuterHits, RefinedHull, Search};
+pub use hull::{Change, Focus, Hull, HullFace, Level, OuterHits, RefinedHull, Refinement, Search};
 pub use query::{
     AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, QueryError, Scratch,
     ScratchEntry, Side, Undecided, Verdict, Work,

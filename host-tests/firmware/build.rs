@@ -15,7 +15,7 @@ const BARE: [&str; 14] = [
     "size_tree_closest",
     "size_tree_alone",
     "size_tree_segment",
-    "size_tree_session",
+    "size_tree_coherent",
     "size_triboxes",
     "size_tight",
     "size_curve",

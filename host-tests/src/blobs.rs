@@ -105,14 +105,12 @@ impl Blob {
             Self::BracketTree => Ok(box_tree(bracket(), &default)),
             // Fewer triangles: with f32 vertices and all questions the image just fits into the
             // flash of the smallest board.
-            Self::SingleTree => {
-                Ok(box_tree(torus(2.0, 0.75, 16, 10), &TreeOptions { single: true, ..default }))
-            }
+            Self::SingleTree => Ok(box_tree(torus(2.0, 0.75, 16, 10), &default.with_f32(true))),
             Self::Triboxes => Ok(torus_triboxes()),
             Self::Tight => Ok(bracket_hulls()),
             Self::Fence => Ok(fence_curves()),
             Self::ToolPath => Ok(tool_path_curve()),
-            Self::SoupTree => Ok(box_tree(soup(), &TreeOptions { cull: true, ..default })),
+            Self::SoupTree => Ok(box_tree(soup(), &default.with_cull(true))),
         }
     }
 }
@@ -132,7 +130,7 @@ fn soup() -> Triangles {
 
 fn box_tree((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build_tree(mesh.as_input(), options);
+    let (tables, _) = build_tree(mesh.as_input(), options).expect("builds");
     tables.to_bytes()
 }
 
@@ -170,7 +168,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
 }
 
 /// What an image should print of a blob: the suite's answers on this machine. The suite asks the
-/// blob's box tree if there is one, else its triboxes, its tight hulls, its curves or its split hierarchy.
+/// blob's box tree if there is one, else its triboxes, its tight hulls, its curves or its split
+/// hierarchy.
 ///
 /// # Errors
 /// The core's refusal.

@@ -68,8 +68,8 @@ pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
 pub fn groove_tree() -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
-    let options = TreeOptions { cull: true, ..TreeOptions::default() };
-    let (tables, _) = build(mesh.as_input(), &options);
+    let options = TreeOptions::default().with_cull(true);
+    let (tables, _) = build(mesh.as_input(), &options).expect("builds");
     tables.to_bytes()
 }
 

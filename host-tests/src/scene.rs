@@ -50,7 +50,7 @@ impl Scene {
     #[must_use]
     pub fn tree(name: &str, mesh: Triangles, single: bool) -> Self {
         let mut scene = Self::new(format!("{name}{}", if single { ", f32" } else { "" }), mesh);
-        let options = TreeOptions { segments: false, single, ..TreeOptions::default() };
+        let options = TreeOptions::default().with_segments(false).with_f32(single);
         scene.bytes = tree_blob(&scene.positions, &scene.triangles, 0.0, &options);
         scene
     }
@@ -70,7 +70,7 @@ impl Scene {
         let moved = |&p| if by > 0.0 { add(p, rng.direction(), 0.99 * by) } else { p };
         let stored: Vec<Point> = scene.positions.iter().map(moved).collect();
         [scene.bytes, scene.f32_bytes] = [false, true].map(|single| {
-            let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
+            let options = TreeOptions::default().with_closest(false).with_f32(single);
             tree_blob(&stored, &scene.triangles, f64::from(by), &options)
         });
         scene
@@ -182,7 +182,7 @@ impl Scene {
     /// Points of every kind that distances have trouble with: on faces, at vertices, on edges, next
     /// to them, around, and far away.
     #[must_use]
-    pub fn points(&self, count: usize, rng: &mut Rng) -> Vec<Point> {
+    pub fn points(&self, count: usize, rng: &mut Rng) -> Asked<'_> {
         let size = self.size();
         let mut points = Vec::with_capacity(count);
         for i in 0..count {
@@ -205,7 +205,35 @@ impl Scene {
                 _ => self.around(1.0, rng),
             });
         }
-        points
+        Asked { scene: self, points: points.into_iter(), here: None }
+    }
+}
+
+/// Points to be asked one after the other. A test that fails meanwhile says at which point of which
+/// scene.
+#[derive(Debug)]
+pub struct Asked<'a> {
+    scene: &'a Scene,
+    points: std::vec::IntoIter<Point>,
+    here: Option<Point>,
+}
+
+impl Iterator for Asked<'_> {
+    type Item = Point;
+
+    fn next(&mut self) -> Option<Point> {
+        self.here = self.points.next();
+        self.here
+    }
+}
+
+impl Drop for Asked<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking()
+            && let Some(p) = self.here
+        {
+            eprintln!("{}: {p:?}", self.scene.name);
+        }
     }
 }
 
@@ -216,5 +244,8 @@ fn tree_blob(
     options: &TreeOptions,
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.to_vec(), triangles.to_vec());
-    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options).0.to_bytes()
+    build_tree(meshsweep::mesh::Input { moved, ..mesh.as_input() }, options)
+        .expect("builds")
+        .0
+        .to_bytes()
 }

@@ -20,20 +20,32 @@ const CORE: [(&str, &[&str]); 10] = [
 ];
 
 /// Folders that all structures of the builder may use.
-const BENEATH: &[&str] =
-    &["counted", "emit", "error", "lp", "mesh", "surface", "collapse", "bvh", "hausdorff"];
+const BENEATH: &[&str] = &[
+    "counted",
+    "emit",
+    "error",
+    "random",
+    "lp",
+    "mesh",
+    "surface",
+    "collapse",
+    "bvh",
+    "hausdorff",
+];
 
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted`
-/// prints numbers, `error` says why there is no blob. `cut` is above: it knows all structures.
-const BUILDER: [(&str, &[&str]); 14] = [
+/// prints numbers, `error` says why there is no blob, `random` gives the same numbers in every run.
+/// `cut` is above: it knows all structures.
+const BUILDER: [(&str, &[&str]); 15] = [
     ("counted", &[]),
     ("emit", &[]),
-    ("error", &[]),
-    ("lp", &[]),
+    ("random", &[]),
+    ("lp", &["random"]),
     ("mesh", &["counted"]),
-    ("surface", &["counted", "lp", "mesh"]),
+    ("error", &["mesh"]),
+    ("surface", &["counted", "error", "lp", "mesh"]),
     ("collapse", &["counted", "lp", "mesh", "surface"]),
-    ("bvh", &["counted", "emit", "lp", "mesh", "surface"]),
+    ("bvh", &["counted", "emit", "error", "lp", "mesh", "surface"]),
     ("hausdorff", &["counted", "lp", "mesh", "surface"]),
     ("hull", BENEATH),
     ("tight", BENEATH),

@@ -2,15 +2,15 @@
 
 use super::cones::cones;
 use super::encode;
-use super::fans::{self, Fan, FanLeaf, Weights};
+use super::fans::{self, Fan, FanLeaf};
 use super::nodes::fit::{axis_aligned_boxes, shared_frames};
-use super::nodes::frame::FrameOptions;
-use super::nodes::order::{TopologyOptions, topology_with};
+use super::nodes::order::topology;
 use super::source;
 use super::store::{OnGrid, store};
 use crate::emit::Sections;
+use crate::error::BuildError;
 use crate::mesh::{Input, Mesh, Wire};
-use crate::surface::{EdgeTable, ends};
+use crate::surface::{EdgeTable, ends, require_valid};
 use glam::DVec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::bvh::format::BvhHeader;
@@ -19,8 +19,9 @@ use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_core::internal::num::up_to_f32;
 use std::time::{Duration, Instant};
 
-/// Options of a build.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The questions that a box tree serves, and how it stores vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct TreeOptions {
     /// Whether to store boxes in shared frames, for closest points.
     pub closest: bool,
@@ -29,26 +30,39 @@ pub struct TreeOptions {
     /// Whether to store normal cones, for culling.
     pub cull: bool,
     /// Whether to store vertices in f32 instead of 16 bits on a grid.
-    pub single: bool,
-    /// Weights of the fan decomposition.
-    pub weights: Weights,
-    /// Objective of the topology.
-    pub topology: TopologyOptions,
-    /// Choice of frames.
-    pub frames: FrameOptions,
+    pub is_f32: bool,
 }
 
 impl Default for TreeOptions {
+    /// Closest points and segments, no culling, vertices on a grid.
     fn default() -> Self {
-        TreeOptions {
-            closest: true,
-            segments: true,
-            cull: false,
-            single: false,
-            weights: Weights::default(),
-            topology: TopologyOptions::default(),
-            frames: FrameOptions::default(),
-        }
+        TreeOptions { closest: true, segments: true, cull: false, is_f32: false }
+    }
+}
+
+impl TreeOptions {
+    /// Sets whether the tree serves [closest points](Self::closest).
+    #[must_use]
+    pub const fn with_closest(self, closest: bool) -> Self {
+        Self { closest, ..self }
+    }
+
+    /// Sets whether the tree serves [segments](Self::segments).
+    #[must_use]
+    pub const fn with_segments(self, segments: bool) -> Self {
+        Self { segments, ..self }
+    }
+
+    /// Sets whether the tree serves [culling](Self::cull).
+    #[must_use]
+    pub const fn with_cull(self, cull: bool) -> Self {
+        Self { cull, ..self }
+    }
+
+    /// Sets whether [vertices are f32](Self::is_f32).
+    #[must_use]
+    pub const fn with_f32(self, is_f32: bool) -> Self {
+        Self { is_f32, ..self }
     }
 }
 
@@ -83,23 +97,28 @@ pub const MAX_TRIANGLES: usize = 1 << 24;
 ///
 /// Cost: O(n log n), about a microsecond a triangle and step.
 ///
-/// # Panics
-/// On a mesh of more than [`MAX_TRIANGLES`].
-pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) {
+/// # Errors
+/// [`BuildError::TooLarge`] on a mesh of more than [`MAX_TRIANGLES`];
+/// [`BuildError::NoSuchVertex`], [`BuildError::NotFinite`] and [`BuildError::SourceNumbers`] on one
+/// that [`repair`](crate::mesh::repair) did not make.
+pub fn build(
+    input: Input<'_>,
+    options: &TreeOptions,
+) -> Result<(Sections, TreeReport), BuildError> {
     let mesh = input.mesh;
+    require_valid(mesh, MAX_TRIANGLES)?;
     let triangles = mesh.triangles.len() + mesh.wires.len();
-    assert!(triangles <= MAX_TRIANGLES, "more than 2^24 triangles");
     let started = Instant::now();
-    let grid = store(input, options.single);
+    let grid = store(input, options.is_f32);
     let mut leaves = fans::pack(&mesh.triangles, &grid.positions);
     leaves.extend((mesh.triangles.len() as u32..).zip(&mesh.wires).map(wire_leaf));
     let points: Vec<Vec<DVec3>> = leaves.iter().map(|leaf| points(leaf, &grid)).collect();
     let views: Vec<&[DVec3]> = points.iter().map(Vec::as_slice).collect();
     let bounds: Vec<(DVec3, DVec3)> = points.iter().map(|points| bounds(points)).collect();
-    let topology = topology_with(&bounds, &options.topology);
+    let topology = topology(&bounds);
     let mut sections = vec![(SectionKind::TreeLinks, encode::links(&topology, &leaves))];
     if options.closest || !options.segments {
-        let frames = shared_frames(&topology, &views, &options.frames);
+        let frames = shared_frames(&topology, &views);
         sections.push((SectionKind::TreeFrames, encode::frames(&frames, grid.origin)));
     }
     if options.segments {
@@ -108,7 +127,7 @@ pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) 
             encode::boxes(&axis_aligned_boxes(&topology, &views), grid.origin),
         ));
     }
-    sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, options.single)));
+    sections.push((SectionKind::TreeFans, encode::fans(&topology, &leaves, &grid, options.is_f32)));
     let sources: Vec<u32> = mesh.all_sources().collect();
     let numbers: Vec<u32> = topology
         .leaf_order
@@ -134,7 +153,8 @@ pub fn build(input: Input<'_>, options: &TreeOptions) -> (Sections, TreeReport) 
         header,
         time: started.elapsed(),
     };
-    (encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections), report)
+    let sections = encode::sections(grid.scale_exponent, input.triangle_count(), &header, sections);
+    Ok((sections, report))
 }
 
 /// The leaf of a wire. From its first end both spokes lead to the second: so the kernels see two
@@ -182,7 +202,7 @@ fn header(
     let has_sides = !mesh.has_merged_walls && is_closed(mesh.positions.len(), &mesh.triangles);
     let closed = if has_sides { BVH_CLOSED } else { 0 };
     BvhHeader {
-        flags: closed | if options.single { BVH_F32 } else { 0 },
+        flags: closed | if options.is_f32 { BVH_F32 } else { 0 },
         grid_exponent: grid.exponent,
         grid_origin: grid.origin,
         nodes: 0,
@@ -211,4 +231,18 @@ fn is_closed(vertex_count: usize, triangles: &[[u32; 3]]) -> bool {
     EdgeTable::new(vertex_count, triangles)
         .edges()
         .all(|edge| 2 * edge.iter().filter(is_up).count() == edge.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_of_more_triangles_than_a_tree_numbers_is_refused() {
+        let mesh = Mesh { triangles: vec![[0; 3]; MAX_TRIANGLES + 1], ..Mesh::default() };
+        let input = Input { mesh: &mesh, moved: 0.0, input_triangles: 0 };
+        let refused = build(input, &TreeOptions::default()).map(|_| ());
+        let wanted = BuildError::TooLarge { triangles: (1 << 24) + 1, most: 1 << 24 };
+        assert_eq!(refused, Err(wanted));
+    }
 }

@@ -20,8 +20,3 @@ pub use batch::closest_points;
 pub use build::{MAX_TRIANGLES, TreeOptions, TreeReport, build};
 pub use encode::sections_of;
 pub use exact::exact_blob;
-pub use nodes::boxes::{LANES, NodeBoxes, axis_aligned};
-pub use nodes::collapse::WideNode;
-pub use nodes::fit::{axis_aligned_boxes, shared_frames};
-pub use nodes::frame::{FrameOptions, shared_frame, shared_frame_with};
-pub use nodes::order::{Topology, TopologyOptions, topology, topology_with};

@@ -18,6 +18,8 @@ pub use history::{Collapse, History, VertexOrder};
 pub use star::{Connectivity, MAX_STAR, Wings};
 pub use thin::thin;
 
+use crate::lp::Order;
+
 /// How candidate edges are ordered (paper 000, 3.1.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Priority {
@@ -43,6 +45,9 @@ pub struct Conditions {
     /// puts the vertex, and it rounds off sharp ones. `core/DESIGN.md` has the measurement
     /// behind the default.
     pub second_term: f64,
+    /// The order in which the program takes the planes of a star. The paper's is
+    /// [`Order::Shuffled`]; the default is faster.
+    pub order: Order,
 }
 
 impl Conditions {
@@ -52,6 +57,7 @@ impl Conditions {
         compactness_ratio: 0.8,
         min_normal_cosine: core::f64::consts::FRAC_1_SQRT_2,
         second_term: 1e-3,
+        order: Order::MostViolated,
     };
 }
 

@@ -3,7 +3,7 @@
 //! proved there by an exact predicate.
 
 use super::Conditions;
-use crate::lp::{HalfSpace, minimise_bounded};
+use crate::lp::{HalfSpace, Order, minimise_bounded};
 use crate::surface::Grid;
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
@@ -74,8 +74,7 @@ pub fn place(
     exact: bool,
     planes: &mut Vec<HalfSpace>,
 ) -> Result<Placement, Refusal> {
-    let mut program =
-        Program::new(faces, middle, conditions.second_term, planes).ok_or(Refusal::NoVertex)?;
+    let mut program = Program::new(faces, middle, conditions, planes).ok_or(Refusal::NoVertex)?;
     let position = if exact {
         program.solve_exactly(faces, grid).ok_or(Refusal::NoVertex)?
     } else {
@@ -99,13 +98,14 @@ struct Program<'a> {
     middle: DVec3,
     radius: f64,
     second_term: f64,
+    order: Order,
 }
 
 impl<'a> Program<'a> {
     fn new(
         faces: &[StarFace],
         middle: DVec3,
-        second_term: f64,
+        conditions: &Conditions,
         planes: &'a mut Vec<HalfSpace>,
     ) -> Option<Self> {
         let radius_sq = faces
@@ -132,7 +132,8 @@ impl<'a> Program<'a> {
             objective: objective / area,
             middle,
             radius,
-            second_term,
+            second_term: conditions.second_term,
+            order: conditions.order,
         })
     }
 
@@ -141,7 +142,7 @@ impl<'a> Program<'a> {
         let further = (shift - self.shift) / self.radius;
         self.shift = shift;
         self.planes.iter_mut().for_each(|plane| plane.offset += further);
-        let x = minimise_bounded(self.objective, self.planes, self.second_term)?;
+        let x = minimise_bounded(self.objective, self.planes, self.second_term, self.order)?;
         Some(self.middle + x * self.radius)
     }
 

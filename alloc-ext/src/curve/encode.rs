@@ -36,7 +36,7 @@ pub struct CurveReport {
 /// # Errors
 /// [`CurveError`] if a polyline has fewer than two points, a coordinate is not finite in f32, or
 /// the points are too many or all tiny.
-pub fn store(polylines: &[Polyline], single: bool) -> Result<(Sections, CurveReport), CurveError> {
+pub fn store(polylines: &[Polyline], is_f32: bool) -> Result<(Sections, CurveReport), CurveError> {
     let started = Instant::now();
     let (points, table) = joined(polylines)?;
     let largest = points.iter().fold(0f64, |most, point| most.max(point.abs().max_element()));
@@ -45,7 +45,7 @@ pub fn store(polylines: &[Polyline], single: bool) -> Result<(Sections, CurveRep
     }
     let (_, scale_exponent) = split_exponent(largest);
     let local: Vec<DVec3> = points.iter().map(|&point| point * exp2(-scale_exponent)).collect();
-    let grid = (!single).then(|| fitting_grid(&local, VertexFormat::Grid16)).flatten();
+    let grid = (!is_f32).then(|| fitting_grid(&local, VertexFormat::Grid16)).flatten();
     let grid = grid.unwrap_or(Grid::F32);
     let stored: Vec<DVec3> = local.iter().map(|&p| grid.round(p).unwrap_or(p)).collect();
     let moved = local.iter().zip(&stored).fold(0f64, |most, (a, &b)| most.max((b - a).length()));

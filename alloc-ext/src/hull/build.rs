@@ -99,11 +99,11 @@ pub fn build(
 ) -> Result<Built, BuildError> {
     let mesh = input.mesh;
     if mesh.triangles.len() > MAX_TRIANGLES {
-        return Err(BuildError::TooLarge { triangles: mesh.triangles.len() });
+        return Err(BuildError::TooLarge { triangles: mesh.triangles.len(), most: MAX_TRIANGLES });
     }
     let stored = store_solid(mesh, options.vertex_bits);
     let volume = positive_volume(&stored, mesh)?;
-    let wires = wires_off_surface(mesh);
+    let wires = wires_off_surface(mesh)?;
     let started = Instant::now();
     let (history, stuck, programs) =
         collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
@@ -266,11 +266,18 @@ fn assemble(
             history.ring(collapse).iter().chain([&collapse.origin, &collapse.destination]);
         let reach =
             corners.map(|&l| at_label(l).distance(at_label(collapse.vertex))).fold(0.0, f64::max);
+        // A triangle without a part of the surface asks for no split.
+        let first = history.first_coarse(at);
+        let error = (first..first + collapse.ring_len)
+            .map(|instance| radius(instance).0)
+            .filter(|&code| code != Radius8::INFINITE.0)
+            .max();
         splits.push(SplitRecord {
             vertex,
             ring_start: rings.len() as u32,
             right: collapse.right as u8,
             reach: Radius8::round_up(reach * (1.0 + 1e-14)),
+            error: Radius8(error.unwrap_or(0)),
         });
         rings.extend(history.ring(collapse).iter().map(|&l| index(l)));
         radii.extend(history.fine(at).iter().map(|&i| radius(i)));

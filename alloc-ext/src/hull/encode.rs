@@ -64,7 +64,7 @@ impl Tables {
                 for split in &self.splits {
                     put(&mut out, split.vertex, wv);
                     put(&mut out, split.ring_start, wr);
-                    out.extend([split.right, split.reach.0]);
+                    out.extend([split.right, split.reach.0, split.error.0]);
                 }
             }
             SectionKind::BaseGroups => {

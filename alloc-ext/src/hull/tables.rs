@@ -22,6 +22,8 @@ pub struct SplitRecord {
     pub right: u8,
     /// No point of the fine triangles is farther than this from `vertex`.
     pub reach: Radius8,
+    /// The largest finite radius of the coarse triangles.
+    pub error: Radius8,
 }
 
 /// A node of the cover tree.
@@ -125,11 +127,13 @@ impl Tables {
             let split = hull.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
             let reach = Radius8::round_up(f64::from(split.reach));
+            let error = Radius8::round_up(f64::from(split.error));
             splits.push(SplitRecord {
                 vertex: split.vertex.0,
                 ring_start: rings.len() as u32,
                 right,
                 reach,
+                error,
             });
             for i in 0..split.ring_len() {
                 rings.push(split.ring(i)?.0);

@@ -1,6 +1,7 @@
 //! The distance of wires from the surface, which a hull hierarchy carries in its surface error.
 
 use crate::bvh::exact_blob;
+use crate::error::BuildError;
 use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::Mesh;
 use glam::Vec3;
@@ -13,17 +14,19 @@ use meshsweep_core::Bvh;
 /// points of the surface that were moved onto it by at most this distance.
 ///
 /// Cost: a box tree of the mesh, and some dozen closest points for each wire.
-#[must_use]
-pub fn wires_off_surface(mesh: &Mesh) -> f64 {
+///
+/// # Errors
+/// [`BuildError`] of the box tree.
+pub fn wires_off_surface(mesh: &Mesh) -> Result<f64, BuildError> {
     if mesh.wires.is_empty() {
-        return 0.0;
+        return Ok(0.0);
     }
     if mesh.triangles.is_empty() {
-        return f64::INFINITY;
+        return Ok(f64::INFINITY);
     }
     let surface = mesh.without_wires();
-    let bytes = exact_blob(&surface);
-    let tree = Bvh::open(&bytes).expect("just built");
+    let bytes = exact_blob(&surface)?;
+    let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
     let wires = mesh.wire_corners().map(|corners| corners.map(|p| Vec3::from(p).as_dvec3()));
-    farthest(wires, 0.0, nearest_in(&tree, &surface)).upper
+    Ok(farthest(wires, 0.0, nearest_in(&tree, &surface)).upper)
 }

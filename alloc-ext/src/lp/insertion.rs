@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::half_space::HalfSpace;
+use super::order::{Order, Run};
 use super::tolerance::{VIOLATION, scale};
 
 /// The optimum over `constraints`, from `start`, the optimum without them; `None` if `tight` finds
@@ -11,29 +12,60 @@ use super::tolerance::{VIOLATION, scale};
 /// `tight(h, without, inserted)` must return the optimum over `inserted` among the points of `h`'s
 /// plane, where `without` is the optimum over `inserted` alone and violates `h`. Seidel's lemma: if
 /// the optimum over some constraints violates another, the optimum over all of them lies on its
-/// plane. So a violated constraint is inserted until none is left. Inserted ones move to the front,
-/// and only those reach the lower program.
+/// plane. So the next violated constraint is inserted until none is left. Which one comes next is
+/// the order's choice. Only constraints in front of it reach the lower program: those that were
+/// violated in their turn, and in random order also those that were not.
 ///
 /// With `CONE`, offsets count as zero (see [`offset`]).
 #[inline(always)]
 pub(super) fn insert<const CONE: bool>(
+    run: &mut Run,
     start: DVec3,
     constraints: &mut [HalfSpace],
-    mut tight: impl FnMut(&HalfSpace, DVec3, &mut [HalfSpace]) -> Option<DVec3>,
+    mut tight: impl FnMut(&mut Run, &HalfSpace, DVec3, &mut [HalfSpace]) -> Option<DVec3>,
 ) -> Option<DVec3> {
-    let mut optimum = start;
-    for inserted in 0..constraints.len() {
-        let Some(next) = most_violated::<CONE>(optimum, constraints, inserted) else { break };
+    let (mut optimum, mut inserted) = (start, 0);
+    while inserted < constraints.len() {
+        let next = match run.order {
+            Order::MostViolated => {
+                run.tests += (constraints.len() - inserted) as u64;
+                most_violated::<CONE>(optimum, constraints, inserted)
+            }
+            Order::Shuffled(_) => {
+                let next = first_violated::<CONE>(optimum, constraints, inserted);
+                run.tests += (next.map_or(constraints.len(), |next| next + 1) - inserted) as u64;
+                next
+            }
+        };
+        let Some(next) = next else { break };
         // Copied before the swap: read from where it was just stored in other pieces, it would
         // stall.
         let h = constraints[next];
-        constraints.swap(inserted, next);
-        optimum = tight(&h, optimum, &mut constraints[..inserted])?;
+        if run.order == Order::MostViolated {
+            constraints.swap(inserted, next);
+        } else {
+            inserted = next;
+        }
+        optimum = tight(run, &h, optimum, &mut constraints[..inserted])?;
+        inserted += 1;
     }
     Some(optimum)
 }
 
-/// Index, not below `first`, of a half-space that `point` violates; `None` if it violates none of
+/// Index of the first half-space, not below `first`, that `point` violates; `None` if it violates
+/// none of them.
+#[inline(always)]
+fn first_violated<const CONE: bool>(
+    point: DVec3,
+    constraints: &[HalfSpace],
+    first: usize,
+) -> Option<usize> {
+    let slack = VIOLATION * scale(point);
+    let holds = |h: &HalfSpace| offset::<CONE>(h) - h.normal.dot(point) <= slack;
+    constraints.iter().skip(first).position(|h| !holds(h)).map(|next| first + next)
+}
+
+/// Index of a half-space, not below `first`, that `point` violates; `None` if it violates none of
 /// them.
 ///
 /// Any would do. This takes the one that is violated most by `point` itself in the star, and by

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::half_space::HalfSpace;
 use super::insertion::offset;
 use super::interval::Interval;
+use super::order::Run;
 use super::tolerance::{CONTRADICTION, PARALLEL, scale};
 
 /// A line, by its point nearest to the origin.
@@ -54,6 +55,7 @@ impl Plane {
 /// constraints.
 #[inline(always)]
 pub(super) fn nearest<const CONE: bool>(
+    run: &mut Run,
     first: &Plane,
     second: &HalfSpace,
     without: Option<DVec3>,
@@ -76,9 +78,11 @@ pub(super) fn nearest<const CONE: bool>(
     let base = first.foot + inward * (missing * inverse);
     let target = direction.dot(pull) * inverse;
     let line = Line { base, direction, least_rate: PARALLEL * (scale(direction) - 1.0) };
+    run.tests += constraints.len() as u64;
     if let Some(t) = line.clip::<CONE>(constraints).and_then(|interval| interval.nearest(target)) {
         return Some(base + direction * t);
     }
+    run.tests += 2 * constraints.len() as u64;
     line.nearest_in_doubt::<CONE>(target, constraints)
 }
 

@@ -30,20 +30,20 @@
 //! ray, and zero if there is none.
 //!
 //! # Decisions
-//! *No shuffle.* Seidel inserts in random order, and a violated constraint meets all before it.
-//! Here the next constraint is always a violated one, chosen by a rule, and meets only those that
-//! were inserted: four or five for a star. The rule uses no chance, so the answer has the same bits
-//! in every run. The price is that no bound on the expected time holds; the worst case is cubic in
-//! the number of constraints. (30,000 tangent planes of a sphere take 19 insertions.)
+//! *Two orders, one loop.* In Seidel's random order ([`Order::Shuffled`]) a violated constraint
+//! meets all before it, and the expected work is linear, whatever the program. The default
+//! ([`Order::MostViolated`]) inserts a violated constraint that is chosen by a rule. It meets only
+//! those that were inserted: four or five for a star. The rule uses no chance, and it avoids lines
+//! where nearly coplanar planes meet. The price is that no bound on the expected time holds; the
+//! worst case is cubic in the number of constraints.
 //!
 //! | ns per solve, 10 planes, `eps` = 1e-6 | noisy | smooth | flat | aligned | crease | ridge | corner | mean |
 //! | --- | --- | --- | --- | --- | --- | --- | --- | --- |
-//! | random order | 534 | 558 | 319 | 71 | 467 | 374 | 336 | 380 |
-//! | most violated first | 686 | 761 | 215 | 79 | 380 | 451 | 555 | 447 |
-//! | most violated first, far points pulled back to the star | 430 | 378 | 235 | 88 | 346 | 329 | 426 | 319 |
+//! | shuffled | 634 | 700 | 380 | 94 | 582 | 562 | 530 | 497 |
+//! | most violated, far points pulled back to the star | 433 | 478 | 245 | 80 | 394 | 436 | 581 | 378 |
 //!
-//! `cargo bench -p meshsweep-lab --bench lp` prints the last row. The other rows are historical: no
-//! command prints them.
+//! `cargo bench -p meshsweep-lab --bench lp` prints both rows. Far points that are not pulled back
+//! took 447 ns instead of 319 (historical: no command prints that).
 //!
 //! *No symbolic `eps`.* With an infinitesimal one, a flat star whose planes differ by rounding
 //! would send the vertex to the far end of the star, for the objective does fall in that direction.
@@ -56,6 +56,7 @@ mod half_space;
 mod insertion;
 mod interval;
 mod line;
+mod order;
 mod plane;
 mod tolerance;
 
@@ -64,6 +65,8 @@ pub use half_space::HalfSpace;
 use insertion::insert;
 pub use interval::Interval;
 use line::Plane;
+use order::Run;
+pub use order::{Order, Work};
 use tolerance::DESCENT;
 
 /// What a program came to.
@@ -95,21 +98,28 @@ pub enum Outcome {
 /// below 1e-9 the rounding of `objective / eps` (1e-16 of it) moves the answer on flat stars by
 /// more than 1e-7.
 ///
-/// Deterministic: the same input, in the same order, gives the same bits. `constraints` are
+/// Deterministic: the same input and the same `order` give the same bits. `constraints` are
 /// permuted.
 ///
 /// A half-space without normal and with a positive offset makes the program infeasible. Parallel,
 /// equal and redundant half-spaces are no special case. If `eps` is not positive or any number is
 /// not finite: [`Outcome::Infeasible`].
 ///
-/// About 300 ns for a star of 10 planes; no allocation.
+/// About 300 ns for a star of 10 planes; no allocation. For the growth with the number of
+/// constraints see [`Order`].
 #[must_use]
-pub fn minimise(objective: DVec3, constraints: &mut [HalfSpace], eps: f64) -> Outcome {
+pub fn minimise(
+    objective: DVec3,
+    constraints: &mut [HalfSpace],
+    eps: f64,
+    order: Order,
+) -> Outcome {
     if !(are_finite(constraints) && objective.is_finite()) {
         return Outcome::Infeasible;
     }
-    let optimum = optimum::<false>(-objective / eps, constraints);
-    outcome(objective, eps, optimum, |pull| optimum_of_cone(pull, constraints))
+    let mut run = Run::start(order, constraints);
+    let optimum = optimum::<false>(&mut run, -objective / eps, constraints);
+    outcome(objective, eps, optimum, |pull| optimum_of_cone(&mut run, pull, constraints))
 }
 
 /// [`minimise`] for a program that the caller knows to be bounded, without the test for a ray: half
@@ -123,19 +133,42 @@ pub fn minimise_bounded(
     objective: DVec3,
     constraints: &mut [HalfSpace],
     eps: f64,
+    order: Order,
 ) -> Option<DVec3> {
-    let finite = eps > 0.0 && are_finite(constraints) && objective.is_finite();
-    if finite { optimum::<false>(-objective / eps, constraints) } else { None }
+    minimise_counted(objective, constraints, eps, order).0
 }
 
-fn optimum_of_cone(pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
-    optimum::<true>(pull, constraints)
+/// [`minimise_bounded`], and what it cost.
+#[must_use]
+#[inline]
+pub fn minimise_counted(
+    objective: DVec3,
+    constraints: &mut [HalfSpace],
+    eps: f64,
+    order: Order,
+) -> (Option<DVec3>, Work) {
+    if !(eps > 0.0 && are_finite(constraints) && objective.is_finite()) {
+        return (None, Work::default());
+    }
+    let mut run = Run::start(order, constraints);
+    let optimum = optimum::<false>(&mut run, -objective / eps, constraints);
+    (optimum, Work { tests: run.tests })
+}
+
+fn optimum_of_cone(run: &mut Run, pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
+    optimum::<true>(run, pull, constraints)
 }
 
 /// The point nearest to `pull` that satisfies `constraints`.
 #[inline(always)]
-fn optimum<const CONE: bool>(pull: DVec3, constraints: &mut [HalfSpace]) -> Option<DVec3> {
-    insert::<CONE>(pull, constraints, |h, _, inserted| plane::nearest::<CONE>(h, pull, inserted))
+fn optimum<const CONE: bool>(
+    run: &mut Run,
+    pull: DVec3,
+    constraints: &mut [HalfSpace],
+) -> Option<DVec3> {
+    insert::<CONE>(run, pull, constraints, |run, h, _, inserted| {
+        plane::nearest::<CONE>(run, h, pull, inserted)
+    })
 }
 
 /// [`minimise`] in two variables: among the points of the boundary of `plane` only.
@@ -147,12 +180,16 @@ pub fn minimise_on_plane(
     plane: HalfSpace,
     constraints: &mut [HalfSpace],
     eps: f64,
+    order: Order,
 ) -> Outcome {
     if !(are_finite(constraints) && are_finite(&[plane]) && objective.is_finite()) {
         return Outcome::Infeasible;
     }
-    let optimum = plane::nearest::<false>(&plane, -objective / eps, constraints);
-    outcome(objective, eps, optimum, |pull| plane::nearest::<true>(&plane, pull, constraints))
+    let mut run = Run::start(order, constraints);
+    let optimum = plane::nearest::<false>(&mut run, &plane, -objective / eps, constraints);
+    outcome(objective, eps, optimum, |pull| {
+        plane::nearest::<true>(&mut run, &plane, pull, constraints)
+    })
 }
 
 /// [`minimise`] in one variable: among the points that lie on the boundaries of both `planes` only.
@@ -169,11 +206,20 @@ pub fn minimise_on_line(
         return Outcome::Infeasible;
     }
     let [first, second] = planes;
+    // No order matters on a line.
+    let mut run = Run::start(Order::MostViolated, &mut []);
     let optimum = Plane::of::<false>(&first).and_then(|first| {
-        line::nearest::<false>(&first, &second, None, -objective / eps, constraints)
+        line::nearest::<false>(&mut run, &first, &second, None, -objective / eps, constraints)
     });
     outcome(objective, eps, optimum, |pull| {
-        line::nearest::<true>(&Plane::of::<true>(&first)?, &second, None, pull, constraints)
+        line::nearest::<true>(
+            &mut run,
+            &Plane::of::<true>(&first)?,
+            &second,
+            None,
+            pull,
+            constraints,
+        )
     })
 }
 

@@ -5,12 +5,14 @@ use glam::DVec3;
 use super::half_space::HalfSpace;
 use super::insertion::insert;
 use super::line::{self, Plane};
+use super::order::Run;
 
 /// The point of `h`'s plane nearest to `pull` that satisfies `constraints`.
 ///
 /// `None` if there is none, also if `h`'s normal is zero.
 #[inline(always)]
 pub(super) fn nearest<const CONE: bool>(
+    run: &mut Run,
     h: &HalfSpace,
     pull: DVec3,
     constraints: &mut [HalfSpace],
@@ -19,7 +21,7 @@ pub(super) fn nearest<const CONE: bool>(
     // `pull` enters by its component along the plane alone: the height above it comes from the
     // offset.
     let start = plane.foot + plane.along(pull);
-    insert::<CONE>(start, constraints, |second, without, inserted| {
-        line::nearest::<CONE>(&plane, second, Some(without), pull, inserted)
+    insert::<CONE>(run, start, constraints, |run, second, without, inserted| {
+        line::nearest::<CONE>(run, &plane, second, Some(without), pull, inserted)
     })
 }

@@ -3,7 +3,7 @@
 use super::hash::FirstSeen;
 use super::report::RepairReport;
 
-/// Keeps the first triangle on each set of three vertices, whatever the winding of the others.
+/// Keeps the first triangle on each set of three vertices. The windings may differ.
 ///
 /// Two opposite copies could be said to cancel: they enclose nothing. But they are surface, and
 /// dropping both would turn a two-sided sheet into a hole in every answer. So one stays; where it

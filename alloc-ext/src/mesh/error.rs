@@ -133,7 +133,7 @@ impl fmt::Display for MeshError {
             Self::NoTriangles { file } => {
                 write!(
                     f,
-                    "{}: no triangles; export the surface, not points or curves",
+                    "{}: holds no triangles; export the surface, not points or curves",
                     file.display()
                 )
             }

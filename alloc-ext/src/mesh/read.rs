@@ -7,7 +7,7 @@ use super::{MeshError, RawMesh, obj, ply, stl};
 /// Reads a mesh file: `.ply` (ASCII, binary of either byte order), `.obj`, `.stl` (ASCII or binary,
 /// told apart by content). Polygons are split into fans about their first vertex.
 ///
-/// Memory is bounded by a small multiple of the file's size, whatever its header announces.
+/// Memory is bounded by a small multiple of the file's size, also if its header announces more.
 ///
 /// # Errors
 /// The file cannot be read, is of another kind, does not follow its format, ends early, holds a
@@ -28,6 +28,9 @@ pub fn read(path: &Path) -> Result<RawMesh, MeshError> {
 pub fn read_bytes(path: &Path, bytes: Vec<u8>) -> Result<RawMesh, MeshError> {
     let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let mesh = match extension.as_deref() {
+        Some("ply" | "obj" | "stl") if bytes.trim_ascii().is_empty() => {
+            return Err(MeshError::NoTriangles { file: path.to_owned() });
+        }
         Some("ply") => ply::read(path, &bytes)?,
         Some("obj") => obj::read(path, &bytes)?,
         Some("stl") => stl::read(path, bytes)?,

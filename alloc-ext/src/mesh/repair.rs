@@ -18,7 +18,7 @@ use super::{Mesh, MeshError, RawMesh};
 /// The stages, in this order:
 /// - round to `f32`, and weld equal positions;
 /// - take out triangles with a repeated corner;
-/// - drop duplicates; the first of each stays, whatever the winding;
+/// - drop duplicates; the first of each stays, also if their windings differ;
 /// - remove zero-area triangles, by an edge flip where that keeps the mesh closed;
 /// - keep [`Wire`]s: segments and points of removed triangles that no edge covers;
 /// - split vertices in which several fans meet;

@@ -8,13 +8,16 @@ mod enclosures;
 mod order;
 mod precision;
 mod tree;
+mod valid;
 
 pub(crate) use crate::mesh::{EdgeTable, Enclosure, SignedVolume, ends};
 pub(crate) use bounds::{Bounds, Plane};
 pub(crate) use compact::{compact, compact_in_order};
+pub use components::components_whose_boxes_meet;
 pub(crate) use components::{components, least_connected};
 pub(crate) use enclosures::Enclosures;
 pub(crate) use order::spatial_order;
 pub use precision::{Grid, Stored, VertexBits, snap, store};
 pub(crate) use precision::{fitting_grid, scale_exponent, split_exponent};
 pub(crate) use tree::{Frontier, StaticTree};
+pub(crate) use valid::require_valid;

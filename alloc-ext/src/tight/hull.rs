@@ -1,13 +1,15 @@
 //! From any triangles to their tight hull: options are checked, the hull is searched and measured.
 
 use super::moves::slack;
-use super::options::{Goal, Options, WrapError};
+use super::options::{Goal, Options};
 use super::proof::{Obstacle, Solid, crosses_itself};
 use super::report::{Outcome, Progress, Report};
 use super::search::{CandidateHull, HullSearch};
+use crate::bvh::MAX_TRIANGLES;
+use crate::error::BuildError;
 use crate::mesh::Mesh;
 use crate::surface::Bounds;
-use crate::surface::{Stored, VertexBits, store};
+use crate::surface::{Stored, VertexBits, require_valid, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::num::exp2;
 use std::borrow::Cow;
@@ -29,22 +31,23 @@ pub struct Hull {
 /// their places in `mesh`.
 ///
 /// # Errors
-/// [`WrapError`].
+/// [`BuildError`].
 pub fn wrap(
     mesh: &Mesh,
     options: &Options,
     mut on_progress: impl FnMut(Progress),
-) -> Result<Hull, WrapError> {
+) -> Result<Hull, BuildError> {
     let started = Instant::now();
+    require_valid(mesh, MAX_TRIANGLES)?;
     let triangles: Vec<[u32; 3]> = mesh.all_triangles().collect();
     if triangles.is_empty() {
-        return Err(WrapError::Empty);
+        return Err(BuildError::Empty);
     }
     if !(options.margin >= 0.0 && options.margin.is_finite()) {
-        return Err(WrapError::BadMargin);
+        return Err(BuildError::BadMargin { margin: options.margin });
     }
     if matches!(options.goal, Goal::Slack(most) if most.is_nan() || most <= options.margin) {
-        return Err(WrapError::SlackWithinMargin { margin: options.margin });
+        return Err(BuildError::SlackWithinMargin { margin: options.margin });
     }
     let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
     let obstacle = Obstacle::new(&positions, &triangles).with_margin(options.margin);
@@ -60,7 +63,7 @@ pub fn wrap(
     let mesh = &*surface;
     let solid = Solid::of(mesh);
     if let (Goal::Void(_), Err(why)) = (options.goal, solid) {
-        return Err(WrapError::NoVolume(why));
+        return Err(BuildError::NoVolume(why));
     }
     let crosses =
         matches!(options.goal, Goal::Void(_)) && crosses_itself(&positions, &mesh.triangles);
@@ -130,14 +133,14 @@ fn to_f32(positions: &[DVec3]) -> Vec<[f32; 3]> {
 
 /// The frame and the coordinate format that hold all positions, or with a margin their box enlarged
 /// by it.
-fn hull_frame(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, WrapError> {
+fn hull_frame(positions: &[DVec3], margin: f64, bits: VertexBits) -> Result<Stored, BuildError> {
     if margin <= 0.0 {
         return Ok(store(&Mesh::new(to_f32(positions), Vec::new()), bits));
     }
     let bounds = Bounds::of(positions).grown(margin);
     let corners = [bounds.low, bounds.high];
     if !corners.iter().all(|p| p.as_vec3().is_finite()) {
-        return Err(WrapError::MarginTooLarge);
+        return Err(BuildError::MarginTooLarge);
     }
     Ok(store(&Mesh::new(to_f32(&corners), Vec::new()), bits))
 }

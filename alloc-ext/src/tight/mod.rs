@@ -10,7 +10,7 @@
 //! | folder or file | what lies there |
 //! | --- | --- |
 //! | `hull.rs` | [`wrap()`]: options checked, hull built, hull measured |
-//! | `options.rs` | the goal and the options of a hull, and the errors |
+//! | `options.rs` | the goal and the options of a hull |
 //! | `report.rs` | measures of a hull and of the work for it; progress |
 //! | `components.rs` | splits a mesh into the components that get a hull each |
 //! | `random.rs` | the same pseudo-random numbers in every run |
@@ -47,15 +47,13 @@ mod initial;
 mod moves;
 mod options;
 mod proof;
-mod random;
 mod report;
 mod search;
 mod store;
 
 pub use components::split_components;
 pub use hull::{Hull, wrap};
-pub use options::{Goal, Options, WrapError};
-pub use proof::NoVolume;
+pub use options::{Goal, Options};
 pub use report::{Outcome, Progress, Report, Stage as HullStage, Start};
 pub use store::{
     ChainOptions, Distances, HullReport, MAX_HULLS, Stage, chain, cut, distances, hull_mesh,

@@ -1,8 +1,6 @@
-//! The goal and the options of a tight hull, and the errors.
+//! The goal and the options of a tight hull.
 
-use super::proof::NoVolume;
 use crate::surface::VertexBits;
-use std::fmt;
 use std::time::Duration;
 
 /// The goal of a hull.
@@ -79,53 +77,3 @@ impl Options {
         Self { vertex_bits, ..self }
     }
 }
-
-/// Why there is no hull.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum WrapError {
-    /// The mesh has no triangle and no wire.
-    Empty,
-    /// A void was asked for, and the mesh has no volume to measure it against.
-    NoVolume(NoVolume),
-    /// No surface around the mesh has coordinates in the stored range: they end at 3.4e38, or the
-    /// mesh is as small as the steps of its coordinates.
-    NoRoom,
-    /// The margin is negative or not a finite number.
-    BadMargin,
-    /// The mesh with its margin leaves the range of single precision.
-    MarginTooLarge,
-    /// The slack is not more than the margin.
-    SlackWithinMargin {
-        /// The margin.
-        margin: f64,
-    },
-}
-
-impl fmt::Display for WrapError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            WrapError::Empty => f.write_str("the mesh has no triangles; give one that has"),
-            WrapError::NoVolume(why) => write!(
-                f,
-                "{why}; there is no volume to measure void against: ask for faces or slack"
-            ),
-            WrapError::NoRoom => f.write_str(
-                "there are no coordinates of single precision around the mesh to put a hull on; \
-                 move or scale it",
-            ),
-            WrapError::BadMargin => f.write_str("a margin is a finite number, at least 0"),
-            WrapError::MarginTooLarge => f.write_str(
-                "the mesh and its margin leave the range of single precision, 3.4e38; ask for \
-                 less, or scale both down",
-            ),
-            WrapError::SlackWithinMargin { margin } => write!(
-                f,
-                "no hull can be within the slack: it is not more than {margin:e}, the margin with \
-                 what rounding may take from it; ask for a larger slack"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for WrapError {}

@@ -1,7 +1,7 @@
 //! Measures of a tight hull and of the work for it, and the progress of that work.
 
-use super::proof::NoVolume;
 use crate::hausdorff::Farthest;
+use crate::mesh::NoVolume;
 use std::time::Duration;
 
 /// The initial hull that a hull was made from.

@@ -2,8 +2,9 @@
 
 use super::span::{Span, Wide};
 use glam::DVec3;
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::BoundaryOf;
 use meshsweep_core::internal::tribox::FACES;
-use meshsweep_core::{Boundary, Tribox};
 
 /// Area and volume, squared and cubed input units; within 1e-12 of the area and volume of its box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,7 +30,7 @@ impl Extent {
         if span.is_empty() { Extent::default() } else { Extent::of_boundary(&span.boundary()) }
     }
 
-    fn of_boundary(boundary: &Boundary<Wide>) -> Extent {
+    fn of_boundary(boundary: &BoundaryOf<Wide>) -> Extent {
         let point = |v: [Wide; 3]| DVec3::from(v.map(|x| x.0));
         let origin = point(boundary.vertices[0]);
         let mut extent = Extent::default();

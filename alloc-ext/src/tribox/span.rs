@@ -1,7 +1,7 @@
 //! Bounds along the nine directions in f64, and the polytope between them.
 
-use meshsweep_core::internal::tribox::{FACES, SLABS, Scalar, boundary};
-use meshsweep_core::{Boundary, Tribox};
+use meshsweep_core::Tribox;
+use meshsweep_core::internal::tribox::{BoundaryOf, FACES, SLABS, Scalar, boundary};
 use std::ops::{Add, Neg, Sub};
 
 /// An f64 that a tribox's boundary can be computed in.
@@ -126,7 +126,7 @@ impl Span {
     }
 
     /// Vertices and faces, if the slabs are tight: vertices within 2^-47 of the greatest parameter.
-    pub fn boundary(&self) -> Boundary<Wide> {
+    pub fn boundary(&self) -> BoundaryOf<Wide> {
         boundary(&self.low.map(Wide), &self.high.map(Wide))
     }
 }

@@ -22,6 +22,7 @@ const DOUBT: f64 = 1e-3;
 
 /// Options of a split.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SplitOptions {
     /// Most leaves.
     pub leaves: usize,
@@ -55,6 +56,20 @@ impl Default for SplitOptions {
             simplify: 0.0,
             lattice: None,
         }
+    }
+}
+
+impl SplitOptions {
+    /// Sets the number of [leaves](Self::leaves).
+    #[must_use]
+    pub const fn with_leaves(self, leaves: usize) -> Self {
+        Self { leaves, ..self }
+    }
+
+    /// Sets how far planes may move to [simplify](Self::simplify) proxies.
+    #[must_use]
+    pub const fn with_simplify(self, simplify: f32) -> Self {
+        Self { simplify, ..self }
     }
 }
 

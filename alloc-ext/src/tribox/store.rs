@@ -39,11 +39,8 @@ pub struct TriboxReport {
 /// open.
 ///
 /// # Errors
-/// If a coordinate is not finite or beyond
-/// [`Tribox::DOMAIN`](meshsweep_core::Tribox::DOMAIN).
-///
-/// # Panics
-/// On a mesh of more than [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
+/// [`BuildError::Triboxes`] if a coordinate is not finite or beyond
+/// [`Tribox::DOMAIN`](meshsweep_core::Tribox::DOMAIN); those of [`bvh::build`](crate::bvh::build).
 pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), BuildError> {
     let started = Instant::now();
     let mesh = input.mesh;
@@ -53,8 +50,8 @@ pub fn store(input: Input<'_>, count: u32) -> Result<(Sections, TriboxReport), B
         let tables = sections(lattice.scale_exponent, 0.0, 0, bounds, Vec::new());
         return Ok((tables, TriboxReport { levels: Vec::new(), time: started.elapsed() }));
     }
-    let bytes = exact_blob(mesh);
-    let tree = Bvh::open(&bytes).expect("just built");
+    let bytes = exact_blob(mesh)?;
+    let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
     let leaves = count.clamp(1, MAX_TRIBOXES) as usize;
     let options = SplitOptions { leaves, lattice: Some(lattice), ..SplitOptions::default() };
     let hierarchy = Hierarchy::new(mesh, &tree, &options)?;

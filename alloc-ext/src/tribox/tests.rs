@@ -35,7 +35,7 @@ fn blocks(corners: &[[[f32; 3]; 2]], solid: usize) -> Mesh {
 }
 
 fn split(mesh: &Mesh, options: &SplitOptions) -> Hierarchy {
-    let bytes = box_tree(mesh);
+    let bytes = box_tree(mesh).unwrap();
     Hierarchy::new(mesh, &Bvh::open(&bytes).unwrap(), options).unwrap()
 }
 
@@ -256,7 +256,7 @@ fn solids_are_covered_at_every_scale_and_far_from_the_origin() {
 fn coordinates_beyond_the_domain_are_refused() {
     for (x, wanted) in [(3e38, TriboxError::OutOfDomain), (f32::NAN, TriboxError::NotFinite)] {
         let fine = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
-        let bytes = box_tree(&fine);
+        let bytes = box_tree(&fine).unwrap();
         let mut mesh = fine.clone();
         mesh.positions[1][0] = x;
         let refused = Hierarchy::new(&mesh, &Bvh::open(&bytes).unwrap(), &SplitOptions::default());
@@ -276,7 +276,7 @@ fn the_same_mesh_gives_the_same_hierarchy() {
 #[test]
 fn simplified_proxies_hold_more_with_fewer_faces() {
     let mesh = fixture("torus.ply");
-    let bytes = box_tree(&mesh);
+    let bytes = box_tree(&mesh).unwrap();
     let tree = Bvh::open(&bytes).unwrap();
     let exact = level(&split(&mesh, &options(8)), 8, &mesh, &tree);
     let hierarchy = split(&mesh, &SplitOptions { simplify: 0.1, ..options(8) });
@@ -288,7 +288,7 @@ fn simplified_proxies_hold_more_with_fewer_faces() {
 #[test]
 fn a_level_s_figures_are_those_of_the_mesh_that_is_drawn() {
     let mesh = fixture("groove.obj");
-    let bytes = box_tree(&mesh);
+    let bytes = box_tree(&mesh).unwrap();
     let hierarchy = split(&mesh, &options(8));
     let level = level(&hierarchy, 8, &mesh, &Bvh::open(&bytes).unwrap());
     let drawn = surface(&proxies(&hierarchy, 8));
@@ -308,7 +308,7 @@ fn a_level_s_figures_are_those_of_the_mesh_that_is_drawn() {
 #[test]
 fn a_block_is_its_own_tribox_without_error() {
     let mesh = blocks(&[[[0.0; 3], [1.0, 2.0, 3.0]]], 1);
-    let bytes = box_tree(&mesh);
+    let bytes = box_tree(&mesh).unwrap();
     let hierarchy = split(&mesh, &options(8));
     assert!(hierarchy.order.is_empty(), "nothing is saved by splitting a block");
     let level = level(&hierarchy, 8, &mesh, &Bvh::open(&bytes).unwrap());

@@ -41,7 +41,7 @@ fn build_reports_mesh_sections_memory_and_levels() {
     let text = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "closest,segment,hull"]);
     for part in [
         "1948 triangles read",
-        "serves closest, within, nearest, field, signed, segment, overlap, hull --level, cut",
+        "serves closest, within, nearest, field, signed, segment, overlap, hull --level, refine, cut",
         "cover tree",
         "tree fans",
         "total",
@@ -50,7 +50,7 @@ fn build_reports_mesh_sections_memory_and_levels() {
         "surface error 0 ",
         "1948 triangles in ",
         "stack: ",
-        "closed: signed distance is defined",
+        "closed: signed distance is that of the nearest surface",
         "half-width of an exact answer: about ",
         " fans of one triangle",
         "collapse",
@@ -95,7 +95,7 @@ fn an_open_mesh_is_built_and_its_report_says_that_it_is_open() {
     {
         let (mesh, out) = (fixture(name), directory.join("out.msw"));
         let text = ok(["build", arg(&mesh), "-o", arg(&out)]);
-        let is_open = text.contains("open: signed distance is undefined");
+        let is_open = text.contains("open: every side is undecided");
         // A tetrahedron squashed flat is closed all the same.
         assert_eq!(is_open, name != "evil/flat.obj", "{name} {text}");
         let info = info(&out);
@@ -238,6 +238,32 @@ fn polygons_that_were_split_are_reported() {
     let text = report(&directory, "a.ply", &(ply.to_owned() + corners + "4 0 1 2 3\n3 0 1 4\n"));
     assert!(text.contains("\n  1 polygon split: numbers of triangles count"), "{text}");
     assert!(!report(&directory, "b.obj", &(obj + "f 1 2 3\n")).contains(" split: "));
+}
+
+/// Closed tetrahedra with their right angles at `places` on the x axis, as OBJ.
+fn tetrahedra(places: &[f32]) -> String {
+    let corners = |x: &f32| format!("v {x} 0 0\nv {} 0 0\nv {x} 2 0\nv {x} 0 2\n", x + 2.0);
+    let faces = |t: usize| {
+        let [a, b, c, d] = [1, 2, 3, 4].map(|k| 4 * t + k);
+        format!("f {a} {c} {b}\nf {a} {b} {d}\nf {a} {d} {c}\nf {b} {c} {d}\n")
+    };
+    places.iter().map(corners).chain((0..places.len()).map(faces)).collect()
+}
+
+#[test]
+fn components_that_may_overlap_are_counted_where_signs_are_promised() {
+    let directory = scratch("overlapping_components");
+    let note = "connected components whose boxes overlap: 2; they are not united";
+    let apart = report(&directory, "apart.obj", &tetrahedra(&[0.0, 3.0]));
+    assert!(!apart.contains("connected components"), "{apart}");
+    let text = report(&directory, "overlap.obj", &tetrahedra(&[0.0, 9.0, 1.0]));
+    assert!(text.contains(note), "{text}");
+    // Inside one component, beside the front of another one: as the report says.
+    let answers = ok(["signed", arg(&directory.join("out.msw")), "0.95,0.1,0.1"]);
+    assert!(answers.contains(",outside,"), "{answers}");
+    let mesh = directory.join("overlap.obj");
+    let out = directory.join("segments.msw");
+    assert!(!ok(["build", arg(&mesh), "-o", arg(&out), "--for", "segment"]).contains(note));
 }
 
 #[test]

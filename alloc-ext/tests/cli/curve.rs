@@ -44,7 +44,7 @@ fn a_fence_is_asked_and_names_its_segments() {
     };
     assert_eq!(ask("4.99"), "no,,");
     assert!(ask("5.01").starts_with("yes,0,"), "{}", ask("5.01"));
-    assert_eq!(ask("5"), "unknown,,");
+    assert_eq!(ask("5"), "undecided,,");
 }
 
 #[test]

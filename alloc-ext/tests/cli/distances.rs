@@ -140,12 +140,12 @@ fn signed_names_the_side_and_the_interval_holds() {
     }
     let inside = answers.iter().filter(|answer| answer[3] == "inside").count();
     assert!((10..190).contains(&inside));
-    assert!(answers.iter().all(|answer| answer[4].is_empty() == (answer[3] != "undefined")));
+    assert!(answers.iter().all(|answer| answer[4].is_empty() == (answer[3] != "undecided")));
 }
 
 #[test]
 fn an_undefined_side_has_a_reason_and_an_interval_all_the_same() {
-    let directory = scratch("undefined");
+    let directory = scratch("undecided");
     let (open, closed) =
         (blob(&directory, "evil/open_box.stl", &[]), blob(&directory, "torus.ply", &[]));
     let mesh = triangles(&fixture("torus.ply"));
@@ -159,7 +159,7 @@ fn an_undefined_side_has_a_reason_and_an_interval_all_the_same() {
         let output = run([&["signed", arg(blob), point], options].concat());
         let answers = parse_csv(&String::from_utf8(output.stdout).unwrap(), SIGNED);
         let answer = &answers[0];
-        assert_eq!(answer[3..5], ["undefined", reason]);
+        assert_eq!(answer[3..5], ["undecided", reason]);
         assert_eq!(number(&answer[5]), -number(&answer[6]));
         let note = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(

@@ -65,6 +65,8 @@ fn wrong_usage_is_status_2() {
         (&["build", "a.stl", "-o", "b", "--max-normal-deviation", "-1"], "from 0 to 180"),
         (&["field", "a.msw", "-o", "f.npy", "--size", "-4"], "from 1 to 65536"),
         (&["cut", "a.msw", "-o", "b.msw", "--level", "-1"], "at least 0"),
+        (&["closest", "a.msw", ""], "no query; write 3: x, y, z with commas, or name a file"),
+        (&["segment", "a.msw", ""], "no query; write 6: ax, ay, az, bx, by, bz with commas"),
     ] {
         let output = run(args);
         let stderr = String::from_utf8_lossy(&output.stderr);
@@ -88,6 +90,22 @@ fn files_that_cannot_be_read_are_named() {
     refused(&run(["closest", arg(&path), "no/such.f32"]), 1, "no/such.f32");
     refused(&run(["closest", arg(&path), "-", "1,2,3", "-"]), 2, "read only once");
     assert!(!out.exists());
+}
+
+#[test]
+fn a_mesh_file_without_triangles_is_named() {
+    let directory = scratch("no_triangles");
+    for (name, content) in [
+        ("zero.ply", ""),
+        ("zero.stl", ""),
+        ("blank.obj", " \n"),
+        ("empty.stl", "solid a\nendsolid a\n"),
+        ("points.obj", "v 0 0 0\n"),
+    ] {
+        let mesh = file(&directory, name, content);
+        let line = refused(&run(["build", arg(&mesh), "-o", "x.msw"]), 1, name);
+        assert!(line.contains("holds no triangles; export the surface"), "{line}");
+    }
 }
 
 #[test]

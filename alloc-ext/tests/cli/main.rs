@@ -9,6 +9,7 @@ mod errors;
 mod hull;
 mod overlap;
 mod queries;
+mod refine;
 mod support;
 mod tight;
 mod tribox;

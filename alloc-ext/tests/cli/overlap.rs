@@ -124,7 +124,7 @@ fn without_a_pose_meshes_are_where_they_were_built_and_coincide_openly() {
         info(&torus)["serves"].as_array().unwrap().iter().any(|question| question == "overlap")
     );
     let rows = parse_csv(&ok(["overlap", arg(&torus), arg(&torus)]), HEADER);
-    assert_eq!((rows.len(), rows[0][1].as_str()), (1, "open"));
+    assert_eq!((rows.len(), rows[0][1].as_str()), (1, "undecided"));
     let out = directory.join("contacts.csv");
     let poses = directory.join("poses.csv");
     write_csv(
@@ -138,7 +138,7 @@ fn without_a_pose_meshes_are_where_they_were_built_and_coincide_openly() {
     let few =
         ok(["overlap", arg(&torus), arg(&torus), "--pose", arg(&poses), "--steps", "1", "--all"]);
     let last = parse_csv(&few, HEADER).pop().unwrap();
-    assert_eq!((last[1].as_str(), last[2].as_str()), ("open", ""), "pairs may be missing");
+    assert_eq!((last[1].as_str(), last[2].as_str()), ("undecided", ""), "pairs may be missing");
 }
 
 #[test]
@@ -167,5 +167,8 @@ fn what_cannot_be_asked_is_refused_by_name() {
     let stretched = wrong(&[arg(&torus), "--matrix", "3,0,0,0,0,1,0,0,0,0,1,0"]);
     assert!(refused(&stretched, 1, "query 3,0,0").contains("beyond 2"));
     assert_eq!(wrong(&[arg(&torus), "--pose", "1,2,3"]).status.code(), Some(2));
+    let pose_first = run(["overlap", "--pose", "0,0,0,1,0,0,0", arg(&torus), arg(&torus)]);
+    let stderr = String::from_utf8_lossy(&pose_first.stderr).into_owned();
+    assert!(pose_first.status.code() == Some(2) && stderr.contains("name blobs first"), "{stderr}");
     assert_eq!(wrong(&[arg(&torus), "-o", arg(&torus)]).status.code(), Some(1));
 }

@@ -194,14 +194,14 @@ fn on_a_grid_yes_and_no_are_still_those_of_brute_force() {
         for (answer, row) in answers.iter().zip(&rows) {
             let truth = first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh);
             match (answer[0].as_str(), truth) {
-                ("unknown", None) => {}
-                ("unknown", Some(t)) => assert!(number(&answer[1]) <= t, "{answer:?} {t}"),
+                ("undecided", None) => {}
+                ("undecided", Some(t)) => assert!(number(&answer[1]) <= t, "{answer:?} {t}"),
                 (verdict, _) => {
                     assert_eq!(verdict == "yes", truth.is_some(), "{name} {row:?} {answer:?}")
                 }
             }
         }
-        assert!(answers.iter().filter(|answer| answer[0] == "unknown").count() < 10, "{name}");
+        assert!(answers.iter().filter(|answer| answer[0] == "undecided").count() < 10, "{name}");
     }
 }
 
@@ -256,7 +256,7 @@ fn every_soup_that_is_built_is_answered_rightly() {
         let answers = parse_csv(&ok(["segment", arg(&path), arg(&segments)]), SEGMENT);
         for (answer, row) in answers.iter().zip(&rows) {
             let truth = first_crossing(wide(&row[..3]), wide(&row[3..]), &mesh);
-            let is_right = answer[0] == "unknown" || (answer[0] == "yes") == truth.is_some();
+            let is_right = answer[0] == "undecided" || (answer[0] == "yes") == truth.is_some();
             assert!(is_right, "{} {row:?} {answer:?} {truth:?}", file.display());
         }
     }
@@ -299,8 +299,8 @@ fn a_segment_with_more_hits_than_the_buffer_gets_them_all() {
 }
 
 #[test]
-fn a_segment_query_that_ends_early_is_unknown_and_clear_before_its_parameter() {
-    let directory = scratch("unknown");
+fn a_segment_query_that_ends_early_is_undecided_and_clear_before_its_parameter() {
+    let directory = scratch("undecided");
     let mesh = triangles(&fixture("bracket.stl"));
     let rows = random_queries::<6>(&mesh, 100);
     let segments = directory.join("s.csv");
@@ -310,10 +310,10 @@ fn a_segment_query_that_ends_early_is_unknown_and_clear_before_its_parameter() {
         let ask = ["segment", arg(&path), arg(&segments), "--engine", engine, "--steps", "1"];
         let answers = parse_csv(&ok(ask), SEGMENT);
         let all = parse_csv(&ok([&ask[..], &["--all"]].concat()), &format!("query,{SEGMENT}"));
-        let is_unknown = |row: &[String]| row[0] == "unknown";
-        assert!(answers.iter().any(|answer| is_unknown(answer)), "{engine}");
+        let is_undecided = |row: &[String]| row[0] == "undecided";
+        assert!(answers.iter().any(|answer| is_undecided(answer)), "{engine}");
         for (query, (answer, row)) in answers.iter().zip(&rows).enumerate() {
-            if !is_unknown(answer) {
+            if !is_undecided(answer) {
                 continue;
             }
             let truth =
@@ -322,7 +322,7 @@ fn a_segment_query_that_ends_early_is_unknown_and_clear_before_its_parameter() {
             assert!(is_clear_before && answer[5].is_empty(), "{engine} {answer:?} {truth}");
             // Among all hits a last row says that some may be missing.
             let last = all.iter().rfind(|hit| hit[0] == query.to_string()).unwrap();
-            assert!(is_unknown(&last[1..]) && last[6].is_empty(), "{engine} {last:?}");
+            assert!(is_undecided(&last[1..]) && last[6].is_empty(), "{engine} {last:?}");
         }
     }
 }
@@ -349,7 +349,7 @@ fn answers_of_a_cut_blob_contain_those_of_the_whole() {
         for (coarse, fine) in coarse.iter().zip(fine) {
             match coarse[0].as_str() {
                 "no" => assert_eq!(fine[0], "no"),
-                "unknown" => assert!(fine[0] == "no" || number(&coarse[1]) <= number(&fine[1])),
+                "undecided" => assert!(fine[0] == "no" || number(&coarse[1]) <= number(&fine[1])),
                 other => panic!("{other}"),
             }
         }
@@ -374,7 +374,7 @@ fn places_that_are_left_open_among_all_hits_name_their_triangles() {
     // Along the diagonal through a vertex in which some hundred triangles meet.
     let text = ok(["segment", arg(&path), "10,10,10,-10,-10,-10", "--all"]);
     let rows = parse_csv(&text, &format!("query,{SEGMENT}"));
-    assert!(rows.len() > 10 && rows.iter().all(|row| row[1] == "unknown"), "{text}");
+    assert!(rows.len() > 10 && rows.iter().all(|row| row[1] == "undecided"), "{text}");
     let mut named: Vec<&str> = rows.iter().map(|row| row[6].as_str()).collect();
     named.sort_unstable();
     named.dedup();

@@ -50,7 +50,7 @@ fn intervals_and_verdicts_by_a_hull_hold_for_the_mesh() {
             match row[3].as_str() {
                 "yes" => assert!(real <= 0.5 + 1e-6, "{row:?} {real}"),
                 "no" => assert!(real >= 0.5 - 1e-6, "{row:?} {real}"),
-                other => assert_eq!(other, "unknown"),
+                other => assert_eq!(other, "undecided"),
             }
         }
         let count = |verdict: &str| rows.iter().filter(|row| row[3] == verdict).count();
@@ -86,7 +86,7 @@ fn checked(path: &Path, surface: &[Triangle], points: &[[f32; 3]], distance_of: 
         match verdict[3].as_str() {
             "yes" => assert!(real <= distance_of + 1e-6, "{verdict:?} {real}"),
             "no" => assert!(real >= distance_of - 1e-6, "{verdict:?} {real}"),
-            other => assert_eq!(other, "unknown"),
+            other => assert_eq!(other, "undecided"),
         }
         counts[0] += usize::from(verdict[3] == "yes");
         counts[1] += usize::from(verdict[3] == "no");

@@ -111,6 +111,15 @@ fn an_open_mesh_says_so_and_has_no_void() {
 }
 
 #[test]
+fn a_mesh_without_area_has_no_compression() {
+    let mesh = scratch("tribox_line").join("line.obj");
+    fs::write(&mesh, "v 0 0 0\nv 1 0 0\nf 1 2 2\n").unwrap();
+    let text = ok(["tribox", arg(&mesh)]);
+    assert!(!text.contains("NaN"), "{text}");
+    assert!(json(&mesh, &[])["levels"][0]["compression"].is_null());
+}
+
+#[test]
 fn splitting_ends_where_it_saves_nothing_and_says_so() {
     let directory = scratch("tribox_exhausted");
     let mesh = directory.join("flat.obj");

@@ -1,7 +1,7 @@
 //! All common points of a segment and the stored surface.
 
 use super::descent::descend;
-use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
@@ -43,7 +43,7 @@ impl Bvh<'_> {
     ) -> Result<AllHits, QueryError> {
         let mut work = Work::default();
         let hits = Hits::new(hits);
-        let Some(query) = prepare(self, a, b, scratch)? else {
+        let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
             return Ok(hits.answer(work, Ended::Exact));
         };
         let collector = AllCrossings { tree: self, query: &query, hits, undecided: false };

@@ -1,17 +1,17 @@
 //! All triangles within a distance.
 
-use super::closest_point::closest_point;
-use super::descent::{LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::nearest_triangle;
-use super::neighbors::{Candidate, Heap, Neighbor, first_triangles};
+use super::descent::descend;
+use super::neighbors::{Heap, Neighbor, first_triangles};
 use super::point_query::PointQuery;
-use super::triangle_bounds::{each_triangle, limit_within, lower_of};
-use crate::bvh::format::Bvh;
+use super::triangle_bounds::limit_within;
+use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
+use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::sqrt_approx;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 
 /// How a search for all triangles within a distance went. They are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AllWithin {
     /// Triangles in the slice.
     pub stored: usize,
@@ -60,25 +60,21 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<AllWithin, QueryError> {
         let tree = self;
-        budget.check()?;
-        if !(distance >= 0.0 && distance.is_finite()) {
-            return Err(QueryError::Tolerance);
-        }
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let query = PointQuery::new(tree, point)?;
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check()?;
+        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
         if query.far {
-            let closest = closest_point(tree, point, &Budget::EXACT, scratch)?;
+            let closest = tree.closest_point(point, Budget::EXACT, scratch)?;
             return from_afar(tree, &query, &closest, distance, out);
         }
         let mut work = Work::default();
         let limit = limit_within(&query, distance);
         let heap = Heap::new(&mut *out);
-        let mut visitor = CollectWithin { tree, query: &query, distance, limit, heap, dropped: 0 };
+        let collector = CollectWithin { query: &query, distance, heap, dropped: 0 };
+        let mut visitor = TriangleVisitor { tree, query: &query, limit, collector };
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        let dropped = visitor.dropped;
-        let stored = visitor.heap.finish(tree, &query)?;
+        let CollectWithin { heap, dropped, .. } = visitor.collector;
+        let stored = heap.finish(tree, &query)?;
         let is_certain = |near: &&Neighbor| near.distance().upper <= distance;
         let certain = out.iter().take(stored).take_while(is_certain).count();
         Ok(AllWithin { stored, certain, dropped, work, ended: descent.ended() })
@@ -104,51 +100,20 @@ fn from_afar(
 }
 
 struct CollectWithin<'a> {
-    tree: &'a Bvh<'a>,
     query: &'a PointQuery,
     /// Input units.
     distance: f32,
-    limit: f32,
     heap: Heap<'a>,
     dropped: u32,
 }
 
-impl LeafVisitor for CollectWithin<'_> {
+impl TriangleCollector for CollectWithin<'_> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
-        self.limit
-    }
-
-    #[inline(always)]
-    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.leaf, self.query.p)?;
-        if near.lower_bound_sq <= self.limit {
-            self.collect(visit)?;
+    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &mut f32) {
+        let is_within = self.query.upper(sqrt_approx(triangle.distance_sq)) <= self.distance
+            || self.query.lower(triangle.lower(leaf, self.query)) <= self.distance;
+        if is_within && self.heap.offer(triangle).is_some() {
+            self.dropped = self.dropped.saturating_add(1);
         }
-        Some(true)
-    }
-}
-
-impl CollectWithin<'_> {
-    #[inline(never)]
-    fn collect(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
-        let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        each_triangle(self.query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
-            if lower_bound_sq > self.limit {
-                return;
-            }
-            let lower = || lower_of(&visit.leaf, lane, self.query.p, distance_sq, lower_bound_sq);
-            let within = self.query.upper(sqrt_approx(distance_sq)) <= self.distance
-                || self.query.lower(lower()) <= self.distance;
-            if within
-                && self
-                    .heap
-                    .offer(Candidate::new(visit, first, lane, distance_sq, lower_bound_sq))
-                    .is_some()
-            {
-                self.dropped = self.dropped.saturating_add(1);
-            }
-        });
-        Some(())
     }
 }

@@ -1,13 +1,15 @@
 //! Whether a segment meets the surface.
 
 use super::descent::{Descent, descend};
-use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, SegmentVisitor};
+use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
 use crate::query::{Budget, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Whether a segment meets the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AnyHit {
     /// `Yes`: the segment meets the input mesh. `No`: no point of the segment lies on a triangle of
     /// the wanted facing. Undecided for [`Resolution`](Undecided::Resolution): the segment passes
@@ -22,16 +24,15 @@ impl Bvh<'_> {
     /// Whether the closed segment `a b` (input units) meets the surface. It ends at the first
     /// proof.
     ///
-    /// Arguments, errors and degenerate cases as for [`first_hit`](Bvh::first_hit). Cost: less than
-    /// that of [`first_hit`](Bvh::first_hit).
+    /// Arguments and degenerate cases as for [`first_hit`](Bvh::first_hit). Cost: less than there.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Facing, Scratch, Verdict};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
     /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
-    /// let (a, b) = ([0.0, 0.0, 400.0], [0.0, 0.0, 300.0]);
-    /// let found = part.any_hit(a, b, Facing::Both, Budget::EXACT, &mut scratch)?;
-    /// assert_eq!(found.verdict, Verdict::No);
+    /// let (front, down) = (Facing::Front, [[0.0, 0.0, 400.0], [0.0, 0.0, -400.0]]);
+    /// let found = part.any_hit(down[0], down[1], front, Budget::EXACT, &mut scratch)?;
+    /// assert_ne!(found.verdict, Verdict::No);
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
@@ -47,7 +48,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<AnyHit, QueryError> {
         let mut work = Work::default();
-        let Some(query) = prepare(self, a, b, scratch)? else {
+        let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
             return Ok(AnyHit { verdict: Verdict::No, work });
         };
         let collector = AnyCrossing { end: query.ray.end(), undecided: false, certain: false };

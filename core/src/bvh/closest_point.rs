@@ -7,8 +7,8 @@ use super::point_query::{PointQuery, at_least, at_most, bounds};
 use super::triangle_bounds::{distance_of_box, nearness, refine_sliver, seen_from};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::lower_bound;
-use crate::num::sqrt_approx;
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_RELATIVE, U32};
+use crate::num::{greater, sqrt_approx};
 use crate::query::Interval;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 use glam::Vec3;
@@ -51,19 +51,19 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`];
-    /// [`QueryError::NotServed`] if the blob was not built for distances.
-    #[inline]
+    /// [`QueryError::NotServed`] if the tree was not built for distances, for far points too.
+    #[inline(never)]
     pub fn closest_point(
         &self,
         point: [f32; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        closest_point(self, point, &budget, scratch)
+        search(self, point, &mut Hint::NONE.clone(), &budget, scratch)
     }
 
     /// [`closest_point`](Bvh::closest_point) that looks at the leaf of `hint` first and leaves its
-    /// own there. An exact answer has the same bits whatever the hint.
+    /// own there. An exact answer has the same bits with every hint.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Bvh, Hint, Scratch};
@@ -78,7 +78,7 @@ impl Bvh<'_> {
     ///
     /// # Errors
     /// Those of [`closest_point`](Bvh::closest_point).
-    #[inline]
+    #[inline(never)]
     pub fn closest_point_from(
         &self,
         point: [f32; 3],
@@ -86,33 +86,11 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        closest_point_from(self, point, hint, &budget, scratch)
+        search(self, point, hint, &budget, scratch)
     }
 }
 
-/// Without a hint: one function for all callers.
-#[inline(never)]
-pub(crate) fn closest_point(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    budget: &Budget,
-    scratch: &mut [ScratchEntry],
-) -> Result<ClosestPoint, QueryError> {
-    search(tree, point, &mut Hint::NONE.clone(), budget, scratch)
-}
-
-/// With a hint: one function for single queries, batches and coherent queries.
-#[inline(never)]
-pub(crate) fn closest_point_from(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    hint: &mut Hint,
-    budget: &Budget,
-    scratch: &mut [ScratchEntry],
-) -> Result<ClosestPoint, QueryError> {
-    search(tree, point, hint, budget, scratch)
-}
-
+/// Inlined twice: without a hint, and with one.
 #[inline(always)]
 fn search(
     tree: &Bvh<'_>,
@@ -121,11 +99,7 @@ fn search(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
-    budget.check()?;
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
-    let query = PointQuery::new(tree, point)?;
+    let query = PointQuery::prepare(tree, point, budget, scratch)?;
     if query.far {
         return from_afar(tree, point, &query);
     }
@@ -262,10 +236,9 @@ impl<'a> Closest<'a> {
             let [s, e, g] = seen;
             let lower = lower_bound(s, e, g);
             let lower_sq = square(lower);
-            let lower_sq = if lower_sq > box_sq { lower_sq } else { box_sq };
+            let lower_sq = greater(box_sq, lower_sq);
             // The plane's bound may be the greater one.
-            let lower_sq =
-                if lower_sq > near.lower_bound_sq { lower_sq } else { near.lower_bound_sq };
+            let lower_sq = greater(near.lower_bound_sq, lower_sq);
             if lower_sq < self.refined_lower_sq {
                 self.refined_lower_sq = lower_sq;
             }

@@ -3,8 +3,11 @@
 //! Neighbours in Morton order need the same nodes and leaves, and the cache holds them. The leaf of
 //! the last answer bounds the next distance before the descent begins.
 
-use super::closest_point::{Hint, closest_point, closest_point_from};
+use super::closest_point::Hint;
+use super::descent::NodeQuery;
+use super::point_query::PointQuery;
 use crate::bvh::format::Bvh;
+use crate::num::{greater, lesser};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 
 impl Bvh<'_> {
@@ -51,13 +54,8 @@ impl Bvh<'_> {
             let [points, answers] = [points.len() as u32, answers.len() as u32];
             return Err(QueryError::AnswerCount { points, answers });
         }
-        if points.is_empty() {
-            return Ok(());
-        }
-        budget.check()?;
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
+        PointQuery::check_served(self)?;
+        budget.check_with(scratch)?;
         if let Some(index) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
             return Err(QueryError::PointNotFinite { index: index as u32 });
         }
@@ -66,12 +64,11 @@ impl Bvh<'_> {
         let (stack, order) = scratch.split_at_mut_checked(split).unwrap_or_default();
         if budget != Budget::EXACT || stack.len() < entries {
             for (point, answer) in points.iter().zip(answers) {
-                *answer = closest_point(self, *point, &budget, stack)?;
+                *answer = self.closest_point(*point, budget, stack)?;
             }
             return Ok(());
         }
-        let mut ask =
-            |point: [f32; 3]| closest_point_from(self, point, hint, &Budget::EXACT, stack);
+        let mut ask = |point: [f32; 3]| self.closest_point_from(point, hint, Budget::EXACT, stack);
         let run = (order.len() / 2).min(u32::MAX as usize);
         if run == 0 {
             for (point, answer) in points.iter().zip(answers) {
@@ -115,8 +112,8 @@ fn in_morton_order<'o>(
     let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
     for point in points {
         for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(point) {
-            *low = if x < *low { x } else { *low };
-            *high = if x > *high { x } else { *high };
+            *low = lesser(*low, x);
+            *high = greater(*high, x);
         }
     }
     // Both are halved, because their difference may leave f32's range. If the extent is 0 or tiny,

@@ -10,6 +10,7 @@
 use super::node::{LANE_MASK, WIDE, nearest_lane};
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::WIDTH;
+use crate::num::lesser;
 use crate::query::{Ended, QueryError, ScratchEntry, Work};
 
 /// A point or a segment that is prepared for the descent.
@@ -17,17 +18,21 @@ pub(crate) trait NodeQuery {
     /// Refuses a tree without the boxes that the query needs.
     fn check_served(tree: &Bvh<'_>) -> Result<(), QueryError>;
 
-    /// Keys of the children of a node: lower bounds, not below `bound`, with the lane in the low
-    /// bits. Children beyond the visitor's limit may have any greater key. `None` says that the
-    /// tree is unchecked.
-    fn keys(
-        &self,
-        tree: &Bvh<'_>,
-        node: u32,
-        count: u32,
-        bound: f32,
-        visitor: &impl LeafVisitor,
-    ) -> Option<[f32; WIDTH]>;
+    /// Keys of the children of a node: lower bounds, not below its bound, with the lane in the low
+    /// bits. Children beyond the limit may have any greater key. `None` says that the tree is
+    /// unchecked.
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[f32; WIDTH]>;
+}
+
+/// A node whose children get keys.
+pub(crate) struct OpenedNode {
+    pub(crate) node: u32,
+    /// Children.
+    pub(crate) count: u32,
+    /// Lower bound of everything below the node.
+    pub(crate) bound: f32,
+    /// The visitor's limit.
+    pub(crate) limit: f32,
 }
 
 /// A leaf that a descent has reached.
@@ -111,7 +116,7 @@ impl Stack<'_> {
                         *slot = ScratchEntry::new(key, node);
                         self.used += 1;
                     }
-                    None => self.dropped = if key < self.dropped { key } else { self.dropped },
+                    None => self.dropped = lesser(self.dropped, key),
                 }
             }
         }
@@ -128,16 +133,16 @@ impl Stack<'_> {
 /// Visits every leaf within the visitor's limit. Opens nodes until `work` counts `steps` of them,
 /// earlier descents included.
 #[inline(always)]
-pub(crate) fn descend<Q: NodeQuery>(
+pub(crate) fn descend(
     tree: &Bvh<'_>,
-    query: &Q,
+    query: &impl NodeQuery,
     steps: u32,
     scratch: &mut [ScratchEntry],
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Result<Descent, QueryError> {
-    Q::check_served(tree)?;
-    walk(tree, query, steps, scratch, visitor, work).ok_or(QueryError::Unchecked)
+    let stack = Stack { entries: scratch, used: 0, dropped: f32::INFINITY };
+    walk(tree, query, steps, stack, visitor, work).ok_or(QueryError::Unchecked)
 }
 
 /// The descent. `None` says that the tree is unchecked: the loop carries no other error.
@@ -146,11 +151,10 @@ fn walk(
     tree: &Bvh<'_>,
     query: &impl NodeQuery,
     steps: u32,
-    scratch: &mut [ScratchEntry],
+    mut stack: Stack<'_>,
     visitor: &mut impl LeafVisitor,
     work: &mut Work,
 ) -> Option<Descent> {
-    let mut stack = Stack { entries: scratch, used: 0, dropped: f32::INFINITY };
     let mut node = 0u32;
     let mut bound = 0f32;
     loop {
@@ -161,7 +165,8 @@ fn walk(
             });
         }
         let links = tree.links(node)?;
-        let keys = query.keys(tree, node, links.count, bound, visitor)?;
+        let opened = OpenedNode { node, count: links.count, bound, limit: visitor.limit() };
+        let keys = query.keys(tree, &opened)?;
         work.splits += 1;
         work.nodes += links.count;
         let nearest = nearest_lane(&keys);

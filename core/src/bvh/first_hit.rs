@@ -1,10 +1,11 @@
 //! The first common point of a segment and the surface.
 
 use super::descent::{Descent, descend};
-use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor, prepare};
+use super::segment_leaf::{CrossingCollector, Facing, HitPlace, SegmentVisitor};
 use super::segment_query::SegmentQuery;
 use crate::bvh::format::Bvh;
 use crate::geom::fan::Crossing;
+use crate::num::lesser;
 use crate::query::{Budget, Ended, FirstHit, Interval, QueryError, ScratchEntry, Work};
 
 impl Bvh<'_> {
@@ -12,7 +13,7 @@ impl Bvh<'_> {
     ///
     /// It never says "clear" wrongly: if [`FirstHit::is_clear`], no point of the segment lies on
     /// the input mesh. With [`Ended::Exact`] and a hit the segment is proved to meet the input
-    /// mesh, and the first common parameter lies in `t`, whatever the grid did to the vertices.
+    /// mesh, and the first common parameter lies in `t`, even if a grid moved vertices.
     /// With [`Ended::Resolution`] it is undecided whether they meet: the segment passes an outer
     /// edge of a fan, or ends, within rounding and the surface error of the surface.
     ///
@@ -43,7 +44,8 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`], [`QueryError::NoScratch`], [`QueryError::NotServed`];
+    /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`],
+    /// [`QueryError::NotServed`];
     /// [`QueryError::OutOfDomain`] if an end is farther than 2^38 grid units away: a million model
     /// sizes or more, unless the model lies as far from its own origin. Far starts are clipped
     /// without loss.
@@ -56,7 +58,9 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
-        let Some(query) = prepare(self, a, b, scratch)? else { return Ok(FirstHit::CLEAR) };
+        let Some(query) = SegmentQuery::prepare(self, [a, b], &budget, scratch)? else {
+            return Ok(FirstHit::CLEAR);
+        };
         let mut work = Work::default();
         let collector = FirstCrossing {
             limit: query.ray.end(),
@@ -96,7 +100,7 @@ impl FirstCrossing<'_> {
     ) -> Result<FirstHit, QueryError> {
         let (mut lower, mut ended) = (self.lower, Ended::Exact);
         if let Descent::Truncated { least, ended: why } = descent {
-            lower = if least < lower { least } else { lower };
+            lower = lesser(lower, least);
             ended = why;
         } else if !(self.certain || lower == f32::INFINITY) {
             ended = Ended::Resolution;

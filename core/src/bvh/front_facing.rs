@@ -3,6 +3,7 @@
 use super::point_query::PointQuery;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::geom::fan::{NormalCone, WIDTH};
+use crate::num::greater;
 use crate::query::QueryError;
 use glam::Vec3;
 
@@ -19,6 +20,7 @@ pub enum Eye {
 
 /// The result of [`Bvh::front_facing`]. The triangles are in the caller's slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FrontFacing {
     /// Triangles in the slice.
     pub stored: usize,
@@ -116,8 +118,8 @@ impl GridEye {
                     return Err(QueryError::NotFinite);
                 }
                 let [x, y, z] = along.to_array().map(f32::abs);
-                let most = if x > y { x } else { y };
-                let most = if z > most { z } else { most };
+                let most = greater(y, x);
+                let most = greater(most, z);
                 Ok(GridEye::Towards(if most > 0.0 { along / -most } else { Vec3::ZERO }))
             }
         }

@@ -47,6 +47,7 @@ impl LeafNearest {
 mod wide {
     use super::{Edges8, FanLeaf, LeafNearest, LeafSeen, Vec3};
     use crate::geom::fan::{LANES_BELOW, Nearness, Nearness8, WIDTH, point_leaf8};
+    use crate::num::{lesser, of_eight};
 
     /// All lanes of a leaf. The nearest lane is searched once, for the final answer: no branch
     /// predictor can guess it.
@@ -103,7 +104,7 @@ mod wide {
     #[inline(always)]
     fn nearest_of(near: Nearness8) -> LeafNearest {
         let (distance_sq, lower_bound_sq) =
-            (least_of(&near.distance_sq), least_of(&near.lower_bound_sq));
+            (of_eight(near.distance_sq, lesser), of_eight(near.lower_bound_sq, lesser));
         LeafNearest { distance_sq, lower_bound_sq, lanes: Lanes(near) }
     }
 
@@ -116,13 +117,6 @@ mod wide {
     #[inline(never)]
     fn f32_nearness(leaf: &FanLeaf<'_>, p: Vec3) -> Option<Nearness8> {
         Some(point_leaf8(&leaf.f32_edges8(p)?, LANES_BELOW.get(leaf.shape().triangles())?))
-    }
-
-    #[inline(always)]
-    fn least_of(values: &[f32; WIDTH]) -> f32 {
-        let less = |a: f32, b: f32| if b < a { b } else { a };
-        let [a, b, c, d, e, f, g, h] = *values;
-        less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
     }
 }
 

@@ -9,6 +9,7 @@
 //! | `point_query`, `segment_query` | a point or a segment in grid units, ready for the descent |
 //! | `descent` | the descent of all questions about one point or one segment |
 //! | `leaf_distance`, `triangle_bounds` | a point and the triangles of a leaf |
+//! | `triangle_visitor` | the visitor of all questions about more than the nearest triangle |
 //! | `segment_leaf` | a segment and the triangles of a leaf; the visitor of all segment questions |
 //! | `closest_point`, `closest_points` | one closest point, many of them |
 //! | `within`, `all_within`, `nearest` | distance verdicts, and the nearest triangles |
@@ -45,6 +46,7 @@ mod segment_query;
 mod side_search;
 mod signed_distance;
 mod triangle_bounds;
+mod triangle_visitor;
 mod within;
 
 pub use all_within::AllWithin;

@@ -1,18 +1,18 @@
 //! The nearest triangles.
 
-use super::closest_point::closest_point;
-use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::nearest_triangle;
-use super::neighbors::{Candidate, Heap, Neighbor, first_triangles};
+use super::descent::{Descent, descend};
+use super::neighbors::{Heap, Neighbor, first_triangles};
 use super::point_query::PointQuery;
-use super::triangle_bounds::{each_triangle, lower_of_box};
-use crate::bvh::format::Bvh;
-use crate::num::sqrt_approx;
+use super::triangle_bounds::lower_of_box;
+use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
+use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::EVERYTHING_SQ;
+use crate::num::{lesser, sqrt_approx};
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 
 /// How a search for the nearest triangles went. They are in the caller's slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct KNearest {
     /// Triangles in the slice.
     pub stored: usize,
@@ -64,38 +64,35 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<KNearest, QueryError> {
         let tree = self;
-        budget.check()?;
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let query = PointQuery::new(tree, point)?;
+        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
         let mut work = Work::default();
         if out.is_empty() {
             return Ok(KNearest { stored: 0, rest_lower: 0.0, work, ended: Ended::Exact });
         }
         let all = tree.header().triangles as usize;
         if query.far {
-            let of_box = closest_point(tree, point, &Budget::EXACT, scratch)?.distance;
+            let of_box = tree.closest_point(point, Budget::EXACT, scratch)?.distance;
             let stored = first_triangles(tree, &query, of_box, out)?;
             let rest_lower = if stored == all { f32::INFINITY } else { of_box.lower };
             return Ok(KNearest { stored, rest_lower, work, ended: Ended::Exact });
         }
-        let heap = Heap::new(out);
-        let mut visitor =
-            CollectNearest { tree, query: &query, heap, limit: EVERYTHING_SQ, rest: f32::INFINITY };
+        let collector =
+            CollectNearest { tree, query: &query, heap: Heap::new(out), rest: f32::INFINITY };
+        let mut visitor = TriangleVisitor { tree, query: &query, limit: EVERYTHING_SQ, collector };
         let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let CollectNearest { heap, rest, .. } = visitor.collector;
         let mut rest_lower = f32::INFINITY;
-        if visitor.heap.stored() < all {
+        if heap.stored() < all {
             // All triangles that were not visited are farther than the last one stored.
-            let last = visitor.heap.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
-            let rest = if last < visitor.rest { last } else { visitor.rest };
+            let last = heap.farthest_sq().map_or(f32::INFINITY, sqrt_approx);
+            let rest = lesser(rest, last);
             rest_lower = query.lower(rest);
         }
         if let Descent::Truncated { least, .. } = descent {
             let missed = lower_of_box(&query, least);
-            rest_lower = if missed < rest_lower { missed } else { rest_lower };
+            rest_lower = lesser(rest_lower, missed);
         }
-        let stored = visitor.heap.finish(tree, &query)?;
+        let stored = heap.finish(tree, &query)?;
         Ok(KNearest { stored, rest_lower, work, ended: descent.ended() })
     }
 }
@@ -104,47 +101,22 @@ struct CollectNearest<'a> {
     tree: &'a Bvh<'a>,
     query: &'a PointQuery,
     heap: Heap<'a>,
-    limit: f32,
     /// Lower bound of every visited triangle that is not stored, grid units.
     rest: f32,
 }
 
-impl LeafVisitor for CollectNearest<'_> {
+impl TriangleCollector for CollectNearest<'_> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
-        self.limit
-    }
-
-    #[inline(always)]
-    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.leaf, self.query.p)?;
-        if near.lower_bound_sq <= self.limit {
-            self.rank(visit)?;
+    fn take(&mut self, triangle: LeafTriangle, _: &FanLeaf<'_>, limit: &mut f32) {
+        if let Some(out) = self.heap.offer(triangle) {
+            let lower = out.leaf(self.tree).map_or(0.0, |leaf| out.lower(&leaf, self.query));
+            if lower < self.rest {
+                self.rest = lower;
+            }
         }
-        Some(true)
-    }
-}
-
-impl CollectNearest<'_> {
-    #[inline(never)]
-    fn rank(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
-        let first = self.tree.links(visit.node)?.triangle(visit.lane);
-        each_triangle(self.query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
-            if lower_bound_sq > self.limit {
-                return;
-            }
-            let candidate = Candidate::new(visit, first, lane, distance_sq, lower_bound_sq);
-            if let Some(out) = self.heap.offer(candidate) {
-                let lower = out.lower(self.tree, self.query).unwrap_or(0.0);
-                if lower < self.rest {
-                    self.rest = lower;
-                }
-            }
-            if let Some(farthest_sq) = self.heap.farthest_sq() {
-                let limit = self.query.limit(farthest_sq);
-                self.limit = if limit < self.limit { limit } else { self.limit };
-            }
-        });
-        Some(())
+        if let Some(farthest_sq) = self.heap.farthest_sq() {
+            let lower = self.query.limit(farthest_sq);
+            *limit = lesser(*limit, lower);
+        }
     }
 }

@@ -1,15 +1,15 @@
 //! The nearest triangles so far, in the caller's slice: a heap with the farthest on top (Williams
 //! 1964), sorted in place at the end.
 
-use super::descent::LeafVisit;
 use super::point_query::PointQuery;
-use super::triangle_bounds::{lower_of, witness};
-use crate::bvh::format::{Bvh, FanLeaf};
+use super::triangle_bounds::witness;
+use super::triangle_visitor::LeafTriangle;
+use crate::bvh::format::Bvh;
 use crate::num::sqrt_approx;
 use crate::query::{Interval, QueryError};
 
 /// A place for a triangle near a point: six words of the caller's memory. While a search runs, they
-/// hold a candidate. After it they hold the answer.
+/// hold a triangle's place. After it they hold the answer.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Neighbor {
     words: [u32; 6],
@@ -56,74 +56,33 @@ impl core::fmt::Debug for Neighbor {
     }
 }
 
-/// A triangle that a descent has reached.
-#[derive(Clone, Copy)]
-pub(crate) struct Candidate {
-    pub(crate) distance_sq: f32,
-    pub(crate) lower_bound_sq: f32,
-    /// In the blob.
-    pub(crate) number: u32,
-    pub(crate) node: u32,
-    pub(crate) child: u32,
-    pub(crate) lane: u32,
-}
-
-impl Candidate {
-    /// Triangle `lane` of a leaf whose first is `first`.
-    pub(crate) fn new(
-        visit: &LeafVisit<'_>,
-        first: u32,
-        lane: usize,
-        distance_sq: f32,
-        lower_bound_sq: f32,
-    ) -> Self {
-        let (node, child, lane) = (visit.node, visit.lane, lane as u32);
-        Candidate {
-            distance_sq,
-            lower_bound_sq,
-            number: first.wrapping_add(lane),
-            node,
-            child,
-            lane,
-        }
-    }
-
-    /// The candidate in a slot of the caller.
+impl LeafTriangle {
+    /// The triangle in a slot of the caller.
     fn stored(self) -> Neighbor {
-        let Candidate { distance_sq, lower_bound_sq, number, node, child, lane } = self;
+        let LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane } = self;
         Neighbor {
             words: [distance_sq.to_bits(), lower_bound_sq.to_bits(), node, child, lane, number],
         }
     }
 
-    fn of(slot: &Neighbor) -> Candidate {
+    fn of(slot: &Neighbor) -> LeafTriangle {
         let [distance_sq, lower_bound_sq, node, child, lane, number] = slot.words;
         let [distance_sq, lower_bound_sq] = [distance_sq, lower_bound_sq].map(f32::from_bits);
-        Candidate { distance_sq, lower_bound_sq, number, node, child, lane }
-    }
-
-    fn leaf<'t>(&self, tree: &Bvh<'t>) -> Option<FanLeaf<'t>> {
-        tree.leaf(self.node, self.child)
-    }
-
-    /// Lower bound of the triangle's distance, grid units.
-    pub(crate) fn lower(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<f32> {
-        let leaf = self.leaf(tree)?;
-        Some(lower_of(&leaf, self.lane as usize, query.p, self.distance_sq, self.lower_bound_sq))
+        LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane }
     }
 
     fn answer(&self, tree: &Bvh<'_>, query: &PointQuery) -> Option<Neighbor> {
         let leaf = self.leaf(tree)?;
-        let lower = query.lower(self.lower(tree, query)?);
+        let lower = query.lower(self.lower(&leaf, query));
         let upper = query.upper(sqrt_approx(self.distance_sq));
         let point = query.units.point(witness(query, &leaf, self.lane as usize));
         Some(Neighbor::of(Interval { lower, upper }, point, tree.source(self.number)?))
     }
 }
 
-/// Whether candidate `a` comes after `b`: farther, or as far with a greater number.
+/// Whether triangle `a` comes after `b`: farther, or as far with a greater number.
 fn after(a: &Neighbor, b: &Neighbor) -> bool {
-    let (a, b) = (Candidate::of(a), Candidate::of(b));
+    let (a, b) = (LeafTriangle::of(a), LeafTriangle::of(b));
     a.distance_sq > b.distance_sq || (a.distance_sq == b.distance_sq && a.number > b.number)
 }
 
@@ -147,13 +106,13 @@ impl<'a> Heap<'a> {
         if self.stored < self.slots.len() {
             None
         } else {
-            self.slots.first().map(|top| Candidate::of(top).distance_sq)
+            self.slots.first().map(|top| LeafTriangle::of(top).distance_sq)
         }
     }
 
     /// Stores a triangle. Returns the triangle that has no room, if any.
-    pub(crate) fn offer(&mut self, candidate: Candidate) -> Option<Candidate> {
-        let held = candidate.stored();
+    pub(crate) fn offer(&mut self, triangle: LeafTriangle) -> Option<LeafTriangle> {
+        let held = triangle.stored();
         if self.stored < self.slots.len() {
             let at = self.stored;
             self.stored += 1;
@@ -165,12 +124,12 @@ impl<'a> Heap<'a> {
         }
         match self.slots.first_mut() {
             Some(top) if after(top, &held) => {
-                let out = Candidate::of(top);
+                let out = LeafTriangle::of(top);
                 *top = held;
                 self.sink(self.stored);
                 Some(out)
             }
-            _ => Some(candidate),
+            _ => Some(triangle),
         }
     }
 
@@ -230,7 +189,8 @@ impl<'a> Heap<'a> {
         // Squares rise. Rounded roots may not.
         let mut farthest = 0f32;
         for slot in self.slots.iter_mut().take(self.stored) {
-            let mut near = Candidate::of(slot).answer(tree, query).ok_or(QueryError::Unchecked)?;
+            let mut near =
+                LeafTriangle::of(slot).answer(tree, query).ok_or(QueryError::Unchecked)?;
             let Interval { lower, upper } = near.distance();
             if upper < farthest {
                 near = Neighbor::of(

@@ -1,6 +1,6 @@
 //! A query point in the tree's grid units, and the rounding of its answers.
 
-use super::descent::{LeafVisitor, NodeQuery};
+use super::descent::{NodeQuery, OpenedNode};
 use super::node::{NodeFrame, box_distances};
 use crate::bvh::format::Bvh;
 use crate::geom::fan::WIDTH;
@@ -8,7 +8,7 @@ use crate::num::sqrt_approx;
 use crate::num::tolerance::{
     BOX_DISTANCE, BVH_FAR, CERTIFIED_PART, CERTIFIED_SHORTFALL, FAN_DISTANCE, FAN_RELATIVE, U32,
 };
-use crate::query::QueryError;
+use crate::query::{Budget, QueryError, ScratchEntry};
 use glam::Vec3;
 
 /// Conversion between input units and grid units, by powers of two.
@@ -83,7 +83,7 @@ pub(crate) struct PointQuery {
     rounding: f32,
     /// Added to a squared limit, so that no rounding hides a candidate.
     allowance: f32,
-    /// Square by which a lower bound may fall shortfall_sq: [`CERTIFIED_SHORTFALL`], or 0 for f32
+    /// Square by which a lower bound may fall short: [`CERTIFIED_SHORTFALL`], or 0 for f32
     /// vertices.
     shortfall_sq: f32,
     /// Farther than [`BVH_FAR`]: the model's box gives the answer.
@@ -91,6 +91,20 @@ pub(crate) struct PointQuery {
 }
 
 impl PointQuery {
+    /// Prepares a question: refuses a tree without boxes for distances, the budget, the scratch
+    /// memory or the point.
+    #[inline(always)]
+    pub(crate) fn prepare(
+        tree: &Bvh<'_>,
+        point: [f32; 3],
+        budget: &Budget,
+        scratch: &[ScratchEntry],
+    ) -> Result<PointQuery, QueryError> {
+        PointQuery::check_served(tree)?;
+        budget.check_with(scratch)?;
+        PointQuery::new(tree, point)
+    }
+
     #[inline(always)]
     pub(crate) fn new(tree: &Bvh<'_>, point: [f32; 3]) -> Result<PointQuery, QueryError> {
         let [x, y, z] = point;
@@ -172,16 +186,10 @@ impl NodeQuery for PointQuery {
     }
 
     #[inline(always)]
-    fn keys(
-        &self,
-        tree: &Bvh<'_>,
-        node: u32,
-        count: u32,
-        bound: f32,
-        _: &impl LeafVisitor,
-    ) -> Option<[f32; WIDTH]> {
-        let record = tree.frame(node)?;
-        Some(box_distances(record, &NodeFrame::of(record, self.p), count, bound))
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[f32; WIDTH]> {
+        let record = tree.frame(opened.node)?;
+        let frame = NodeFrame::of(record, self.p);
+        Some(box_distances(record, &frame, opened.count, opened.bound))
     }
 }
 

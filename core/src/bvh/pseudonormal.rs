@@ -20,10 +20,10 @@ use super::point_query::PointQuery;
 use super::side_search::{Search, UNDECIDED};
 use super::triangle_bounds::{each_triangle, limit_of, lower_of};
 use crate::bvh::format::FanLeaf;
-use crate::num::sqrt_approx;
 use crate::num::tolerance::{
     EXACT_INTEGERS, SIGN_COSINE, SIGN_TRIPLE_PRODUCT, TRUSTED_DIRECTION_SQ, U32,
 };
+use crate::num::{greater, sqrt_approx};
 use crate::query::{QueryError, Side};
 use glam::Vec3;
 
@@ -187,7 +187,7 @@ impl Sum {
         self.unsure += weight * (norm_1(size) / (largest * length));
         self.weight += weight;
         self.count += 1.0;
-        self.eta = if eta > self.eta { eta } else { self.eta };
+        self.eta = greater(self.eta, eta);
     }
 
     /// The side by the product with `to_query`.

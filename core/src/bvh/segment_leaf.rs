@@ -4,12 +4,11 @@
 //! tested one by one. Each test gives the interval of parameters in which the *input's* triangle
 //! can be met.
 
-use super::descent::{LeafVisit, LeafVisitor, NodeQuery};
+use super::descent::{LeafVisit, LeafVisitor};
 use super::node::WIDE;
 use super::segment_query::SegmentQuery;
-use crate::bvh::format::{Bvh, FanLeaf};
+use crate::bvh::format::FanLeaf;
 use crate::geom::fan::{Crossing, FanRay, LANES_BELOW, WIDTH, ray_leaf, ray_leaf8};
-use crate::query::{QueryError, ScratchEntry};
 
 /// Which sides of triangles a segment meets. The front is where corners run counter-clockwise, in
 /// the input's winding.
@@ -23,21 +22,6 @@ pub enum Facing {
     Front,
     /// Backs only.
     Back,
-}
-
-/// Prepares a segment for the descent. `None` if the segment is proved clear of the model.
-#[inline(always)]
-pub(crate) fn prepare(
-    tree: &Bvh<'_>,
-    a: [f32; 3],
-    b: [f32; 3],
-    scratch: &[ScratchEntry],
-) -> Result<Option<SegmentQuery>, QueryError> {
-    SegmentQuery::check_served(tree)?;
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
-    SegmentQuery::new(tree, a, b)
 }
 
 /// A stored triangle that is met.

@@ -1,7 +1,7 @@
 //! A segment in the tree's grid units, prepared for boxes and fans, and the rounding of its
 //! answers.
 
-use super::descent::{LeafVisitor, NodeQuery};
+use super::descent::{NodeQuery, OpenedNode};
 use super::node::box_entries;
 use super::point_query::{Units, bounds};
 use crate::bvh::format::Bvh;
@@ -9,8 +9,8 @@ use crate::bvh::node::Slabs;
 use crate::geom::fan::FanRay;
 use crate::geom::fan::WIDTH;
 use crate::num::tolerance::{BOX_ENTRY, BVH_FAR, LEAST_DENOMINATOR, NEAR_START, STILL, U32};
-use crate::num::two_sum;
-use crate::query::{Hit, QueryError};
+use crate::num::{greater, lesser, two_sum};
+use crate::query::{Budget, Hit, QueryError, ScratchEntry};
 use glam::Vec3;
 
 /// A segment, and the conversion of its parameters to the caller's.
@@ -29,13 +29,17 @@ pub(crate) struct SegmentQuery {
 }
 
 impl SegmentQuery {
-    /// Prepares a segment. `None`: it is proved clear of the model.
+    /// Prepares a question: refuses a tree without boxes for segments, the budget, the scratch
+    /// memory or the segment. `None`: the segment is proved clear of the model.
     #[inline(always)]
-    pub(crate) fn new(
+    pub(crate) fn prepare(
         tree: &Bvh<'_>,
-        a: [f32; 3],
-        b: [f32; 3],
+        [a, b]: [[f32; 3]; 2],
+        budget: &Budget,
+        scratch: &[ScratchEntry],
     ) -> Result<Option<SegmentQuery>, QueryError> {
+        SegmentQuery::check_served(tree)?;
+        budget.check_with(scratch)?;
         let finite = |[x, y, z]: [f32; 3]| x.is_finite() & y.is_finite() & z.is_finite();
         if !(finite(a) & finite(b)) {
             return Err(QueryError::NotFinite);
@@ -131,16 +135,9 @@ impl NodeQuery for SegmentQuery {
     }
 
     #[inline(always)]
-    fn keys(
-        &self,
-        tree: &Bvh<'_>,
-        node: u32,
-        count: u32,
-        bound: f32,
-        visitor: &impl LeafVisitor,
-    ) -> Option<[f32; WIDTH]> {
-        let record = tree.boxes(node)?;
-        Some(box_entries(record, &self.slabs, count, bound, visitor.limit()))
+    fn keys(&self, tree: &Bvh<'_>, opened: &OpenedNode) -> Option<[f32; WIDTH]> {
+        let &OpenedNode { node, count, bound, limit } = opened;
+        Some(box_entries(tree.boxes(node)?, &self.slabs, count, bound, limit))
     }
 }
 
@@ -153,8 +150,7 @@ fn norm_1(v: Vec3) -> f32 {
 #[inline(always)]
 fn farthest(p: Vec3, low: Vec3, high: Vec3) -> Vec3 {
     let (l, h) = ((p - low).abs(), (p - high).abs());
-    let far = |a: f32, b: f32| if a > b { a } else { b };
-    Vec3::new(far(l.x, h.x), far(l.y, h.y), far(l.z, h.z))
+    Vec3::new(greater(h.x, l.x), greater(h.y, l.y), greater(h.z, l.z))
 }
 
 /// Whether a segment is proved clear of the model's box, by their six separating axes, all lengths
@@ -202,8 +198,8 @@ fn approach(
         if d.abs() > STILL {
             let (low, high) = (low / d, high / d);
             let (near, far) = if low < high { (low, high) } else { (high, low) };
-            enter = if near > enter { near } else { enter };
-            leave = if far < leave { far } else { leave };
+            enter = greater(enter, near);
+            leave = lesser(leave, far);
         } else if low > 0.0 || high < 0.0 {
             return None;
         }

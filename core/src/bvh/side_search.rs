@@ -1,5 +1,5 @@
-//! What the descents of one search for a side share: the caller's memory, the work, and why one was
-//! truncated.
+//! State that the descents of one search for a side share: the caller's memory, the work, and why
+//! one was truncated.
 
 use super::descent::{Descent, LeafVisitor, descend};
 use super::point_query::PointQuery;

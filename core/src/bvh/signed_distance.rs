@@ -35,16 +35,15 @@
 //!    High above a face and next to its edge, rounding cannot tell this face from the one beyond
 //!    the edge. From a sixteenth of the distance it can.
 
-use super::closest_point::closest_point;
-use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::nearest_triangle;
+use super::descent::{Descent, descend};
 use super::point_query::{PointQuery, bounds};
 use super::pseudonormal::{Candidates, ViewedSide, side_of_shared_feature, viewed_side};
 use super::side_search::{Search, UNDECIDED};
-use super::triangle_bounds::{each_triangle, limit_of, lower_of, lower_of_box, witness};
-use crate::bvh::format::Bvh;
-use crate::num::sqrt_approx;
+use super::triangle_bounds::{limit_of, lower_of_box, witness};
+use super::triangle_visitor::{LeafTriangle, TriangleCollector, TriangleVisitor};
+use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::tolerance::{EVERYTHING_SQ, FAN_DISTANCE, U32};
+use crate::num::{greater, lesser, sqrt_approx};
 use crate::query::{
     Budget, ClosestPoint, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work,
 };
@@ -52,6 +51,7 @@ use glam::Vec3;
 
 /// Signed distance: positive outside, negative inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SignedDistance {
     /// The signed distance to the input mesh, input units. If the side is undecided, from minus the
     /// distance to the distance.
@@ -119,18 +119,14 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<SignedDistance, QueryError> {
         let tree = self;
-        budget.check()?;
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let query = PointQuery::new(tree, point)?;
+        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
         let closed = tree.is_closed();
         let (steps, stack) = (budget.steps, scratch);
         let mut search = Search { tree, steps, stack, work: Work::default(), truncated: None };
         let survey = if query.far { None } else { Some(search.survey(&query)?) };
         let mut closest = match &survey {
             Some(survey) => survey.closest(&search, point)?,
-            None => closest_point(tree, point, &Budget::EXACT.with_steps(steps), search.stack)?,
+            None => tree.closest_point(point, Budget::EXACT.with_steps(steps), search.stack)?,
         };
         let clear =
             closed && closest.distance.lower > 0.0 && survey.as_ref().is_none_or(Survey::has_sides);
@@ -181,7 +177,7 @@ fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
     let size = (high - low).max_element();
     let gap = if size > 0.0 { 0.25 * size } else { 1.0 };
     let out = |p: Vec3| (p - high).max(low - p).to_array();
-    let most = out(query.p).into_iter().fold(0f32, |most, x| if x > most { x } else { most });
+    let most = out(query.p).into_iter().fold(0f32, greater);
     let mut near = [0f32; 3];
     let mut moved = false;
     let axes = query.p.to_array().into_iter().zip(low.to_array().into_iter().zip(high.to_array()));
@@ -204,25 +200,23 @@ fn outside_of_box(tree: &Bvh<'_>, query: &PointQuery) -> Option<PointQuery> {
 impl Search<'_, '_> {
     fn survey<'p>(&mut self, query: &'p PointQuery) -> Result<Survey<'p>, QueryError> {
         let tree = *self.tree;
-        let margin = FAN_DISTANCE * U32 * tree.header().star_radius;
-        let mut sides = Sides {
-            tree: &tree,
+        let collector = Survey {
             query,
-            margin,
-            best: TrianglePlace::NOWHERE,
-            with_area: TrianglePlace::NOWHERE,
-            by_side: [TrianglePlace::NOWHERE; 3],
-            limit: EVERYTHING_SQ,
+            margin: FAN_DISTANCE * U32 * tree.header().star_radius,
+            best: LeafTriangle::NONE,
+            with_area: LeafTriangle::NONE,
+            by_side: [LeafTriangle::NONE; 3],
             least: [f32::INFINITY; 4],
+            missed: f32::INFINITY,
         };
-        let descent = descend(&tree, query, self.steps, self.stack, &mut sides, &mut self.work)?;
-        let Sides { best, with_area, by_side, least, .. } = sides;
-        let mut missed = f32::INFINITY;
+        let mut visitor = TriangleVisitor { tree: &tree, query, limit: EVERYTHING_SQ, collector };
+        let descent = descend(&tree, query, self.steps, self.stack, &mut visitor, &mut self.work)?;
+        let mut survey = visitor.collector;
         if let Descent::Truncated { least, ended } = descent {
-            missed = least;
+            survey.missed = least;
             self.truncated = Some(ended);
         }
-        Ok(Survey { query, margin, best, with_area, by_side, least, missed })
+        Ok(survey)
     }
 
     /// The side of points on the way to the surface.
@@ -235,7 +229,7 @@ impl Search<'_, '_> {
         let band = Candidates::new(survey.query, survey.margin, survey.with_area.distance_sq).band;
         let mut agreed = None;
         for (place, lower) in survey.by_side.into_iter().zip(survey.least) {
-            if place.node == u32::MAX || lower > band {
+            if place.is_none() || lower > band {
                 continue;
             }
             let side = self.side_on_the_way(survey, place)?;
@@ -252,7 +246,7 @@ impl Search<'_, '_> {
     fn side_on_the_way(
         &mut self,
         survey: &Survey<'_>,
-        place: TrianglePlace,
+        place: LeafTriangle,
     ) -> Result<Side, QueryError> {
         let mut nearer = survey.nearer(self.tree, place);
         for _ in 0..NEARER {
@@ -270,7 +264,7 @@ impl Search<'_, '_> {
     /// The side of the surveyed point, which is known to be clear of the surface.
     fn side(&mut self, survey: &Survey<'_>) -> Result<Side, QueryError> {
         let Survey { query, margin, with_area, least, .. } = *survey;
-        if self.truncated.is_some() || with_area.node == u32::MAX {
+        if self.truncated.is_some() || with_area.is_none() {
             return Ok(UNDECIDED);
         }
         let candidates = Candidates::new(query, margin, with_area.distance_sq);
@@ -279,35 +273,31 @@ impl Search<'_, '_> {
             (true, false, false) => Ok(Side::Outside),
             (false, true, false) => Ok(Side::Inside),
             _ => {
-                let leaf =
-                    self.tree.leaf(with_area.node, with_area.child).ok_or(QueryError::Unchecked)?;
-                side_of_shared_feature(self, &candidates, leaf.corners(with_area.lane))
+                let leaf = with_area.leaf(self.tree).ok_or(QueryError::Unchecked)?;
+                side_of_shared_feature(self, &candidates, leaf.corners(with_area.lane as usize))
             }
         }
     }
 }
 
-/// The place of a triangle.
-#[derive(Clone, Copy)]
-struct TrianglePlace {
-    distance_sq: f32,
-    node: u32,
-    child: u32,
-    lane: usize,
-}
+impl LeafTriangle {
+    const NONE: LeafTriangle = LeafTriangle {
+        distance_sq: f32::INFINITY,
+        lower_bound_sq: f32::INFINITY,
+        number: u32::MAX,
+        node: u32::MAX,
+        child: 0,
+        lane: 0,
+    };
 
-impl TrianglePlace {
-    const NOWHERE: TrianglePlace =
-        TrianglePlace { distance_sq: f32::INFINITY, node: u32::MAX, child: 0, lane: 0 };
-
-    fn number(&self, tree: &Bvh<'_>) -> Option<u32> {
-        Some(tree.links(self.node)?.triangle(self.child).wrapping_add(self.lane as u32))
+    fn is_none(&self) -> bool {
+        self.node == u32::MAX
     }
 
     /// Takes the nearer triangle; of two equally near ones the lesser number.
-    fn improve(&mut self, tree: &Bvh<'_>, other: TrianglePlace) {
+    fn improve(&mut self, other: LeafTriangle) {
         if other.distance_sq < self.distance_sq
-            || (other.distance_sq == self.distance_sq && other.number(tree) < self.number(tree))
+            || (other.distance_sq == self.distance_sq && other.number < self.number)
         {
             *self = other;
         }
@@ -319,12 +309,12 @@ struct Survey<'p> {
     query: &'p PointQuery,
     margin: f32,
     /// The closest triangle.
-    best: TrianglePlace,
+    best: LeafTriangle,
     /// The closest triangle with an area.
-    with_area: TrianglePlace,
+    with_area: LeafTriangle,
     /// The closest triangle with its front to the point, with its back, with an unclear side. The
     /// index is a [`ViewedSide`].
-    by_side: [TrianglePlace; 3],
+    by_side: [LeafTriangle; 3],
     /// For each [`ViewedSide`] the least lower bound of its triangles, grid units.
     least: [f32; 4],
     /// Least squared box bound of the nodes that were not opened; infinite if all were.
@@ -346,17 +336,15 @@ impl Survey<'_> {
     /// opened.
     fn lower(&self) -> f32 {
         let distance = sqrt_approx(self.best.distance_sq);
-        self.query.lower(
-            self.least.into_iter().fold(distance, |least, x| if x < least { x } else { least }),
-        )
+        self.query.lower(self.least.into_iter().fold(distance, lesser))
     }
 
     /// A point on the way to a triangle, a sixteenth of the distance from the triangle, within the
     /// ball about this point that is proved empty.
-    fn nearer(&self, tree: &Bvh<'_>, to: TrianglePlace) -> Option<PointQuery> {
+    fn nearer(&self, tree: &Bvh<'_>, to: LeafTriangle) -> Option<PointQuery> {
         let query = self.query;
-        let leaf = tree.leaf(to.node, to.child)?;
-        let place = query.p + (witness(query, &leaf, to.lane) - query.p) * 0.9375;
+        let leaf = to.leaf(tree)?;
+        let place = query.p + (witness(query, &leaf, to.lane as usize) - query.p) * 0.9375;
         let nearer = PointQuery::new(tree, query.units.point(place)).ok()?;
         let way = nearer.p - query.p;
         let empty = query.units.inward(self.lower());
@@ -371,85 +359,48 @@ impl Survey<'_> {
         let Survey { query, best, .. } = *self;
         let tree = search.tree;
         let ended = search.truncated.unwrap_or(Ended::Exact);
-        if best.node == u32::MAX {
+        if best.is_none() {
             // No step was allowed, or the scratch memory was full: the box of the model.
             let none = Budget::EXACT.with_steps(0);
-            let closest = closest_point(tree, point, &none, &mut [ScratchEntry::EMPTY])?;
+            let closest = tree.closest_point(point, none, &mut [ScratchEntry::EMPTY])?;
             return Ok(ClosestPoint { ended, ..closest });
         }
         let distance = sqrt_approx(best.distance_sq);
         let mut lower = self.lower();
         if self.missed < f32::INFINITY {
             let missed = lower_of_box(query, self.missed);
-            lower = if missed < lower { missed } else { lower };
+            lower = lesser(lower, missed);
         }
-        let leaf = tree.leaf(best.node, best.child).ok_or(QueryError::Unchecked)?;
-        let number = best.number(tree).ok_or(QueryError::Unchecked)?;
+        let leaf = best.leaf(tree).ok_or(QueryError::Unchecked)?;
         Ok(ClosestPoint {
             distance: Interval::new(lower, query.upper(distance)),
-            point: query.units.point(witness(query, &leaf, best.lane)),
-            triangle: tree.source(number),
+            point: query.units.point(witness(query, &leaf, best.lane as usize)),
+            triangle: tree.source(best.number),
             work: search.work,
             ended,
         })
     }
 }
 
-/// Finds the closest triangle, and the facings of all that may be the closest.
-struct Sides<'a, 't> {
-    tree: &'a Bvh<'t>,
-    query: &'a PointQuery,
-    margin: f32,
-    best: TrianglePlace,
-    with_area: TrianglePlace,
-    by_side: [TrianglePlace; 3],
-    limit: f32,
-    least: [f32; 4],
-}
-
-impl LeafVisitor for Sides<'_, '_> {
+impl TriangleCollector for Survey<'_> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
-        self.limit
-    }
-
-    #[inline(always)]
-    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.leaf, self.query.p)?;
-        if near.lower_bound_sq <= self.limit {
-            self.look(visit);
+    fn take(&mut self, here: LeafTriangle, leaf: &FanLeaf<'_>, limit: &mut f32) {
+        self.best.improve(here);
+        let facing = viewed_side(leaf, here.lane as usize, self.query.p);
+        if facing != ViewedSide::Flat && here.distance_sq <= self.with_area.distance_sq {
+            self.with_area.improve(here);
+            let band = Candidates::new(self.query, self.margin, self.with_area.distance_sq).band;
+            let lower = limit_of(self.query, band);
+            *limit = lesser(*limit, lower);
         }
-        Some(true)
-    }
-}
-
-impl Sides<'_, '_> {
-    #[inline(never)]
-    fn look(&mut self, visit: &LeafVisit<'_>) {
-        let (leaf, p) = (&visit.leaf, self.query.p);
-        each_triangle(self.query, leaf, |lane, distance_sq, lower_bound_sq| {
-            if lower_bound_sq > self.limit {
-                return;
-            }
-            let here = TrianglePlace { distance_sq, node: visit.node, child: visit.lane, lane };
-            self.best.improve(self.tree, here);
-            let facing = viewed_side(leaf, lane, p);
-            if facing != ViewedSide::Flat && distance_sq <= self.with_area.distance_sq {
-                self.with_area.improve(self.tree, here);
-                let band =
-                    Candidates::new(self.query, self.margin, self.with_area.distance_sq).band;
-                let limit = limit_of(self.query, band);
-                self.limit = if limit < self.limit { limit } else { self.limit };
-            }
-            if let Some(by_side) = self.by_side.get_mut(facing as usize) {
-                by_side.improve(self.tree, here);
-            }
-            let lower = lower_of(leaf, lane, p, distance_sq, lower_bound_sq);
-            if let Some(least) = self.least.get_mut(facing as usize)
-                && lower < *least
-            {
-                *least = lower;
-            }
-        });
+        if let Some(by_side) = self.by_side.get_mut(facing as usize) {
+            by_side.improve(here);
+        }
+        let lower = here.lower(leaf, self.query);
+        if let Some(least) = self.least.get_mut(facing as usize)
+            && lower < *least
+        {
+            *least = lower;
+        }
     }
 }

@@ -3,17 +3,17 @@
 //! This costs less than the distance. The search ends at the first triangle that is certainly near
 //! enough, and it opens no node that is certainly too far.
 
-use super::closest_point::closest_point;
-use super::descent::{Descent, LeafVisit, LeafVisitor, descend};
-use super::leaf_distance::nearest_triangle;
+use super::descent::{Descent, LeafVisit, descend};
 use super::point_query::PointQuery;
-use super::triangle_bounds::{each_triangle, limit_within, lower_of, nearness, seen_from};
-use crate::bvh::format::Bvh;
+use super::triangle_bounds::{limit_within, nearness, seen_from};
+use super::triangle_visitor::{LeafTriangle, Next, TriangleCollector, TriangleVisitor};
+use crate::bvh::format::{Bvh, FanLeaf};
 use crate::num::sqrt_approx;
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Verdict, Work};
 
 /// Whether the mesh is within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Within {
     /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther; of a tight hull,
     /// the inside of the mesh too. Undecided for [`Resolution`](Undecided::Resolution): the
@@ -61,7 +61,6 @@ impl Bvh<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
     /// NaN or infinite; [`QueryError::NoScratch`]; [`QueryError::NotServed`].
-    #[inline]
     pub fn within(
         &self,
         point: [f32; 3],
@@ -69,43 +68,30 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Within, QueryError> {
-        budget.check()?;
-        within(self, point, distance, budget.steps, scratch)
+        let tree = self;
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check()?;
+        let query = PointQuery::prepare(tree, point, &budget, scratch)?;
+        if query.far {
+            return from_afar(tree, point, distance, scratch);
+        }
+        let mut work = Work::default();
+        let limit = limit_within(&query, distance);
+        let collector = Threshold { tree, query: &query, distance, near: None, undecided: false };
+        let mut visitor = TriangleVisitor { tree, query: &query, limit, collector };
+        let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+        let Threshold { near, undecided, .. } = visitor.collector;
+        if let Some(number) = near {
+            let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
+            return Ok(Within { verdict: Verdict::Yes, triangle, work });
+        }
+        let verdict = match descent {
+            Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
+            _ if undecided => Verdict::Undecided(Undecided::Resolution),
+            _ => Verdict::No,
+        };
+        Ok(Within { verdict, triangle: None, work })
     }
-}
-
-fn within(
-    tree: &Bvh<'_>,
-    point: [f32; 3],
-    distance: f32,
-    steps: u32,
-    scratch: &mut [ScratchEntry],
-) -> Result<Within, QueryError> {
-    if !(distance >= 0.0 && distance.is_finite()) {
-        return Err(QueryError::Tolerance);
-    }
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
-    let query = PointQuery::new(tree, point)?;
-    if query.far {
-        return from_afar(tree, point, distance, scratch);
-    }
-    let mut work = Work::default();
-    let limit = limit_within(&query, distance);
-    let mut visitor =
-        Threshold { tree, query: &query, distance, limit, near: None, undecided: false };
-    let descent = descend(tree, &query, steps, scratch, &mut visitor, &mut work)?;
-    if let Some(number) = visitor.near {
-        let triangle = Some(tree.source(number).ok_or(QueryError::Unchecked)?);
-        return Ok(Within { verdict: Verdict::Yes, triangle, work });
-    }
-    let verdict = match descent {
-        Descent::Truncated { ended, .. } => Verdict::Undecided(ended.undecided()),
-        _ if visitor.undecided => Verdict::Undecided(Undecided::Resolution),
-        _ => Verdict::No,
-    };
-    Ok(Within { verdict, triangle: None, work })
 }
 
 #[cold]
@@ -116,7 +102,7 @@ fn from_afar(
     scratch: &mut [ScratchEntry],
 ) -> Result<Within, QueryError> {
     let ClosestPoint { distance: found, triangle, work, .. } =
-        closest_point(tree, point, &Budget::EXACT, scratch)?;
+        tree.closest_point(point, Budget::EXACT, scratch)?;
     let (verdict, triangle) = match triangle {
         Some(_) if found.upper <= distance => (Verdict::Yes, triangle),
         _ if found.lower > distance => (Verdict::No, None),
@@ -130,37 +116,47 @@ struct Threshold<'a> {
     query: &'a PointQuery,
     /// Input units.
     distance: f32,
-    /// Squared bound above which everything is certainly farther.
-    limit: f32,
     /// A triangle that is certainly within, by its number in the blob.
     near: Option<u32>,
     /// A triangle may be within.
     undecided: bool,
 }
 
-impl LeafVisitor for Threshold<'_> {
+impl TriangleCollector for Threshold<'_> {
     #[inline(always)]
-    fn limit(&self) -> f32 {
-        self.limit
+    fn nearest(&mut self, visit: &LeafVisit<'_>, distance_sq: f32, limit: f32) -> Option<Next> {
+        if distance_sq <= limit && self.is_within(distance_sq) {
+            self.near = Some(self.number(visit, distance_sq)?);
+            return Some(Next::Nothing);
+        }
+        Some(if self.undecided { Next::Leaf } else { Next::Triangles })
+    }
+
+    /// A triangle that is not certainly beyond the distance leaves the verdict undecided. A refined
+    /// sliver may be certainly within.
+    #[inline(always)]
+    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, _: &mut f32) {
+        if self.near.is_none() && self.is_within(triangle.distance_sq) {
+            self.near = Some(triangle.number);
+        }
+        if !self.undecided {
+            self.undecided = self.query.lower(triangle.lower(leaf, self.query)) <= self.distance;
+        }
     }
 
     #[inline(always)]
-    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
-        let near = nearest_triangle(&visit.leaf, self.query.p)?;
-        if near.distance_sq <= self.limit
-            && self.query.upper(sqrt_approx(near.distance_sq)) <= self.distance
-        {
-            self.near = Some(self.number(visit, near.distance_sq)?);
-            return Some(false);
-        }
-        if near.lower_bound_sq <= self.limit && !self.undecided {
-            self.look_closer(visit)?;
-        }
-        Some(self.near.is_none())
+    fn is_answered(&self) -> bool {
+        self.near.is_some()
     }
 }
 
 impl Threshold<'_> {
+    /// Whether a triangle at this squared distance is certainly within.
+    #[inline(always)]
+    fn is_within(&self, distance_sq: f32) -> bool {
+        self.query.upper(sqrt_approx(distance_sq)) <= self.distance
+    }
+
     /// Number in the blob of the first triangle at `distance_sq`.
     #[cold]
     #[inline(never)]
@@ -171,32 +167,5 @@ impl Threshold<'_> {
         };
         let lane = (0..visit.leaf.shape().triangles()).find(here)?;
         Some(first.wrapping_add(lane as u32))
-    }
-
-    /// Looks at each triangle of a leaf near the limit. One that is not certainly beyond the
-    /// distance leaves the verdict undecided. A refined sliver may be certainly within.
-    #[cold]
-    #[inline(never)]
-    fn look_closer(&mut self, visit: &LeafVisit<'_>) -> Option<()> {
-        let Threshold { query, limit, distance, .. } = *self;
-        let (mut undecided, mut within) = (false, None);
-        each_triangle(query, &visit.leaf, |lane, distance_sq, lower_bound_sq| {
-            if lower_bound_sq > limit {
-                return;
-            }
-            if within.is_none() && query.upper(sqrt_approx(distance_sq)) <= distance {
-                within = Some(lane);
-            }
-            if !undecided {
-                let lower = lower_of(&visit.leaf, lane, query.p, distance_sq, lower_bound_sq);
-                undecided = query.lower(lower) <= distance;
-            }
-        });
-        self.undecided = undecided;
-        if let Some(lane) = within {
-            self.near =
-                Some(self.tree.links(visit.node)?.triangle(visit.lane).wrapping_add(lane as u32));
-        }
-        Some(())
     }
 }

@@ -12,6 +12,7 @@ use glam::DVec3;
 
 /// Closest point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CurveClosest {
     /// The distance to the input curve, input units.
     pub distance: Interval,
@@ -62,7 +63,7 @@ impl Curve<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CurveClosest, QueryError> {
-        budget.check()?;
+        budget.check_with(scratch)?;
         let Budget { relative, absolute, steps } = budget;
         closest_point(self, point, [relative, absolute], steps, scratch)
     }
@@ -79,9 +80,6 @@ fn closest_point(
 ) -> Result<CurveClosest, QueryError> {
     let frame = curve.frame;
     let p = frame.local(point)?;
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
     let mut search = Search::new(curve, p);
     let is_far = p.abs().max_element() > CURVE_FAR;
     let ended = if is_far {
@@ -137,7 +135,7 @@ impl<'a> Search<'a> {
             others: f64::INFINITY,
             left: f32::INFINITY,
             best: None,
-            work: Work::NONE,
+            work: Work::default(),
         }
     }
 

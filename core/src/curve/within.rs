@@ -8,6 +8,7 @@ use crate::query::{Budget, QueryError, ScratchEntry, SweepQueue, Taken, Undecide
 
 /// Whether a curve is within a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct CurveWithin {
     /// `Yes`: a point of the curve is not farther. `No`: the whole curve is farther. Undecided for
     /// [`Resolution`](Undecided::Resolution): the difference from the distance asked about is
@@ -56,15 +57,10 @@ impl Curve<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CurveWithin, QueryError> {
-        budget.check()?;
-        if !(distance >= 0.0 && distance.is_finite()) {
-            return Err(QueryError::Tolerance);
-        }
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check_with(scratch)?;
         let p = self.frame.local(point)?;
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let mut work = Work::NONE;
+        let mut work = Work::default();
         let (verdict, segment) = if p.abs().max_element() > CURVE_FAR {
             let (near, far) = self.bounds.distance_range(p);
             let verdict = if self.frame.upper(far) <= distance {

@@ -34,6 +34,13 @@ impl<'a> Bytes<'a> {
         self.array(at).map(u32::from_le_bytes)
     }
 
+    /// Three words, side by side.
+    #[inline(always)]
+    pub(crate) fn u32x3(self, at: usize) -> Option<[u32; 3]> {
+        let (words, _) = self.0.get(at..)?.as_chunks::<4>();
+        Some(words.first_chunk::<3>()?.map(u32::from_le_bytes))
+    }
+
     #[inline(always)]
     pub(crate) fn f32(self, at: usize) -> Option<f32> {
         self.array(at).map(f32::from_le_bytes)

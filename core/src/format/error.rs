@@ -1,6 +1,6 @@
 //! Why a blob was not opened.
 
-use super::layout::SectionKind;
+use super::layout::{SectionKind, VERSION_MAJOR};
 
 /// Why a blob was not opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +82,8 @@ impl core::fmt::Display for OpenError {
             OpenError::Version { found } => {
                 write!(
                     f,
-                    "format version {found}, and this reader knows version 1: build the blob again"
+                    "format version {found}, and this reader knows version {VERSION_MAJOR}: build \
+                     the blob again"
                 )
             }
             OpenError::VertexFormat { found } => write!(f, "unknown vertex format {found}"),

@@ -72,16 +72,16 @@ impl Header {
         if version != VERSION_MAJOR {
             return Err(OpenError::Version { found: version });
         }
+        let finite = |is_finite: bool, field: &'static str| {
+            if is_finite { Ok(()) } else { Err(OpenError::NotFinite { field }) }
+        };
         let float = |at: usize, name: &'static str| {
             let x = f32::from_bits(word(at)?);
-            if x.is_finite() { Ok(x) } else { Err(OpenError::NotFinite { field: name }) }
+            finite(x.is_finite(), name).map(|()| x)
         };
         let corner = |at: usize, name: &'static str| {
-            Ok::<[f32; 3], OpenError>([
-                float(at, name)?,
-                float(at + 4, name)?,
-                float(at + 8, name)?,
-            ])
+            let corner = bytes.u32x3(at).ok_or(short)?.map(f32::from_bits);
+            finite(corner.iter().all(|x| x.is_finite()), name).map(|()| corner)
         };
         let code = bytes.u8(field::VERTEX_FORMAT).ok_or(short)?;
         let vertex_format =
@@ -94,11 +94,7 @@ impl Header {
             scale_exponent: word(field::SCALE_EXPONENT)?.cast_signed(),
             vertex_format,
             grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
-            grid_origin: [
-                word(field::GRID_ORIGIN)?.cast_signed(),
-                word(field::GRID_ORIGIN + 4)?.cast_signed(),
-                word(field::GRID_ORIGIN + 8)?.cast_signed(),
-            ],
+            grid_origin: bytes.u32x3(field::GRID_ORIGIN).ok_or(short)?.map(u32::cast_signed),
             vertices: word(field::VERTICES)?,
             base_vertices: word(field::BASE_VERTICES)?,
             base_triangles: word(field::BASE_TRIANGLES)?,
@@ -208,7 +204,7 @@ impl Header {
 
     /// Bytes of one split record.
     pub fn split_bytes(&self) -> usize {
-        self.vertex_index_bytes() + self.ring_index_bytes() + 2
+        self.vertex_index_bytes() + self.ring_index_bytes() + 3
     }
 
     /// Bytes of one base group.

@@ -4,9 +4,9 @@
 /// First eight bytes of every blob.
 pub const MAGIC: [u8; 8] = *b"meshswep";
 /// A reader refuses any other major version.
-pub const VERSION_MAJOR: u16 = 1;
+pub const VERSION_MAJOR: u16 = 2;
 /// A reader accepts any minor version. It ignores the additions of a later one.
-pub const VERSION_MINOR: u16 = 4;
+pub const VERSION_MINOR: u16 = 0;
 /// Bytes of the fixed part of the header; the section table follows.
 pub const HEADER_BYTES: usize = 160;
 /// Bytes of one entry of the section table: kind, offset, length, CRC, each a u32.
@@ -30,7 +30,7 @@ pub enum SectionKind {
     /// Corners of the base hull's triangles.
     BaseTriangles = 2,
     /// One record for each split, coarse to fine: vertex, start of its ring, position of the right
-    /// wing in the ring, star radius.
+    /// wing in the ring, star radius, error.
     Splits = 3,
     /// Rings of all splits: the vertices that must exist before the split.
     Rings = 4,

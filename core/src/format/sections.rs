@@ -26,6 +26,7 @@ fn header_crc(bytes: &[u8]) -> Option<u32> {
 
 /// A section as the table lists it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Section {
     /// Its contents.
     pub kind: SectionKind,

@@ -6,6 +6,7 @@
 //! kernel. Both evaluate the same formulas in the same order.
 
 use super::support::Support;
+use crate::num::greater;
 use glam::Vec3;
 
 /// Triangles bounded at a time.
@@ -96,7 +97,7 @@ fn in_lanes(t: &[[f32; LANES]; 9]) -> [Support; LANES] {
         let rab = rx * abx + ry * aby + rz * abz;
         let rac = rx * acx + ry * acy + rz * acz;
         let far = if rab > 0.0 { rab } else { 0.0 };
-        let far = if rac > far { rac } else { far };
+        let far = greater(far, rac);
         along[i] = (rx * apx + ry * apy + rz * apz) - far;
         length_sq[i] = rx * rx + ry * ry + rz * rz;
     }

@@ -40,7 +40,7 @@ pub fn point_triangle(p: DVec3, a: DVec3, b: DVec3, c: DVec3) -> PointTriangle {
     let norms = norm_1(ap) + norm_1(ab) + norm_1(ac);
     let margin = POINT_INTERVAL * U64 * norms;
 
-    // Whatever `direction` is, no point of the triangle is nearer than the nearest corner along it.
+    // Along any direction, no point of the triangle is nearer than the nearest corner.
     let g = direction.unwrap_or(residual);
     let along = g.dot(ap);
     let support = 0f64.max(g.dot(ab)).max(g.dot(ac));

@@ -143,9 +143,9 @@ fn gap(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> f64 {
     .fold(0.0, f64::max)
 }
 
-/// Whether the segment may come within `reach` of the triangle. `false` proves that it does not.
-pub fn comes_within(a: DVec3, b: DVec3, corners: [DVec3; 3], reach: f64) -> bool {
-    gap(a, b, corners) <= reach
+/// Whether the segment may come within `distance` of the triangle. `false` proves that it does not.
+pub fn comes_within(a: DVec3, b: DVec3, corners: [DVec3; 3], distance: f64) -> bool {
+    gap(a, b, corners) <= distance
 }
 
 /// Parameter on `a + t·d` at which the segment comes within `touch` of the edge, if it does.

@@ -1,5 +1,6 @@
 //! The plane that supports a triangle and faces the origin.
 
+use crate::num::greater;
 use glam::Vec3;
 
 /// The plane that supports a triangle and faces the origin.
@@ -24,13 +25,6 @@ impl Support {
             length_sq: r.dot(r),
         }
     }
-}
-
-/// The greater of two numbers, by one instruction. `f32::max` spends four on NaN, which does not
-/// occur here.
-#[inline(always)]
-pub(crate) fn greater(x: f32, y: f32) -> f32 {
-    if y > x { y } else { x }
 }
 
 /// Vector from the (approximately) closest point to the query. Any finite result is safe, so no

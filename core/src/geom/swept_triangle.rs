@@ -7,7 +7,8 @@
 
 use super::boxes::{Aabb, Clipped};
 use super::lanes::Lanes;
-use super::support::{Support, greater};
+use super::support::Support;
+use crate::num::greater;
 use crate::num::tolerance::{
     POINT_BOUND, SEGMENT_BOUND, SQUARED_SLACK, TRUSTED_DIRECTION_SQ, U32, U64, UNDERFLOW,
 };
@@ -59,8 +60,8 @@ impl SweptPoint {
             return Some(0.0);
         }
         let inside = radius + self.margin;
-        let reach = limit + inside;
-        if along > 0.0 && along * along * SQUARED_SLACK > reach * reach * length_sq {
+        let beyond = limit + inside;
+        if along > 0.0 && along * along * SQUARED_SLACK > beyond * beyond * length_sq {
             return None;
         }
         Some(greater(0.0, along / libm::sqrtf(length_sq) - inside))
@@ -89,9 +90,9 @@ impl SweptSegment {
         let direction = end - start;
         let length_sq = direction.dot(direction);
         let edge = bounds.max - bounds.min;
-        let reach = (start - bounds.min).abs().max((bounds.max - start).abs());
+        let farthest = (start - bounds.min).abs().max((bounds.max - start).abs());
         let ends = start.abs() + end.abs();
-        let norms = 2.0 * (edge.x + edge.y + edge.z + reach.x + reach.y + reach.z)
+        let norms = 2.0 * (edge.x + edge.y + edge.z + farthest.x + farthest.y + farthest.z)
             + ends.x
             + ends.y
             + ends.z;
@@ -116,10 +117,10 @@ impl SweptSegment {
     /// unclipped segment below `t`. `None` only if it certainly does not.
     #[inline(always)]
     pub fn enter(&self, corners: [Vec3; 3], radius: f32) -> Option<f32> {
-        let reach = radius + self.margin;
+        let max_distance = radius + self.margin;
         let [a, b, c] = corners.map(|corner| corner - self.start);
         let [sa, sb, sc] = [a, b, c].map(|e| e.dot(self.direction) * self.inverse_sq);
-        let slack = reach * self.length * self.inverse_sq;
+        let slack = max_distance * self.length * self.inverse_sq;
         let first = sa.min(sb).min(sc) - slack;
         let last = sa.max(sb).max(sc) + slack;
         if first > 1.0 || last < 0.0 {
@@ -132,7 +133,7 @@ impl SweptSegment {
             b - self.direction * sb,
             c - self.direction * sc,
         );
-        if across > reach {
+        if across > max_distance {
             return None;
         }
         Some(self.t_start + first.max(0.0) * self.t_scale - 16.0 * U32)
@@ -153,11 +154,11 @@ mod tests {
             (Vec3::new(-3.0, -4.0, 0.0), 5.0),
             (Vec3::new(0.5, -2.0, 0.0), 2.0),
         ] {
-            let probe = SweptPoint::new(point, &bounds);
+            let swept = SweptPoint::new(point, &bounds);
             let lower =
-                probe.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
-            assert!(probe.lower(corners, 0.25, distance - 0.2).is_some());
-            assert!(probe.lower(corners, 0.25, distance - 0.3).is_none());
+                swept.lower(corners, 0.25, f32::INFINITY).expect("nothing exceeds infinity");
+            assert!(swept.lower(corners, 0.25, distance - 0.2).is_some());
+            assert!(swept.lower(corners, 0.25, distance - 0.3).is_none());
             assert!(
                 lower <= distance - 0.25 && lower > distance - 0.25 - 1e-4,
                 "{lower} {distance}"
@@ -169,17 +170,17 @@ mod tests {
     fn segment_probe_separates_what_is_apart_and_keeps_what_touches() {
         let bounds = Aabb { min: Vec3::splat(-1.0), max: Vec3::splat(1.0) };
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
-        let probe = |a: [f64; 3], b: [f64; 3]| {
+        let segment = |a: [f64; 3], b: [f64; 3]| {
             let clipped = bounds.clip(DVec3::from(a), DVec3::from(b)).expect("meets the box");
             SweptSegment::new(&clipped, &bounds)
         };
-        let through = probe([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]);
+        let through = segment([0.2, 0.2, 1.0], [0.2, 0.2, -1.0]);
         let t = through.enter(corners, 0.0).expect("crosses");
         assert!(t <= 0.5 && t > 0.49, "{t}");
-        assert!(probe([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.25).is_none());
-        assert!(probe([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.31).is_some());
-        assert!(probe([0.2, 0.2, 1.0], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
-        assert!(probe([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
-        assert!(probe([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.51).is_some());
+        assert!(segment([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.25).is_none());
+        assert!(segment([0.2, -0.3, 1.0], [0.2, -0.3, -1.0]).enter(corners, 0.31).is_some());
+        assert!(segment([0.2, 0.2, 1.0], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
+        assert!(segment([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.4).is_none());
+        assert!(segment([0.2, 0.2, 0.5], [0.2, 0.2, 0.5]).enter(corners, 0.51).is_some());
     }
 }

@@ -19,8 +19,8 @@ pub enum Contact {
     Apart,
     /// Proved: they have a common point.
     Meets,
-    /// They come so near to each other that the error of the vertices, or rounding, leaves it open.
-    Open,
+    /// The distance is within the error of the vertices, or within rounding.
+    Undecided,
 }
 
 /// A precision of the test.
@@ -126,7 +126,7 @@ fn sides<T: Real>([first, second, _]: &[Edge<T>; 3], points: [Point<T>; 3], shif
 /// Whether the triangles `a` and `b` have a common point. No true vertex is farther than `doubt`
 /// from its given place.
 ///
-/// Triangles that touch are [`Contact::Open`] in any precision. So is every pair in which one
+/// Triangles that touch are [`Contact::Undecided`] in any precision. So is every pair in which one
 /// triangle has no area and the other comes within rounding of it. With a `doubt` of 0 the given
 /// coordinates are the truth. Products of three lengths must stay within the type's range.
 ///
@@ -209,7 +209,7 @@ pub fn straddling_triangles_meet<T: Real>(
     } else if behind > 0 && before < 0 {
         Contact::Meets
     } else {
-        Contact::Open
+        Contact::Undecided
     }
 }
 
@@ -241,7 +241,7 @@ fn undecided<T: Real>(
     if all_miss || parted_in_a_plane(edges_a, edges_b, points, shift) {
         Contact::Apart
     } else {
-        Contact::Open
+        Contact::Undecided
     }
 }
 
@@ -271,12 +271,12 @@ fn parted_along<T: Real>(
     shift: T,
 ) -> bool {
     let length = norm_1(direction);
-    let reach = |p: Point<T>| {
+    let height = |p: Point<T>| {
         let way = minus(p, from);
         (dot(direction, way), length * (T::DETERMINANT * norm_1(way) + shift) + T::UNDERFLOW)
     };
     // The vertices that are farthest out and nearest.
-    let [own, other] = [own, other].map(|points| points.map(reach));
+    let [own, other] = [own, other].map(|points| points.map(height));
     own.iter().all(|&(height, margin)| {
         other.iter().all(|&(beyond, doubt)| beyond - doubt > height + margin)
     })
@@ -301,14 +301,14 @@ mod tests {
         let spike = [[0.5, 0.5, -1.0], [1.0, 0.5, -1.0], [1.0, 1.0, 1.0]];
         let cases = [
             (spike, 0.0, Contact::Meets),
-            (spike, 0.4, Contact::Open),
+            (spike, 0.4, Contact::Undecided),
             (shifted([0.0, 0.0, 1.5], spike), 0.0, Contact::Apart),
-            (shifted([0.0, 0.0, 1.5], spike), 0.3, Contact::Open),
+            (shifted([0.0, 0.0, 1.5], spike), 0.3, Contact::Undecided),
             // Beyond the slanted edge: planes do not separate them, edges do.
             (shifted([2.0, 2.0, 0.0], spike), 0.0, Contact::Apart),
-            (shifted([0.0, 0.0, 1e-30], FLAT), 0.0, Contact::Open),
-            (FLAT, 0.0, Contact::Open),
-            ([[1.0, 1.0, 0.0]; 3], 0.0, Contact::Open),
+            (shifted([0.0, 0.0, 1e-30], FLAT), 0.0, Contact::Undecided),
+            (FLAT, 0.0, Contact::Undecided),
+            ([[1.0, 1.0, 0.0]; 3], 0.0, Contact::Undecided),
             ([[1.0, 1.0, 1.0]; 3], 0.0, Contact::Apart),
         ];
         for (other, doubt, wanted) in cases {

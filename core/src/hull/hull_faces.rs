@@ -1,4 +1,4 @@
-//! The hull of one level as triangles: for drawing, export and tests.
+//! The triangles of hulls: of the base, of a split, of one level. For drawing, export and tests.
 
 use crate::hull::format::{Hull, Level, SplitIdx, VertIdx};
 
@@ -12,7 +12,12 @@ pub struct HullFace {
     pub radius: f32,
 }
 
-impl Hull<'_> {
+impl HullFace {
+    /// Any value, for filling arrays.
+    pub const EMPTY: HullFace = HullFace { corners: [VertIdx(0); 3], radius: 0.0 };
+}
+
+impl<'a> Hull<'a> {
     /// Triangles of the hull after `level.splits` splits, from the tables alone: no memory, time
     /// linear in the splits. [`vertex`](Hull::vertex) gives the corners' coordinates.
     ///
@@ -22,19 +27,25 @@ impl Hull<'_> {
         let splits = level.splits;
         let alive =
             move |vertex: VertIdx| self.split_of(vertex).is_none_or(|split| split.0 >= splits);
-        let base = (0..self.header().base_triangles).filter_map(move |index| {
-            Some(HullFace { corners: self.base_triangle(index)?, radius: self.radius(index)? })
-        });
-        let fine = (0..splits).flat_map(move |index| {
-            let split = self.split(SplitIdx(index));
-            let count = split.map_or(0, |s| s.fine_len());
-            (0..count).filter_map(move |slot| {
-                let split = split?;
-                let corners = split.fine(slot)?;
-                let number = split.first_triangle.checked_add(u32::try_from(slot).ok()?)?;
-                Some(HullFace { corners, radius: self.radius(number)? })
-            })
-        });
-        base.chain(fine).filter(move |face| face.corners.into_iter().all(alive))
+        let fine = (0..splits).flat_map(|index| self.fine_faces(SplitIdx(index)));
+        self.base_faces().chain(fine).filter(move |face| face.corners.into_iter().all(alive))
+    }
+
+    /// Triangles of the base hull.
+    pub(crate) fn base_faces(&self) -> impl Iterator<Item = HullFace> + use<'a> {
+        let hull = *self;
+        (0..hull.header().base_triangles).filter_map(move |index| {
+            Some(HullFace { corners: hull.base_triangle(index)?, radius: hull.radius(index)? })
+        })
+    }
+
+    /// Triangles that a split adds.
+    pub(crate) fn fine_faces(&self, split: SplitIdx) -> impl Iterator<Item = HullFace> + use<'a> {
+        let (hull, split) = (*self, self.split(split));
+        (0..split.map_or(0, |s| s.fine_len())).filter_map(move |slot| {
+            let corners = split?.fine(slot)?;
+            let number = split?.first_triangle.checked_add(u32::try_from(slot).ok()?)?;
+            Some(HullFace { corners, radius: hull.radius(number)? })
+        })
     }
 }

@@ -7,12 +7,14 @@
 //! within its `reach` of the vertex that it replaced, and sixteen base faces share a swept
 //! triangle. Later hits may lie below an unbroken hull face. [`Hull::all_hits`] finds those.
 
-use super::refined_hull::{Face, Refined, RefinedHull};
+use super::refined_hull::{Refined, RefinedHull, erased, split_of_face};
 use crate::geom::{SweptPoint, SweptSegment, segment_triangle};
 use crate::hull::format::layout::BASE_GROUP;
 use crate::hull::format::{Children, Hull, NodeIdx, SplitIdx, TriIdx, VertIdx};
 use crate::num::{down_to_f32, up_to_f32};
-use crate::query::{Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, Work};
+use crate::query::{
+    Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry, Work,
+};
 use glam::DVec3;
 
 /// The extent of the search.
@@ -45,96 +47,116 @@ pub struct OuterHits {
     pub ended: Ended,
 }
 
-impl Hull<'_> {
+impl<'t> Hull<'t> {
     /// Hits of the closed segment `a b`, whose start must lie outside the box of the hulls.
     ///
-    /// `refined` is working memory of any size ([`RefinedHull`]). The search resets it to the base
-    /// hull. `hits` gets the hits by rising parameter. If `starts_inside` is set in the answer, ask
-    /// [`first_hit`](Hull::first_hit) instead: the segment may start between hull and surface. The
-    /// surface must be stored exactly (no grid rounding, no cut), or the answer is
-    /// [`Ended::Resolution`] without any bound. The surface must not wind around any point
-    /// negatively. A solid that is turned inside out where it passes through itself does, and the
-    /// hulls of that mesh do not enclose it there. [`first_hit`](Hull::first_hit) has no such
-    /// conditions.
+    /// The search starts from `refined` as it stands and leaves it finer, so that segments that lie
+    /// together share splits. [`reset`](RefinedHull::reset) it when the segments lie elsewhere: each
+    /// search tests the faces that are there. If its memory gets full, the answer says
+    /// [`Ended::Scratch`]. `scratch` may have any length. With few entries faces are tested again,
+    /// which changes no answer. `hits` gets the hits by rising parameter.
+    ///
+    /// If `starts_inside` is set in the answer, ask [`first_hit`](Hull::first_hit) instead: the
+    /// segment may start between hull and surface. The surface must be stored exactly (no grid
+    /// rounding, no cut), or the answer is [`Ended::Resolution`] without any bound. The surface must
+    /// not wind around any point negatively. A solid that is turned inside out where it passes
+    /// through itself does, and the hulls of that mesh do not enclose it there.
+    /// [`first_hit`](Hull::first_hit) has no such conditions.
     ///
     /// Of the budget only `steps` matters: vertex splits. Cost: faces tested and splits as in Table
     /// 3 of Platis & Theoharis 2003.
     ///
     /// ```
-    /// use meshsweep_core::{Budget, Face, Hit, Hull, RefinedHull, Search};
+    /// use meshsweep_core::{Budget, Hit, Hull, RefinedHull, Scratch, Search};
     /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
     /// let part = Hull::open(bytes)?;
-    /// let (mut performed, mut swept, mut faces) = ([0; 64], [0; 64], [Face::EMPTY; 64]);
-    /// let mut refined = RefinedHull::new(&mut performed, &mut swept, &mut faces);
+    /// let (mut refined, mut scratch) = (RefinedHull::<128>::new(), Scratch::<64>::new());
     /// let (a, b, mut hits) = ([-400.0, 1.0, 1.0], [400.0, 1.0, 1.0], [Hit::EMPTY; 8]);
-    /// let exact = Budget::EXACT;
-    /// let found = part.outer_hits(a, b, Search::First, &mut refined, &mut hits, exact)?;
+    /// let (first, exact) = (Search::First, Budget::EXACT);
+    /// let found = part.outer_hits(a, b, first, &mut refined, &mut hits, exact, &mut scratch)?;
     /// assert!(!found.starts_inside);
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`].
-    pub fn outer_hits(
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a segment, and four kinds of the caller's memory"
+    )]
+    pub fn outer_hits<const SPLITS: usize>(
         &self,
         a: [f32; 3],
         b: [f32; 3],
         search: Search,
-        refined: &mut RefinedHull<'_>,
+        refined: &mut RefinedHull<'t, SPLITS>,
         hits: &mut [Hit],
         budget: Budget,
+        scratch: &mut [ScratchEntry],
     ) -> Result<OuterHits, QueryError> {
-        let model = self;
-        if !model.has_hull() {
-            return Err(QueryError::NO_HULL);
-        }
-        let frame = Frame::of(model.header());
-        let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
-        let bounds = model.hull_box();
-        let mut out = OuterHits {
-            t: FirstHit::CLEAR.t,
-            stored: 0,
-            dropped: 0,
-            starts_inside: false,
-            work: Work { nodes: 1, ..Work::NONE },
-            ended: Ended::Exact,
-        };
-        let start_f32 = start.as_vec3();
-        if start_f32.cmpge(bounds.min).all() && start_f32.cmple(bounds.max).all() {
-            out.starts_inside = true;
-            out.t.lower = 0.0;
-            return Ok(out);
-        }
-        if model.header().surface_error > 0.0 || model.is_cut() {
-            // The hull encloses the stored surface, and the input's may stick out.
-            out.t.lower = 0.0;
-            out.ended = Ended::Resolution;
-            return Ok(out);
-        }
-        let Some(clipped) = bounds.clip(start, end) else { return Ok(out) };
-        refined.reset();
-        let mut sweep = Sweep {
-            model,
-            frame,
-            start,
-            end,
-            segment: SweptSegment::new(&clipped, &bounds),
-            search,
-            steps: budget.steps,
-            refined,
-            hits: Hits::new(hits),
-            out,
-            waiting: 0,
-            spare: None,
-            overflowed: false,
-        };
-        sweep.run().ok_or(QueryError::Unchecked)?;
-        let Hits { stored, dropped, .. } = sweep.hits;
-        Ok(OuterHits { stored, dropped, ..sweep.out })
+        outer_hits(self, [a, b], search, erased(&mut refined.state), hits, budget.steps, scratch)
     }
 }
 
-struct Sweep<'a, 'f> {
+fn outer_hits(
+    model: &Hull<'_>,
+    [a, b]: [[f32; 3]; 2],
+    search: Search,
+    refined: &mut Refined,
+    hits: &mut [Hit],
+    steps: u32,
+    scratch: &mut [ScratchEntry],
+) -> Result<OuterHits, QueryError> {
+    if !model.has_hull() {
+        return Err(QueryError::NO_HULL);
+    }
+    let frame = Frame::of(model.header());
+    let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
+    let bounds = model.hull_box();
+    let mut out = OuterHits {
+        t: FirstHit::CLEAR.t,
+        stored: 0,
+        dropped: 0,
+        starts_inside: false,
+        work: Work { nodes: 1, ..Work::NONE },
+        ended: Ended::Exact,
+    };
+    let start_f32 = start.as_vec3();
+    if start_f32.cmpge(bounds.min).all() && start_f32.cmple(bounds.max).all() {
+        out.starts_inside = true;
+        out.t.lower = 0.0;
+        return Ok(out);
+    }
+    if model.header().surface_error > 0.0 || model.is_cut() {
+        // The hull encloses the stored surface, and the input's may stick out.
+        out.t.lower = 0.0;
+        out.ended = Ended::Resolution;
+        return Ok(out);
+    }
+    let Some(clipped) = bounds.clip(start, end) else { return Ok(out) };
+    refined.begin(model);
+    let mut sweep = Sweep {
+        model,
+        frame,
+        start,
+        end,
+        segment: SweptSegment::new(&clipped, &bounds),
+        search,
+        steps,
+        refined,
+        candidates: scratch,
+        hits: Hits::new(hits),
+        out,
+        waiting: 0,
+        spare: None,
+        overflowed: false,
+    };
+    sweep.run().ok_or(QueryError::Unchecked)?;
+    let Hits { stored, dropped, .. } = sweep.hits;
+    Ok(OuterHits { stored, dropped, ..sweep.out })
+}
+
+struct Sweep<'a> {
     model: &'a Hull<'a>,
     frame: Frame,
     start: DVec3,
@@ -143,21 +165,25 @@ struct Sweep<'a, 'f> {
     search: Search,
     /// Vertex splits that may be performed.
     steps: u32,
-    refined: &'a mut RefinedHull<'f>,
+    refined: &'a mut Refined,
+    /// Splits of crossed faces, with the parameter at which the segment may enter the face.
+    candidates: &'a mut [ScratchEntry],
     hits: Hits<'a>,
     out: OuterHits,
     waiting: usize,
     /// One candidate that needs none of the caller's memory.
-    spare: Option<Face>,
+    spare: Option<ScratchEntry>,
     overflowed: bool,
 }
 
-impl Sweep<'_, '_> {
+impl Sweep<'_> {
     fn run(&mut self) -> Option<()> {
-        self.test_base(true)?;
+        let mut record_hits = true;
         loop {
-            while let Some(face) = self.next_candidate() {
-                self.refine(face)?;
+            self.test_base(record_hits)?;
+            self.test_splits(0, record_hits)?;
+            while let Some(candidate) = self.next_candidate() {
+                self.refine(candidate)?;
             }
             if !self.overflowed {
                 return Some(());
@@ -167,53 +193,37 @@ impl Sweep<'_, '_> {
                 self.give_up(0.0, Ended::Steps);
                 return Some(());
             }
-            // Some candidates did not fit: the live faces that the segment crosses are found again
-            // from the tables. At least one fits, and all can be refined, so the hull gets finer
-            // each time.
+            // Some candidates did not fit: the live faces that the segment crosses are found again.
+            // At least one fits, and all can be refined or the memory is full, so the hull gets
+            // finer each time.
             self.overflowed = false;
-            self.test_base(false)?;
-            self.test_splits(0, self.model.header().splits, false)?;
+            record_hits = false;
         }
     }
 
-    fn next_candidate(&mut self) -> Option<Face> {
+    fn next_candidate(&mut self) -> Option<ScratchEntry> {
         let Some(last) = self.waiting.checked_sub(1) else { return self.spare.take() };
         self.waiting = last;
-        self.refined.candidates.get(last).copied()
+        self.candidates.get(last).copied()
     }
 
-    /// One candidate: dropped if it is gone or too far, else replaced by the split that refines it.
-    fn refine(&mut self, face: Face) -> Option<()> {
-        let corners = face.corners(self.model)?;
-        if self.beyond(face.enter_at()) || !self.refined.is_alive(self.model, corners) {
+    /// One candidate: dropped if its face is gone or too far, else the split that refines it is
+    /// performed.
+    fn refine(&mut self, candidate: ScratchEntry) -> Option<()> {
+        let split = SplitIdx(candidate.node());
+        if self.beyond(candidate.key()) || self.refined.splits.contains(split) {
             return Some(());
         }
-        let split = RefinedHull::split_of_face(self.model, corners)?;
         if self.out.work.splits >= self.steps {
-            self.give_up(face.enter_at(), Ended::Steps);
+            self.give_up(candidate.key(), Ended::Steps);
             return Some(());
         }
-        match self.refined.refine(self.model, split)? {
-            Refined::Splits(count) => {
-                self.out.work.splits += count;
-                if (self.refined.fresh.len() as u32) < count {
-                    return self.test_splits(0, split.0.checked_add(1)?, true);
-                }
-                // By position: testing borrows the hull.
-                for i in 0..count as usize {
-                    let split = self.refined.fresh.get(i).copied()?;
-                    if let Some(word) = self.refined.swept.get_mut(split.usize() / 32) {
-                        *word |= 1 << (split.0 % 32);
-                    }
-                    self.test_split(split, true)?;
-                }
-                Some(())
-            }
-            Refined::Scratch => {
-                self.give_up(face.enter_at(), Ended::Scratch);
-                Some(())
-            }
+        let before = self.refined.splits.len();
+        if !self.refined.perform_with_required(self.model, split)? {
+            self.give_up(candidate.key(), Ended::Scratch);
         }
+        self.out.work.splits += (self.refined.splits.len() - before) as u32;
+        self.test_splits(before, true)
     }
 
     /// A face that cannot be refined stays. The surface may be hit anywhere on it.
@@ -222,7 +232,7 @@ impl Sweep<'_, '_> {
         self.out.ended = ended;
     }
 
-    fn test_base(&mut self, first_time: bool) -> Option<()> {
+    fn test_base(&mut self, record_hits: bool) -> Option<()> {
         let count = self.model.header().base_triangles;
         for group in 0..count.div_ceil(BASE_GROUP) {
             let (corners, radius) = self.model.base_group(group)?;
@@ -230,10 +240,7 @@ impl Sweep<'_, '_> {
                 continue;
             }
             for slot in group * BASE_GROUP..count.min((group + 1) * BASE_GROUP) {
-                let corners = self.model.base_triangle(slot)?;
-                if first_time || self.refined.is_alive(self.model, corners) {
-                    self.test(Face::base(slot), corners, first_time)?;
-                }
+                self.test(self.model.base_triangle(slot)?, record_hits)?;
             }
         }
         Some(())
@@ -247,33 +254,15 @@ impl Sweep<'_, '_> {
         Some(entered.is_some_and(|t| !self.beyond(t)))
     }
 
-    /// Faces of the performed splits in a range. With `fresh` only those not visited before.
-    fn test_splits(&mut self, from: u32, to: u32, fresh: bool) -> Option<()> {
-        for index in from / 32..to.div_ceil(32) {
-            let performed = self.refined.performed.get(index as usize).copied().unwrap_or(0);
-            let swept = self.refined.swept.get(index as usize).copied().unwrap_or(0);
-            let mut bits = if fresh { performed & !swept } else { performed };
-            if let Some(word) = self.refined.swept.get_mut(index as usize) {
-                *word |= bits;
+    /// Tests the live faces of the performed splits from a position of the list on.
+    fn test_splits(&mut self, from: usize, record_hits: bool) -> Option<()> {
+        for position in from..self.refined.splits.len() {
+            let split = self.model.split(self.refined.splits.get(position)?)?;
+            if !self.may_meet([split.vertex; 3], split.reach)? {
+                continue;
             }
-            while bits != 0 {
-                let split = SplitIdx(index * 32 + bits.trailing_zeros());
-                bits &= bits - 1;
-                self.test_split(split, fresh)?;
-            }
-        }
-        Some(())
-    }
-
-    fn test_split(&mut self, index: SplitIdx, fresh: bool) -> Option<()> {
-        let split = self.model.split(index)?;
-        if !self.may_meet([split.vertex; 3], split.reach)? {
-            return Some(());
-        }
-        for slot in 0..split.fine_len() {
-            let corners = split.fine(slot)?;
-            if self.refined.is_alive(self.model, corners) {
-                self.test(Face::fine(index, slot as u32), corners, fresh)?;
+            for slot in 0..split.fine_len() {
+                self.test(split.fine(slot)?, record_hits)?;
             }
         }
         Some(())
@@ -284,23 +273,28 @@ impl Sweep<'_, '_> {
         self.search == Search::First && t > self.out.t.upper
     }
 
-    /// Tests a live face. One that the segment may cross is a hit if it is a face of the surface,
-    /// else a candidate.
-    fn test(&mut self, face: Face, corners: [VertIdx; 3], record_hits: bool) -> Option<()> {
+    /// Tests a face if it is live. If the segment may cross it, it is a hit if it is a face of the
+    /// surface, else a candidate.
+    fn test(&mut self, corners: [VertIdx; 3], record_hits: bool) -> Option<()> {
+        let split = split_of_face(self.model, corners);
+        if split.is_some_and(|split| self.refined.splits.contains(split)) {
+            return Some(());
+        }
         self.out.work.triangles += 1;
         let positions = self.model.positions(corners)?;
         let Some(t) = self.segment.enter(positions, 0.0) else { return Some(()) };
         if self.beyond(t) {
             return Some(());
         }
-        if let Some(split) = RefinedHull::split_of_face(self.model, corners) {
-            if !self.refined.holds(split) {
+        if let Some(split) = split {
+            let candidate = ScratchEntry::new(t, split.0);
+            if self.refined.splits.is_full() {
                 self.give_up(t, Ended::Scratch);
-            } else if let Some(slot) = self.refined.candidates.get_mut(self.waiting) {
-                *slot = face.entered_at(t);
+            } else if let Some(slot) = self.candidates.get_mut(self.waiting) {
+                *slot = candidate;
                 self.waiting += 1;
             } else if self.spare.is_none() {
-                self.spare = Some(face.entered_at(t));
+                self.spare = Some(candidate);
             } else {
                 self.overflowed = true;
             }

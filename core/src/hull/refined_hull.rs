@@ -1,191 +1,233 @@
-//! The selectively refined hull: which splits have been performed, in fixed-capacity arrays
-//! (Platis & Theoharis 2003, 3.2.1; Guéziec 2000, 4.2).
+//! The selectively refined hull: which splits were performed, in fixed memory (Platis & Theoharis
+//! 2003, 3.2.1; Guéziec 2000, 4.2).
 //!
 //! A split may be performed when every vertex of its ring exists. Then the star of its vertex is
-//! exactly the one that the builder collapsed, and the refined mesh still encloses the surface.
-//! Hull vertices of different levels are different vertices. So a vertex exists if the split that
-//! makes it was performed, and one bit set holds that. There is no selective coarsening. A query
-//! starts from the base hull again and clears the bits (Platis & Theoharis 2003, 3.2.2).
+//! exactly the one that the builder collapsed, and the refined mesh still encloses the surface. A
+//! split may be undone when no performed split uses its two vertices: the star of each of them is
+//! then the one that the split made. Hull vertices of different levels are different vertices. So a
+//! vertex exists if the split that adds it was performed and the split that replaces it was not,
+//! and the set of performed splits is the whole state.
 
+use super::hull_faces::HullFace;
+use super::split_set::{SplitSet, SplitSlot};
 use crate::hull::format::{Hull, Split, SplitIdx, VertIdx};
+use core::marker::PhantomData;
 
-/// A face of the refined hull: a base triangle, or the fine triangle `slot` of a split.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Face {
-    /// Split number; `u32::MAX` for a triangle of the base hull.
-    split: u32,
-    /// Position among the split's fine triangles, or the number of the base triangle.
-    slot: u32,
-    /// No point of the face meets the segment below this parameter.
-    enter: f32,
-}
-
-impl Face {
-    /// Any value, for filling arrays.
-    pub const EMPTY: Face = Face { split: u32::MAX, slot: 0, enter: 0.0 };
-
-    pub(crate) fn base(slot: u32) -> Self {
-        Face { split: u32::MAX, slot, enter: 0.0 }
-    }
-
-    pub(crate) fn fine(split: SplitIdx, slot: u32) -> Self {
-        Face { split: split.0, slot, enter: 0.0 }
-    }
-
-    pub(crate) fn entered_at(self, enter: f32) -> Self {
-        Face { enter, ..self }
-    }
-
-    pub(crate) fn enter_at(self) -> f32 {
-        self.enter
-    }
-
-    /// Corners of the face.
-    #[inline]
-    pub fn corners(self, model: &Hull<'_>) -> Option<[VertIdx; 3]> {
-        if self.split == u32::MAX {
-            model.base_triangle(self.slot)
-        } else {
-            model.split(SplitIdx(self.split))?.fine(self.slot as usize)
-        }
-    }
-}
-
-/// Memory of a refinement: two bit sets of one bit per split, candidates, and a path.
+/// A hull that is refined only where a scene needs it, in memory for `SPLITS` performed splits.
 ///
-/// Any length is correct. With [`Hull::refined_words`] words in each bit set every split can be
-/// performed. With fewer, only the coarsest can, and a query ends with
-/// [`Ended::Scratch`](crate::Ended::Scratch). A short candidate list costs repeated scans, a short
-/// path repeated searches. Neither changes an answer.
-#[derive(Debug)]
-pub struct RefinedHull<'a> {
-    /// Bit set: split performed.
-    pub(crate) performed: &'a mut [u32],
-    /// Bit set: the new faces were visited.
-    pub(crate) swept: &'a mut [u32],
-    /// Faces still to be refined.
-    pub(crate) candidates: &'a mut [Face],
-    pub(crate) path: heapless::Vec<SplitIdx, PATH>,
-    /// Splits performed by the last [`refine`](Self::refine), as far as they fit.
-    pub(crate) fresh: heapless::Vec<SplitIdx, FRESH>,
+/// [`update`](Self::update) refines and coarsens it around a [`Focus`](crate::Focus).
+/// [`Hull::outer_hits`] refines it along a segment. Every state is a closed mesh that encloses the
+/// surface, under the conditions that [`Hull::outer_hits`] names. A hull of *f* faces needs (*f* −
+/// base faces) / 2 splits. RAM: 16 bytes a split and 24 more, whatever the size of the hierarchy.
+///
+/// The state belongs to one hull at a time. With another hull it starts from that one's base. It
+/// borrows the blob's bytes, so they cannot change between updates.
+#[derive(Clone, Debug)]
+pub struct RefinedHull<'t, const SPLITS: usize> {
+    pub(crate) state: Refined<[SplitSlot; SPLITS]>,
+    bytes: PhantomData<&'t [u8]>,
 }
 
-/// Splits remembered on the way down a chain of dependencies. Deeper chains are searched again from
-/// their end.
-const PATH: usize = 32;
-
-/// Splits of one refinement that are listed. After a larger one the bit sets are compared instead.
-const FRESH: usize = 64;
-
-/// The result of [`RefinedHull::refine`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Refined {
-    /// The split and all that it needed are performed: the number of splits.
-    Splits(u32),
-    /// The bit sets are too short for a split that it needs.
-    Scratch,
+impl<const SPLITS: usize> Default for RefinedHull<'_, SPLITS> {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
-impl<'a> RefinedHull<'a> {
-    /// A refined hull in the caller's memory, with any contents. The shorter bit set counts.
-    pub fn new(performed: &'a mut [u32], swept: &'a mut [u32], candidates: &'a mut [Face]) -> Self {
+impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
+    /// The base hull. May initialise a `static`.
+    pub const fn new() -> Self {
         RefinedHull {
-            performed,
-            swept,
-            candidates,
-            path: heapless::Vec::new(),
-            fresh: heapless::Vec::new(),
+            state: Refined { hull: 0, floor: 0.0, splits: SplitSet::<[SplitSlot; SPLITS]>::new() },
+            bytes: PhantomData,
         }
     }
 
-    /// Back to the base hull. Cost: the words of the bit sets.
+    /// Back to the base hull. Cost: linear in `SPLITS`.
     pub fn reset(&mut self) {
-        self.performed.fill(0);
-        self.swept.fill(0);
-        self.path.clear();
+        erased(&mut self.state).reset();
     }
 
-    /// Whether a split fits in the bit sets.
-    #[inline]
-    pub(crate) fn holds(&self, split: SplitIdx) -> bool {
-        split.usize() / 32 < self.performed.len().min(self.swept.len())
+    /// Splits that are performed.
+    pub fn splits(&self) -> usize {
+        self.state.splits().len()
     }
 
-    /// Whether a split was performed.
-    #[inline]
-    pub(crate) fn is_performed(&self, split: SplitIdx) -> bool {
-        self.performed.get(split.usize() / 32).is_some_and(|word| word >> (split.0 % 32) & 1 != 0)
-    }
-
-    /// Whether a vertex was replaced. The caller has to know that it was made.
-    #[inline]
-    pub(crate) fn is_split(&self, model: &Hull<'_>, vertex: VertIdx) -> bool {
-        model.split_of(vertex).is_some_and(|split| self.is_performed(split))
-    }
-
-    /// Whether all corners of a face that was made still exist.
-    #[inline]
-    pub(crate) fn is_alive(&self, model: &Hull<'_>, corners: [VertIdx; 3]) -> bool {
-        !corners.into_iter().any(|v| self.is_split(model, v))
-    }
-
-    /// The split that refines a live face: the coarsest among those of its corners. `None` on the
-    /// surface.
+    /// Triangles of the refined hull. [`vertex`](Hull::vertex) gives the corners' coordinates. For
+    /// a hull other than the one that was refined they are the base hull's.
     ///
-    /// The others need vertices that this one makes.
-    #[inline]
-    pub(crate) fn split_of_face(model: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
-        corners.into_iter().filter_map(|v| model.split_of(v)).min()
+    /// Cost: linear in the base hull and the performed splits.
+    pub fn faces(&self, hull: &Hull<'t>) -> impl Iterator<Item = HullFace> {
+        let (hull, state) = (*hull, &self.state);
+        let is_live = move |&HullFace { corners, .. }: &HullFace| {
+            !state.is_of(&hull)
+                || split_of_face(&hull, corners).is_none_or(|split| !state.splits().contains(split))
+        };
+        let splits = if state.is_of(&hull) { state.splits().len() } else { 0 };
+        let fine = (0..splits)
+            .filter_map(move |position| state.splits().get(position))
+            .flat_map(move |split| hull.fine_faces(split));
+        hull.base_faces().chain(fine).filter(is_live)
     }
 
-    /// Performs a split and, before it, every split that it needs; no recursion. `None` only if the
-    /// model is unchecked.
-    ///
-    /// Every split on the way is coarser than the one that asked for it, so the search ends.
-    pub(crate) fn refine(&mut self, model: &Hull<'_>, wanted: SplitIdx) -> Option<Refined> {
-        if !self.holds(wanted) {
-            return Some(Refined::Scratch);
-        }
-        let mut count = 0u32;
-        self.path.clear();
-        self.fresh.clear();
-        let mut current = wanted;
-        while !self.is_performed(wanted) {
-            let split = model.split(current)?;
-            if let Some(needed) = self.missing(model, &split)? {
-                // A full path drops its oldest part. The loop comes back to `wanted` for it.
-                if self.path.push(current).is_err() {
-                    self.path.clear();
+    /// Writes the [`faces`](Self::faces) to a slice: how many were written, and how many did not
+    /// fit.
+    pub fn faces_into(&self, hull: &Hull<'t>, faces: &mut [HullFace]) -> (usize, u32) {
+        let (mut stored, mut dropped) = (0, 0);
+        for face in self.faces(hull) {
+            match faces.get_mut(stored) {
+                Some(slot) => {
+                    *slot = face;
+                    stored += 1;
                 }
-                current = needed;
+                None => dropped += 1,
+            }
+        }
+        (stored, dropped)
+    }
+}
+
+/// The state, its memory's length erased, so that code is not repeated for each length.
+pub(crate) fn erased<const N: usize>(state: &mut Refined<[SplitSlot; N]>) -> &mut Refined {
+    state
+}
+
+/// What a [`RefinedHull`] holds.
+#[derive(Clone, Debug)]
+pub(crate) struct Refined<S: ?Sized = [SplitSlot]> {
+    /// Address of the hull's split table, by which another hull is told.
+    hull: usize,
+    /// Splits of no greater need are left out, because the memory was too short for them.
+    pub(crate) floor: f32,
+    pub(crate) splits: SplitSet<S>,
+}
+
+impl<const N: usize> Refined<[SplitSlot; N]> {
+    fn splits(&self) -> &SplitSet {
+        &self.splits
+    }
+}
+
+impl<S: ?Sized> Refined<S> {
+    fn is_of(&self, hull: &Hull<'_>) -> bool {
+        self.hull == address(hull)
+    }
+}
+
+fn address(hull: &Hull<'_>) -> usize {
+    hull.splits.0.as_ptr().addr()
+}
+
+impl Refined {
+    fn reset(&mut self) {
+        self.splits.clear();
+        self.floor = 0.0;
+    }
+
+    /// Starts from the base hull, if the hull is another than before.
+    pub(crate) fn begin(&mut self, hull: &Hull<'_>) {
+        if !self.is_of(hull) {
+            self.reset();
+            self.hull = address(hull);
+        }
+    }
+
+    /// Performs a split that has not been performed and, before it, every split that it requires;
+    /// no recursion. The new splits are the last of the list. `Some(false)`: the memory is full.
+    /// `None`: the hull is unchecked.
+    ///
+    /// Every split on the way is coarser than the one that requires it, so the search ends.
+    pub(crate) fn perform_with_required(
+        &mut self,
+        hull: &Hull<'_>,
+        wanted: SplitIdx,
+    ) -> Option<bool> {
+        let mut path = heapless::Vec::<SplitIdx, PATH>::new();
+        let mut current = wanted;
+        loop {
+            let split = hull.split(current)?;
+            if let Some(required) = self.missing(hull, &split)? {
+                // A full path is forgotten. The loop comes back to `wanted` for it.
+                if path.push(current).is_err() {
+                    path.clear();
+                }
+                current = required;
                 continue;
             }
-            if let Some(word) = self.performed.get_mut(current.usize() / 32) {
-                *word |= 1 << (current.0 % 32);
+            if !self.perform(hull, current, &split)? {
+                return Some(false);
             }
-            count += 1;
-            // Splits that do not fit are found by their `swept` bits. `count` shows that the list
-            // is incomplete.
-            let _ = self.fresh.push(current);
-            current = self.path.pop().unwrap_or(wanted);
+            if current == wanted {
+                return Some(true);
+            }
+            current = path.pop().unwrap_or(wanted);
         }
-        Some(Refined::Splits(count))
     }
 
-    /// A split that must come before `split` and has not been performed. The outer `None`: the
-    /// model is unchecked.
+    /// A split that must come before `split` and has not been performed. The outer `None`: the hull
+    /// is unchecked.
     #[inline]
-    fn missing(&self, model: &Hull<'_>, split: &Split<'_>) -> Option<Option<SplitIdx>> {
-        let absent =
-            |vertex: VertIdx| model.made_by(vertex).filter(|&maker| !self.is_performed(maker));
-        if let Some(maker) = absent(split.vertex) {
-            return Some(Some(maker));
-        }
-        for i in 0..split.ring_len() {
-            if let Some(maker) = absent(split.ring(i)?) {
+    fn missing(&self, hull: &Hull<'_>, split: &Split<'_>) -> Option<Option<SplitIdx>> {
+        for i in 0..=split.ring_len() {
+            let vertex = if i == 0 { split.vertex } else { split.ring(i - 1)? };
+            if let Some(maker) = hull.made_by(vertex)
+                && !self.splits.contains(maker)
+            {
                 return Some(Some(maker));
             }
         }
         Some(None)
     }
+
+    fn perform(&mut self, hull: &Hull<'_>, number: SplitIdx, split: &Split<'_>) -> Option<bool> {
+        if !self.splits.push(number) {
+            return Some(false);
+        }
+        for i in 0..=split.ring_len() {
+            let vertex = if i == 0 { split.vertex } else { split.ring(i - 1)? };
+            if let Some(position) = self.maker(hull, vertex) {
+                self.splits.require(position);
+                if i == 0 {
+                    self.splits.set_replaced(position, hull.which(vertex), true);
+                }
+            }
+        }
+        Some(true)
+    }
+
+    /// Undoes the split at a position, which no performed split requires.
+    /// [`SplitSet::close_gaps`] has to follow. `None`: the hull is unchecked.
+    pub(crate) fn undo(&mut self, hull: &Hull<'_>, position: usize) -> Option<()> {
+        let split = hull.split(self.splits.get(position)?)?;
+        for i in 0..=split.ring_len() {
+            let vertex = if i == 0 { split.vertex } else { split.ring(i - 1)? };
+            if let Some(position) = self.maker(hull, vertex) {
+                self.splits.release(position);
+                if i == 0 {
+                    self.splits.set_replaced(position, hull.which(vertex), false);
+                }
+            }
+        }
+        self.splits.remove(position);
+        Some(())
+    }
+
+    /// Position of the split that adds a vertex. `None` for a vertex of the base hull.
+    #[inline]
+    fn maker(&self, hull: &Hull<'_>, vertex: VertIdx) -> Option<usize> {
+        self.splits.find(hull.made_by(vertex)?)
+    }
+}
+
+/// Splits remembered on the way down a chain of requirements. Deeper chains are searched again from
+/// their end.
+const PATH: usize = 32;
+
+/// The split that refines a face: the coarsest among those of its corners. `None` on the surface.
+///
+/// The splits of the other corners require it. So a face that was added is live as long as this
+/// split has not been performed.
+#[inline]
+pub(crate) fn split_of_face(hull: &Hull<'_>, corners: [VertIdx; 3]) -> Option<SplitIdx> {
+    corners.into_iter().filter_map(|corner| hull.split_of(corner)).min()
 }

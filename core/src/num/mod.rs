@@ -1,10 +1,12 @@
 //! Numbers: directed rounding, the stored radius, and every tolerance.
 
+mod order;
 mod radius;
 mod round;
 mod sqrt;
 pub mod tolerance;
 
+pub use order::{greater, lesser, of_eight};
 pub use radius::{Radius8, Radius16};
 pub use round::{down_to_f32, exp2, sum_down, sum_up, two_sum, up_to_f32};
 pub use sqrt::sqrt_approx;

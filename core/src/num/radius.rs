@@ -1,4 +1,4 @@
-//! Radii stored in one or two bytes, never smaller than what they stand for.
+//! Radii stored in one or two bytes, rounded up.
 //!
 //! Both are the top bits of an f32, so that decoding is a shift: no table, no multiplication.
 
@@ -35,6 +35,9 @@ pub struct Radius8(pub u8);
 const BIAS: u32 = ((127 - 29) << 3) - 1;
 
 impl Radius8 {
+    /// The code of infinity.
+    pub const INFINITE: Self = Radius8(255);
+
     /// The least stored radius not below `x ≥ 0`.
     pub fn round_up(x: f64) -> Self {
         if x <= 0.0 {

@@ -70,6 +70,15 @@ pub const HULL_FAR: f64 = (1u64 << 40) as f64;
 /// Rounding to f32 and the change of units, at either end of the interval.
 pub const REPORTED: f64 = 8.0 * U32 as f64;
 
+/// Rounding of the distance of a vertex from a focus, in units of [`U32`] times the 1-norms of the
+/// coordinates that it is computed from. Four products and sums are below 8. A larger value refines
+/// a little more.
+pub const FOCUS_DISTANCE: f32 = 16.0;
+
+/// Squared distances and limits of a focus carry less than eight roundings each. This factor keeps
+/// their comparison on the side of refining.
+pub const FOCUS_SLACK: f32 = 1.0 + 16.0 * U32;
+
 // Box tree, distances, in grid units
 
 /// Least denominator of a fan kernel, grid units to the fourth power or less: 2^-60. On a u16 grid
@@ -90,7 +99,7 @@ pub const FAN_RELATIVE: f32 = 16.0;
 /// of the model's box. Proved: 11.3 (§8). A larger value visits more.
 pub const BOX_DISTANCE: f32 = 16.0;
 
-/// Part of the best square that the lower bound of every other triangle has to reach, 1 − 2^-18. A
+/// Least ratio of the lower bound of every other triangle to the best square, 1 − 2^-18. A
 /// triangle with less is refined as a sliver. The lower end of an interval is lower by half of the
 /// missing part.
 pub const CERTIFIED_PART: f32 = 1.0 - 1.0 / 262_144.0;

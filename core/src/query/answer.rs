@@ -49,6 +49,7 @@ impl Ended {
 
 /// Closest point of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ClosestPoint {
     /// The distance to the input mesh, input units.
     pub distance: Interval,

@@ -1,10 +1,12 @@
 //! When a query may stop.
 
 use super::error::QueryError;
+use super::scratch::ScratchEntry;
 
 /// When a query may stop before its answer is exact.
 ///
-/// A question that does not use a part of the budget says so.
+/// Every question refuses a tolerance that is negative, NaN or infinite. A question that does not
+/// use a part of the budget ignores this part, and says so.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Budget {
@@ -38,9 +40,26 @@ impl Budget {
         Budget { steps, ..self }
     }
 
+    /// Refuses a tolerance that no interval can meet.
+    #[inline(always)]
     pub(crate) fn check(&self) -> Result<(), QueryError> {
-        let fine = |x: f32| x >= 0.0 && x.is_finite();
-        if fine(self.relative) && fine(self.absolute) { Ok(()) } else { Err(QueryError::Tolerance) }
+        // As integers: a comparison of f32 is a call where there is no float unit.
+        let is_fine = |x: f32| {
+            let bits = x.to_bits();
+            bits < f32::INFINITY.to_bits() || bits == (-0.0f32).to_bits()
+        };
+        if is_fine(self.relative) && is_fine(self.absolute) {
+            Ok(())
+        } else {
+            Err(QueryError::Tolerance)
+        }
+    }
+
+    /// [`check`](Self::check), and refuses scratch memory without entries.
+    #[inline(always)]
+    pub(crate) fn check_with(&self, scratch: &[ScratchEntry]) -> Result<(), QueryError> {
+        self.check()?;
+        if scratch.is_empty() { Err(QueryError::NoScratch) } else { Ok(()) }
     }
 }
 

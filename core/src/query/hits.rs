@@ -24,6 +24,7 @@ impl Hit {
 /// No point of the segment before `t.lower` lies on the surface. If `hit` is `Some` and `ended` is
 /// [`Ended::Exact`], the parameter of the first common point lies in `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FirstHit {
     /// The parameter of the first common point. `lower` is infinite if it is proved that there is
     /// none. `upper` is infinite if none is known, and 1 if the hit is not proved.
@@ -54,6 +55,7 @@ impl FirstHit {
 
 /// How a search for all hits went. The hits are in the caller's slice, by rising `t`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AllHits {
     /// Hits in the slice.
     pub stored: usize,

@@ -4,9 +4,9 @@
 //! could leave too few entries for a depth-first descent, the search goes depth first, on a stack
 //! that grows from the right. When the stack is empty, the search returns to the heap.
 //!
-//! The builder counts the depth-first worst case, which is `scratch_entries` of the view. So this number
-//! of entries is enough for an exact answer. More entries give tighter intervals to a query that
-//! stops early.
+//! The builder counts the depth-first worst case, `scratch_entries` of the view. So this number of
+//! entries is enough for an exact answer. More entries give tighter intervals to a query that stops
+//! early.
 
 use super::scratch::ScratchEntry;
 

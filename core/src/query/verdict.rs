@@ -34,6 +34,7 @@ impl core::fmt::Display for Undecided {
 
 /// An answer about the input mesh in real arithmetic. `Yes` and `No` are proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Verdict {
     /// Proved.
     Yes,
@@ -45,6 +46,7 @@ pub enum Verdict {
 
 /// On which side of a closed surface a point lies. `Inside` and `Outside` are proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Side {
     /// The nearest surface has its back to the point.
     Inside,

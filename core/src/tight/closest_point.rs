@@ -34,8 +34,7 @@ impl TightHull<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`], [`QueryError::Tolerance`], [`QueryError::NoScratch`];
-    /// [`QueryError::NotServed`] if the hull's tree was not built for distances.
+    /// Those of [`Bvh::closest_point`](crate::Bvh::closest_point).
     pub fn closest_point(
         &self,
         point: [f32; 3],

@@ -28,8 +28,7 @@ impl TightHull<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
-    /// NaN or infinite; [`QueryError::NoScratch`]; [`QueryError::NotServed`].
+    /// Those of [`Bvh::within`](crate::Bvh::within).
     pub fn within(
         &self,
         point: [f32; 3],

@@ -8,6 +8,7 @@
 use super::bounds::Tribox;
 use super::directions::FACES;
 use super::directions::SLABS;
+use crate::num::greater;
 use core::ops::{Add, Neg, Sub};
 
 /// Vertices: four of each corner.
@@ -39,12 +40,15 @@ impl Scalar for f32 {
 
 /// Vertices, and faces as loops of their numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Boundary<S> {
+pub struct BoundaryOf<S> {
     /// Four vertices of each corner; corner `i` is where x is least if bit 0 is set, y if bit 1
     /// is, z if bit 2 is. Vertices may coincide.
     pub vertices: [[S; 3]; VERTICES],
     faces: [Loop; FACES],
 }
+
+/// The boundary of a [`Tribox`]: vertices, and faces as loops of their numbers.
+pub type Boundary = BoundaryOf<f32>;
 
 /// Planes of a corner, in coordinates that grow towards it: box planes at the least three, chamfers
 /// between the first and second, second and third, third and first.
@@ -179,10 +183,10 @@ fn beyond<S: Scalar>([a, b, c]: [S; 3], [ab, bc, ca]: [S; 3]) -> [[S; 3]; 4] {
 /// them ([`Tribox::on_grid`]). Planes that do not touch give vertices beyond other planes, in loops
 /// that still close.
 ///
-/// [`Boundary::compute`] does the same in place and saves a copy of 600 bytes.
+/// [`BoundaryOf::compute`] does the same in place and saves a copy of 600 bytes.
 #[inline]
-pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> Boundary<S> {
-    let mut boundary = Boundary::EMPTY;
+pub fn boundary<S: Scalar>(low: &[S; SLABS], high: &[S; SLABS]) -> BoundaryOf<S> {
+    let mut boundary = BoundaryOf::EMPTY;
     boundary.compute(low, high);
     boundary
 }
@@ -276,10 +280,10 @@ impl Loop {
     }
 }
 
-impl<S: Scalar> Boundary<S> {
+impl<S: Scalar> BoundaryOf<S> {
     /// All vertices at the origin, no faces: to be [computed](Self::compute).
     pub const EMPTY: Self =
-        Boundary { vertices: [[S::ZERO; 3]; VERTICES], faces: [Loop::EMPTY; FACES] };
+        BoundaryOf { vertices: [[S::ZERO; 3]; VERTICES], faces: [Loop::EMPTY; FACES] };
 
     /// [`boundary()`], in place.
     #[inline]
@@ -336,7 +340,7 @@ impl<S: Scalar> Boundary<S> {
     /// The same without edges of no length and faces of fewer than three vertices. Of vertices that
     /// coincide the first one's number is used; equality is exact.
     #[must_use]
-    pub fn cleaned(&self) -> Boundary<S> {
+    pub fn cleaned(&self) -> BoundaryOf<S> {
         let mut first = [0u8; VERTICES];
         for (i, (slot, vertex)) in first.iter_mut().zip(&self.vertices).enumerate() {
             *slot = self.vertices.iter().position(|other| other == vertex).unwrap_or(i) as u8;
@@ -358,19 +362,19 @@ impl<S: Scalar> Boundary<S> {
     }
 }
 
-impl Boundary<f32> {
+impl Boundary {
     /// The greatest `direction · v` of all vertices, as computed.
     #[must_use]
     pub fn support(&self, [x, y, z]: [f32; 3]) -> f32 {
         let along = self.vertices.iter().map(|v| v[0] * x + v[1] * y + v[2] * z);
-        along.fold(f32::NEG_INFINITY, |most, here| if here > most { here } else { most })
+        along.fold(f32::NEG_INFINITY, greater)
     }
 }
 
 impl Tribox {
     /// Its [`boundary()`]. All vertices of an empty one are NaN.
     #[must_use]
-    pub fn boundary(&self) -> Boundary<f32> {
+    pub fn boundary(&self) -> Boundary {
         boundary(&self.low, &self.high)
     }
 }

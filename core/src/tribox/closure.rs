@@ -8,7 +8,7 @@
 
 use super::bounds::Tribox;
 use super::directions::SLABS;
-use crate::num::sum_up;
+use crate::num::{greater, lesser, sum_up};
 
 /// Numbers between which parameters bound differences.
 const NUMBERS: usize = 6;
@@ -109,7 +109,7 @@ impl Tribox {
             let (up, down) = (entry(&differences, i, j), entry(&differences, j, i));
             let (up, down) =
                 if pair.0 == pair.1 { (half_up(up), half_up(down)) } else { (up, down) };
-            *high = if up < *high { up } else { *high };
+            *high = lesser(*high, up);
             *low = if -down > *low { -down } else { *low };
         }
         if tight.is_empty() { Tribox::EMPTY } else { tight }
@@ -125,10 +125,9 @@ impl Tribox {
         if self.is_empty() {
             return Tribox::EMPTY;
         }
-        let most = self.slabs().fold(0f32, |most, (low, high)| {
-            let here = if low.abs() > high.abs() { low.abs() } else { high.abs() };
-            if here > most { here } else { most }
-        });
+        let most = self
+            .slabs()
+            .fold(0f32, |most, (low, high)| greater(most, greater(high.abs(), low.abs())));
         // The exponent of the power of two above it, less 20, but f32 still has to hold a quarter
         // of it.
         let exponent = (most.to_bits() >> 23).cast_signed() - 126 - 20;

@@ -2,11 +2,13 @@
 //! first meet a model.
 
 use super::bounds::{Tribox, TriboxError};
+use crate::num::greater;
 use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 use crate::tribox::format::Triboxes;
 
 /// A lower bound from a union of triboxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Bound {
     /// No point of the mesh, or of a solid's inside, is nearer than this (input units) or at a
     /// lesser parameter of the segment. Infinite if no point is on the segment.
@@ -43,13 +45,14 @@ impl Triboxes<'_> {
     ///
     /// # Errors
     /// [`QueryError::NotFinite`] and [`QueryError::OutOfDomain`] (beyond [`Tribox::DOMAIN`]) of the
-    /// point; [`QueryError::NoScratch`].
+    /// point; [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     pub fn distance(
         &self,
         point: [f32; 3],
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Bound, QueryError> {
+        budget.check_with(scratch)?;
         Tribox::of_point(point)?;
         least(self, budget.steps, scratch, |tribox| Some(tribox.distance(point)))
     }
@@ -79,6 +82,7 @@ impl Triboxes<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Bound, QueryError> {
+        budget.check_with(scratch)?;
         Tribox::of_point(a)?;
         Tribox::of_point(b)?;
         least(self, budget.steps, scratch, |tribox| tribox.clip(a, b).map(|(enter, _)| enter))
@@ -108,7 +112,7 @@ fn least(
         let tribox = triboxes.node(node).ok_or(QueryError::Unchecked)?;
         let here = bound(&tribox).unwrap_or(f32::INFINITY);
         // Rounding may have given the parent more, and the child is a part of it.
-        let lower = if here > above { here } else { above };
+        let lower = greater(above, here);
         Ok::<ScratchEntry, QueryError>(ScratchEntry::new(lower, node))
     };
     let root = enter(0, 0.0, &mut answer.work)?;

@@ -2,7 +2,7 @@
 
 use super::bounds::{Tribox, projections};
 use crate::num::tolerance::U32;
-use crate::num::{sqrt_approx, sum_down, sum_up};
+use crate::num::{greater, lesser, sqrt_approx, sum_down, sum_up};
 
 /// Four frames of orthogonal slabs: the axes', and one turned by 45° about each axis. A slab's
 /// number, and the square of its direction's length, twice three times.
@@ -25,11 +25,11 @@ impl Tribox {
         let slabs = self.slabs().zip(low.into_iter().zip(high));
         for (gap, ((from, to), (low, high))) in gaps.iter_mut().zip(slabs) {
             let (below, above) = (sum_down(from, -high), sum_down(low, -to));
-            let most = if below > above { below } else { above };
+            let most = greater(above, below);
             // A sum beyond f32 gives no bound. Those of the axes still do.
             *gap = if most > 0.0 && most.is_finite() { most } else { 0.0 };
         }
-        let most = gaps.iter().fold(0f32, |most, &gap| if gap > most { gap } else { most });
+        let most = gaps.iter().fold(0f32, |most, &gap| greater(most, gap));
         // So that no square leaves f32's range.
         let scale = if most > (1u64 << 60) as f32 {
             1.0 / 18_446_744_073_709_551_616.0
@@ -44,7 +44,7 @@ impl Tribox {
         };
         let greatest = FRAMES.iter().fold(0f32, |greatest, &[a, b, c]| {
             let here = square(a) + square(b) + square(c);
-            if here > greatest { here } else { greatest }
+            greater(greatest, here)
         });
         let distance = sqrt_approx(greatest) * (1.0 - 16.0 * U32) / scale;
         // Below, the quotient may have been rounded up by more than that.
@@ -82,8 +82,8 @@ impl Tribox {
             }
             let (near, far) = if way > 0.0 { (low, high) } else { (high, low) };
             let (near, far) = (outward(near, from, way, false), outward(far, from, way, true));
-            enter = if near > enter { near } else { enter };
-            leave = if far < leave { far } else { leave };
+            enter = greater(enter, near);
+            leave = lesser(leave, far);
         }
         if enter <= leave { Some((enter, leave)) } else { None }
     }

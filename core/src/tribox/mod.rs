@@ -16,7 +16,7 @@
 //! | `snap` | planes moved outward until small faces vanish |
 //! | `measure` | distance, segments |
 //! | `moved` | bounds of rotated points |
-//! | `support` | how far triboxes reach along any direction |
+//! | `support` | the extent of triboxes along any direction |
 //! | `format/` | the bytes of the hierarchy |
 //! | `separating_axes`, `separation` | two hierarchies, one of them moved |
 //! | `distance` | a point or a segment against the hierarchy |
@@ -34,7 +34,7 @@ mod separation;
 mod snap;
 mod support;
 
-pub use boundary::{Boundary, LOOP, Scalar, VERTICES, boundary};
+pub use boundary::{Boundary, BoundaryOf, LOOP, Scalar, VERTICES, boundary};
 pub use bounds::{Tribox, TriboxError};
 pub use directions::{DIRECTIONS, FACES, SLABS};
 pub use distance::Bound;

@@ -5,7 +5,7 @@ use super::bounds::{Tribox, TriboxError, checked};
 use super::directions::SLABS;
 use crate::geom::Pose;
 use crate::num::tolerance::{PRODUCT_UNDERFLOW, TRIBOX_COORDINATE, U32};
-use crate::num::{sum_down, sum_up};
+use crate::num::{greater, lesser, sum_down, sum_up};
 
 impl Pose {
     pub(crate) fn check(&self) -> Result<(), TriboxError> {
@@ -54,12 +54,12 @@ impl Pose {
             let (place, size) = self.apply(checked(point)?);
             let [x, y, z] = checked(place)?;
             for (most, size) in sizes.iter_mut().zip(size) {
-                *most = if size > *most { size } else { *most };
+                *most = greater(*most, size);
             }
             let along = [x, y, z, x + y, x - y, y + z, y - z, z + x, z - x];
             for ((low, high), along) in around.low.iter_mut().zip(&mut around.high).zip(along) {
-                *low = if along < *low { along } else { *low };
-                *high = if along > *high { along } else { *high };
+                *low = lesser(*low, along);
+                *high = greater(*high, along);
             }
         }
         if around.is_empty() {

@@ -9,6 +9,7 @@ use core::ops::ControlFlow;
 
 /// A node of each hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct NodePair {
     /// Node of the first.
     pub a: u16,
@@ -23,6 +24,7 @@ impl NodePair {
 
 /// Whether two models are apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Separation {
     /// A pair of nodes that may meet: the first one found. Both are leaves unless `ended` says
     /// otherwise. `None` is a proof that the meshes have no common point, and, where both are
@@ -44,6 +46,7 @@ impl Separation {
 /// Where two models may meet. The pairs are in the caller's slice. Without any the models are
 /// proved to be apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Candidates {
     /// Pairs in the slice.
     pub stored: usize,
@@ -98,7 +101,7 @@ impl Triboxes<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] for an entry of the matrix beyond
     /// 2 or a translation beyond [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
-    /// [`QueryError::NoScratch`].
+    /// [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     pub fn separation(
         &self,
         other: &Triboxes<'_>,
@@ -107,7 +110,7 @@ impl Triboxes<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<Separation, QueryError> {
         let mut may_meet = None;
-        let (work, ended) = descend([self, other], &pose, budget.steps, scratch, |pair| {
+        let (work, ended) = descend([self, other], &pose, &budget, scratch, |pair| {
             may_meet = Some(pair);
             ControlFlow::Break(())
         })?;
@@ -141,7 +144,7 @@ impl Triboxes<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<Candidates, QueryError> {
         let (mut stored, mut dropped) = (0, 0u32);
-        let (work, ended) = descend([self, other], &pose, budget.steps, scratch, |pair| {
+        let (work, ended) = descend([self, other], &pose, &budget, scratch, |pair| {
             match pairs.get_mut(stored) {
                 Some(slot) => (*slot, stored) = (pair, stored + 1),
                 None => dropped = dropped.saturating_add(1),
@@ -162,10 +165,11 @@ fn entry(a: u32, b: u32) -> ScratchEntry {
 fn descend(
     [a, b]: [&Triboxes<'_>; 2],
     pose: &Pose,
-    steps: u32,
+    budget: &Budget,
     stack: &mut [ScratchEntry],
     mut found: impl FnMut(NodePair) -> ControlFlow<()>,
 ) -> Result<(Work, Ended), QueryError> {
+    budget.check_with(stack)?;
     let mut axes = Axes::NONE;
     axes.prepare(a, b, pose)?;
     let mut work = Work::default();
@@ -191,7 +195,7 @@ fn descend(
         };
         let free = stack.get_mut(top..).and_then(|rest| rest.first_chunk_mut::<2>());
         match (opened, free) {
-            (Some((children, of_a)), Some(free)) if work.splits < steps => {
+            (Some((children, of_a)), Some(free)) if work.splits < budget.steps => {
                 work.splits += 1;
                 *free = children
                     .map(|child| if of_a { entry(child, node_b) } else { entry(node_a, child) });

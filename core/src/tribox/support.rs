@@ -19,6 +19,7 @@
 //! One for each way in which the faces may meet at the corner in that direction.
 
 use super::directions::FACES;
+use crate::num::lesser;
 
 /// A direction, split into multiples of planes' directions in all ways that may be the least.
 #[derive(Clone, Copy, Debug)]
@@ -101,7 +102,7 @@ impl Support {
                 |plane: u8| planes.get(usize::from(plane ^ flip)).copied().unwrap_or(f32::INFINITY);
             let (p, q, r) = (at(i) * a, at(j) * b, at(k) * c);
             let here = (p + q) + r;
-            least = if here < least { here } else { least };
+            least = lesser(least, here);
         }
         least
     }

@@ -41,3 +41,23 @@ pub struct Input<'a> {
     /// Any number.
     pub any: usize,
 }
+
+/// Functions that open a structure and ask it one question each. `|opened, input, scratch, fold|`
+/// names what the question is made of.
+#[allow(unused_macros, reason = "the empty image asks nothing")]
+macro_rules! ask {
+    ($($name:ident: $subject:ty,
+        |$opened:ident, $input:ident, $scratch:ident, $fold:ident| $question:expr;)*) => {$(
+        #[unsafe(no_mangle)]
+        extern "C" fn $name<'t>(
+            $input: &bare::Input<'t>,
+            $scratch: &mut <$subject as meshsweep_suite::Subject<'t>>::Scratch,
+            $fold: &mut meshsweep_suite::fold::Fold,
+        ) {
+            if let Ok(opened) = <$subject as meshsweep_suite::Subject<'t>>::open($input.blob) {
+                let $opened = &opened;
+                $question;
+            }
+        }
+    )*};
+}

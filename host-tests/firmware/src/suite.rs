@@ -26,7 +26,22 @@ struct Flash<T: ?Sized>(T);
 #[unsafe(link_section = ".rodata.meshsweep_blob")]
 static BLOB: &Flash<[u8]> = &Flash(*include_bytes!(env!("MESHSWEEP_BLOB")));
 
-/// The caller's memory, outside of the stack so that the two are measured apart.
+/// The image's entry: runs the suite on a subject. The caller's memory lies outside of the stack, so
+/// that the two are measured apart.
+macro_rules! image {
+    ($subject:ty, $scratch:ty) => {
+        static SCRATCH: suite::Shared<$scratch> = suite::Shared::new(<$scratch>::new());
+
+        #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
+        #[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
+        fn main() -> ! {
+            // SAFETY: the entry runs once.
+            unsafe { suite::main::<$subject>(&SCRATCH) }
+        }
+    };
+}
+
+/// Memory that one owner takes.
 pub struct Shared<T>(UnsafeCell<T>);
 // SAFETY: one core, no interrupt handler touches it.
 unsafe impl<T> Sync for Shared<T> {}

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! measuring ─ measure, hulls_on_board, valgrind
-//! racing ──── race, valgrind (callgrind) on this program itself
+//! racing ──── race
 //! rival ───── images of other engines, in the emulator
 //! ```
 
@@ -16,14 +16,14 @@ use std::process::ExitCode;
 use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
-cargo xtask measure [--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE] [--plot FILE.svg] [--picture FILE.svg] [MESH...]
+cargo xtask measure [--tree | --triboxes | --overlap | --tight [--firmware] | --bounds [--count]] [--plot FILE.svg] [--picture FILE.svg] [MESH...]
                                     work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/);
                                     --tree: only the box tree's; --triboxes: the stored ones; --overlap: the mesh
-                                    against itself; --tight: tight hulls, each proved, drawn with --picture, on a Cortex-M4F with --firmware; --bounds: how tight boxes,
-                                    triboxes, hulls... are and what they cost, with --count in instructions too; --plot: error against cost
-cargo xtask race [--count] [--quick] [--hull] [--json FILE] [MESH...]
-                                    this library, parry3d, obvhs and a plain loop on the same queries: times or, with
-                                    --count, instructions; --hull: the hull engine on large meshes too
+                                    against itself; --tight: tight hulls, each proved, drawn with --picture, on a Cortex-M4F
+                                    with --firmware; --bounds: how tight boxes, triboxes, hulls... are, with --count what
+                                    they cost; --plot: loss against cost
+cargo xtask race [--quick] [MESH...]
+                                    this library, parry3d and obvhs on the same queries
                                     (AVX2: RUSTFLAGS=\"-C target-cpu=x86-64-v3\" cargo xtask race)
 cargo xtask rival [MESH] [--faces COUNT,COUNT...] [--seed NUMBER]
                                     parry3d on a Cortex-M4F (default: a rough sphere at 2500,10000)";
@@ -34,13 +34,14 @@ fn main() -> ExitCode {
     let mut steps = Steps::new();
     match words.as_slice() {
         ["measure", rest @ ..] => match measuring::Options::parse(rest) {
-            Some(options) => measuring::run(&mut steps, &options),
+            Some(options) => measuring::run(&mut steps, options),
             None => return usage(),
         },
-        ["race", rest @ ..] => match racing::Options::parse(rest) {
-            Some(options) => racing::run(&mut steps, &options),
-            None => return usage(),
-        },
+        ["race", rest @ ..] => {
+            if racing::run(&mut steps, rest).is_none() {
+                return usage();
+            }
+        }
         ["rival", rest @ ..] => match rival::Options::parse(rest) {
             Some(options) => rival::run(&mut steps, &options),
             None => return usage(),
@@ -48,11 +49,6 @@ fn main() -> ExitCode {
         // What `measure --bounds --count` runs in the simulator.
         ["ask-bounds", mesh] => {
             steps.run(mesh, || measuring::ask(mesh));
-        }
-        // What `race --count` runs in the simulator.
-        ["ask-engine", engine, mesh, hull_triangles] => {
-            let Ok(hull_triangles) = hull_triangles.parse() else { return usage() };
-            steps.run(engine, || racing::ask(engine, mesh, hull_triangles));
         }
         _ => return usage(),
     }

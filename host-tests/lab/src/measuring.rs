@@ -1,4 +1,4 @@
-//! `cargo xtask measure`: the tables of `measure`, printed, written and plotted.
+//! `cargo xtask measure`: the tables of `measure`, printed and plotted.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,6 @@ use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::workspace;
-use serde_json::{Value, json};
 
 use crate::hulls_on_board;
 
@@ -22,12 +21,11 @@ use crate::hulls_on_board;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     meshes: Vec<PathBuf>,
-    json: Option<PathBuf>,
     plot: Option<PathBuf>,
     picture: Option<PathBuf>,
-    firmware: bool,
     part: Option<Part>,
-    count: bool,
+    /// Hulls on a board, or bounds in the simulator.
+    is_counted: bool,
 }
 
 /// What of a mesh, if not hull hierarchy and box tree.
@@ -41,31 +39,45 @@ enum Part {
 }
 
 impl Options {
-    /// `[--firmware] [--tree | --triboxes | --overlap | --tight | --bounds [--count]] [--json FILE]
+    /// `[--tree | --triboxes | --overlap | --tight [--firmware] | --bounds [--count]]
     /// [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if
     /// that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
+        let mut only = None;
         let mut words = words.iter();
         while let Some(&word) = words.next() {
-            match word {
-                "--firmware" => options.firmware = true,
-                "--tree" if options.part.is_none() => options.part = Some(Part::Tree),
-                "--bounds" if options.part.is_none() => options.part = Some(Part::Bounds),
-                "--overlap" if options.part.is_none() => options.part = Some(Part::Overlap),
-                "--triboxes" if options.part.is_none() => options.part = Some(Part::Triboxes),
-                "--tight" if options.part.is_none() => options.part = Some(Part::Tight),
-                "--count" => options.count = true,
-                "--json" => options.json = Some(PathBuf::from(words.next()?)),
-                "--plot" => options.plot = Some(svg(words.next()?)?),
-                "--picture" => options.picture = Some(svg(words.next()?)?),
+            let part = match word {
+                "--tree" => Part::Tree,
+                "--bounds" => Part::Bounds,
+                "--overlap" => Part::Overlap,
+                "--triboxes" => Part::Triboxes,
+                "--tight" => Part::Tight,
+                "--count" | "--firmware" if only.is_none() => {
+                    only = Some(if word == "--count" { Part::Bounds } else { Part::Tight });
+                    continue;
+                }
+                "--plot" => {
+                    options.plot = Some(svg(words.next()?)?);
+                    continue;
+                }
+                "--picture" => {
+                    options.picture = Some(svg(words.next()?)?);
+                    continue;
+                }
                 flag if flag.starts_with("--") => return None,
-                mesh => options.meshes.push(PathBuf::from(mesh)),
+                mesh => {
+                    options.meshes.push(PathBuf::from(mesh));
+                    continue;
+                }
+            };
+            if options.part.replace(part).is_some() {
+                return None;
             }
         }
-        let is_counted_rightly = options.part == Some(Part::Bounds) || !options.count;
+        options.is_counted = only.is_some();
         let is_drawn_rightly = options.part == Some(Part::Tight) || options.picture.is_none();
-        (is_counted_rightly && is_drawn_rightly).then_some(options)
+        (is_drawn_rightly && (only.is_none() || only == options.part)).then_some(options)
     }
 }
 
@@ -75,24 +87,27 @@ fn svg(file: &str) -> Option<PathBuf> {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")).then_some(file)
 }
 
-/// Measures each mesh, the fixtures if none is named; with `--tree` only what is about the box
-/// tree, with `--bounds` only convex bounds, with `--overlap` the mesh against itself, with
-/// `--triboxes` only stored triboxes, with `--tight` only tight hulls, on a board if the firmware
-/// is asked for; and the firmware if asked to.
-pub fn run(steps: &mut Steps, options: &Options) {
-    let fixtures =
-        ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name));
-    let meshes = if options.meshes.is_empty() { fixtures.as_slice() } else { &options.meshes };
-    let valgrind = if options.count { Valgrind::find() } else { None };
-    let hulls_on_board = options.firmware && options.part == Some(Part::Tight);
-    let tools = if hulls_on_board { firmware::setup(steps) } else { None };
-    let (mut written, mut plotted, mut drawn) = (Vec::new(), Vec::new(), Vec::new());
-    for mesh in meshes {
+/// The meshes, or two fixtures if there are none.
+pub fn or_fixtures(meshes: Vec<PathBuf>) -> Vec<PathBuf> {
+    if !meshes.is_empty() {
+        return meshes;
+    }
+    ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name)).to_vec()
+}
+
+/// Measures each mesh, the fixtures if none is named; tight hulls on a board if the firmware is
+/// asked for.
+pub fn run(steps: &mut Steps, options: Options) {
+    let Options { meshes, plot, picture, part, is_counted } = options;
+    let valgrind = if is_counted && part == Some(Part::Bounds) { Valgrind::find() } else { None };
+    let tools = if is_counted && part == Some(Part::Tight) { firmware::setup(steps) } else { None };
+    let (mut plotted, mut drawn) = (Vec::new(), Vec::new());
+    for mesh in &or_fixtures(meshes) {
         let counts = valgrind.as_ref().and_then(|valgrind| {
             steps.run(&format!("count bounds of {}", mesh.display()), || count(valgrind, mesh))
         });
         steps.run(&format!("measure {}", mesh.display()), || {
-            let tables = match options.part {
+            let tables = match part {
                 Some(Part::Tree) => measure_tree(mesh)?,
                 Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
@@ -110,29 +125,16 @@ pub fn run(steps: &mut Steps, options: &Options) {
             for table in &tables {
                 say::text(table.text());
             }
-            written.push(json!({
-                "mesh": mesh.file_name().map(|name| name.to_string_lossy()),
-                "tables": tables.iter().map(|table| table.json()).collect::<Vec<Value>>(),
-            }));
             let name = mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             plotted.push(Measured { mesh: name, tables });
             Ok(())
         });
     }
-    if let Some(file) = &options.json {
-        steps.run("write the tables", || write(file, &written));
+    if let Some(file) = &plot {
+        steps.run("plot", || write(file, &plot::svg(&plotted)?));
     }
-    if let Some(file) = &options.plot {
-        steps.run("plot", || text(file, &plot::svg(&plotted)?));
-    }
-    if let Some(file) = &options.picture {
-        steps.run("draw the hulls", || text(file, &picture::svg(drawn)?));
-    }
-    if options.firmware
-        && !hulls_on_board
-        && let Some(tools) = firmware::setup(steps)
-    {
-        firmware::run(steps, &tools, None);
+    if let Some(file) = &picture {
+        steps.run("draw the hulls", || write(file, &picture::svg(drawn)?));
     }
 }
 
@@ -160,46 +162,40 @@ pub fn ask(mesh: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn write(file: &Path, measured: &[Value]) -> Result<(), String> {
-    text(file, &serde_json::to_string_pretty(measured).map_err(|error| error.to_string())?)
-}
-
-fn text(file: &Path, text: &str) -> Result<(), String> {
+fn write(file: &Path, text: &str) -> Result<(), String> {
     fs::write(file, text.to_owned() + "\n")
         .map_err(|error| format!("cannot write {}: {error}", file.display()))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Options;
+    use super::{Options, Part};
     use std::path::PathBuf;
 
     #[test]
     fn flags_and_meshes_come_in_any_order() {
-        let options =
-            Options::parse(&["a.ply", "--json", "out.json", "--firmware", "b.stl"]).expect("fine");
+        let words = ["a.ply", "--count", "--plot", "trade.svg", "--bounds", "b.stl"];
+        let options = Options::parse(&words).expect("fine");
         assert_eq!(options.meshes, ["a.ply", "b.stl"].map(PathBuf::from));
-        assert_eq!(options.json, Some(PathBuf::from("out.json")));
-        assert!(options.firmware);
-        assert_eq!(Options::parse(&["--json"]), None);
-        assert_eq!(Options::parse(&["--fast"]), None);
-        assert_eq!(Options::parse(&["--tree", "--bounds"]), None);
-        assert_eq!(Options::parse(&["--triboxes", "--bounds"]), None);
-        assert_eq!(Options::parse(&["--overlap", "--overlap"]), None);
+        assert_eq!(options.plot, Some(PathBuf::from("trade.svg")));
+        assert!(options.is_counted && options.part == Some(Part::Bounds));
+        let options = Options::parse(&["--tight", "--picture", "hulls.svg"]).expect("fine");
+        assert_eq!(options.picture, Some(PathBuf::from("hulls.svg")));
     }
 
     #[test]
-    fn plots_are_svg_and_only_bounds_are_counted() {
-        let options =
-            Options::parse(&["--count", "--plot", "trade.svg", "--bounds"]).expect("fine");
-        assert_eq!(options.plot, Some(PathBuf::from("trade.svg")));
-        assert!(options.count && options.part == Some(super::Part::Bounds));
-        assert_eq!(Options::parse(&["--plot", "trade.png"]), None);
-        assert_eq!(Options::parse(&["--plot"]), None);
-        let options = Options::parse(&["--tight", "--picture", "hulls.svg"]).expect("fine");
-        assert_eq!(options.picture, Some(PathBuf::from("hulls.svg")));
-        assert_eq!(Options::parse(&["--bounds", "--picture", "hulls.svg"]), None);
-        assert_eq!(Options::parse(&["--count"]), None);
-        assert_eq!(Options::parse(&["--tree", "--count"]), None);
+    fn words_that_do_not_fit_each_other_are_refused() {
+        for words in [
+            &["--plot"][..],
+            &["--fast"],
+            &["--tree", "--bounds"],
+            &["--overlap", "--overlap"],
+            &["--plot", "trade.png"],
+            &["--count"],
+            &["--firmware", "--tree"],
+            &["--picture", "hulls.svg"],
+        ] {
+            assert_eq!(Options::parse(words), None, "{words:?}");
+        }
     }
 }

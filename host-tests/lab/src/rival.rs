@@ -3,17 +3,16 @@
 //!
 //! A mesh is reduced to so many triangles, questions are drawn, and both go into one image an
 //! engine. `target/rival/NAME-FACES/` keeps what the images carry, and the mesh as `mesh.ply`. An
-//! engine more is a `race_NAME.rs` and its `size_` images in
-//! `host-tests/lab/rival-firmware/src/bin`, and a line in [`ENGINES`].
+//! engine more is a `race_NAME.rs` in `host-tests/lab/rival-firmware/src/bin`, and a line in
+//! [`ENGINES`].
 
 mod answers;
 mod questions;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use meshsweep_xtask::boards::{BOARDS, Board};
 use meshsweep_xtask::cross::Cross;
-use meshsweep_xtask::elf;
 use meshsweep_xtask::images::{self, Profile};
 use meshsweep_xtask::process;
 use meshsweep_xtask::qemu::Qemu;
@@ -25,9 +24,8 @@ use meshsweep_xtask::workspace;
 use answers::{Answers, agree, of_host};
 use questions::Course;
 
-/// Engines by the names of their images, each with the questions that it has `size_` images for.
-const ENGINES: [(&str, &[&str]); 2] =
-    [("parry", &["closest", "segment", "both"]), ("tree", &["open", "closest", "segment", "both"])];
+/// Engines by the names of their images.
+const ENGINES: [&str; 2] = ["parry", "tree"];
 
 /// The only one with a floating-point unit whose emulated board also has RAM enough for a heap.
 const BOARD: Board = BOARDS[0];
@@ -69,9 +67,6 @@ pub fn run(steps: &mut Steps, options: &Options) {
     let cross = steps.run("setup: std for the boards", Cross::find);
     let qemu = steps.run("setup: QEMU", Qemu::find);
     let (Some(cross), Some(qemu)) = (cross, qemu) else { return };
-    if let Some(table) = steps.run("sizes", || sizes(&cross)) {
-        say::text(table.text());
-    }
     let Some(mesh) = steps.run("mesh", || questions::load(options.mesh.as_deref())) else { return };
     let mut lints = cross.has_clippy();
     for &faces in &options.faces {
@@ -84,7 +79,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
         }
         let expected = steps.run(&format!("{what}: answers of the host"), || of_host(&course));
         let Some(expected) = expected else { continue };
-        for (engine, _) in ENGINES {
+        for engine in ENGINES {
             let answers = steps.run(&format!("{what}: {engine}"), || {
                 let image = race(&cross, engine, &course)?;
                 let answers = Answers::parse(&qemu.run(BOARD.machine, &image)?, &BOARD)?;
@@ -142,57 +137,23 @@ fn table(engine: &str, course: &Course, answers: &Answers) -> Table {
     table
 }
 
-/// What the images have more than the empty one.
-fn sizes(cross: &Cross) -> Result<Table, String> {
-    let mut table = Table::new(
-        "rival_size",
-        "flash in bytes, beyond an empty image",
-        &["image", "profile", "text", "rodata"],
-    );
-    for profile in Profile::ALL {
-        let asked = ENGINES.iter().flat_map(|(engine, questions)| {
-            questions.iter().map(move |question| format!("size_{engine}_{question}"))
-        });
-        let names: Vec<String> =
-            ["size_empty".to_owned(), "size_heap".to_owned()].into_iter().chain(asked).collect();
-        let mut command = cargo(cross, "build", profile);
-        for name in &names {
-            command.args(["--bin", name]);
-        }
-        process::capture(&mut command)?;
-        let empty = elf::size(&image(cross, profile, "size_empty"))?;
-        for name in &names[1..] {
-            let size = elf::size(&image(cross, profile, name))?.beyond(empty);
-            let name = name.trim_start_matches("size_");
-            table.push(vec![
-                name.into(),
-                profile.name().into(),
-                size.text.into(),
-                size.rodata.into(),
-            ]);
-        }
-    }
-    table.note("with the heap's code where there is one, without the text of panics");
-    Ok(table)
-}
-
 /// Builds the image in which `engine` is asked; its path.
 fn race(cross: &Cross, engine: &str, course: &Course) -> Result<PathBuf, String> {
     let name = format!("race_{engine}");
-    let mut command = cargo(cross, "build", Profile::Release);
+    let mut command = cargo(cross, "build");
     process::capture(command.args(["--bin", &name]).env("MESHSWEEP_RIVAL", &course.folder))?;
-    Ok(image(cross, Profile::Release, &name))
+    Ok(folder(cross).join(BOARD.target).join(Profile::Release.name()).join(name))
 }
 
 fn lint(cross: &Cross, course: &Course) -> Result<(), String> {
-    let mut command = cargo(cross, "clippy", Profile::Release);
+    let mut command = cargo(cross, "clippy");
     command.env("MESHSWEEP_RIVAL", &course.folder);
     process::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"])).map(drop)
 }
 
 /// `cargo SUBCOMMAND` for these images.
-fn cargo(cross: &Cross, subcommand: &str, profile: Profile) -> std::process::Command {
-    let mut command = images::cargo(cross, subcommand, &[BOARD.target], profile);
+fn cargo(cross: &Cross, subcommand: &str) -> std::process::Command {
+    let mut command = images::cargo(cross, subcommand, &[BOARD.target], Profile::Release);
     command.current_dir(workspace::root().join("host-tests/lab/rival-firmware"));
     command.env("CARGO_TARGET_DIR", folder(cross));
     if matches!(cross, Cross::Debian { .. }) {
@@ -202,13 +163,9 @@ fn cargo(cross: &Cross, subcommand: &str, profile: Profile) -> std::process::Com
     command
 }
 
-/// Apart from the firmware's: both have an image `size_empty`.
+/// Apart from the firmware's: both build the same crates with other features.
 fn folder(cross: &Cross) -> PathBuf {
     workspace::target().join(format!("rival-{}", cross.folder()))
-}
-
-fn image(cross: &Cross, profile: Profile, name: &str) -> PathBuf {
-    folder(cross).join(Path::new(BOARD.target)).join(profile.name()).join(name)
 }
 
 #[cfg(test)]

@@ -1,8 +1,11 @@
-//! Whether what claims to contain something does: boxes, groups, reaches, radii, cover, capacities.
+//! Whether what claims to contain something does: boxes, groups, reaches, radii, errors, cover,
+//! capacities.
 
 use super::CheckReport;
-use super::parse::{Blob, small_radius};
+use super::mesh::canonical;
+use super::parse::{Blob, Split, small_radius};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// A stored radius is a bound of real numbers; these distances are rounded.
 const ROUNDING: f64 = 1.0 + 1e-12;
@@ -103,6 +106,34 @@ pub(super) fn radii(blob: &Blob) -> Result<(), String> {
         }
         if radius < 0.0 || radius.is_nan() {
             return Err(format!("triangle {index} has radius {radius:e}"));
+        }
+    }
+    Ok(())
+}
+
+/// Every split's error is the largest finite radius of the triangles that it removes.
+pub(super) fn errors(blob: &Blob) -> Result<(), String> {
+    let fine = (0..blob.splits.len()).flat_map(|index| blob.fine(index));
+    let radius_of: HashMap<[u32; 3], f64> = blob
+        .base
+        .iter()
+        .copied()
+        .chain(fine)
+        .zip(&blob.radii)
+        .map(|(triangle, &code)| (canonical(triangle), small_radius(code)))
+        .collect();
+    for (index, Split { vertex, ring, error, .. }) in blob.splits.iter().enumerate() {
+        let mut largest = 0f64;
+        for (i, &from) in ring.iter().enumerate() {
+            let removed = canonical([*vertex, from, ring[(i + 1) % ring.len()]]);
+            let radius =
+                radius_of.get(&removed).ok_or(format!("split {index} lacks a triangle"))?;
+            if radius.is_finite() {
+                largest = largest.max(*radius);
+            }
+        }
+        if largest != *error {
+            return Err(format!("split {index}: its error is {error:e} and not {largest:e}"));
         }
     }
     Ok(())

@@ -24,7 +24,7 @@ pub use files::{Surface, read_surface};
 
 use super::mesh::Mesh;
 use meeting::{apart, area_free, sharing_apart};
-use winding::Winding;
+pub use winding::Winding;
 
 /// What was proved, in numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

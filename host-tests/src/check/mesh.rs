@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 /// Triangles by directed edge; oriented triangles only, each edge at most once in each direction.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Mesh {
+pub struct Mesh {
     /// From edge `(a, b)` to `c`, for the triangle `a b c`.
     opposite: HashMap<(u32, u32), u32>,
     /// Number of triangles at each vertex.
@@ -16,7 +16,8 @@ fn edges([a, b, c]: [u32; 3]) -> [(u32, u32, u32); 3] {
 }
 
 /// Least corner first, orientation kept.
-pub(super) fn canonical([a, b, c]: [u32; 3]) -> [u32; 3] {
+#[must_use]
+pub fn canonical([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a < b && a < c {
         [a, b, c]
     } else if b < c {
@@ -28,7 +29,10 @@ pub(super) fn canonical([a, b, c]: [u32; 3]) -> [u32; 3] {
 
 impl Mesh {
     /// Adds a triangle.
-    pub(super) fn add(&mut self, triangle: [u32; 3]) -> Result<(), String> {
+    ///
+    /// # Errors
+    /// It has no three corners, or an edge has a triangle on this side already.
+    pub fn add(&mut self, triangle: [u32; 3]) -> Result<(), String> {
         let [a, b, c] = triangle;
         if a == b || b == c || c == a {
             return Err(format!("triangle {triangle:?} repeats a corner"));
@@ -43,7 +47,10 @@ impl Mesh {
     }
 
     /// Takes a triangle out.
-    pub(super) fn remove(&mut self, triangle: [u32; 3]) -> Result<(), String> {
+    ///
+    /// # Errors
+    /// It is not there.
+    pub fn remove(&mut self, triangle: [u32; 3]) -> Result<(), String> {
         for (from, to, opposite) in edges(triangle) {
             if self.opposite.remove(&(from, to)) != Some(opposite) {
                 return Err(format!("triangle {triangle:?} is not there"));
@@ -75,7 +82,10 @@ impl Mesh {
     }
 
     /// Every edge has its other side, and every vertex one closed fan.
-    pub(super) fn closed_manifold(&self) -> Result<(), String> {
+    ///
+    /// # Errors
+    /// An edge is open, or the triangles at a vertex are not one fan.
+    pub fn closed_manifold(&self) -> Result<(), String> {
         if let Some((a, b)) =
             self.opposite.keys().find(|(a, b)| !self.opposite.contains_key(&(*b, *a)))
         {
@@ -91,7 +101,8 @@ impl Mesh {
     }
 
     /// All triangles, least corner first, sorted.
-    pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
         let mut all: Vec<[u32; 3]> = self
             .opposite
             .iter()

@@ -14,12 +14,15 @@ mod levels;
 mod mesh;
 mod parse;
 mod replay;
+mod sections;
 mod tree;
 
 pub use enclosure::{
-    EnclosureProof, Surface, check_enclosure, check_enclosure_files, check_margin, read_surface,
+    EnclosureProof, Surface, Winding, check_enclosure, check_enclosure_files, check_margin,
+    read_surface,
 };
 pub use exact::side;
+pub use mesh::{Mesh, canonical};
 pub use parse::{Blob, Node};
 pub use tree::{TreeProof, check_tree};
 
@@ -52,6 +55,7 @@ pub fn check_blob(bytes: &[u8]) -> Result<CheckReport, String> {
     bounds::groups(&blob)?;
     bounds::reaches(&blob)?;
     bounds::radii(&blob)?;
+    bounds::errors(&blob)?;
     bounds::cover(&blob, &mut report)?;
     bounds::capacities(&blob)?;
     levels::volumes(&blob, &meshes)?;

@@ -1,6 +1,7 @@
-//! The format read anew: header, section table, CRCs, records of one to four byte indices.
+//! The hull hierarchy's sections read anew: records of one to four byte indices.
 
-use crate::corrupt::{crc32, entries, word};
+use super::sections::{self, check_header, header_word};
+use crate::corrupt::word;
 
 /// A node of the cover tree.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +29,7 @@ pub struct Split {
     pub right: usize,
     /// Claimed greatest distance of the ring and the new vertices from it.
     pub reach: f64,
+    pub error: f64,
 }
 
 /// A record of the level table.
@@ -134,29 +136,10 @@ impl Blob {
     /// # Errors
     /// A section is missing, damaged or of the wrong length.
     pub fn parse(bytes: &[u8]) -> Result<Blob, String> {
-        let at = |offset: usize| word(bytes, offset).ok_or("the header is cut short".to_owned());
-        if bytes.get(..10) != Some(b"meshswep\x01\x00".as_slice())
-            || at(16)? as usize != bytes.len()
-        {
-            return Err("not a whole blob of version 1".into());
-        }
-        let table_end = (at(12)? as usize).min(bytes.len()).max(160);
-        let covered = [&bytes[..156], &bytes[160..table_end]].concat();
-        if crc32(&covered) != at(156)? {
-            return Err("the header's CRC does not hold".into());
-        }
+        check_header(bytes)?;
+        let at = |offset: usize| header_word(bytes, offset);
         let section = |kind: u32, name: &'static str| -> Result<Cursor<'_>, String> {
-            let Some(entry) = entries(bytes).into_iter().find(|e| e.kind == kind) else {
-                return Ok(Cursor(&[], name));
-            };
-            let start = entry.offset as usize;
-            let body = bytes
-                .get(start..start + entry.bytes as usize)
-                .ok_or(format!("{name} leaves the blob"))?;
-            if Some(crc32(body)) != word(bytes, entry.at + 12) {
-                return Err(format!("the CRC of {name} does not hold"));
-            }
-            Ok(Cursor(body, name))
+            Ok(Cursor(sections::section(bytes, kind, name)?, name))
         };
         let corner = |offset: usize| -> Result<[f64; 3], String> {
             let mut p = [0.0; 3];
@@ -313,11 +296,11 @@ fn read_splits(
     for _ in 0..splits {
         let (vertex, start) = (records.uint(wv)?, records.uint(wr)?);
         let (right, reach) = (records.uint(1)? as usize, small_radius(records.uint(1)? as u8));
-        heads.push((vertex, start, right, reach));
+        heads.push((vertex, start, right, [reach, small_radius(records.uint(1)? as u8)]));
     }
     records.end()?;
     let mut read = Vec::new();
-    for (i, &(vertex, start, right, reach)) in heads.iter().enumerate() {
+    for (i, &(vertex, start, right, [reach, error])) in heads.iter().enumerate() {
         let end = heads.get(i + 1).map_or(ring_entries, |next| next.1);
         let length =
             end.checked_sub(start).ok_or(format!("split {i}: its ring ends before it begins"))?;
@@ -325,7 +308,7 @@ fn read_splits(
         if right == 0 || right >= ring.len() {
             return Err(format!("split {i}: its right wing is not in its ring"));
         }
-        read.push(Split { vertex, ring, right, reach });
+        read.push(Split { vertex, ring, right, reach, error });
     }
     rings.end()?;
     Ok(read)

@@ -1,5 +1,4 @@
-//! Asks an opened box tree everything, and holds the answers to what has to be true whatever the
-//! bytes say.
+//! Asks an opened box tree everything, and holds the answers to what is true of any bytes.
 //!
 //! A blob that was changed on purpose may open: then its boxes may leave something out and its
 //! answers may be wrong. But every question ends, within work that the tree's counts bound, without
@@ -66,7 +65,9 @@ impl Asker {
                 found(tree, &near[..answer.stored]);
             }
             if let Some(answer) = answered(tree.signed_distance(point, *stop, stack)) {
-                closest(tree, &ClosestPoint { work: Work::default(), ..answer.closest }, 0);
+                let mut near = answer.closest;
+                near.work = Work::default();
+                closest(tree, &near, 0);
                 ends(answer.closest.work, 8 * once);
                 assert!(answer.distance.lower <= answer.distance.upper, "{answer:?}");
                 assert!(
@@ -101,21 +102,20 @@ impl Asker {
         }
     }
 
-    /// A session of `N` entries along a path; its answers are those of the plain query unless that
+    /// A coherent query of `N` entries along a path; its answers are those of the plain query unless that
     /// was cut short.
     ///
     /// # Panics
     /// If an answer is out of range or took too long.
     pub fn path<'t, const N: usize>(
         &mut self,
-        session: &mut CoherentQuery<'t, N>,
+        query: &mut CoherentQuery<'t, N>,
         tree: &Bvh<'t>,
         path: impl IntoIterator<Item = [f32; 3]>,
         stop: &Budget,
     ) {
         for point in path {
-            if let Some(answer) =
-                answered(session.closest_point(tree, point, *stop, &mut self.stack))
+            if let Some(answer) = answered(query.closest_point(tree, point, *stop, &mut self.stack))
             {
                 closest(tree, &answer.closest, 4 * descent(tree));
                 assert!(answer.safe_radius >= 0.0, "{answer:?}");

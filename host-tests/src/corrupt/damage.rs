@@ -2,9 +2,9 @@
 //! bytes replaced.
 
 use super::seal;
-use super::sections::Entry;
+use super::sections::{Entry, entry};
 use crate::generate::Rng;
-use meshsweep_core::OpenError;
+use meshsweep_core::{OpenError, SectionKind};
 use std::collections::HashSet;
 use std::mem::{Discriminant, discriminant};
 
@@ -91,4 +91,47 @@ pub fn replace_bytes(
         outcome.count(ask(&changed));
     }
     outcome
+}
+
+/// Opens a blob after an edit of one section's bytes, its checksums made right.
+///
+/// # Errors
+/// What `open` says.
+///
+/// # Panics
+/// If the blob has no such section.
+pub fn edited(
+    mut blob: Vec<u8>,
+    kind: SectionKind,
+    edit: impl FnOnce(&mut [u8]),
+    open: impl FnOnce(&[u8]) -> Result<(), OpenError>,
+) -> Result<(), OpenError> {
+    let at = entry(&blob, kind as u32);
+    edit(&mut blob[at.offset as usize..][..at.bytes as usize]);
+    seal(&mut blob);
+    open(&blob)
+}
+
+/// Holds that damage to header, table and one section of each seed, checksums made right, is
+/// refused or safe to ask: every bit of the section's first `bytes` flipped, then `runs` times up to
+/// `most` bytes replaced.
+///
+/// # Panics
+/// If too few of the damaged blobs open for the test to mean something, or `ask` panics.
+pub fn assert_damage_is_safe(
+    seeds: &[Vec<u8>],
+    kind: SectionKind,
+    bytes: u32,
+    (runs, most): (usize, usize),
+    ask: impl Fn(&[u8]) -> Result<(), OpenError>,
+) {
+    let rng = &mut Rng::new(5);
+    for blob in seeds {
+        let section = entry(blob, kind as u32);
+        let [from, to] = [section.offset, section.offset + section.bytes.min(bytes)];
+        let bits = (0..8 * 200).chain(8 * from as usize..8 * to as usize);
+        let outcome = flip_bits(blob, bits, &ask);
+        assert!(outcome.opened > 50 && outcome.reasons.len() >= 6, "{outcome:?}");
+        replace_bytes(blob, (runs, most), rng, |_, _| section, &ask);
+    }
 }

@@ -24,7 +24,7 @@ pub fn crc32(bytes: &[u8]) -> u32 {
 }
 
 /// Writes the CRC of every section that lies inside the blob, of blobs within sections too, then
-/// the header's. Whatever was damaged, `open` gets past the checksums as far as the table can be
+/// the header's. So `open` gets past the checksums of a damaged blob, as far as the table can be
 /// followed.
 pub fn seal(blob: &mut [u8]) {
     for entry in entries(blob) {

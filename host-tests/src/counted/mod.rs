@@ -1,18 +1,22 @@
 //! Questions to fixtures that a simulator counts: the first so many of a seeded list.
 
+mod refine;
 mod tree;
 mod triboxes;
 
 use std::hint::black_box;
 use std::path::Path;
 
-use meshsweep_core::{Budget, Face, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
+use meshsweep_core::{Budget, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
 
 use crate::workload::{Points, Subject, points, segments};
 
 /// Queries that are placed, whether they are asked or not, so that placing them is no part of a
 /// difference between two runs.
 const PLACED: usize = 2500;
+
+/// Splits of the refined hull.
+const SPLITS: usize = 1024;
 
 /// Asks the first `queries` of a question; `NODES TRIANGLES A_LEAF`: the nodes and triangles looked
 /// at, and the triangles of a leaf, where the question counts them.
@@ -23,6 +27,9 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<String, St
     if let Some(question) = question.strip_prefix("tree ") {
         let (work, triangles) = tree::ask(fixtures, question, queries)?;
         return Ok(format!("{} {} {triangles}", work.splits, work.triangles));
+    }
+    if let Some(question) = question.strip_prefix("refine ") {
+        return refine::ask(fixtures, question, queries);
     }
     match question.strip_prefix("triboxes ") {
         Some(question) => triboxes::ask(fixtures, question, queries),
@@ -45,24 +52,20 @@ fn hull(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
         }
         return Ok(());
     }
+    let mut refined = Box::new(RefinedHull::<SPLITS>::new());
     let search = match question {
         "first_hit" => None,
         "outer_first" => Some(Search::First),
         "outer_all" => Some(Search::Outer),
         _ => return Err(format!("no question `{question}`")),
     };
-    let (mut performed, mut swept) =
-        (vec![0; model.refined_words()], vec![0; model.refined_words()]);
-    let mut candidates = vec![Face::EMPTY; 64];
     let mut hits = [Hit::EMPTY; 16];
-    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     for [a, b] in segments(&subject, PLACED).into_iter().take(queries) {
         if let Some(search) = search {
-            black_box(
-                model
-                    .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
-                    .map_err(failed)?,
-            );
+            refined.reset();
+            let answer =
+                model.outer_hits(a, b, search, &mut refined, &mut hits, Budget::EXACT, &mut queue);
+            black_box(answer.map_err(failed)?);
         } else {
             black_box(model.first_hit(a, b, Budget::EXACT, &mut queue).map_err(failed)?);
         }

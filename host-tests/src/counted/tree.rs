@@ -21,7 +21,8 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(Work, f64
             ..subject.mesh.as_input()
         },
         &TreeOptions::default(),
-    );
+    )
+    .expect("builds");
     let bytes = tables.to_bytes();
     let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
     let header = *tree.header();

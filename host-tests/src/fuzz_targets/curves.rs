@@ -14,7 +14,7 @@ pub fn curve_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
         let blob =
-            |polylines: &[Polyline], single| store(polylines, single).expect("finite").0.to_bytes();
+            |polylines: &[Polyline], is_f32| store(polylines, is_f32).expect("finite").0.to_bytes();
         vec![
             blob(&[open(vec![[0.0; 3], [1.0, 2.0, 3.0]])], true),
             blob(&[walk(300, 3)], false),

@@ -6,7 +6,8 @@ use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
-    Blob, Budget, ClosestPoint, Face, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
+    Blob, Budget, Change, ClosestPoint, Focus, Hit, Hull, QueryError, RefinedHull, ScratchEntry,
+    Search,
 };
 use std::sync::OnceLock;
 
@@ -118,24 +119,63 @@ pub fn segment(data: &[u8]) {
     }
 }
 
-/// Outer hits on an edited blob. The candidate list is long enough for every face, so that nothing
-/// is searched twice.
+/// Outer hits on an edited blob, from the base hull and from the hull that this leaves. The list of
+/// candidates is long enough for every face, so that nothing is searched twice.
 pub fn outer(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(seeds());
     let Ok(model) = Hull::open(&blob) else { return };
-    let words = usize::from(input.byte() % 8);
-    let (mut performed, mut swept) = (vec![u32::MAX; words], vec![u32::MAX; words]);
-    let mut candidates = vec![Face::EMPTY; 4096];
+    let mut refined = Box::new(RefinedHull::<256>::new());
+    let mut scratch = vec![ScratchEntry::EMPTY; 4096];
     let mut hits = [Hit::EMPTY; 4];
     let (a, b) = (input.point(), input.point());
     for search in [Search::First, Search::Outer] {
-        let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
-        match model.outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT) {
+        let exact = Budget::EXACT;
+        match model.outer_hits(a, b, search, &mut refined, &mut hits, exact, &mut scratch) {
             Ok(answer) => {
                 assert!(answer.t.lower >= 0.0 && answer.t.lower <= answer.t.upper, "{answer:?}");
                 assert!(answer.stored <= hits.len(), "{answer:?}");
                 assert!(answer.work.splits <= model.header().splits, "{:?}", answer.work);
+            }
+            Err(error) => assert_ne!(error, QueryError::Unchecked),
+        }
+    }
+}
+
+/// Refinement of an edited blob for any focus, twice on the same state: it ends, keeps to its memory
+/// and gives out corners in range.
+pub fn refine(data: &[u8]) {
+    let mut input = Input(data);
+    let blob = input.blob(seeds());
+    let Ok(model) = Hull::open(&blob) else { return };
+    let mut refined = Box::new(RefinedHull::<48>::new());
+    let mut changes = [Change::EMPTY; 32];
+    for _ in 0..2 {
+        let (a, b) = (input.point(), input.point());
+        let (radius, error) = (input.float(), input.float());
+        let focus = match input.byte() % 5 {
+            0 => Focus::Everywhere,
+            1 => Focus::Ball { centre: a, radius },
+            2 => Focus::Box { a, b },
+            3 => Focus::Segment { a, b, radius },
+            _ => Focus::Eye {
+                position: a,
+                axis: b,
+                cosine: input.float(),
+                error_per_distance: radius,
+            },
+        };
+        match refined.update(&model, &focus, error, &mut changes) {
+            Ok(update) => {
+                assert!(update.stored <= changes.len() && refined.splits() <= 48, "{update:?}");
+                assert!(update.error_left >= 0.0, "{update:?}");
+                let corners = changes[..update.stored]
+                    .iter()
+                    .flat_map(|change| change.removed(&model).chain(change.added(&model)))
+                    .chain(refined.faces(&model).map(|face| face.corners));
+                for corners in corners {
+                    assert!(model.positions(corners).is_some());
+                }
             }
             Err(error) => assert_ne!(error, QueryError::Unchecked),
         }

@@ -37,7 +37,8 @@ fn blob(
 ) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let (tables, _) = chain(mesh.as_input(), options, |_| {}).expect("room around it");
-    let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
+    let tree =
+        beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 

@@ -18,15 +18,15 @@ use std::sync::OnceLock;
 pub fn tree_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
-        let all = TreeOptions { cull: true, ..TreeOptions::default() };
+        let all = TreeOptions::default().with_cull(true);
         let mut open = rough_sphere(2, 0.4, 5);
         open.1.truncate(200);
         open.1.extend([[0, 1, 2], [2, 1, 0], [3, 3, 4], [5, 5, 5]]);
         vec![
             blob(&cube(1), &all),
-            blob(&torus(2.0, 0.75, 10, 6), &TreeOptions { single: true, ..all }),
-            blob(&icosphere(2), &TreeOptions { segments: false, ..all }),
-            blob(&icosphere(1), &TreeOptions { closest: false, cull: false, ..all }),
+            blob(&torus(2.0, 0.75, 10, 6), &all.with_f32(true)),
+            blob(&icosphere(2), &all.with_segments(false)),
+            blob(&icosphere(1), &all.with_closest(false).with_cull(false)),
             blob(&open, &all),
             blob(&(vec![[0.25, -1.0, 0.5]], vec![[0, 0, 0]]), &all),
             with_hull(&icosphere(1), &all),
@@ -36,14 +36,14 @@ pub fn tree_seeds() -> &'static [Vec<u8>] {
 
 fn blob((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    build(mesh.as_input(), options).0.to_bytes()
+    build(mesh.as_input(), options).expect("builds").0.to_bytes()
 }
 
 fn with_hull((positions, triangles): &Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let coarse = BuildOptions { base_faces: 8, ..BuildOptions::default() };
     let built = hull::build(mesh.as_input(), &coarse, |_| ()).expect("a sphere has hulls");
-    emit::assemble([&built.tables.sections(), &build(mesh.as_input(), options).0])
+    emit::assemble([&built.tables.sections(), &build(mesh.as_input(), options).expect("builds").0])
 }
 
 /// Opens raw bytes, then edits of a blob; looks at everything that the opened tree gives out.
@@ -131,8 +131,8 @@ pub fn tree_segment(data: &[u8]) {
     }
 }
 
-/// A session on an edited blob: small steps, jumps, another tree in between.
-pub fn tree_session(data: &[u8]) {
+/// A coherent query on an edited blob: small steps, jumps, another tree in between.
+pub fn tree_coherent(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(tree_seeds());
     let Ok(tree) = Bvh::open(&blob) else { return };
@@ -155,10 +155,10 @@ pub fn tree_session(data: &[u8]) {
         stop: &Budget,
     ) {
         let [tree, other] = trees;
-        let mut session = CoherentQuery::<N>::new();
+        let mut query = CoherentQuery::<N>::new();
         for stop in [&Budget::EXACT, stop] {
-            asker.path(&mut session, tree, path.iter().copied(), stop);
-            asker.path(&mut session, other, path.iter().copied().take(4), stop);
+            asker.path(&mut query, tree, path.iter().copied(), stop);
+            asker.path(&mut query, other, path.iter().copied().take(4), stop);
         }
     }
     let trees = [&tree, &other];

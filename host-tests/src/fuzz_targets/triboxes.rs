@@ -30,7 +30,8 @@ pub fn triboxes_seeds() -> &'static [Vec<u8>] {
 fn blob((positions, triangles): &Triangles, count: u32, beside_a_tree: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let (tables, _) = store(mesh.as_input(), count).expect("in the domain");
-    let tree = beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).0);
+    let tree =
+        beside_a_tree.then(|| build(mesh.as_input(), &TreeOptions::default()).expect("builds").0);
     assemble([tree.as_ref(), Some(&tables)].into_iter().flatten())
 }
 

@@ -73,8 +73,8 @@ fn unreadable() -> Vec<Evil> {
             "ends among its vertices (ASCII)",
         ),
         file("empty.obj", Vec::new(), "NoTriangles", "0 bytes"),
-        file("empty.ply", Vec::new(), "Malformed", "0 bytes"),
-        file("empty.stl", Vec::new(), "Truncated", "0 bytes"),
+        file("empty.ply", Vec::new(), "NoTriangles", "0 bytes"),
+        file("empty.stl", Vec::new(), "NoTriangles", "0 bytes"),
         file(
             "huge.obj",
             TETRAHEDRON.replace("0 0 1", "0 0 1e39").into(),

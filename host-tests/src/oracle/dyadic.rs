@@ -6,6 +6,8 @@ use std::ops::{Add, Mul, Sub};
 use num_bigint::BigInt;
 use num_traits::{Signed, ToPrimitive, Zero};
 
+use super::vector::{cross, dot};
+
 /// An exact number.
 #[derive(Clone, Debug)]
 pub(crate) struct Dyadic {
@@ -44,9 +46,9 @@ impl Dyadic {
         kept * 2f64.powi(half) * 2f64.powi(exponent - half)
     }
 
-    /// Whether it is at least 0.
-    pub(crate) fn is_non_negative(&self) -> bool {
-        !self.mantissa.is_negative()
+    /// 1 above 0, −1 below.
+    pub(crate) fn sign(&self) -> i8 {
+        i8::from(self.mantissa.is_positive()) - i8::from(self.mantissa.is_negative())
     }
 
     /// The same number with an exponent that is not greater than its own.
@@ -107,12 +109,10 @@ impl PartialOrd for Dyadic {
 /// Whether a symmetric matrix has no negative eigenvalue: all its principal minors are at least 0.
 pub(crate) fn is_semidefinite(m: &[[Dyadic; 3]; 3]) -> bool {
     let pair = |i: usize, j: usize| &(&m[i][i] * &m[j][j]) - &(&m[i][j] * &m[j][i]);
-    let minor = |i: usize, j: usize| &(&m[1][i] * &m[2][j]) - &(&m[1][j] * &m[2][i]);
-    let all =
-        &(&(&m[0][0] * &minor(1, 2)) - &(&m[0][1] * &minor(0, 2))) + &(&m[0][2] * &minor(0, 1));
-    (0..3).all(|i| m[i][i].is_non_negative())
-        && [(0, 1), (1, 2), (0, 2)].into_iter().all(|(i, j)| pair(i, j).is_non_negative())
-        && all.is_non_negative()
+    let all = dot(&m[0], &cross(&m[1], &m[2]));
+    (0..3).all(|i| m[i][i].sign() >= 0)
+        && [(0, 1), (1, 2), (0, 2)].into_iter().all(|(i, j)| pair(i, j).sign() >= 0)
+        && all.sign() >= 0
 }
 
 #[cfg(test)]

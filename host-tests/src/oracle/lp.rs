@@ -49,7 +49,7 @@ impl Program {
 }
 
 /// What a linear program comes to, without rounding or regularisation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
     /// No point satisfies all constraints.
     Infeasible,

@@ -6,6 +6,7 @@
 //! decide where they can, with a margin of a thousand roundings; else integers do.
 
 use super::dyadic::Dyadic;
+use super::vector::{Number, cross, dot, minus};
 
 /// A place, and the same rounded.
 #[derive(Clone, Debug)]
@@ -25,54 +26,17 @@ impl Place {
     /// A vertex at `rotation`·p + `translation`.
     #[must_use]
     pub fn moved(p: [f32; 3], rotation: &[[f32; 3]; 3], translation: [f32; 3]) -> Place {
-        let exact: [Dyadic; 3] = std::array::from_fn(|k| {
-            let product = |j: usize| {
-                &Dyadic::from(f64::from(rotation[k][j])) * &Dyadic::from(f64::from(p[j]))
-            };
-            &(&product(0) + &product(1)) + &(&product(2) + &Dyadic::from(f64::from(translation[k])))
-        });
+        let number = |x: f32| Dyadic::from(f64::from(x));
+        let p = p.map(number);
+        let exact: [Dyadic; 3] =
+            std::array::from_fn(|k| &dot(&rotation[k].map(number), &p) + &number(translation[k]));
         let near = exact.each_ref().map(Dyadic::rounded);
         Place { exact, near }
     }
 }
 
-/// Numbers that axes are made of.
-trait Number: Sized + Clone {
-    fn less(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-}
-
-impl Number for f64 {
-    fn less(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
-
-impl Number for Dyadic {
-    fn less(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
-
-fn minus<T: Number>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
-    std::array::from_fn(|k| a[k].less(&b[k]))
-}
-
-fn cross<T: Number>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i].times(&b[j]).less(&a[j].times(&b[i]))
-    })
-}
-
 /// All axes that can part two triangles of which each has an area, or is a segment.
-fn axes<T: Number>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> Vec<[T; 3]> {
+fn axes<T: Number + Clone>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> Vec<[T; 3]> {
     let edges = |t: &[[T; 3]; 3]| [minus(&t[1], &t[0]), minus(&t[2], &t[1]), minus(&t[0], &t[2])];
     let (e, f) = (edges(a), edges(b));
     let (n, m) = (cross(&e[0], &e[1]), cross(&f[0], &f[1]));
@@ -88,7 +52,7 @@ fn axes<T: Number>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> Vec<[T; 3]> {
 /// By how much the one triangle lies before the other along an axis, and what that may be off by;
 /// negative if it does not.
 fn gap(axis: &[f64; 3], a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], margin: f64) -> (f64, f64) {
-    let along = |p: &[f64; 3]| axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
+    let along = |p: &[f64; 3]| dot(axis, p);
     let range = |t: &[[f64; 3]; 3]| {
         let [x, y, z] = t.each_ref().map(along);
         (x.min(y).min(z), x.max(y).max(z))
@@ -129,8 +93,7 @@ pub fn triangles_meet(a: [&Place; 3], b: [&Place; 3]) -> bool {
     let exact = |t: [&Place; 3]| t.map(|p| p.exact.clone());
     let (p, q) = (exact(a), exact(b));
     !axes(&p, &q).iter().any(|axis| {
-        let along =
-            |p: &[Dyadic; 3]| &(&(&axis[0] * &p[0]) + &(&axis[1] * &p[1])) + &(&axis[2] * &p[2]);
+        let along = |p: &[Dyadic; 3]| dot(axis, p);
         let before = |x: &[[Dyadic; 3]; 3], y: &[[Dyadic; 3]; 3]| {
             let beyond = y.each_ref().map(along);
             x.each_ref().map(along).iter().all(|x| beyond.iter().all(|y| x < y))

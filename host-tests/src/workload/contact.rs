@@ -195,10 +195,7 @@ mod tests {
     #[test]
     fn the_tree_leaves_no_pair_of_triangles_out() {
         let (positions, triangles) = torus(2.0, 0.5, 10, 6);
-        let triangles_read = triangles.len();
-        let mesh = Mesh { positions, triangles, ..Mesh::default() };
-        let bounds = [[-2.5, -2.5, -0.5], [2.5, 2.5, 0.5]];
-        let subject = Subject { name: "torus".to_owned(), mesh, triangles_read, bounds };
+        let subject = Subject::of("torus", Mesh::new(positions, triangles));
         let surface = Surface::new(&subject);
         let sphere = Sphere { centre: DVec3::ZERO, radius: 2.5 };
         let mut rng = Rng::new(3);

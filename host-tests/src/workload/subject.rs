@@ -39,11 +39,17 @@ impl Subject {
 
     fn new(file: &Path, (mesh, report): (Mesh, RepairReport)) -> Self {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Self { triangles_read: report.triangles_read, ..Self::of(name, mesh) }
+    }
+
+    /// A mesh as it is.
+    #[must_use]
+    pub fn of(name: impl Into<String>, mesh: Mesh) -> Self {
         let corner = |pick: fn(f32, f32) -> f32, start: f32| {
             std::array::from_fn(|axis| mesh.positions.iter().map(|p| p[axis]).fold(start, pick))
         };
         let bounds = [corner(f32::min, f32::INFINITY), corner(f32::max, f32::NEG_INFINITY)];
-        Self { name, mesh, triangles_read: report.triangles_read, bounds }
+        Self { name: name.into(), triangles_read: mesh.triangles.len(), mesh, bounds }
     }
 
     /// A blob with a base hull of so many faces, all else as the builder's defaults.

@@ -9,6 +9,12 @@ use crate::rng::Rng;
 /// An axis-aligned box: least corner, greatest corner.
 pub type Bounds = [[f32; 3]; 2];
 
+/// A point, or a direction.
+pub type Point = [f32; 3];
+
+/// A segment's ends.
+pub type Ends = [Point; 2];
+
 /// A rotation matrix, by rows and up to rounding, and what is added after it.
 pub type Motion = ([[f32; 3]; 3], [f32; 3]);
 

@@ -38,7 +38,7 @@ pub enum Kind {
     Facing,
     /// Whether a segment meets the surface.
     AnyHit,
-    /// Closest point along a path of small steps and few jumps, by a session.
+    /// Closest point along a path of small steps and few jumps, by a coherent query.
     CoherentQuery,
     /// Closest points of eight points from the doubled box.
     Batch,
@@ -66,11 +66,13 @@ pub enum Kind {
     TriboxesDistance,
     /// Where a segment first enters a leaf.
     TriboxesClip,
+    /// The hull refined for a focus that moves.
+    Refine,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 30] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -79,6 +81,7 @@ impl Kind {
         Self::FirstHit,
         Self::AllHits,
         Self::OuterHits,
+        Self::Refine,
         Self::Stopped,
         Self::Within,
         Self::Nearest,
@@ -135,6 +138,7 @@ impl Kind {
             Self::TriboxesCandidates => "triboxes_candidates",
             Self::TriboxesDistance => "triboxes_distance",
             Self::TriboxesClip => "triboxes_clip",
+            Self::Refine => "refine",
         }
     }
 
@@ -192,6 +196,16 @@ pub trait Clock {
 
 /// Nobody looks at the clock.
 impl Clock for () {}
+
+impl<C: Clock> Clock for &mut C {
+    fn query_begins(&mut self) {
+        C::query_begins(self);
+    }
+
+    fn query_ends(&mut self) {
+        C::query_ends(self);
+    }
+}
 
 /// Told what happens, in this order: begins, then kind by kind: kind begins, (query begins, query
 /// ends) × queries, block, …, kind ends.

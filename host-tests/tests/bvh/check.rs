@@ -20,15 +20,15 @@ const SOURCE: u32 = 17;
 
 fn scene((positions, triangles): Triangles, options: &TreeOptions) -> (Vec<u8>, Mesh) {
     let mesh = Mesh::new(positions, triangles);
-    let (tables, _) = build(mesh.as_input(), options);
+    let (tables, _) = build(mesh.as_input(), options).expect("builds");
     (tables.to_bytes(), mesh)
 }
 
 fn kinds() -> [TreeOptions; 4] {
-    let all = TreeOptions { segments: true, ..TreeOptions::default() };
-    let closest = TreeOptions { segments: false, ..all };
-    let segments = TreeOptions { closest: false, ..all };
-    [all, closest, segments, TreeOptions { single: true, ..all }]
+    let all = TreeOptions::default().with_segments(true);
+    let closest = all.with_segments(false);
+    let segments = all.with_closest(false);
+    [all, closest, segments, all.with_f32(true)]
 }
 
 fn prove(name: &str, mesh: &Triangles, options: &TreeOptions) -> TreeProof {
@@ -102,8 +102,7 @@ fn one_triangle_and_one_point_are_trees() {
 
 /// Changes a blob and reseals it; the checker's complaint.
 fn damaged(kind: u32, damage: impl Fn(&mut [u8], Entry)) -> String {
-    let (mut bytes, mesh) =
-        scene(bracket(), &TreeOptions { segments: true, ..TreeOptions::default() });
+    let (mut bytes, mesh) = scene(bracket(), &TreeOptions::default().with_segments(true));
     check_tree(&bytes, &mesh).expect("sound before");
     let entry = entry(&bytes, kind);
     damage(&mut bytes, entry);

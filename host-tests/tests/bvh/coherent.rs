@@ -1,4 +1,4 @@
-//! A session answers with the bits of the plain query, wherever the query goes, and its safe radius
+//! A coherent query answers with the bits of the plain query, wherever the query goes, and its safe radius
 //! is safe.
 
 use meshsweep::bvh::{TreeOptions, build};
@@ -14,8 +14,8 @@ use meshsweep_host_tests::oracle::rough_distance_sq;
 
 fn blob((positions, triangles): &Triangles, single: bool) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
-    let options = TreeOptions { segments: false, single, ..TreeOptions::default() };
-    build(mesh.as_input(), &options).0.to_bytes()
+    let options = TreeOptions::default().with_segments(false).with_f32(single);
+    build(mesh.as_input(), &options).expect("builds").0.to_bytes()
 }
 
 fn stack(tree: &Bvh<'_>) -> Vec<ScratchEntry> {
@@ -121,7 +121,7 @@ fn bits(answer: &ClosestPoint) -> (u32, u32, [u32; 3], Option<u32>, Ended) {
 
 fn same_bits<'t, const N: usize>(
     name: &str,
-    session: &mut CoherentQuery<'t, N>,
+    query: &mut CoherentQuery<'t, N>,
     tree: &Bvh<'t>,
     points: &[[f32; 3]],
 ) -> Vec<CoherentClosest> {
@@ -130,7 +130,7 @@ fn same_bits<'t, const N: usize>(
         .iter()
         .map(|&p| {
             let plain = tree.closest_point(p, Budget::EXACT, &mut stack).unwrap();
-            let followed = session.closest_point(tree, p, Budget::EXACT, &mut stack).unwrap();
+            let followed = query.closest_point(tree, p, Budget::EXACT, &mut stack).unwrap();
             assert_eq!(
                 bits(&followed.closest),
                 bits(&plain),
@@ -142,7 +142,7 @@ fn same_bits<'t, const N: usize>(
 }
 
 #[test]
-fn a_session_has_the_bits_of_the_plain_query() {
+fn a_coherent_query_has_the_bits_of_the_plain_query() {
     for (name, mesh) in meshes() {
         for single in [false, true] {
             let bytes = blob(&mesh, single);
@@ -168,16 +168,16 @@ fn a_front_of_any_size_will_do() {
 }
 
 #[test]
-fn a_session_may_change_trees_and_be_reset() {
+fn a_coherent_query_may_change_trees_and_be_reset() {
     let (one, other) = (torus(2.0, 0.75, 60, 40), rough_sphere(3, 0.3, 9));
     let (first, second) = (blob(&one, false), blob(&other, false));
     let trees = [Bvh::open(&first).unwrap(), Bvh::open(&second).unwrap()];
-    let mut session = CoherentQuery::<64>::new();
+    let mut query = CoherentQuery::<64>::new();
     let points = walk(&one, 1.0e-4, 600, &mut Rng::new(3));
     for (turn, points) in points.chunks(50).enumerate() {
-        same_bits("changing", &mut session, &trees[turn % 2], points);
+        same_bits("changing", &mut query, &trees[turn % 2], points);
         if turn % 3 == 0 {
-            session.reset();
+            query.reset();
         }
     }
 }
@@ -188,8 +188,8 @@ fn a_walk_around_is_followed_with_little_work() {
     let bytes = blob(&mesh, false);
     let tree = Bvh::open(&bytes).unwrap();
     let points = walk(&mesh, 1.0e-4, 3000, &mut Rng::new(1));
-    let mut session = CoherentQuery::<128>::new();
-    let followed = same_bits("torus", &mut session, &tree, &points);
+    let mut query = CoherentQuery::<128>::new();
+    let followed = same_bits("torus", &mut query, &tree, &points);
     let opened: u32 = followed.iter().map(|f| f.closest.work.splits).sum();
     let mut stack = stack(&tree);
     let plain: u32 = points
@@ -206,11 +206,11 @@ fn jumps_cost_hardly_more_than_plain_queries() {
     let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
     let points = jumps(&mesh, 4000, &mut Rng::new(1));
-    let mut session = CoherentQuery::<128>::new();
+    let mut query = CoherentQuery::<128>::new();
     let (mut with, mut without) = (0, 0);
     for p in points {
         let cost = |answer: &ClosestPoint| answer.work.splits + answer.work.triangles / 3;
-        with += cost(&session.closest_point(&tree, p, Budget::EXACT, &mut stack).unwrap().closest);
+        with += cost(&query.closest_point(&tree, p, Budget::EXACT, &mut stack).unwrap().closest);
         without += cost(&tree.closest_point(p, Budget::EXACT, &mut stack).unwrap());
     }
     assert!(with < without + without / 10, "{with} against {without}");
@@ -222,9 +222,9 @@ fn a_long_rest_ends_when_steps_get_short() {
     let bytes = blob(&mesh, false);
     let tree = Bvh::open(&bytes).unwrap();
     let mut rng = Rng::new(4);
-    let mut session = CoherentQuery::<128>::new();
-    same_bits("jumps", &mut session, &tree, &jumps(&mesh, 3000, &mut rng));
-    let followed = same_bits("walk", &mut session, &tree, &walk(&mesh, 1.0e-5, 60, &mut rng));
+    let mut query = CoherentQuery::<128>::new();
+    same_bits("jumps", &mut query, &tree, &jumps(&mesh, 3000, &mut rng));
+    let followed = same_bits("walk", &mut query, &tree, &walk(&mesh, 1.0e-5, 60, &mut rng));
     let opened: u32 = followed[20..].iter().map(|f| f.closest.work.splits).sum();
     assert!(opened < 40, "{opened} nodes");
 }
@@ -235,12 +235,12 @@ fn a_very_long_path_stays_cheap_and_has_the_same_bits() {
     let bytes = blob(&mesh, false);
     let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
-    let mut session = CoherentQuery::<64>::new();
+    let mut query = CoherentQuery::<64>::new();
     let (mut late, mut early) = (0, 0);
     for i in 0..400_000u32 {
         let t = f64::from(i) * 1.0e-3;
         let p = [1.3 * t.cos(), 1.3 * t.sin(), 0.4 * (0.1 * t).sin()].map(|x| x as f32);
-        let followed = session.closest_point(&tree, p, Budget::EXACT, &mut stack).unwrap();
+        let followed = query.closest_point(&tree, p, Budget::EXACT, &mut stack).unwrap();
         let tested = followed.closest.work.triangles;
         match i {
             0..50_000 => early += tested,
@@ -261,18 +261,18 @@ fn tolerances_and_budgets_are_kept() {
     let bytes = blob(&mesh, false);
     let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
-    let mut session = CoherentQuery::<128>::new();
+    let mut query = CoherentQuery::<128>::new();
     let mut rng = Rng::new(2);
     for p in walk(&mesh, 1.0e-4, 200, &mut rng).into_iter().chain(jumps(&mesh, 200, &mut rng)) {
         for stop in [Budget::EXACT.with_relative(0.1), Budget::EXACT.with_absolute(0.05)] {
-            let followed = session.closest_point(&tree, p, stop, &mut stack).unwrap();
+            let followed = query.closest_point(&tree, p, stop, &mut stack).unwrap();
             let plain = tree.closest_point(p, stop, &mut stack).unwrap();
             assert_eq!(bits(&followed.closest), bits(&plain));
         }
         let exact = tree.closest_point(p, Budget::EXACT, &mut stack).unwrap();
         for steps in [0, 1, 2, 5] {
             let stop = Budget::EXACT.with_steps(steps);
-            let closest = session.closest_point(&tree, p, stop, &mut stack).unwrap().closest;
+            let closest = query.closest_point(&tree, p, stop, &mut stack).unwrap().closest;
             assert!(closest.work.splits <= 2 * steps, "{closest:?}");
             assert!(
                 closest.distance.lower <= exact.distance.upper
@@ -287,22 +287,22 @@ fn tolerances_and_budgets_are_kept() {
 }
 
 #[test]
-fn what_is_refused_leaves_the_session_as_it_was() {
+fn what_is_refused_leaves_the_query_as_it_was() {
     let mesh = torus(2.0, 0.75, 20, 12);
     let bytes = blob(&mesh, false);
     let tree = Bvh::open(&bytes).unwrap();
     let mut stack = stack(&tree);
-    let mut session = CoherentQuery::<32>::new();
+    let mut query = CoherentQuery::<32>::new();
     for p in walk(&mesh, 1.0e-4, 100, &mut Rng::new(2)) {
-        let nan = session.closest_point(&tree, [f32::NAN, 0.0, 0.0], Budget::EXACT, &mut stack);
+        let nan = query.closest_point(&tree, [f32::NAN, 0.0, 0.0], Budget::EXACT, &mut stack);
         assert_eq!(nan, Err(QueryError::NotFinite));
         assert_eq!(
-            session.closest_point(&tree, p, Budget::EXACT, &mut []),
+            query.closest_point(&tree, p, Budget::EXACT, &mut []),
             Err(QueryError::NoScratch)
         );
         let wrong = Budget::EXACT.with_relative(-1.0);
-        assert_eq!(session.closest_point(&tree, p, wrong, &mut stack), Err(QueryError::Tolerance));
-        same_bits("after errors", &mut session, &tree, &[p]);
+        assert_eq!(query.closest_point(&tree, p, wrong, &mut stack), Err(QueryError::Tolerance));
+        same_bits("after errors", &mut query, &tree, &[p]);
     }
 }
 

@@ -8,4 +8,5 @@ mod cull;
 mod distance;
 mod kernels;
 mod overlap;
+mod refusals;
 mod segments;

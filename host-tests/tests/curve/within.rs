@@ -43,8 +43,9 @@ fn verdicts_are_right_with_any_budget_and_scratch_and_decided_where_they_can_be(
                         Verdict::Undecided(Undecided::Steps) => {
                             assert_eq!(answer.work.splits, budget.steps, "{}", told());
                         }
-                        Verdict::Undecided(why) => {
-                            assert!(why == Undecided::Scratch && entries < enough, "{}", told());
+                        other => {
+                            assert_eq!(other, Verdict::Undecided(Undecided::Scratch), "{}", told());
+                            assert!(entries < enough, "{}", told());
                         }
                     }
                 }

@@ -2,7 +2,7 @@
 //! something belongs here. So far there is none.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, open, outer, segment, tree_closest, tree_open, tree_segment, tree_session,
+    closest, open, outer, segment, tree_closest, tree_coherent, tree_open, tree_segment,
 };
 
 /// Every target on the same bytes.
@@ -14,7 +14,7 @@ fn all_targets(data: &[u8]) {
     tree_open(data);
     tree_closest(data);
     tree_segment(data);
-    tree_session(data);
+    tree_coherent(data);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, curves, open, outer, random_input, segment, tight, tree_closest, tree_open,
-    tree_overlap, tree_segment, tree_session, tribox, triboxes,
+    closest, curves, open, outer, random_input, refine, segment, tight, tree_closest,
+    tree_coherent, tree_open, tree_overlap, tree_segment, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -40,6 +40,11 @@ fn outer_survives_seeded_edits() {
 }
 
 #[test]
+fn refine_survives_seeded_edits() {
+    drive(13, refine);
+}
+
+#[test]
 fn tree_open_survives_seeded_edits() {
     drive(5, tree_open);
 }
@@ -55,8 +60,8 @@ fn tree_segment_survives_seeded_edits() {
 }
 
 #[test]
-fn tree_session_survives_seeded_edits() {
-    drive(8, tree_session);
+fn tree_coherent_survives_seeded_edits() {
+    drive(8, tree_coherent);
 }
 
 #[test]

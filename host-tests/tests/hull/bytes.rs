@@ -107,7 +107,7 @@ fn not_a_blob_is_named() {
 
 #[test]
 fn another_version_is_named() {
-    assert_eq!(edited(|b| b[8] = 2), Err(OpenError::Version { found: 2 }));
+    assert_eq!(edited(|b| b[8] = 1), Err(OpenError::Version { found: 1 }));
     assert_eq!(edited(|b| b[10] = 7), Ok(()), "a later minor version is read");
 }
 

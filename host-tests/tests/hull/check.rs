@@ -279,3 +279,15 @@ fn levels_rise_in_faces_and_fall_in_void() {
         );
     }
 }
+
+#[test]
+fn an_error_that_no_removed_triangle_has_is_caught() {
+    let bytes = edited(|b| {
+        let (splits, count) = (entry(b, SPLITS), word(b, 64).expect("the count of splits"));
+        let record = splits.bytes as usize / count as usize;
+        let error = splits.offset as usize + 3 * record + record - 1;
+        assert!((1..254).contains(&b[error]));
+        b[error] += 1;
+    });
+    refused(&bytes, "its error is");
+}

@@ -6,7 +6,7 @@ use meshsweep::cut::cut;
 use meshsweep::hull::build;
 use meshsweep::mesh::{RawMesh, repair};
 use meshsweep::surface::VertexBits;
-use meshsweep_core::{Budget, Ended, Face, Hull, RefinedHull, ScratchEntry, Search};
+use meshsweep_core::{Budget, Ended, Hull, RefinedHull, ScratchEntry, Search};
 use meshsweep_host_tests::generate::{Rng, cube, rough_sphere, transformed, uv_sphere};
 use meshsweep_host_tests::scene::Scene;
 
@@ -58,18 +58,16 @@ fn a_hull_of_a_moved_surface_is_never_called_clear_by_its_box() {
     let built = build(mesh.as_input(), &chosen, |_| ()).expect("builds");
     let model = Hull::open(&built.bytes).expect("opens");
     assert!(model.header().surface_error > 0.0);
-    let words = model.refined_words().max(1);
-    let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
-    let mut candidates = [Face::EMPTY; 64];
-    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
+    let mut refined = RefinedHull::<256>::new();
     for x in [low, low.next_up(), low.next_down()] {
         let answer = model.outer_hits(
             [x, 0.4, 5.0],
             [x, 0.4, -5.0],
             Search::First,
-            &mut front,
+            &mut refined,
             &mut [],
             Budget::EXACT,
+            &mut [],
         );
         let answer = answer.expect("answers");
         assert!(answer.t.lower <= 1.0 && answer.ended == Ended::Resolution, "{answer:?}");

@@ -5,5 +5,6 @@ mod check;
 mod closest;
 mod edge_cases;
 mod outer_hits;
+mod refined;
 mod scenes;
 mod segments;

@@ -3,7 +3,7 @@
 
 use super::scenes::{exact, options};
 use meshsweep_core::{
-    Budget, Ended, Face, Hit, Hull, OuterHits, QueryError, RefinedHull, ScratchEntry, Search,
+    Budget, Ended, Hit, Hull, OuterHits, QueryError, RefinedHull, ScratchEntry, Search,
 };
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, torus};
 use meshsweep_host_tests::oracle::contacts;
@@ -13,22 +13,34 @@ use std::time::Duration;
 
 type Segment = ([f32; 3], [f32; 3]);
 
-/// Memory of a front: words in each bit set, candidates.
-type Memory = (usize, usize);
+/// Entries of the candidates' list.
+type Candidates = usize;
 
-fn ask(
+/// Splits of a refined hull that holds all of each scene.
+const ALL: usize = 4096;
+
+fn ask<const SPLITS: usize>(
     model: &Hull<'_>,
+    segment: Segment,
+    search: Search,
+    candidates: Candidates,
+) -> (OuterHits, Vec<Hit>) {
+    ask_again(model, segment, search, candidates, &mut Box::new(RefinedHull::<SPLITS>::new()))
+}
+
+/// From the hull that earlier segments left.
+fn ask_again<'t, const SPLITS: usize>(
+    model: &Hull<'t>,
     (a, b): Segment,
     search: Search,
-    (words, faces): Memory,
+    candidates: Candidates,
+    refined: &mut RefinedHull<'t, SPLITS>,
 ) -> (OuterHits, Vec<Hit>) {
     // What the memory held before does not matter.
-    let (mut performed, mut swept) = (vec![u32::MAX; words], vec![0x5A5A_5A5A; words]);
-    let mut candidates = vec![Face::EMPTY; faces];
+    let mut scratch = vec![ScratchEntry::EMPTY; candidates];
     let mut hits = vec![Hit::EMPTY; 256];
-    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     let answer = model
-        .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
+        .outer_hits(a, b, search, refined, &mut hits, Budget::EXACT, &mut scratch)
         .expect("a segment in the domain");
     hits.truncate(answer.stored);
     (answer, hits)
@@ -58,17 +70,23 @@ fn from_outside(scene: &Scene, rng: &mut Rng) -> Segment {
 fn first_outer_hit_is_the_first_hit() {
     for scene in exact() {
         let model = scene.model();
-        let words = model.refined_words();
+        assert!(model.split_count() as usize <= ALL);
+        let mut kept = Box::new(RefinedHull::<ALL>::new());
         let mut queue = vec![ScratchEntry::EMPTY; 1024];
         let mut rng = Rng::new(31);
         let mut asked = 0;
         for _ in 0..200 {
             let segment = from_outside(scene, &mut rng);
-            let (outer, hits) = ask(&model, segment, Search::First, (words, 1024));
+            let (outer, hits) = ask::<ALL>(&model, segment, Search::First, 1024);
             if outer.starts_inside {
                 continue;
             }
             asked += 1;
+            let (again, _) = ask_again(&model, segment, Search::First, 1024, &mut kept);
+            assert_eq!((again.t, again.ended), (outer.t, outer.ended), "{}: kept", scene.name);
+            if asked % 16 == 0 {
+                kept.reset();
+            }
             let first = model
                 .first_hit(segment.0, segment.1, Budget::EXACT, &mut queue)
                 .expect("in the domain");
@@ -95,11 +113,11 @@ fn first_outer_hit_is_the_first_hit() {
 fn outer_search_names_only_true_hits_and_the_first_of_all() {
     for scene in exact() {
         let model = scene.model();
-        let words = model.refined_words();
+        let mut kept = Box::new(RefinedHull::<ALL>::new());
         let mut rng = Rng::new(32);
         for _ in 0..100 {
             let segment = from_outside(scene, &mut rng);
-            let (outer, hits) = ask(&model, segment, Search::Outer, (words, 1024));
+            let (outer, hits) = ask_again(&model, segment, Search::Outer, 1024, &mut kept);
             if outer.starts_inside {
                 continue;
             }
@@ -151,7 +169,7 @@ fn in_time(what: &str, run: impl FnOnce() + Send + 'static) {
     }
 }
 
-fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Send + 'static) {
+fn small_memory<const SPLITS: usize>(what: &'static str, lists: &'static [Candidates]) {
     in_time(what, move || {
         for scene in [
             Scene::hull("torus", torus(2.0, 0.75, 24, 12), &options(40)),
@@ -160,30 +178,33 @@ fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Se
         ] {
             let model = scene.model();
             let mut rng = Rng::new(33);
+            let mut kept = Box::new(RefinedHull::<SPLITS>::new());
             for _ in 0..60 {
                 let segment = from_outside(&scene, &mut rng);
                 let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
-                let words = model.refined_words();
-                let (whole, _) = ask(&model, segment, Search::First, (words, 1024));
-                for memory in memories(words) {
+                let (whole, _) = ask::<ALL>(&model, segment, Search::First, 1024);
+                for &list in lists {
                     for search in [Search::First, Search::Outer] {
-                        let (outer, hits) = ask(&model, segment, search, memory);
-                        let say = || {
-                            format!("{}: {segment:?} {memory:?}: {outer:?} {truth:?}", scene.name)
-                        };
-                        if let Some(first) = truth.first() {
-                            assert!(
-                                f64::from(outer.t.lower) <= first.t_upper,
-                                "a wrong clear: {}",
-                                say()
-                            );
-                        }
-                        if outer.ended == Ended::Exact
-                            && search == Search::First
-                            && !outer.starts_inside
-                        {
-                            assert_eq!(outer.t.lower, whole.t.lower, "{}", say());
-                            assert_eq!(hits.is_empty(), truth.is_empty(), "{}", say());
+                        let fresh = ask::<SPLITS>(&model, segment, search, list);
+                        let again = ask_again(&model, segment, search, list, &mut kept);
+                        for (outer, hits) in [fresh, again] {
+                            let say = || {
+                                format!("{}: {segment:?} {list}: {outer:?} {truth:?}", scene.name)
+                            };
+                            if let Some(first) = truth.first() {
+                                assert!(
+                                    f64::from(outer.t.lower) <= first.t_upper,
+                                    "a wrong clear: {}",
+                                    say()
+                                );
+                            }
+                            if outer.ended == Ended::Exact
+                                && search == Search::First
+                                && !outer.starts_inside
+                            {
+                                assert_eq!(outer.t.lower, whole.t.lower, "{}", say());
+                                assert_eq!(hits.is_empty(), truth.is_empty(), "{}", say());
+                            }
                         }
                     }
                 }
@@ -194,31 +215,33 @@ fn small_memory(what: &'static str, memories: impl Fn(usize) -> Vec<Memory> + Se
 
 #[test]
 fn short_candidate_list_ends_and_changes_no_answer() {
-    small_memory("a few candidates", |words| vec![(words, 1), (words, 2), (words, 3), (words, 17)]);
+    small_memory::<ALL>("a few candidates", &[1, 2, 3, 17]);
 }
 
 #[test]
 fn no_candidate_list_ends_and_is_never_a_wrong_clear() {
-    small_memory("no candidates", |words| vec![(words, 0)]);
+    small_memory::<ALL>("no candidates", &[0]);
 }
 
 #[test]
-fn short_bit_sets_are_never_a_wrong_clear() {
-    small_memory("short bit sets", |words| vec![(0, 1024), (1, 1024), (words / 2, 1024)]);
+fn few_splits_are_never_a_wrong_clear() {
+    small_memory::<0>("no splits", &[1024]);
+    small_memory::<1>("one split", &[1024]);
+    small_memory::<32>("a few splits", &[1024]);
 }
 
 #[test]
-fn short_bit_sets_with_a_short_candidate_list_end() {
-    small_memory("short bit sets, few candidates", |words| {
-        vec![(0, 0), (0, 1), (1, 1), (1, 3), (words / 2, 2)]
-    });
+fn few_splits_with_a_short_candidate_list_end() {
+    small_memory::<0>("no splits, few candidates", &[0, 1]);
+    small_memory::<5>("five splits, few candidates", &[1, 3]);
+    small_memory::<64>("some splits, few candidates", &[2]);
 }
 
 #[test]
 fn a_start_inside_the_hulls_box_is_said_and_nothing_is_promised() {
     let scene = Scene::hull("groove block", groove_block(), &options(12));
     let (outer, hits) =
-        ask(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), Search::First, (16, 64));
+        ask::<64>(&scene.model(), ([15.0, 20.0, 8.0], [15.0, 20.0, 14.0]), Search::First, 64);
     assert!(outer.starts_inside && outer.t.lower == 0.0 && hits.is_empty());
 }
 
@@ -232,7 +255,7 @@ fn a_moved_surface_gets_no_wrong_clear() {
     let mut rng = Rng::new(34);
     for _ in 0..300 {
         let segment = from_outside(&scene, &mut rng);
-        let (outer, _) = ask(&model, segment, Search::First, (64, 64));
+        let (outer, _) = ask::<64>(&model, segment, Search::First, 64);
         let truth = contacts(segment.0, segment.1, &scene.positions, &scene.triangles);
         if let Some(first) = truth.first() {
             assert!(f64::from(outer.t.lower) <= first.t_upper, "{segment:?}: {outer:?} {first:?}");
@@ -250,12 +273,10 @@ fn nan_infinity_and_far_ends_are_typed_errors() {
         ([0.0, 0.0, 1e30], QueryError::OutOfDomain),
     ] {
         for (a, b) in [(p, [9.0; 3]), ([9.0; 3], p)] {
-            let mut candidates = [Face::EMPTY; 4];
-            let mut front = RefinedHull::new(&mut [], &mut [], &mut candidates);
-            assert_eq!(
-                model.outer_hits(a, b, Search::First, &mut front, &mut [], Budget::EXACT),
-                Err(error)
-            );
+            let (mut refined, first) = (RefinedHull::<4>::new(), Search::First);
+            let answer =
+                model.outer_hits(a, b, first, &mut refined, &mut [], Budget::EXACT, &mut []);
+            assert_eq!(answer, Err(error));
         }
     }
 }

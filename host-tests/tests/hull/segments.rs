@@ -3,7 +3,7 @@
 
 use super::scenes::{all, exact, options};
 use meshsweep_core::{
-    Budget, Ended, Face, FirstHit, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
+    Budget, Ended, FirstHit, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search,
 };
 use meshsweep_host_tests::generate::{Rng, cube, groove_block, rough_sphere, scaled, torus};
 use meshsweep_host_tests::oracle::{Contact, contacts, gap_to_triangle};
@@ -275,13 +275,10 @@ fn paper_000_figure_5_segment_below_the_hull_is_found() {
         .all_hits(segment.0, segment.1, &mut hits, Budget::EXACT, &mut queue)
         .expect("in the domain");
     assert_eq!(found.stored, truth.len());
-    let mut words = vec![0u32; 2 * model.refined_words()];
-    let (performed, swept) = words.split_at_mut(model.refined_words());
-    let mut candidates = [Face::EMPTY; 256];
-    let mut front = RefinedHull::new(performed, swept, &mut candidates);
-    let search = Search::First;
+    let mut refined = RefinedHull::<256>::new();
+    let (search, exact) = (Search::First, Budget::EXACT);
     let outer = model
-        .outer_hits(segment.0, segment.1, search, &mut front, &mut hits, Budget::EXACT)
+        .outer_hits(segment.0, segment.1, search, &mut refined, &mut hits, exact, &mut queue)
         .expect("in the domain");
     assert!(
         outer.starts_inside && outer.t.lower == 0.0,

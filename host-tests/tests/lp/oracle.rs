@@ -1,10 +1,12 @@
 //! The solver against exact rational arithmetic, on random and degenerate programs.
 
 use glam::DVec3;
-use meshsweep::lp::{HalfSpace, Outcome, minimise};
+use meshsweep::lp::{HalfSpace, Order, Outcome, minimise};
 use meshsweep_host_tests::oracle::lp::programs::Family;
 use meshsweep_host_tests::oracle::lp::random::Random;
 use meshsweep_host_tests::oracle::lp::{Program, Verdict, is_feasible, quadratic, solve};
+
+use super::ORDERS;
 
 /// A point of the answer may lie this far outside a half-space, times its distance: twice the
 /// solver's own tolerance for a violation, or for a contradiction.
@@ -43,10 +45,10 @@ fn worst_violation(point: DVec3, constraints: &[HalfSpace]) -> f64 {
 }
 
 impl Tally {
-    fn check(&mut self, program: &Program, eps: f64, name: &str) {
+    fn check(&mut self, program: &Program, verdict: Verdict, eps: f64, order: Order, name: &str) {
         let Program { objective, constraints } = program;
-        let outcome = minimise(*objective, &mut constraints.clone(), eps);
-        match (outcome, solve(program)) {
+        let outcome = minimise(*objective, &mut constraints.clone(), eps, order);
+        match (outcome, verdict) {
             (Outcome::Optimal(x), Verdict::Optimal { value, multipliers, distance }) => {
                 let violation = worst_violation(x, constraints);
                 assert!(violation <= VIOLATION * scale(x), "{name}: {violation:e} outside at {x}");
@@ -104,32 +106,40 @@ fn descent(program: &Program) -> f64 {
     quadratic::optimum(&cone, 0).map_or(0.0, |ray| ray.length() / program.objective.length())
 }
 
-fn run(families: &[Family], count: usize, seed: u64) -> Tally {
-    let mut tally = Tally::default();
+/// One tally for each of [`ORDERS`], of the same programs.
+fn run(families: &[Family], count: usize, seed: u64) -> [Tally; ORDERS.len()] {
+    let mut tallies = <[Tally; ORDERS.len()]>::default();
     for idx in 0..count {
         let family = families[idx % families.len()];
         let mut random = Random::new(seed + idx as u64);
         let program = family.program(&mut random);
         let eps = random.pick(&[1e-3, 1e-6, 1e-9]);
-        tally.check(&program, eps, &format!("{family:?} {} eps {eps:e}", seed + idx as u64));
+        let verdict = solve(&program);
+        for (tally, order) in tallies.iter_mut().zip(ORDERS) {
+            let name = format!("{family:?} {} eps {eps:e} {order:?}", seed + idx as u64);
+            tally.check(&program, verdict, eps, order, &name);
+        }
     }
-    tally
+    tallies
 }
 
 #[test]
 fn random_programs_agree_with_exact_arithmetic() {
-    let tally = run(&Family::RANDOM, 10_000, 0);
-    println!("{tally:?}");
-    assert!(tally.optimal > 5000 && tally.infeasible > 200 && tally.unbounded > 1500);
-    assert_eq!((tally.barely_feasible, tally.barely_infeasible, tally.far), (0, 0, 0));
-    // Combinations of one or two normals, rounded, are seldom exact combinations.
-    assert!(tally.slow_descent < 500);
+    for (tally, order) in run(&Family::RANDOM, 10_000, 0).into_iter().zip(ORDERS) {
+        println!("{order:?}: {tally:?}");
+        assert!(tally.optimal > 5000 && tally.infeasible > 200 && tally.unbounded > 1500);
+        assert_eq!((tally.barely_feasible, tally.barely_infeasible, tally.far), (0, 0, 0));
+        // Combinations of one or two normals, rounded, are seldom exact combinations.
+        assert!(tally.slow_descent < 500);
+    }
 }
 
 #[test]
 fn degenerate_programs_agree_with_exact_arithmetic() {
-    for family in Family::DEGENERATE {
-        let tally = run(&[family], 300, 1_000_000);
+    let tallies = Family::DEGENERATE
+        .into_iter()
+        .flat_map(|family| run(&[family], 300, 1_000_000).into_iter().map(move |t| (family, t)));
+    for (family, tally) in tallies {
         println!("{family:?}: {tally:?}");
         let Tally {
             optimal,

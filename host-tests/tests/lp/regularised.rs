@@ -2,11 +2,13 @@
 //! optimal throughout.
 
 use glam::DVec3;
-use meshsweep::lp::{HalfSpace, Outcome, minimise};
+use meshsweep::lp::{HalfSpace, Order, Outcome, minimise};
 use meshsweep_host_tests::oracle::lp::programs::Family;
 use meshsweep_host_tests::oracle::lp::random::Random;
 use meshsweep_host_tests::oracle::lp::stars::Star;
 use meshsweep_host_tests::oracle::lp::{Program, quadratic};
+
+use super::ORDERS;
 
 /// `eps` as the oracle takes it: two to the minus this.
 const EXPONENTS: [u32; 3] = [10, 20, 30];
@@ -17,37 +19,40 @@ fn eps(exponent: u32) -> f64 {
     1.0 / (1u64 << exponent) as f64
 }
 
-fn solve(program: &Program, exponent: u32) -> Outcome {
-    minimise(program.objective, &mut program.constraints.clone(), eps(exponent))
+fn solve(program: &Program, exponent: u32, order: Order) -> Outcome {
+    minimise(program.objective, &mut program.constraints.clone(), eps(exponent), order)
 }
 
 fn value(program: &Program, exponent: u32, point: DVec3) -> f64 {
     program.objective.dot(point) + eps(exponent) / 2.0 * point.length_squared()
 }
 
-/// Distances from the solver's answers to the exact optimum, relative to its distance from the
-/// star, ascending.
+/// Distances from the solver's answers, in all orders, to the exact optimum, relative to its
+/// distance from the star, ascending.
 fn distances(programs: impl Iterator<Item = Program>, exponent: u32) -> Vec<f64> {
     let mut distances = Vec::new();
     for (idx, program) in programs.enumerate() {
         let exact = quadratic::optimum(&program, exponent);
-        match (solve(&program, exponent), exact) {
-            (Outcome::Optimal(point), Some(exact)) => {
-                let scale = 1.0 + exact.length();
-                let excess = value(&program, exponent, point) - value(&program, exponent, exact);
-                assert!(
-                    excess.abs() <= 1e-9 * scale,
-                    "program {idx}: {excess:e} from the optimum, {program:?}"
-                );
-                distances.push(point.distance(exact) / scale);
+        for order in ORDERS {
+            match (solve(&program, exponent, order), exact) {
+                (Outcome::Optimal(point), Some(exact)) => {
+                    let scale = 1.0 + exact.length();
+                    let excess =
+                        value(&program, exponent, point) - value(&program, exponent, exact);
+                    assert!(
+                        excess.abs() <= 1e-9 * scale,
+                        "program {idx}: {excess:e} from the optimum, {program:?}"
+                    );
+                    distances.push(point.distance(exact) / scale);
+                }
+                (Outcome::Unbounded, Some(exact)) => {
+                    assert!(eps(exponent) * exact.length() > 0.99e-5 * program.objective.length());
+                }
+                (outcome, exact) => assert!(
+                    outcome == Outcome::Infeasible && exact.is_none(),
+                    "program {idx}: {outcome:?} for {exact:?}"
+                ),
             }
-            (Outcome::Unbounded, Some(exact)) => {
-                assert!(eps(exponent) * exact.length() > 0.99e-5 * program.objective.length());
-            }
-            (outcome, exact) => assert!(
-                outcome == Outcome::Infeasible && exact.is_none(),
-                "program {idx}: {outcome:?} for {exact:?}"
-            ),
         }
     }
     distances.sort_by(f64::total_cmp);
@@ -64,7 +69,7 @@ fn regularised_optimum_is_the_exact_one() {
             println!("{family:?}, eps 2^-{exponent}: median {median:.1e}, most {most:.1e}");
             // The objective's rounding, 1e-16, is divided by eps.
             let bound = 1e-13 + 4e-16 / eps(exponent);
-            assert!(distances.len() > 100 && median < 1e-15 && most < bound);
+            assert!(distances.len() > 100 * ORDERS.len() && median < 1e-15 && most < bound);
         }
     }
 }
@@ -80,7 +85,7 @@ fn regularised_optimum_of_stars_is_the_exact_one() {
             println!("{star:?}, eps 2^-{exponent}: median {median:.1e}, most {most:.1e}");
             // Nearly coplanar planes fix a vertex only to the rounding of their offsets, divided by
             // their angle.
-            assert!(distances.len() > 50 && median < 1e-6 && most < 1e-5);
+            assert!(distances.len() > 50 * ORDERS.len() && median < 1e-6 && most < 1e-5);
         }
     }
 }
@@ -96,21 +101,23 @@ fn optimal_face_is_answered_by_its_point_nearest_to_the_origin() {
             // face's nearest point.
             let (limit, here) =
                 (quadratic::optimum(&program, VANISHING), quadratic::optimum(&program, 30));
-            let (Some(limit), Some(here), Outcome::Optimal(point)) =
-                (limit, here, solve(&program, 30))
-            else {
-                continue;
-            };
-            if limit.distance(here) < 1e-12 {
-                compared += 1;
-                assert!(
-                    point.distance(limit) < 1e-6,
-                    "{family:?} {idx}: {point} instead of {limit}"
-                );
+            for order in ORDERS {
+                let (Some(limit), Some(here), Outcome::Optimal(point)) =
+                    (limit, here, solve(&program, 30, order))
+                else {
+                    continue;
+                };
+                if limit.distance(here) < 1e-12 {
+                    compared += 1;
+                    assert!(
+                        point.distance(limit) < 1e-6,
+                        "{family:?} {idx} {order:?}: {point} instead of {limit}"
+                    );
+                }
             }
         }
         println!("{family:?}: {compared}");
-        assert!(compared > 250);
+        assert!(compared > 250 * ORDERS.len());
     }
 }
 
@@ -120,7 +127,9 @@ fn flat_star_keeps_its_vertex_at_the_middle() {
     for _ in 0..1000 {
         let program = Star::Aligned.program(&mut random);
         for exponent in EXPONENTS {
-            assert_eq!(solve(&program, exponent), Outcome::Optimal(DVec3::ZERO));
+            for order in ORDERS {
+                assert_eq!(solve(&program, exponent, order), Outcome::Optimal(DVec3::ZERO));
+            }
         }
     }
 }
@@ -138,7 +147,9 @@ fn vertex_lies_on_its_planes_for_every_eps() {
             normals.map(|normal| HalfSpace { normal, offset: random.within(-1.0, 1.0) });
         let objective = normals.into_iter().sum();
         for eps in [1e-3, 1e-6, 1e-9, 1e-12] {
-            let Outcome::Optimal(vertex) = minimise(objective, &mut planes, eps) else {
+            let Outcome::Optimal(vertex) =
+                minimise(objective, &mut planes, eps, random.pick(&ORDERS))
+            else {
                 panic!("has a vertex")
             };
             for h in &planes {

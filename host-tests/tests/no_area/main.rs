@@ -1,5 +1,4 @@
-//! Points of triangles without area are points of the mesh: no answer forgets them, whatever
-//! structure gives it.
+//! Points of triangles without area are points of the mesh: no structure's answer forgets them.
 
 mod distances;
 mod exact;

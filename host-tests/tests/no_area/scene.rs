@@ -34,10 +34,10 @@ pub enum Kind {
 impl Scene {
     pub fn new(name: &str, raw: &Raw, kind: Kind) -> Scene {
         let (mesh, moved, _) = repaired(raw, kind);
-        let options =
-            TreeOptions { cull: true, single: kind == Kind::F32, ..TreeOptions::default() };
+        let options = TreeOptions::default().with_cull(true).with_f32(kind == Kind::F32);
         let (tables, _) =
-            build(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, &options);
+            build(Input { mesh: &mesh, moved, input_triangles: raw.1.len() }, &options)
+                .expect("builds");
         let bytes = tables.to_bytes();
         // The checker tells the halves of a flipped cap apart by their corners: not if the grid
         // makes them alike.

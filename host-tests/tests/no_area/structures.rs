@@ -8,6 +8,7 @@ use meshsweep::mesh::{Input, Mesh, MeshError, require_closed_manifold};
 use meshsweep::tight::{self, ChainOptions, hull_mesh};
 use meshsweep::tribox;
 use meshsweep_core::{Budget, Hull, ScratchEntry, TightHulls, Triboxes, Verdict};
+use meshsweep_host_tests::oracle::winding_number;
 use std::cmp::Ordering::{Greater, Less};
 
 const KINDS: [Kind; 2] = [Kind::Grid, Kind::Snapped];
@@ -23,20 +24,6 @@ fn samples(mesh: &Mesh) -> Vec<[f64; 3]> {
             })
         })
         .collect()
-}
-
-/// Winding number by solid angles.
-fn winding(p: [f64; 3], hull: &Mesh) -> f64 {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let angle = |t: usize| {
-        let [a, b, c] =
-            hull.corners(t).expect("a face").map(|v| [0, 1, 2].map(|k| f64::from(v[k]) - p[k]));
-        let cross =
-            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
-        let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
-        dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
-    };
-    (0..hull.triangles.len()).map(angle).sum::<f64>() / (2.0 * std::f64::consts::PI)
 }
 
 fn hulls_of(mesh: &Mesh, moved: f64, faces: usize) -> Vec<u8> {
@@ -64,7 +51,8 @@ fn tight_hulls_enclose_wires_and_points_and_their_answers_hold() {
                     let face = surface.corners(face).expect("a face").map(|p| p.map(f64::from));
                     assert!(first_meeting(a, b, &face).is_none(), "{}: {a:?} {b:?}", scene.name);
                 }
-                assert!((winding(a, &surface) - 1.0).abs() < 1e-6, "{}: {a:?}", scene.name);
+                let number = winding_number(a, &surface.positions, &surface.triangles, 1.0);
+                assert!((number - 1.0).abs() < 1e-6, "{}: {a:?}", scene.name);
             }
             let mut stack = vec![ScratchEntry::EMPTY; hull.bvh().header().stack_entries as usize];
             for p in scene.points(120, 31) {
@@ -80,7 +68,7 @@ fn tight_hulls_enclose_wires_and_points_and_their_answers_hold() {
                 match within.expect("a distance").verdict {
                     Verdict::Yes => assert!(is_near, "{}: {p:?}", scene.name),
                     Verdict::No => assert!(!is_near, "{}: {p:?}", scene.name),
-                    Verdict::Undecided(_) => {}
+                    _ => {}
                 }
             }
         }

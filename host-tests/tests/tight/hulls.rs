@@ -5,11 +5,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;
 
+use meshsweep::BuildError;
 use meshsweep::hull::{BuildOptions, hull_of};
-use meshsweep::mesh::{Mesh, RawMesh, Wire, read_bytes, repair};
-use meshsweep::tight::{
-    Goal, Hull, NoVolume, Options, Outcome, Start, WrapError, split_components, wrap,
-};
+use meshsweep::mesh::{Mesh, NoVolume, RawMesh, Wire, read_bytes, repair};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, split_components, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::evil::evil;
 use meshsweep_host_tests::generate::{
@@ -256,7 +255,7 @@ fn evil_meshes_have_a_hull_or_a_reason() {
         }
         match wrap(&mesh, &options(100), |_| {}) {
             Ok(hull) => prove(case.name, &mesh, &hull),
-            Err(error) => assert_eq!(error, WrapError::NoRoom, "{}", case.name),
+            Err(error) => assert_eq!(error, BuildError::NoRoom, "{}", case.name),
         }
         known.push(mesh);
     }
@@ -308,7 +307,13 @@ fn a_void_or_a_slack_that_is_asked_for_is_kept_with_few_faces() {
     let (positions, triangles) = torus(1.0, 0.3, 20, 10);
     let open = mesh_of(&(positions, triangles[..50].to_vec()));
     let refused = wrap(&open, &Options::new(Goal::Void(0.1)).with_effort(0.02), |_| {});
-    assert!(matches!(refused.unwrap_err(), WrapError::NoVolume(NoVolume::Open { .. })));
+    assert!(matches!(refused.unwrap_err(), BuildError::NoVolume(NoVolume::Open { .. })));
+}
+
+#[test]
+fn a_mesh_without_triangles_has_no_tight_hull() {
+    let refused = wrap(&Mesh::default(), &Options::default(), |_| {}).unwrap_err();
+    assert_eq!(refused, BuildError::Empty);
 }
 
 #[test]
@@ -451,5 +456,5 @@ fn no_slack_is_said_to_be_kept_before_it_is_proved() {
         }
     }
     let refused = wrap(&mesh_of(&cube(1)), &Options::new(Goal::Slack(f64::NAN)), |_| {});
-    assert!(matches!(refused.unwrap_err(), WrapError::SlackWithinMargin { .. }));
+    assert!(matches!(refused.unwrap_err(), BuildError::SlackWithinMargin { .. }));
 }

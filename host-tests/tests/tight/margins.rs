@@ -3,8 +3,9 @@
 
 use std::f64::consts::PI;
 
+use meshsweep::BuildError;
 use meshsweep::mesh::{Mesh, RawMesh, repair};
-use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, WrapError, wrap};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
 use meshsweep_host_tests::check::{Surface, check_enclosure, check_margin};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, icosphere, needle_comb, scaled, torus,
@@ -136,13 +137,14 @@ fn margins_that_cannot_be_had_are_errors() {
     let mesh = mesh_of(&cube(1));
     let error = |mesh: &Mesh, options: &Options| wrap(mesh, options, |_| {}).unwrap_err();
     for margin in [-1.0, -f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
-        assert_eq!(error(&mesh, &options(100, margin)), WrapError::BadMargin);
+        let refused = error(&mesh, &options(100, margin));
+        assert!(matches!(refused, BuildError::BadMargin { .. }), "{refused:?}");
     }
-    assert_eq!(error(&mesh, &options(100, 1e39)), WrapError::MarginTooLarge);
+    assert_eq!(error(&mesh, &options(100, 1e39)), BuildError::MarginTooLarge);
     let far = mesh_of(&scaled(&cube(1), 1e37));
-    assert_eq!(error(&far, &options(100, 3.39e38)), WrapError::MarginTooLarge);
+    assert_eq!(error(&far, &options(100, 3.39e38)), BuildError::MarginTooLarge);
     let slack = Options::new(Goal::Slack(0.5)).with_margin(0.5);
-    assert!(matches!(error(&mesh, &slack), WrapError::SlackWithinMargin { .. }));
+    assert!(matches!(error(&mesh, &slack), BuildError::SlackWithinMargin { .. }));
 }
 
 #[test]

@@ -25,11 +25,11 @@ const fn tree(name: &'static str) -> Blob {
     Blob { name, image: "suite_tree" }
 }
 
-const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
 const fn curve(name: &'static str) -> Blob {
     Blob { name, image: "suite_curve" }
 }
 
+const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
 impl Blob {

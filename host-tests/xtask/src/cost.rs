@@ -1,10 +1,6 @@
-//! The firmware's costs, as a table and as JSON.
+//! The firmware's costs.
 
 use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
-
-use serde_json::{Value, json};
 
 use crate::boards::Board;
 use crate::elf::Size;
@@ -83,48 +79,4 @@ pub fn text(rows: &[Row]) -> String {
         }
     }
     table
-}
-
-/// The same for programs.
-pub fn write_json(rows: &[Row], file: &Path) -> Result<(), String> {
-    let value: Vec<Value> = rows.iter().map(row).collect();
-    let text = serde_json::to_string_pretty(&value).map_err(|error| error.to_string())?;
-    fs::write(file, text + "\n")
-        .map_err(|error| format!("cannot write {}: {error}", file.display()))
-}
-
-fn row(row: &Row) -> Value {
-    let added: Vec<_> = row
-        .added
-        .iter()
-        .map(|Added { question, profile, size }| {
-            json!({
-                "question": question, "profile": profile.name(),
-                "text_bytes": size.text, "rodata_bytes": size.rodata,
-                "data_bytes": size.data, "bss_bytes": size.bss,
-            })
-        })
-        .collect();
-    let blobs: Vec<_> = row
-        .readings
-        .iter()
-        .map(|Measured { blob, profile, reading }| {
-            let costs: Vec<_> = reading.costs.iter().map(cost).collect();
-            json!({
-                "name": blob, "profile": profile.name(), "bytes_and_hash": reading.blob,
-                "scratch_bytes": reading.scratch, "costs": costs,
-            })
-        })
-        .collect();
-    json!({
-        "cpu": row.board.cpu, "target": row.board.target, "machine": row.board.machine.name(),
-        "added": added, "blobs": blobs,
-    })
-}
-
-fn cost(cost: &Cost) -> Value {
-    json!({
-        "query": cost.kind, "count": cost.queries, "stack_bytes": cost.stack,
-        "instructions_min": cost.min, "instructions_mean": cost.mean, "instructions_max": cost.max,
-    })
 }

@@ -14,13 +14,14 @@ use crate::tables;
 use crate::valgrind::Valgrind;
 
 /// Questions by their words on the host program's command line.
-const QUESTIONS: [&str; 16] = [
+const QUESTIONS: [&str; 17] = [
     "far",
     "near",
     "path",
     "first_hit",
     "outer_first",
     "outer_all",
+    "refine bracket.msw 0.06 0.0005",
     "tree bracket.stl far",
     "tree bracket.stl near",
     "tree bracket.stl path",

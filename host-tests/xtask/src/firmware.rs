@@ -34,8 +34,8 @@ struct Image {
     file: PathBuf,
 }
 
-/// Runs all of it; prints the table, and writes it to `json`.
-pub fn run(steps: &mut Steps, tools: &Tools, json: Option<&Path>) -> Vec<Row> {
+/// Runs all of it, and prints the table.
+pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
     let Tools { cross, qemu } = tools;
     if steps.run("the host's answers", blobs::write).is_none() {
         return Vec::new();
@@ -73,9 +73,6 @@ pub fn run(steps: &mut Steps, tools: &Tools, json: Option<&Path>) -> Vec<Row> {
         row.added = steps.run(&name, || sizes(cross, &row.board)).unwrap_or_default();
     }
     say!("{}", cost::text(&rows));
-    if let Some(file) = json {
-        steps.run("write the table", || cost::write_json(&rows, file));
-    }
     rows
 }
 
@@ -157,7 +154,7 @@ const QUESTIONS: [&str; 12] = [
     "tree_closest",
     "tree_alone",
     "tree_segment",
-    "tree_session",
+    "tree_coherent",
     "triboxes",
     "tight",
     "curve",

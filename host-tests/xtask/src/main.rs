@@ -1,6 +1,5 @@
 //! `cargo xtask`: what takes more than one cargo command. This file only dispatches.
 
-use std::path::Path;
 use std::process::ExitCode;
 
 use meshsweep_xtask::steps::Steps;
@@ -11,7 +10,7 @@ use meshsweep_xtask::{checks, count, firmware, host, say, tables};
 const USAGE: &str = "\
 cargo xtask setup                   makes sure of the cross targets, of QEMU and of valgrind
 cargo xtask test                    setup, then everything that has to hold
-cargo xtask firmware [--json FILE]  only the firmware: bits, panics, sizes, instructions
+cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
@@ -41,18 +40,13 @@ fn main() -> ExitCode {
             if let Some(counts) = &counts {
                 count::check_lanes(&mut steps, counts);
             }
-            let run = |tools| firmware::run(&mut steps, &tools, None);
+            let run = |tools| firmware::run(&mut steps, &tools);
             let rows = tools.map(run).unwrap_or_default();
             tables::check(&mut steps, &Facts { counts: counts.as_ref(), rows: &rows });
         }
-        ["firmware", rest @ ..] => {
-            let json = match rest {
-                [] => None,
-                ["--json", file] => Some(Path::new(*file)),
-                _ => return usage(),
-            };
+        ["firmware"] => {
             if let Some(tools) = firmware::setup(&mut steps) {
-                firmware::run(&mut steps, &tools, json);
+                firmware::run(&mut steps, &tools);
             }
         }
         [word @ ("fixtures" | "picture")] => {
@@ -61,7 +55,7 @@ fn main() -> ExitCode {
         ["tables"] => {
             let tools = firmware::setup(&mut steps);
             let counts = count::for_test(&mut steps);
-            let run = |tools| firmware::run(&mut steps, &tools, None);
+            let run = |tools| firmware::run(&mut steps, &tools);
             let rows = tools.map(run).unwrap_or_default();
             let facts = Facts { counts: counts.as_ref(), rows: &rows };
             steps.run("tables of the documents", || tables::write(&facts));

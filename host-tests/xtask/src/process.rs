@@ -28,7 +28,7 @@ pub fn capture(command: &mut Command) -> Result<String, String> {
     }
 }
 
-/// Runs in silence, whatever the exit code.
+/// Runs in silence. Any exit code will do.
 pub fn output(command: &mut Command) -> Result<Output, String> {
     let line = line(command);
     command.stdin(Stdio::null()).output().map_err(|error| format!("cannot start `{line}`: {error}"))

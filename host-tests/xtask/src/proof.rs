@@ -4,50 +4,23 @@ use crate::cross::Cross;
 use crate::elf;
 use crate::images::{self, Profile};
 use crate::process;
+use crate::workspace;
 
 /// The function that the panic handler calls and nobody defines.
 const UNDEFINED: &str = "meshsweep_core_panics_here";
 
-/// The questions of the proof image. One that the linker dropped would prove nothing.
-const QUESTIONS: [&str; 37] = [
-    "ask_hull_open",
-    "ask_hull_closest",
-    "ask_hull_first_hit",
-    "ask_hull_all_hits",
-    "ask_hull_outer_hits",
-    "ask_tree_open",
-    "ask_tree_closest",
-    "ask_tree_follow",
-    "ask_tree_stopped",
-    "ask_tree_is_within",
-    "ask_tree_nearest",
-    "ask_tree_all_within",
-    "ask_tree_signed",
-    "ask_tree_first_hit",
-    "ask_tree_facing",
-    "ask_tree_any_hit",
-    "ask_tree_all_hits",
-    "ask_tree_session",
-    "ask_tree_batch",
-    "ask_tree_cull",
-    "ask_tree_overlap",
-    "ask_tree_all_overlaps",
-    "ask_tribox_bounds",
-    "ask_tribox_faces",
-    "ask_tribox_overlap",
-    "ask_tribox_rest",
-    "ask_triboxes_open",
-    "ask_triboxes_apart",
-    "ask_triboxes_candidates",
-    "ask_triboxes_distance",
-    "ask_triboxes_clip",
-    "ask_tight_open",
-    "ask_tight_closest",
-    "ask_tight_is_within",
-    "ask_curve_open",
-    "ask_curve_closest",
-    "ask_curve_is_within",
-];
+/// The questions that the proof image's source names. One that the linker dropped would prove
+/// nothing.
+fn questions() -> Result<Vec<String>, String> {
+    let file = workspace::firmware().join("src/bin/proof.rs");
+    let text = std::fs::read_to_string(&file)
+        .map_err(|error| format!("cannot read {}: {error}", file.display()))?;
+    let words = text.split(|letter: char| !(letter.is_alphanumeric() || letter == '_'));
+    let names: Vec<String> =
+        words.filter(|word| word.starts_with("ask_")).map(str::to_owned).collect();
+    // As many as there are kinds of queries, or the source is read wrongly.
+    if names.len() < 30 { Err(format!("{names:?} are too few questions")) } else { Ok(names) }
+}
 
 /// Links the proof image for each target.
 ///
@@ -65,9 +38,10 @@ pub fn holds(cross: &Cross, targets: &[&str], profile: Profile) -> Result<(), St
             targets.iter().map(|target| format!("{target}: {}", places(cross, target, profile)));
         return Err(told.collect::<Vec<_>>().join("\n"));
     }
+    let questions = questions()?;
     for target in targets {
         let image = images::image(cross, target, profile, "proof");
-        for question in QUESTIONS {
+        for question in &questions {
             if !elf::defines(&image, question)? {
                 return Err(format!("{target}: the proof image does not contain `{question}`"));
             }

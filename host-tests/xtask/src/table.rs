@@ -1,8 +1,6 @@
-//! Tables whose cells are printed for people and written for programs.
+//! Tables whose cells are printed.
 
 use std::fmt::Write as _;
-
-use serde_json::{Map, Value, json};
 
 /// One cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,15 +36,6 @@ impl Cell {
             Self::Empty | Self::Text(_) => None,
             Self::Count(count) => Some(*count as f64),
             Self::Fixed(value, _) | Self::Scientific(value) => Some(*value),
-        }
-    }
-
-    fn json(&self) -> Value {
-        match self {
-            Self::Empty => Value::Null,
-            Self::Text(text) => json!(text),
-            Self::Count(count) => json!(count),
-            Self::Fixed(value, _) | Self::Scientific(value) => json!(value),
         }
     }
 }
@@ -182,24 +171,6 @@ impl Table {
         }
         out
     }
-
-    /// The table for programs.
-    #[must_use]
-    pub fn json(&self) -> Value {
-        let rows: Vec<Value> = self
-            .rows
-            .iter()
-            .map(|row| {
-                let pairs = self.columns.iter().zip(row);
-                Value::Object(
-                    pairs
-                        .map(|(column, cell)| ((*column).to_owned(), cell.json()))
-                        .collect::<Map<_, _>>(),
-                )
-            })
-            .collect();
-        json!({ "table": self.key, "title": self.title, "rows": rows, "notes": self.notes })
-    }
 }
 
 #[cfg(test)]
@@ -207,7 +178,7 @@ mod tests {
     use super::{Cell, Table, fixed, scientific};
 
     #[test]
-    fn text_is_aligned_and_json_is_keyed_by_column() {
+    fn text_is_aligned() {
         let mut table = Table::new("t", "Title", &["what", "count", "share"]);
         table.push(row!["one", 1u32, fixed(0.5, 2)]);
         table.push(row!["eleven", 11usize, Cell::Empty]);
@@ -216,8 +187,6 @@ mod tests {
             table.text(),
             "\nTitle\n  what    count  share\n  one         1   0.50\n  eleven     11      -\n  (a note)\n"
         );
-        assert_eq!(table.json()["rows"][1]["count"], 11);
-        assert!(table.json()["rows"][1]["share"].is_null());
         assert_eq!(scientific(0.00012).text(), "1.2e-4");
     }
 }

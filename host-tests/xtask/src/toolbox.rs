@@ -20,8 +20,8 @@ pub struct Wanted {
     pub name: &'static str,
     /// Alternatives in the order of preference; releases of Debian cut their packages differently.
     pub alternatives: &'static [&'static [&'static str]],
-    /// Installed packages of these beginnings are treated as not installed. Whatever they conflict
-    /// with, they are unpacked.
+    /// Installed packages of these beginnings are treated as not installed. They are unpacked even
+    /// where they conflict with others.
     pub ignore_installed: &'static [&'static str],
 }
 

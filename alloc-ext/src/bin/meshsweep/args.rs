@@ -6,15 +6,17 @@ mod bounding;
 mod building;
 mod explained;
 mod given;
+mod refining;
 mod values;
 
 pub use asking::{
-    ClosestArgs, CullArgs, Engine, FieldArgs, NearestArgs, OverlapArgs, SearchArgs, SegmentArgs,
-    SignedArgs, WithinArgs,
+    ClosestArgs, CullArgs, Engine, FieldArgs, NearestArgs, OverlapArgs, PointArgs, SearchArgs,
+    SegmentArgs, SignedArgs, WithinArgs,
 };
 pub use bounding::{HullArgs, TriboxArgs, slack_within_margin};
 pub use building::{BuildArgs, CutArgs, FACES, HullServes, InfoArgs, StoredBits};
 pub use given::{Given, files, names};
+pub use refining::RefineArgs;
 pub use values::Margin;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -87,6 +89,9 @@ pub enum Command {
     /// Write an outer hull of a mesh, or a level of a blob, as binary PLY
     #[command(after_help = explained::HULL)]
     Hull(HullArgs),
+    /// Write a blob's hull, fine where it is needed and coarse elsewhere, as binary PLY
+    #[command(after_help = explained::REFINE)]
+    Refine(RefineArgs),
     /// Cut a blob's hull hierarchy after a level: fewer bytes, wider intervals
     #[command(after_help = explained::CUT)]
     Cut(CutArgs),

@@ -5,7 +5,7 @@ mod tally;
 pub mod threads;
 
 use crate::args::SearchArgs;
-use crate::failure::{Failure, Place};
+use crate::failure::Failure;
 use crate::number::Short;
 use crate::output::Output;
 use crate::queries::Queries;
@@ -19,107 +19,95 @@ use tally::Tally;
 use threads::Refused;
 
 /// Rows that a thread takes at once: enough to make the cost of taking them vanish.
-pub const AT_ONCE: usize = 512;
+const AT_ONCE: usize = 512;
 
 /// A question about rows of `N` numbers.
-pub trait Question<const N: usize>: Sync {
-    type Answer: Send;
-    /// A thread's working memory.
-    type Memory;
-
+pub struct Question<'a, const N: usize> {
     /// Names of the columns.
-    fn header(&self) -> &'static str;
-
-    fn memory(&self) -> Self::Memory;
-
-    fn ask(&self, row: [f32; N], memory: &mut Self::Memory) -> Result<Self::Answer, QueryError>;
-
-    /// How the search ended, and its work.
-    fn outcome(answer: &Self::Answer) -> (Ended, Work);
-
-    /// Writes the rows of query `query`, counted from 0.
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        query: usize,
-        row: &[f32; N],
-        answer: &Self::Answer,
-    ) -> io::Result<()>;
-
-    /// Rows that a thread takes at once.
-    fn at_once(&self) -> usize {
-        AT_ONCE
-    }
-
-    /// Appends the answers to `rows`, the first of which is query `first`. On an error it appends
-    /// at most the answers before the refused query.
-    fn ask_many(
-        &self,
-        first: usize,
-        rows: &[[f32; N]],
-        memory: &mut Self::Memory,
-        answers: &mut Vec<Self::Answer>,
-    ) -> Result<(), Refused> {
-        each(self, first, rows, memory, answers)
-    }
-
+    pub header: &'static str,
+    pub queries: Queries<N>,
+    pub search: &'a SearchArgs,
     /// Whether the blob knows the mesh by a tight hull alone.
-    fn is_by_hull(&self) -> bool {
-        false
-    }
-
-    /// The failure of a refused query.
-    fn refuse(&self, place: Place, error: QueryError) -> Failure {
-        Failure::Query { place, error }
-    }
+    pub is_by_hull: bool,
+    /// How far away the numbers of a row may be, for a row that is farther away.
+    pub limit: Option<String>,
 }
 
-/// Asks one row after the other.
-pub fn each<const N: usize, Q: Question<N> + ?Sized>(
-    question: &Q,
-    first: usize,
-    rows: &[[f32; N]],
-    memory: &mut Q::Memory,
-    answers: &mut Vec<Q::Answer>,
-) -> Result<(), Refused> {
-    for (index, &row) in (first..).zip(rows) {
-        answers.push(question.ask(row, memory).map_err(|error| (index, error))?);
-    }
-    Ok(())
+/// An answer, how its search ended, and the work of the search.
+pub struct Answer<A> {
+    pub found: A,
+    pub ended: Ended,
+    pub work: Work,
 }
 
-/// Asks all queries, writes the answers, and says on the standard error how the queries ended.
-///
-/// # Errors
-/// A query is refused or broken, after the answers before it have been printed; or the answers
-/// cannot be written.
-pub fn run<const N: usize, Q: Question<N>>(
-    question: &Q,
-    mut queries: Queries<N>,
-    search: &SearchArgs,
-) -> Result<(), Failure> {
-    let output = Output::file_or_stdout(search.output.as_deref())?;
-    let at_once = question.at_once();
-    let threads = threads::count(search.threads, queries.rows.len().div_ceil(at_once));
-    let started = Instant::now();
-    let asked = threads::ask(&queries.rows, threads, at_once, || {
-        let mut memory = question.memory();
-        move |first, rows: &[[f32; N]], answers: &mut Vec<Q::Answer>, tally: &mut Tally| {
-            let done = question.ask_many(first, rows, &mut memory, answers);
-            answers.iter().for_each(|answer| tally.count(Q::outcome(answer)));
-            done
-        }
-    });
-    let time = started.elapsed();
-    let broken = queries.broken.take();
-    let refused = asked.refused.map(|(index, error)| question.refuse(queries.place(index), error));
-    output.finish_until(refused.or(broken), |out| {
-        writeln!(out, "{}", question.header())?;
-        let mut rows = queries.rows.iter().zip(&asked.answers).enumerate();
-        rows.try_for_each(|(query, (row, answer))| question.write(out, query, row, answer))
-    })?;
-    note(&asked.tally, time, threads, search.time, question.is_by_hull());
-    Ok(())
+impl<'a, const N: usize> Question<'a, N> {
+    pub fn new(header: &'static str, queries: Queries<N>, search: &'a SearchArgs) -> Self {
+        Question { header, queries, search, is_by_hull: false, limit: None }
+    }
+
+    /// Asks about one row after the other. `asker` makes a thread's asker with its memory. `write`
+    /// gets the number of a row, from 0, the row and its answer.
+    ///
+    /// # Errors
+    /// As [`ask_many`](Self::ask_many).
+    pub fn ask<A: Send, F>(
+        self,
+        asker: impl Fn() -> F + Sync,
+        write: impl Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()>,
+    ) -> Result<(), Failure>
+    where
+        F: FnMut([f32; N]) -> Result<Answer<A>, QueryError>,
+    {
+        let one_by_one = || {
+            let mut ask = asker();
+            move |rows: &[[f32; N]], answers: &mut Vec<Answer<A>>| {
+                for (index, &row) in rows.iter().enumerate() {
+                    answers.push(ask(row).map_err(|error| (index, error))?);
+                }
+                Ok(())
+            }
+        };
+        self.ask_many(AT_ONCE, one_by_one, write)
+    }
+
+    /// Asks about `at_once` rows at once, writes the answers, and says on the standard error how
+    /// the queries ended. A worker is as [`threads::ask`] says.
+    ///
+    /// # Errors
+    /// A query is refused or broken, after the answers before it have been printed; or the answers
+    /// cannot be written.
+    pub fn ask_many<A: Send, W>(
+        mut self,
+        at_once: usize,
+        worker: impl Fn() -> W + Sync,
+        write: impl Fn(&mut dyn Write, usize, &[f32; N], &Answer<A>) -> io::Result<()>,
+    ) -> Result<(), Failure>
+    where
+        W: FnMut(&[[f32; N]], &mut Vec<Answer<A>>) -> Result<(), Refused>,
+    {
+        let (queries, search) = (&mut self.queries, self.search);
+        let output = Output::file_or_stdout(search.output.as_deref())?;
+        let threads = threads::count(search.threads, queries.rows.len().div_ceil(at_once));
+        let started = Instant::now();
+        let (answers, refused) = threads::ask(&queries.rows, threads, at_once, worker);
+        let time = started.elapsed();
+        let broken = queries.broken.take();
+        let refused = refused.map(|(index, error)| match (error, self.limit) {
+            (QueryError::OutOfDomain, Some(limit)) => {
+                Failure::TooFar { place: queries.place(index), limit }
+            }
+            (error, _) => Failure::Query { place: queries.place(index), error },
+        });
+        output.finish_until(refused.or(broken), |out| {
+            writeln!(out, "{}", self.header)?;
+            let mut rows = queries.rows.iter().zip(&answers).enumerate();
+            rows.try_for_each(|(query, (row, answer))| write(out, query, row, answer))
+        })?;
+        let mut tally = Tally::default();
+        answers.iter().for_each(|answer| tally.count(answer.ended, answer.work));
+        note(&tally, time, threads, search.time, self.is_by_hull);
+        Ok(())
+    }
 }
 
 /// Says on the standard error how queries ended if any ended early, and how long they took if
@@ -160,7 +148,7 @@ pub fn ended(verdict: Verdict) -> Ended {
         Verdict::Yes | Verdict::No => Ended::Exact,
         Verdict::Undecided(Undecided::Steps) => Ended::Steps,
         Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
-        Verdict::Undecided(_) => Ended::Resolution,
+        _ => Ended::Resolution,
     }
 }
 
@@ -169,7 +157,7 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Yes => "yes",
         Verdict::No => "no",
-        Verdict::Undecided(_) => "unknown",
+        _ => "undecided",
     }
 }
 

@@ -16,7 +16,7 @@ use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::counted::Counted;
 use meshsweep::emit::{self, Sections};
 use meshsweep::hull::{self, BuildReport, Built};
-use meshsweep::surface::VertexBits;
+use meshsweep::surface::{VertexBits, components_whose_boxes_meet};
 use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
 use meshsweep::tribox::{self, TriboxReport};
 use meshsweep_core::Blob;
@@ -44,18 +44,14 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         mesh_file::load(&args.mesh)?
     };
     let hull = if wanted.hull { Some(build_hull(args, &loaded)?) } else { None };
-    let options = TreeOptions {
-        closest: wanted.closest,
-        segments: wanted.segment,
-        cull: wanted.cull,
-        single: args.vertex_bits.is_f32(),
-        ..TreeOptions::default()
-    };
-    let triangles = loaded.mesh.triangles.len() + loaded.mesh.wires.len();
-    if (wanted.tree() || wanted.triboxes || wanted.tight) && triangles > bvh::MAX_TRIANGLES {
-        return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
-    }
-    let tree = wanted.tree().then(|| bvh::build(loaded.input(), &options));
+    let options = TreeOptions::default()
+        .with_closest(wanted.closest)
+        .with_segments(wanted.segment)
+        .with_cull(wanted.cull)
+        .with_f32(args.vertex_bits.is_f32());
+    let failed = |error| Failure::build(&args.mesh, error);
+    let tree = wanted.tree().then(|| bvh::build(loaded.input(), &options)).transpose();
+    let tree = tree.map_err(failed)?;
     let triboxes = if wanted.triboxes { Some(build_triboxes(args, &loaded)?) } else { None };
     let tight = if wanted.tight { Some(build_tight(args, &loaded)?) } else { None };
     let hierarchy = hull.as_ref().map(|hull| hull.tables.sections());
@@ -70,7 +66,7 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
         .flatten(),
     );
     // A blob that does not open must not be written.
-    let blob = Blob::open(&bytes).map_err(|error| failed(args, BuildError::Reopen(error)))?;
+    let blob = Blob::open(&bytes).map_err(|error| failed(BuildError::Reopen(error)))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&bytes))?;
     let report = Report {
         args,
@@ -114,12 +110,12 @@ fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
     hull::build(loaded.input(), &options, |progress| {
         bar.show(faces.saturating_sub(progress.faces));
     })
-    .map_err(|error| failed(args, error))
+    .map_err(|error| Failure::build(&args.mesh, error))
 }
 
 fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, TriboxReport), Failure> {
     tribox::store(loaded.input(), args.triboxes.unwrap_or(TRIBOXES))
-        .map_err(|error| Failure::Build { file: args.mesh.clone(), error })
+        .map_err(|error| Failure::build(&args.mesh, error))
 }
 
 fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullReport>), Failure> {
@@ -137,14 +133,10 @@ fn build_tight(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, Vec<HullR
         Stage::Wrapping { progress, .. } => bars.show(progress),
         Stage::Certifying => bars = StageBars::default(),
     })
-    .map_err(|error| Failure::Wrap { file: args.mesh.clone(), error })?;
+    .map_err(|error| Failure::build(&args.mesh, error))?;
     let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--tight" };
     require_met(&args.mesh, asked, made.1.iter().map(|report| &report.wrapped))?;
     Ok(made)
-}
-
-fn failed(args: &BuildArgs, error: BuildError) -> Failure {
-    Failure::Build { file: args.mesh.clone(), error }
 }
 
 /// The report of the command.
@@ -181,6 +173,9 @@ impl Report<'_> {
             }
         }
         describe::write_blob(out, blob)?;
+        if blob.bvh().is_ok_and(|tree| tree.is_closed() && tree.serves_distances()) {
+            write_overlaps(out, components_whose_boxes_meet(&loaded.mesh))?;
+        }
         if let Some(reports) = tight {
             write_left_out(out, args, reports)?;
             write_margin(out, args.margin, "mesh")?;
@@ -210,6 +205,18 @@ impl Report<'_> {
         }
         writeln!(out)
     }
+}
+
+/// Says of how many connected components the inside may be answered as outside.
+fn write_overlaps(out: &mut dyn Write, components: usize) -> io::Result<()> {
+    if components == 0 {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "connected components whose boxes overlap: {components}; they are not united: where they \
+         overlap, a side is that of the nearest surface"
+    )
 }
 
 /// Names the tight hulls that the blob lacks.

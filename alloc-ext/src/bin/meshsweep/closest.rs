@@ -1,17 +1,13 @@
 //! `meshsweep closest`: points in, intervals and closest points out.
 
-use crate::args::{self, ClosestArgs, SearchArgs, files};
-use crate::ask::threads::Refused;
-use crate::ask::{self, Question, write_end, write_numbers};
+use crate::args::{ClosestArgs, Engine as EngineName, PointArgs, files};
+use crate::ask::{Answer, Question, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
 use crate::{blob_file, curve, served};
-use meshsweep_core::{
-    Budget, BuildFor, ClosestPoint, Ended, Hint, Interval, QueryError, ScratchEntry, TightHull,
-    Work,
-};
+use meshsweep_core::{BuildFor, ClosestPoint, Hint, Interval, QueryError};
 use std::io::{self, Write};
 
 /// Points that the box tree sorts and answers at once: enough for neighbours to be near, and for
@@ -19,119 +15,78 @@ use std::io::{self, Write};
 const BATCH: usize = 1 << 14;
 
 pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
-    let file = &args.input.blob;
-    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
-    let bytes = blob_file::read(file)?;
-    let blob = blob_file::open(file, &bytes)?;
+    let ClosestArgs { input: PointArgs { blob: file, points }, search, .. } = args;
+    refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
+    let blob = blob_file::open(file)?;
+    let budget = search.budget().with_relative(args.rel).with_absolute(args.abs);
     if let Ok(curve) = blob.curve()
         && args.engine.is_none()
         && args.tight.is_none()
     {
-        let budget = args.search.budget().with_relative(args.rel).with_absolute(args.abs);
-        return curve::closest(curve, args, Queries::read(&args.input.points)?, budget);
+        return curve::closest(curve, args, Queries::read(points)?, budget);
     }
-    let tree_chosen = args.engine.map(|engine| engine == args::Engine::Tree);
+    let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
+    let question = |points| Question::new(header, points, search);
+    let tree_chosen = args.engine.map(|engine| engine == EngineName::Tree);
     let hull = match tree_chosen {
         Some(_) => None,
         None => served::tight_hull(file, &blob, args.tight)?,
     };
-    let by = match hull {
-        Some(hull) => By::Tight(hull),
-        None => By::Engine(served::choose(file, &blob, BuildFor::Closest, tree_chosen)?),
-    };
-    let queries = Queries::read(&args.input.points)?;
-    let budget = args.search.budget().with_relative(args.rel).with_absolute(args.abs);
-    let points = queries.rows.len();
-    ask::run(&Closest { by, budget, search: &args.search, points }, queries, &args.search)
-}
-
-/// The structure that answers.
-enum By<'a> {
-    Engine(Engine<'a>),
-    Tight(TightHull<'a>),
-}
-
-struct Closest<'a> {
-    by: By<'a>,
-    budget: Budget,
-    search: &'a SearchArgs,
-    /// Number of queries.
-    points: usize,
-}
-
-impl Question<3> for Closest<'_> {
-    type Answer = ClosestPoint;
-    type Memory = Vec<ScratchEntry>;
-
-    fn header(&self) -> &'static str {
-        "x,y,z,lower,upper,px,py,pz,triangle,work"
-    }
-
-    fn memory(&self) -> Self::Memory {
-        self.search.scratch(match &self.by {
-            // Two entries more for each point sort a batch.
-            By::Engine(Engine::Tree(tree)) => tree.scratch_entries() + 2 * BATCH.min(self.points),
-            By::Engine(engine) => engine.scratch_entries(),
-            By::Tight(hull) => hull.scratch_entries(),
-        })
-    }
-
-    fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<ClosestPoint, QueryError> {
-        match &self.by {
-            By::Engine(Engine::Tree(tree)) => tree.closest_point(point, self.budget, scratch),
-            By::Engine(Engine::Cover(hull)) => hull.closest_point(point, self.budget, scratch),
-            By::Tight(hull) => hull.closest_point(point, self.budget, scratch),
-        }
-    }
-
-    fn outcome(answer: &ClosestPoint) -> (Ended, Work) {
-        (answer.ended, answer.work)
-    }
-
-    fn at_once(&self) -> usize {
-        if matches!(self.by, By::Engine(Engine::Tree(_))) { BATCH } else { ask::AT_ONCE }
-    }
-
-    fn ask_many(
-        &self,
-        first: usize,
-        rows: &[[f32; 3]],
-        scratch: &mut Self::Memory,
-        answers: &mut Vec<ClosestPoint>,
-    ) -> Result<(), Refused> {
-        let By::Engine(Engine::Tree(tree)) = &self.by else {
-            return ask::each(self, first, rows, scratch, answers);
+    if let Some(hull) = hull {
+        let asker = || {
+            let mut scratch = search.scratch(hull.scratch_entries());
+            move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?))
         };
-        answers.resize(rows.len(), ClosestPoint::EMPTY);
-        // Without a hint: so the work does not depend on the batch before.
-        let mut hint = Hint::NONE;
-        let done = tree.closest_points(rows, &mut hint, answers, self.budget, scratch);
-        done.map_err(|error| {
-            answers.clear();
-            match error {
-                QueryError::PointNotFinite { index } => {
-                    (first + index as usize, QueryError::NotFinite)
-                }
-                error => (first, error),
-            }
-        })
+        let question = question(Queries::read(points)?);
+        return Question { is_by_hull: true, ..question }.ask(asker, write);
     }
+    let engine = served::choose(file, &blob, BuildFor::Closest, tree_chosen)?;
+    let points = Queries::read(points)?;
+    let tree = match engine {
+        Engine::Tree(tree) => tree,
+        Engine::Cover(hull) => {
+            let asker = || {
+                let mut scratch = search.scratch(engine.scratch_entries());
+                move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?))
+            };
+            return question(points).ask(asker, write);
+        }
+    };
+    // Two entries more for each point sort a batch.
+    let entries = tree.scratch_entries() + 2 * BATCH.min(points.rows.len());
+    let worker = || {
+        let mut scratch = search.scratch(entries);
+        let mut found = Vec::new();
+        move |rows: &[[f32; 3]], answers: &mut Vec<_>| {
+            found.resize(rows.len(), ClosestPoint::EMPTY);
+            // Without a hint: so the work does not depend on the batch before.
+            let mut hint = Hint::NONE;
+            tree.closest_points(rows, &mut hint, &mut found, budget, &mut scratch).map_err(
+                |error| match error {
+                    QueryError::PointNotFinite { index } => (index as usize, QueryError::NotFinite),
+                    error => (0, error),
+                },
+            )?;
+            answers.extend(found.iter().copied().map(answer));
+            Ok(())
+        }
+    };
+    question(points).ask_many(BATCH, worker, write)
+}
 
-    fn is_by_hull(&self) -> bool {
-        matches!(self.by, By::Tight(_))
-    }
+fn answer(found: ClosestPoint) -> Answer<ClosestPoint> {
+    Answer { found, ended: found.ended, work: found.work }
+}
 
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        _: usize,
-        point: &[f32; 3],
-        answer: &ClosestPoint,
-    ) -> io::Result<()> {
-        let Interval { lower, upper } = answer.distance;
-        let [x, y, z] = answer.point;
-        write_numbers(out, point)?;
-        write_numbers(out, &[lower, upper, x, y, z])?;
-        write_end(out, answer.triangle, answer.work)
-    }
+fn write(
+    out: &mut dyn Write,
+    _: usize,
+    point: &[f32; 3],
+    &Answer { found, work, .. }: &Answer<ClosestPoint>,
+) -> io::Result<()> {
+    let Interval { lower, upper } = found.distance;
+    let [x, y, z] = found.point;
+    write_numbers(out, point)?;
+    write_numbers(out, &[lower, upper, x, y, z])?;
+    write_end(out, found.triangle, work)
 }

@@ -12,8 +12,7 @@ use std::io::Write;
 pub fn run(args: &CullArgs) -> Result<(), Failure> {
     let output = args.output.as_deref();
     refuse_same_file(output, &[&args.blob])?;
-    let bytes = blob_file::read(&args.blob)?;
-    let blob = blob_file::open(&args.blob, &bytes)?;
+    let blob = blob_file::open(&args.blob)?;
     let tree = served::require_tree(&args.blob, &blob, BuildFor::Cull)?;
     let output = Output::file_or_stdout(output)?;
     let mut triangles = vec![0; tree.triangle_count() as usize];

@@ -1,7 +1,7 @@
 //! Curves: `build` from CSV, and `closest` and `within` of blobs that hold them.
 
-use crate::args::{BuildArgs, ClosestArgs, SearchArgs, WithinArgs};
-use crate::ask::{self, Question, verdict_name, write_numbers};
+use crate::args::{BuildArgs, ClosestArgs, WithinArgs};
+use crate::ask::{self, Answer, Question, verdict_name, write_numbers};
 use crate::describe;
 use crate::failure::Failure;
 use crate::output::Output;
@@ -9,10 +9,7 @@ use crate::queries::Queries;
 use meshsweep::BuildError;
 use meshsweep::counted::Counted;
 use meshsweep::curve::{CurveError, CurveReport, read_csv, store};
-use meshsweep_core::{
-    Blob, Budget, Curve, CurveClosest, CurveSegment, CurveWithin, Ended, QueryError, ScratchEntry,
-    Work,
-};
+use meshsweep_core::{Blob, Budget, Curve, CurveSegment, Interval};
 use std::io::{self, Write};
 
 /// Builds a blob of curves.
@@ -49,99 +46,52 @@ fn write_report(
 /// Asks for closest points.
 pub fn closest(
     curve: Curve<'_>,
-    args: &ClosestArgs,
-    queries: Queries<3>,
+    ClosestArgs { search, .. }: &ClosestArgs,
+    points: Queries<3>,
     budget: Budget,
 ) -> Result<(), Failure> {
-    ask::run(&Closest { curve, budget, search: &args.search }, queries, &args.search)
+    let header = "x,y,z,lower,upper,px,py,pz,polyline,segment,safe_motion,work";
+    Question::new(header, points, search).ask(
+        || {
+            let mut scratch = search.scratch(best_first(&curve));
+            move |point| {
+                let found = curve.closest_point(point, budget, &mut scratch)?;
+                Ok(Answer { found, ended: found.ended, work: found.work })
+            }
+        },
+        |out, _, point, Answer { found, work, .. }| {
+            let Interval { lower, upper } = found.distance;
+            let [x, y, z] = found.point;
+            write_numbers(out, point)?;
+            write_numbers(out, &[lower, upper, x, y, z])?;
+            write_segment(out, Some(found.segment))?;
+            write_numbers(out, &[found.safe_motion])?;
+            writeln!(out, "{}", work.total())
+        },
+    )
 }
 
-/// Asks whether the curve is within a distance.
-pub fn within(curve: Curve<'_>, args: &WithinArgs, queries: Queries<3>) -> Result<(), Failure> {
-    let (search, distance) = (&args.search, args.distance);
-    ask::run(&Within { curve, distance, search }, queries, search)
-}
-
-struct Closest<'a> {
-    curve: Curve<'a>,
-    budget: Budget,
-    search: &'a SearchArgs,
-}
-
-impl Question<3> for Closest<'_> {
-    type Answer = CurveClosest;
-    type Memory = Vec<ScratchEntry>;
-
-    fn header(&self) -> &'static str {
-        "x,y,z,lower,upper,px,py,pz,polyline,segment,safe_motion,work"
-    }
-
-    fn memory(&self) -> Self::Memory {
-        self.search.scratch(best_first(&self.curve))
-    }
-
-    fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<CurveClosest, QueryError> {
-        self.curve.closest_point(point, self.budget, scratch)
-    }
-
-    fn outcome(answer: &CurveClosest) -> (Ended, Work) {
-        (answer.ended, answer.work)
-    }
-
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        _: usize,
-        point: &[f32; 3],
-        answer: &CurveClosest,
-    ) -> io::Result<()> {
-        write_numbers(out, point)?;
-        write_numbers(out, &[answer.distance.lower, answer.distance.upper])?;
-        write_numbers(out, &answer.point)?;
-        write_segment(out, Some(answer.segment))?;
-        write_numbers(out, &[answer.safe_motion])?;
-        writeln!(out, "{}", answer.work.total())
-    }
-}
-
-struct Within<'a> {
-    curve: Curve<'a>,
-    distance: f32,
-    search: &'a SearchArgs,
-}
-
-impl Question<3> for Within<'_> {
-    type Answer = CurveWithin;
-    type Memory = Vec<ScratchEntry>;
-
-    fn header(&self) -> &'static str {
-        "x,y,z,within,polyline,segment,work"
-    }
-
-    fn memory(&self) -> Self::Memory {
-        self.search.scratch(best_first(&self.curve))
-    }
-
-    fn ask(&self, point: [f32; 3], scratch: &mut Self::Memory) -> Result<CurveWithin, QueryError> {
-        self.curve.within(point, self.distance, self.search.budget(), scratch)
-    }
-
-    fn outcome(answer: &CurveWithin) -> (Ended, Work) {
-        (ask::ended(answer.verdict), answer.work)
-    }
-
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        _: usize,
-        point: &[f32; 3],
-        answer: &CurveWithin,
-    ) -> io::Result<()> {
-        write_numbers(out, point)?;
-        write!(out, "{},", verdict_name(answer.verdict))?;
-        write_segment(out, answer.segment)?;
-        writeln!(out, "{}", answer.work.total())
-    }
+/// Asks whether the curve is within the distance.
+pub fn within(
+    curve: Curve<'_>,
+    WithinArgs { distance, search, .. }: &WithinArgs,
+    points: Queries<3>,
+) -> Result<(), Failure> {
+    Question::new("x,y,z,within,polyline,segment,work", points, search).ask(
+        || {
+            let mut scratch = search.scratch(best_first(&curve));
+            move |point| {
+                let found = curve.within(point, *distance, search.budget(), &mut scratch)?;
+                Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
+            }
+        },
+        |out, _, point, Answer { found, work, .. }| {
+            write_numbers(out, point)?;
+            write!(out, "{},", verdict_name(found.verdict))?;
+            write_segment(out, found.segment)?;
+            writeln!(out, "{}", work.total())
+        },
+    )
 }
 
 /// Scratch entries with which searches go best first.
@@ -151,7 +101,7 @@ fn best_first(curve: &Curve<'_>) -> usize {
 
 fn write_segment(out: &mut dyn Write, segment: Option<CurveSegment>) -> io::Result<()> {
     match segment {
-        Some(CurveSegment { polyline, segment }) => write!(out, "{polyline},{segment},"),
+        Some(at) => write!(out, "{},{},", at.polyline, at.segment),
         None => write!(out, ",,"),
     }
 }

@@ -11,22 +11,21 @@ use meshsweep_core::Blob;
 
 pub fn run(args: &CutArgs) -> Result<(), Failure> {
     refuse_same_file(Some(&args.output), &[&args.blob])?;
-    let bytes = blob_file::read(&args.blob)?;
-    let blob = blob_file::open(&args.blob, &bytes)?;
+    let blob = blob_file::open(&args.blob)?;
     if args.level.is_some() {
         served::require_hull(&args.blob, &blob)?;
     }
     if let Some(faces) = args.tight {
         served::require_tight(&args.blob, &blob, faces)?;
     }
-    let keep = Keep { level: args.level, triboxes: args.triboxes, tight: args.tight };
-    let cut = cut_blob(&blob, &keep)
-        .map_err(|error| Failure::Build { file: args.blob.clone(), error })?;
+    let mut keep = Keep::default();
+    (keep.level, keep.triboxes, keep.tight) = (args.level, args.triboxes, args.tight);
+    let cut = cut_blob(&blob, &keep).map_err(|error| Failure::build(&args.blob, error))?;
     // A blob that does not open must not be written.
     let left = Blob::open(&cut).map_err(|error| Failure::open(&args.output, error))?;
     Output::file(&args.output)?.finish(|out| out.write_all(&cut))?;
     Output::stdout().finish(|out| {
-        let (kept, all) = (cut.len(), bytes.len());
+        let (kept, all) = (cut.len(), blob.bytes().len());
         let share = kept as f64 / all as f64 * 100.0;
         write!(
             out,

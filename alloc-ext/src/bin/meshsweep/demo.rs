@@ -1,12 +1,12 @@
 //! `meshsweep` without a command: a demonstration on a built-in part.
 
+use crate::describe;
 use crate::failure::{Failure, Place};
 use crate::output::Output;
 use crate::signed::name;
-use crate::{blob_file, describe};
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::mesh;
-use meshsweep_core::{Budget, Ended, Facing, Interval, ScratchEntry};
+use meshsweep_core::{Budget, Bvh, Ended, Facing, Interval, ScratchEntry};
 use std::path::Path;
 
 /// A copy of `fixtures/bracket.stl`, because a package holds no file outside of its folder.
@@ -18,9 +18,10 @@ pub fn run() -> Result<(), Failure> {
     let raw = mesh::read_bytes(file, BRACKET.to_vec()).map_err(refuse)?;
     let triangles = raw.triangles.len();
     let (mesh, _) = mesh::repair(raw).map_err(refuse)?;
-    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default());
+    let (tables, _) = bvh::build(mesh.as_input(), &TreeOptions::default())
+        .map_err(|error| Failure::build(file, error))?;
     let bytes = tables.to_bytes();
-    let tree = blob_file::open_tree(file, &bytes)?;
+    let tree = Bvh::open(&bytes).map_err(|error| Failure::open(file, error))?;
     let mut scratch = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
     let place = |error| Failure::Query { place: Place::BuiltIn, error };
     let point = [10.0, 4.5, 7.0];

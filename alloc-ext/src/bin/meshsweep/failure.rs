@@ -5,7 +5,6 @@ use meshsweep::BuildError;
 use meshsweep::counted::Counted;
 use meshsweep::curve::CurveError;
 use meshsweep::mesh::MeshError;
-use meshsweep::tight::WrapError;
 use meshsweep_core::{OpenError, QueryError, TriboxError};
 use std::fmt;
 use std::io::{self, Write};
@@ -38,8 +37,6 @@ pub enum Failure {
     Build { file: PathBuf, error: BuildError },
     /// The curve is refused.
     Curve { file: PathBuf, error: CurveError },
-    /// The tight hull cannot be made.
-    Wrap { file: PathBuf, error: WrapError },
     /// No hull is as tight as asked for.
     Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
@@ -59,8 +56,6 @@ pub enum Failure {
     Tribox { file: PathBuf, error: TriboxError },
     /// The mesh bounds no solid, and signs are wanted.
     NotClosed { file: PathBuf },
-    /// The mesh has more triangles than a blob can hold.
-    TooLarge { file: PathBuf, triangles: usize },
     /// A grid reaches beyond f32.
     GridTooLarge { file: PathBuf },
     /// A query line has too few or too many fields.
@@ -99,6 +94,10 @@ pub enum Place {
 }
 
 impl Failure {
+    pub fn build(file: &Path, error: BuildError) -> Self {
+        Failure::Build { file: file.to_owned(), error }
+    }
+
     pub fn open(file: &Path, error: OpenError) -> Self {
         Failure::Open { file: file.to_owned(), error }
     }
@@ -205,7 +204,6 @@ impl fmt::Display for Failure {
             }
             // The error begins with a line of the file, or with what all of the file lacks.
             Failure::Curve { file, error } => write!(f, "{}, {error}", file.display()),
-            Failure::Wrap { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Unmet { file, unmet } => {
                 write!(f, "{}: {unmet}; nothing is written", file.display())
             }
@@ -234,13 +232,6 @@ impl fmt::Display for Failure {
                 "{}: was built from a mesh that is not closed, so inside and outside are not \
                  defined; leave out --signed",
                 file.display()
-            ),
-            Failure::TooLarge { file, triangles } => write!(
-                f,
-                "{}: {triangles} triangles are more than the {} that a box tree holds; split the \
-                 mesh",
-                file.display(),
-                meshsweep::bvh::MAX_TRIANGLES
             ),
             Failure::GridTooLarge { file } => write!(
                 f,

@@ -34,8 +34,7 @@ pub fn run(args: &FieldArgs) -> Result<(), Failure> {
         }
     };
     refuse_same_file(Some(&args.output), &[&args.blob])?;
-    let bytes = blob_file::read(&args.blob)?;
-    let blob = blob_file::open(&args.blob, &bytes)?;
+    let blob = blob_file::open(&args.blob)?;
     let tree = served::require_tree(&args.blob, &blob, BuildFor::Closest)?;
     if args.signed && !tree.is_closed() {
         return Err(Failure::NotClosed { file: args.blob.clone() });

@@ -4,6 +4,8 @@ mod progressive;
 mod stored;
 mod tight;
 
+pub use stored::mesh_of;
+
 use crate::args::{HullArgs, slack_within_margin};
 use crate::failure::Failure;
 use crate::mesh_file;

@@ -6,8 +6,7 @@ use crate::output::Output;
 use crate::{blob_file, describe};
 
 pub fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let bytes = blob_file::read(&args.blob)?;
-    let blob = blob_file::open(&args.blob, &bytes)?;
+    let blob = blob_file::open(&args.blob)?;
     Output::stdout().finish(|out| {
         if args.json {
             serde_json::to_writer_pretty(&mut *out, &describe::as_json(&blob))?;

@@ -16,7 +16,7 @@
 //! | `curve` | what commands do with curves |
 //! | all others | one command each |
 //!
-//! A new question: its arguments in `args/asking.rs`, a file like `nearest.rs` that implements
+//! A new question: its arguments in `args/asking.rs`, a file like `nearest.rs` that makes an
 //! `ask::Question`, and a line in `run`.
 
 mod args;
@@ -41,6 +41,7 @@ mod output;
 mod overlap;
 mod progress;
 mod queries;
+mod refine;
 mod segment;
 mod served;
 mod signed;
@@ -73,6 +74,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(Command::Field(args)) => field::run(&args),
         Some(Command::Segment(args)) => segment::run(&args),
         Some(Command::Hull(args)) => hull::run(&args),
+        Some(Command::Refine(args)) => refine::run(&args),
         Some(Command::Cut(args)) => cut::run(&args),
         Some(Command::Tribox(args)) => tribox::run(&args),
     }

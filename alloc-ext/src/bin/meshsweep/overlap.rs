@@ -1,23 +1,18 @@
 //! `meshsweep overlap`: poses of a second mesh in, whether it meets the first one out.
 
-use crate::args::{Given, OverlapArgs, SearchArgs, files};
-use crate::ask::{self, Question, write_end};
+use crate::args::{Given, OverlapArgs, files};
+use crate::ask::{self, Answer, Question, write_end};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::{
-    BuildFor, Bvh, Ended, Overlap, Overlaps, Pose, QueryError, ScratchEntry, TrianglePair, Verdict,
-    Work,
-};
+use meshsweep_core::{BuildFor, Bvh, Ended, Pose, TrianglePair, Verdict, Work};
 use std::io::{self, Write};
 
 // Words of the column `contact`.
 const APART: &str = "apart";
 const MEETS: &str = "meets";
-const OPEN: &str = "open";
-
-const HEADER: &str = "pose,contact,first,second,work";
+const UNDECIDED: &str = "undecided";
 
 /// Room for pairs at first.
 const PAIRS: usize = 256;
@@ -26,11 +21,9 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
     let OverlapArgs { first, second, pose, matrix, search, .. } = args;
     let inputs = [files(&[first, second], pose), files(&[], matrix)].concat();
     refuse_same_file(search.output.as_deref(), &inputs)?;
-    let (first_bytes, second_bytes) = (blob_file::read(first)?, blob_file::read(second)?);
-    let blobs = [blob_file::open(first, &first_bytes)?, blob_file::open(second, &second_bytes)?];
     let trees = [
-        served::require_tree(first, &blobs[0], BuildFor::Segment)?,
-        served::require_tree(second, &blobs[1], BuildFor::Segment)?,
+        served::require_tree(first, &blob_file::open(first)?, BuildFor::Segment)?,
+        served::require_tree(second, &blob_file::open(second)?, BuildFor::Segment)?,
     ];
     if !matrix.is_empty() {
         return ask_poses(args, trees, Queries::read(matrix)?, of_matrix);
@@ -50,11 +43,11 @@ fn ask_poses<const N: usize>(
     poses: Queries<N>,
     pose_of: fn([f32; N]) -> Pose,
 ) -> Result<(), Failure> {
-    let pair = Pair { trees, pose_of, search: &args.search };
+    let question = Question::new("pose,contact,first,second,work", poses, &args.search);
     if args.all {
-        ask::run(&All(pair), poses, &args.search)
+        ask_all(args, trees, question, pose_of)
     } else {
-        ask::run(&Any(pair), poses, &args.search)
+        ask_any(args, trees, question, pose_of)
     }
 }
 
@@ -77,112 +70,69 @@ fn of_matrix([a, b, c, x, d, e, f, y, g, h, i, z]: [f32; 12]) -> Pose {
     Pose { rotation: [[a, b, c], [d, e, f], [g, h, i]], translation: [x, y, z] }
 }
 
-/// Two meshes, and how poses of the second one are read.
-struct Pair<'a, const N: usize> {
-    trees: [Bvh<'a>; 2],
+/// Asks whether the meshes meet.
+fn ask_any<const N: usize>(
+    OverlapArgs { search, .. }: &OverlapArgs,
+    [first, second]: [Bvh<'_>; 2],
+    question: Question<'_, N>,
     pose_of: fn([f32; N]) -> Pose,
-    search: &'a SearchArgs,
-}
-
-impl<const N: usize> Pair<'_, N> {
-    fn scratch(&self) -> Vec<ScratchEntry> {
-        self.search.scratch(Bvh::OVERLAP_ENTRIES)
-    }
-}
-
-/// Whether the meshes meet.
-struct Any<'a, const N: usize>(Pair<'a, N>);
-
-impl<const N: usize> Question<N> for Any<'_, N> {
-    type Answer = Overlap;
-    type Memory = Vec<ScratchEntry>;
-
-    fn header(&self) -> &'static str {
-        HEADER
-    }
-
-    fn memory(&self) -> Self::Memory {
-        self.0.scratch()
-    }
-
-    fn ask(&self, row: [f32; N], scratch: &mut Self::Memory) -> Result<Overlap, QueryError> {
-        let Pair { trees: [first, second], pose_of, search } = &self.0;
-        first.overlap(second, pose_of(row), search.budget(), scratch)
-    }
-
-    fn outcome(found: &Overlap) -> (Ended, Work) {
-        (ask::ended(found.verdict), found.work)
-    }
-
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        query: usize,
-        _: &[f32; N],
-        found: &Overlap,
-    ) -> io::Result<()> {
-        let contact = match found.verdict {
-            Verdict::Yes => MEETS,
-            Verdict::No => APART,
-            Verdict::Undecided(_) => OPEN,
-        };
-        write_row(out, query, contact, found.triangles, found.work)
-    }
-}
-
-/// All pairs of triangles that meet.
-struct All<'a, const N: usize>(Pair<'a, N>);
-
-impl<const N: usize> Question<N> for All<'_, N> {
-    type Answer = (Overlaps, Vec<TrianglePair>);
-    type Memory = (Vec<TrianglePair>, Vec<ScratchEntry>);
-
-    fn header(&self) -> &'static str {
-        HEADER
-    }
-
-    fn memory(&self) -> Self::Memory {
-        (vec![TrianglePair::EMPTY; PAIRS], self.0.scratch())
-    }
-
-    fn ask(
-        &self,
-        row: [f32; N],
-        (room, scratch): &mut Self::Memory,
-    ) -> Result<Self::Answer, QueryError> {
-        let Pair { trees: [first, second], pose_of, search } = &self.0;
-        ask::all(
-            room,
-            TrianglePair::EMPTY,
-            |room| first.overlaps(second, pose_of(row), room, search.budget(), scratch),
-            |found| (found.stored, found.dropped),
-        )
-    }
-
-    fn outcome((found, _): &Self::Answer) -> (Ended, Work) {
-        (found.ended, found.work)
-    }
-
-    /// A row for each pair; one without triangles if there is none, or if pairs may be missing.
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        query: usize,
-        _: &[f32; N],
-        (found, pairs): &Self::Answer,
-    ) -> io::Result<()> {
-        for pair in pairs {
-            let contact = if pair.is_certain { MEETS } else { OPEN };
-            write_row(out, query, contact, Some(pair.triangles), found.work)?;
-        }
-        match found.ended {
-            Ended::Exact | Ended::Resolution if pairs.is_empty() => {
-                write_row(out, query, APART, None, found.work)
+) -> Result<(), Failure> {
+    question.ask(
+        || {
+            let mut scratch = search.scratch(Bvh::OVERLAP_ENTRIES);
+            move |row| {
+                let found = first.overlap(&second, pose_of(row), search.budget(), &mut scratch)?;
+                Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
             }
-            Ended::Exact | Ended::Resolution => Ok(()),
-            _ => write_row(out, query, OPEN, None, found.work),
-        }
-    }
+        },
+        |out, query, _, Answer { found, work, .. }| {
+            let contact = match found.verdict {
+                Verdict::Yes => MEETS,
+                Verdict::No => APART,
+                _ => UNDECIDED,
+            };
+            write_row(out, query, contact, found.triangles, *work)
+        },
+    )
+}
+
+/// Asks for all pairs of triangles that meet. Writes a row for each pair; one without triangles if
+/// there is none, or if pairs may be missing.
+fn ask_all<const N: usize>(
+    OverlapArgs { search, .. }: &OverlapArgs,
+    [first, second]: [Bvh<'_>; 2],
+    question: Question<'_, N>,
+    pose_of: fn([f32; N]) -> Pose,
+) -> Result<(), Failure> {
+    question.ask(
+        || {
+            let mut scratch = search.scratch(Bvh::OVERLAP_ENTRIES);
+            let mut room = vec![TrianglePair::EMPTY; PAIRS];
+            move |row| {
+                let pose = pose_of(row);
+                let (all, found) = ask::all(
+                    &mut room,
+                    TrianglePair::EMPTY,
+                    |room| first.overlaps(&second, pose, room, search.budget(), &mut scratch),
+                    |all| (all.stored, all.dropped),
+                )?;
+                Ok(Answer { found, ended: all.ended, work: all.work })
+            }
+        },
+        |out, query, _, Answer { found: pairs, ended, work }| {
+            for pair in pairs {
+                let contact = if pair.is_certain { MEETS } else { UNDECIDED };
+                write_row(out, query, contact, Some(pair.triangles), *work)?;
+            }
+            match ended {
+                Ended::Exact | Ended::Resolution if pairs.is_empty() => {
+                    write_row(out, query, APART, None, *work)
+                }
+                Ended::Exact | Ended::Resolution => Ok(()),
+                _ => write_row(out, query, UNDECIDED, None, *work),
+            }
+        },
+    )
 }
 
 fn write_row(

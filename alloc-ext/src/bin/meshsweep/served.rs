@@ -20,6 +20,7 @@ pub fn questions(blob: &Blob<'_>) -> Vec<&'static str> {
         ("overlap", serves(BuildFor::Segment)),
         ("cull", serves(BuildFor::Cull)),
         ("hull --level", hull),
+        ("refine", hull),
         ("hull --tight", blob.tight_hulls().is_ok()),
         ("triboxes", blob.triboxes().is_ok()),
         ("cut", hull || blob.triboxes().is_ok() || blob.tight_hulls().is_ok()),

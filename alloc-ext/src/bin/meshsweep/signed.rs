@@ -1,30 +1,42 @@
 //! `meshsweep signed`: on which side points are, and how far from the surface.
 
-use crate::args::{SearchArgs, SignedArgs, files};
-use crate::ask::{self, Question, write_end, write_numbers};
+use crate::args::{PointArgs, SignedArgs, files};
+use crate::ask::{Answer, Question, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served};
-use meshsweep_core::{
-    BuildFor, Bvh, Ended, Interval, QueryError, ScratchEntry, Side, SignedDistance, Undecided, Work,
-};
+use meshsweep_core::{BuildFor, Interval, Side, SignedDistance, Undecided};
 use std::io::{self, Write};
 
 pub fn run(args: &SignedArgs) -> Result<(), Failure> {
-    let file = &args.input.blob;
-    refuse_same_file(args.search.output.as_deref(), &files(&[file], &args.input.points))?;
-    let bytes = blob_file::read(file)?;
-    let blob = blob_file::open(file, &bytes)?;
-    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
-    let points = Queries::read(&args.input.points)?;
-    ask::run(&Signed { tree, search: &args.search }, points, &args.search)?;
+    let SignedArgs { input: PointArgs { blob: file, points }, search } = args;
+    refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
+    let tree = served::require_tree(file, &blob_file::open(file)?, BuildFor::Closest)?;
+    let header = "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work";
+    Question::new(header, Queries::read(points)?, search).ask(
+        || {
+            let mut scratch = search.scratch(tree.scratch_entries());
+            move |point| {
+                let found = tree.signed_distance(point, search.budget(), &mut scratch)?;
+                Ok(Answer { found, ended: found.closest.ended, work: found.closest.work })
+            }
+        },
+        |out, _, point, &Answer { found, work, .. }| {
+            let SignedDistance { distance: Interval { lower, upper }, side, closest, .. } = found;
+            let [px, py, pz] = closest.point;
+            write_numbers(out, point)?;
+            write!(out, "{},{},", name(side), reason(side))?;
+            write_numbers(out, &[lower, upper, px, py, pz])?;
+            write_end(out, closest.triangle, work)
+        },
+    )?;
     if !tree.is_closed() {
         // A closed standard error does not withhold the answers.
         let _ = writeln!(
             io::stderr(),
-            "{}: was built from a mesh that is not closed, so every side is undefined; distances \
-             are not",
+            "{}: was built from a mesh that is not closed, so every side is undecided; distances \
+             hold",
             file.display()
         );
     }
@@ -36,11 +48,11 @@ pub fn name(side: Side) -> &'static str {
     match side {
         Side::Outside => "outside",
         Side::Inside => "inside",
-        Side::Undecided(_) => "undefined",
+        _ => "undecided",
     }
 }
 
-/// Why a side is undefined, in a word or two; nothing if it is not.
+/// Why a side is undecided, in a word or two; nothing if it is not.
 pub fn reason(side: Side) -> &'static str {
     match side {
         Side::Outside | Side::Inside => "",
@@ -48,51 +60,6 @@ pub fn reason(side: Side) -> &'static str {
         Side::Undecided(Undecided::Steps) => "out of steps",
         Side::Undecided(Undecided::Scratch) => "out of stack",
         Side::Undecided(Undecided::OnSurface) => "at the surface",
-        Side::Undecided(_) => "rounding",
-    }
-}
-
-struct Signed<'a> {
-    tree: Bvh<'a>,
-    search: &'a SearchArgs,
-}
-
-impl Question<3> for Signed<'_> {
-    type Answer = SignedDistance;
-    type Memory = Vec<ScratchEntry>;
-
-    fn header(&self) -> &'static str {
-        "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work"
-    }
-
-    fn memory(&self) -> Self::Memory {
-        self.search.scratch(self.tree.scratch_entries())
-    }
-
-    fn ask(
-        &self,
-        point: [f32; 3],
-        scratch: &mut Self::Memory,
-    ) -> Result<SignedDistance, QueryError> {
-        self.tree.signed_distance(point, self.search.budget(), scratch)
-    }
-
-    fn outcome(answer: &SignedDistance) -> (Ended, Work) {
-        (answer.closest.ended, answer.closest.work)
-    }
-
-    fn write(
-        &self,
-        out: &mut dyn Write,
-        _: usize,
-        point: &[f32; 3],
-        answer: &SignedDistance,
-    ) -> io::Result<()> {
-        let SignedDistance { distance: Interval { lower, upper }, side, closest } = *answer;
-        let [px, py, pz] = closest.point;
-        write_numbers(out, point)?;
-        write!(out, "{},{},", name(side), reason(side))?;
-        write_numbers(out, &[lower, upper, px, py, pz])?;
-        write_end(out, closest.triangle, closest.work)
+        _ => "rounding",
     }
 }

@@ -6,7 +6,6 @@ use crate::failure::Failure;
 use crate::mesh_file::{self, Loaded};
 use crate::number::{About, AtLeast, AtMost, Percent};
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
-use meshsweep::bvh;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::tribox::{Hierarchy, Level, Measure, box_tree, level, proxies, surface, volume};
@@ -22,12 +21,8 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
         Output::probe(output)?;
     }
     let loaded = mesh_file::load(&args.mesh)?;
-    let triangles = loaded.mesh.triangles.len();
-    if triangles > bvh::MAX_TRIANGLES {
-        return Err(Failure::TooLarge { file: args.mesh.clone(), triangles });
-    }
     let started = Instant::now();
-    let bytes = box_tree(&loaded.mesh);
+    let bytes = box_tree(&loaded.mesh).map_err(|error| Failure::build(&args.mesh, error))?;
     let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
     let hierarchy = Hierarchy::new(&loaded.mesh, &tree, &args.options())
         .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })?;
@@ -86,8 +81,9 @@ impl Report<'_> {
         self.loaded.mesh.triangles.len()
     }
 
-    fn compression(&self, level: &Level) -> f64 {
-        self.faces_of_mesh() as f64 / level.faces as f64
+    /// Triangles of the mesh for each face; of a mesh without area, neither has any.
+    fn compression(&self, level: &Level) -> Option<f64> {
+        (level.faces > 0).then(|| self.faces_of_mesh() as f64 / level.faces as f64)
     }
 
     /// Void as a part of the solid.
@@ -122,14 +118,16 @@ impl Report<'_> {
              the mesh"
         )?;
         for level in self.levels {
-            let void =
-                self.void(level).map_or("-".to_owned(), |void| Percent(void * 100.0).to_string());
+            let dash = || "-".to_owned();
+            let compression =
+                self.compression(level).map_or_else(dash, |ratio| format!("{ratio:.2}"));
+            let void = self.void(level).map_or_else(dash, |void| Percent(void * 100.0).to_string());
             writeln!(
                 out,
-                "{:>8} {:>7} {:>11.2} {:>11} {:>9} {:>11}  {} to {}",
+                "{:>8} {:>7} {:>11} {:>11} {:>9} {:>11}  {} to {}",
                 level.triboxes,
                 level.faces,
-                self.compression(level),
+                compression,
                 About(level.volume),
                 void,
                 AtMost(level.error),

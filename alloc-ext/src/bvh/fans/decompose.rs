@@ -3,7 +3,7 @@
 use std::collections::BinaryHeap;
 
 use super::adjacency::{Adjacency, NONE, following, preceding};
-use super::{Fan, MAX_LEAF_TRIANGLES, Weights};
+use super::{Fan, MAX_LEAF_TRIANGLES};
 
 /// Splits a soup into fans of 1 to [`MAX_LEAF_TRIANGLES`] triangles, none of them reversed.
 ///
@@ -20,10 +20,21 @@ use super::{Fan, MAX_LEAF_TRIANGLES, Weights};
 /// If a triangle names a vertex that is not below `vertex_count`, or if there are 2³²/3 triangles
 /// or more.
 #[must_use]
-pub fn decompose(triangles: &[[u32; 3]], vertex_count: usize, weights: &Weights) -> Vec<Fan> {
+pub fn decompose(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<Fan> {
     let adjacency = Adjacency::new(vertex_count, triangles);
-    Front::new(vertex_count, &adjacency, weights).run()
+    Front::new(vertex_count, &adjacency).run()
 }
+
+// Weights of the paper's priority `f(c) = α v(c) + β r(c) − γ t(c)` (5.3).
+
+/// For each triangle that is left about the candidate.
+const ALPHA: i64 = 2;
+
+/// For each open edge opposite the candidate.
+const BETA: i64 = 7;
+
+/// Against each triangle that the fan would leave alone.
+const GAMMA: i64 = 11;
 
 /// A vertex's counts among the remaining triangles.
 #[derive(Clone, Copy, Default)]
@@ -39,7 +50,6 @@ struct Counts {
 /// What remains of the soup.
 struct Front<'a> {
     adjacency: &'a Adjacency<'a>,
-    weights: &'a Weights,
     /// The corners at vertex `v` are `corners[starts[v]..starts[v + 1]]`.
     starts: Vec<u32>,
     corners: Vec<u32>,
@@ -57,12 +67,11 @@ struct Front<'a> {
 }
 
 impl<'a> Front<'a> {
-    fn new(vertex_count: usize, adjacency: &'a Adjacency<'a>, weights: &'a Weights) -> Self {
+    fn new(vertex_count: usize, adjacency: &'a Adjacency<'a>) -> Self {
         let (starts, corners) = corners_by_vertex(vertex_count, adjacency.triangles());
         let count = adjacency.triangles().len();
         let mut front = Self {
             adjacency,
-            weights,
             counts: starts
                 .windows(2)
                 .map(|range| Counts {
@@ -108,9 +117,8 @@ impl<'a> Front<'a> {
 
     fn priority(&self, v: u32) -> i64 {
         let Counts { triangles, open_edges, degenerate } = self.counts[v as usize];
-        let Weights { alpha, beta, gamma } = *self.weights;
-        let product = |a, b| i64::from(a) * i64::from(b);
-        product(alpha, triangles) + product(beta, open_edges) - product(gamma, degenerate)
+        let product = |a, b| a * i64::from(b);
+        product(ALPHA, triangles) + product(BETA, open_edges) - product(GAMMA, degenerate)
     }
 
     fn touch(&mut self, v: u32) {

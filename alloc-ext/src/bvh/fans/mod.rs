@@ -80,20 +80,3 @@ impl FanLeaf {
         self.triangle_count() + 1 + self.fans().count()
     }
 }
-
-/// Weights of the paper's priority `f(c) = α v(c) + β r(c) − γ t(c)` (5.3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Weights {
-    /// For each triangle that is left about the candidate. Paper: 2.
-    pub alpha: i32,
-    /// For each open edge opposite the candidate. Paper: 7.
-    pub beta: i32,
-    /// Against each triangle that the fan would leave alone. Paper: 11.
-    pub gamma: i32,
-}
-
-impl Default for Weights {
-    fn default() -> Self {
-        Self { alpha: 2, beta: 7, gamma: 11 }
-    }
-}

@@ -26,7 +26,7 @@ const SEEN: usize = 512;
 ///
 /// The same input gives the same leaves.
 ///
-/// Cost: linear time and memory, about 20 µs a leaf, whatever the valences.
+/// Cost: linear time and memory, about 20 µs a leaf, for any valences.
 ///
 /// # Panics
 /// If a triangle names a vertex that has no position, or if there are 2³²/3 triangles or more.

@@ -2,9 +2,7 @@
 
 use glam::DVec3;
 
-use super::{
-    Fan, FanFault, FanLeaf, FanReport, MAX_LEAF_TRIANGLES, Weights, decompose, pack, validate,
-};
+use super::{Fan, FanFault, FanLeaf, FanReport, MAX_LEAF_TRIANGLES, decompose, pack, validate};
 
 struct Soup {
     triangles: Vec<[u32; 3]>,
@@ -60,11 +58,11 @@ impl Soup {
 
     /// Both ways, checked; the same twice.
     fn check(&self) -> FanReport {
-        let fans = decompose(&self.triangles, self.positions.len(), &Weights::default());
+        let fans = decompose(&self.triangles, self.positions.len());
         let single: Vec<FanLeaf> =
             fans.iter().cloned().map(|first| FanLeaf { first, second: None }).collect();
         assert_eq!(validate(&single, &self.triangles), Ok(()));
-        assert_eq!(fans, decompose(&self.triangles, self.positions.len(), &Weights::default()));
+        assert_eq!(fans, decompose(&self.triangles, self.positions.len()));
 
         let leaves = pack(&self.triangles, &self.positions);
         assert_eq!(validate(&leaves, &self.triangles), Ok(()));
@@ -268,7 +266,7 @@ fn packing_fills_leaves_and_stays_compact() {
     assert!(report.triangles_per_leaf() > 7.3, "{report}");
     assert!(report.vertices_per_triangle() < 1.41, "{report}");
 
-    let fans = decompose(&soup.triangles, soup.positions.len(), &Weights::default());
+    let fans = decompose(&soup.triangles, soup.positions.len());
     let leaves = pack(&soup.triangles, &soup.positions);
     let sets: Vec<Vec<u32>> = leaves.iter().map(|leaf| leaf.triangles().collect()).collect();
     let apart = soup.half_areas(fans.iter().map(|fan| &fan.triangles[..]));

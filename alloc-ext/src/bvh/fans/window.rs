@@ -70,7 +70,7 @@ impl Window {
         }
     }
 
-    /// Moves the window to `seed`. Bounded work, whatever the valences.
+    /// Moves the window to `seed`. Bounded work, for any valences.
     pub(super) fn fill(&mut self, adjacency: &Adjacency, taken: &[bool], seed: u32) {
         let neighbour = |half_edge: u32| {
             let across = adjacency.across(half_edge);

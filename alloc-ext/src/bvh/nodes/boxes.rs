@@ -66,6 +66,7 @@ impl NodeBoxes {
     /// Exact for coordinates that are multiples of 2^−76; smaller bits count as an interval that
     /// must be covered whole, so `true` is always right. False for absent lanes and for
     /// coordinates beyond ±70,000, which no mesh has.
+    #[cfg(test)]
     pub fn covers(&self, lane: usize, point: DVec3) -> bool {
         const FRACTION_BITS: u32 = 76;
         if point.abs().max_element().is_nan() || point.abs().max_element() > MAX_ABS_COORDINATE {

@@ -2,7 +2,7 @@
 
 use super::boxes::{NodeBoxes, axis_aligned, quantise};
 use super::extremes::extreme_points;
-use super::frame::{FrameOptions, SEARCH_POINTS, best_quaternion};
+use super::frame::{SEARCH_POINTS, best_quaternion};
 use super::order::Topology;
 use glam::DVec3;
 
@@ -56,11 +56,7 @@ impl SubtreePoints {
 ///
 /// The frame is searched on extreme points that are passed up the tree, the boxes cover every point
 /// of the subtree. Cost: O(points · depth) for the boxes, O(nodes) for the frames.
-pub fn shared_frames(
-    topology: &Topology,
-    leaves: &[&[DVec3]],
-    options: &FrameOptions,
-) -> Vec<NodeBoxes> {
+pub fn shared_frames(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeBoxes> {
     let subtrees = SubtreePoints::new(topology, leaves);
     let mut extremes: Vec<Vec<DVec3>> = vec![Vec::new(); topology.nodes.len()];
     let mut boxes = Vec::with_capacity(topology.nodes.len());
@@ -72,7 +68,7 @@ pub fn shared_frames(
             children[node.inner.len()..].iter().map(|points| extreme_points(points, SEARCH_POINTS)),
         );
         let search: Vec<&[DVec3]> = reduced.iter().map(Vec::as_slice).collect();
-        boxes.push(quantise(best_quaternion(&search, options), &children));
+        boxes.push(quantise(best_quaternion(&search), &children));
         extremes[index] = extreme_points(&reduced.concat(), SEARCH_POINTS);
     }
     boxes.reverse();
@@ -147,11 +143,7 @@ mod tests {
                 let leaves = leaves(count, fractional);
                 let slices: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
                 let tree = topology(&slices.iter().map(|leaf| bounds(leaf)).collect::<Vec<_>>());
-                assert_covers_subtrees(
-                    &tree,
-                    &slices,
-                    &shared_frames(&tree, &slices, &FrameOptions::default()),
-                );
+                assert_covers_subtrees(&tree, &slices, &shared_frames(&tree, &slices));
                 assert_covers_subtrees(&tree, &slices, &axis_aligned_boxes(&tree, &slices));
             }
         }

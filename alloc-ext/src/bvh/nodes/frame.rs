@@ -7,49 +7,20 @@
 //! best is refined by shrinking quasi-random steps. Every candidate is judged after rounding to the
 //! stored quaternion.
 
-use super::boxes::{LANES, NodeBoxes, quantise};
-use super::extremes::extreme_points;
+use super::boxes::LANES;
 use super::rotation::{frame_axes, principal_frame, round_quaternion, unit_quaternion};
 use glam::{DQuat, DVec3};
 
-/// Objective and effort of the frame search.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameOptions {
-    /// Distance by which boxes are grown for the cost, relative to the mean diagonal of the node's
-    /// children. Small values favour small volume (thin boxes along the surface), large ones
-    /// small extents.
-    pub dilation: f64,
-    /// Refinement steps after the candidates; cost is proportional.
-    pub refinements: u32,
-}
+/// Distance by which boxes are grown for the cost, relative to the mean diagonal of the node's
+/// children. Small values favour small volume (thin boxes along the surface), large ones small
+/// extents.
+const DILATION: f64 = 0.05;
 
-impl Default for FrameOptions {
-    fn default() -> Self {
-        Self { dilation: 0.05, refinements: 64 }
-    }
-}
+/// Refinement steps after the candidates. The cost of the search is proportional.
+const REFINEMENTS: u32 = 64;
 
 /// Sets of more points are reduced to extreme points for the search.
 pub(super) const SEARCH_POINTS: usize = 48;
-
-/// Best shared frame found for up to eight children, and their boxes in it, with the default
-/// [`FrameOptions`].
-///
-/// Children are the point sets of whole subtrees, grid units within ±70,000. The boxes cover all
-/// points, also those that the search left out. Children without points become absent lanes; where
-/// no rotation helps (equal points, axis-aligned input) the frame is the identity, `(127, 0, 0,
-/// 0)`. Deterministic. Cost: O(points) plus the search, about 0.1 ms.
-pub fn shared_frame(children: &[&[DVec3]]) -> NodeBoxes {
-    shared_frame_with(children, &FrameOptions::default())
-}
-
-/// [`shared_frame`] with other options.
-pub fn shared_frame_with(children: &[&[DVec3]], options: &FrameOptions) -> NodeBoxes {
-    let reduced: Vec<Vec<DVec3>> =
-        children.iter().map(|points| extreme_points(points, SEARCH_POINTS)).collect();
-    let search: Vec<&[DVec3]> = reduced.iter().map(Vec::as_slice).collect();
-    quantise(best_quaternion(&search, options), children)
-}
 
 /// Points of all children, transposed: step `s` holds the `s`-th point of each child, so that one
 /// pass fits all boxes at once.
@@ -60,7 +31,7 @@ struct ChildPoints {
 }
 
 impl ChildPoints {
-    fn new(children: &[&[DVec3]], options: &FrameOptions) -> Self {
+    fn new(children: &[&[DVec3]]) -> Self {
         let origin =
             children.iter().find_map(|points| points.first()).copied().unwrap_or(DVec3::ZERO);
         let count = children.iter().map(|points| points.len()).max().unwrap_or(0);
@@ -75,7 +46,7 @@ impl ChildPoints {
             let high = points.iter().copied().reduce(DVec3::max).unwrap_or(origin);
             diagonals += (high - low).length();
         }
-        let dilation = (options.dilation * diagonals / children.len().max(1) as f64) as f32;
+        let dilation = (DILATION * diagonals / children.len().max(1) as f64) as f32;
         Self { steps, child_count: children.len(), dilation }
     }
 
@@ -146,13 +117,19 @@ impl Search<'_> {
     }
 }
 
-/// Quaternion of the best frame found for the points of up to eight children.
-pub(super) fn best_quaternion(children: &[&[DVec3]], options: &FrameOptions) -> [i8; 4] {
+/// Quaternion of the best frame found for the points of up to eight children, grid units within
+/// ±70,000. Where no rotation helps (equal points, axis-aligned input), it is the identity, `(127,
+/// 0, 0, 0)`. Cost: about 0.1 ms for [`SEARCH_POINTS`] a child.
+pub(super) fn best_quaternion(children: &[&[DVec3]]) -> [i8; 4] {
+    refined(children, REFINEMENTS)
+}
+
+fn refined(children: &[&[DVec3]], refinements: u32) -> [i8; 4] {
     /// Tangents of half of 22.5°, 45° and 67.5°: turns about the third axis. A box repeats after
     /// 90°.
     const HALF_TURN_TANGENTS: [f64; 4] =
         [0.0, 0.198_912_367_379_658, 0.414_213_562_373_095_1, 0.668_178_637_919_298_9];
-    let points = ChildPoints::new(children, options);
+    let points = ChildPoints::new(children);
     let identity = round_quaternion(DQuat::IDENTITY);
     let mut search = Search { cost: points.cost(identity), points: &points, best: identity };
     if points.steps.is_empty() || search.cost <= 0.0 {
@@ -165,7 +142,7 @@ pub(super) fn best_quaternion(children: &[&[DVec3]], options: &FrameOptions) -> 
             search.consider((DQuat::from_xyzw(0.0, 0.0, tangent, 1.0) * frame).normalize());
         }
     }
-    refine(&mut search, options.refinements);
+    refine(&mut search, refinements);
     search.best
 }
 
@@ -195,8 +172,9 @@ fn refine(search: &mut Search, steps: u32) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::boxes::axis_aligned;
     use super::super::boxes::tests::{Noise, assert_covers_all};
+    use super::super::boxes::{NodeBoxes, axis_aligned, quantise};
+    use super::super::extremes::extreme_points;
     use super::*;
 
     /// Four flat leaves side by side in a plane that is slanted against all axes.
@@ -261,6 +239,14 @@ mod tests {
         assert_covers_all(&boxes, &[&[DVec3::ONE], &[DVec3::ONE]]);
     }
 
+    /// The boxes of children in the best frame of their extreme points.
+    fn shared_frame(children: &[&[DVec3]]) -> NodeBoxes {
+        let reduced: Vec<Vec<DVec3>> =
+            children.iter().map(|points| extreme_points(points, SEARCH_POINTS)).collect();
+        let search: Vec<&[DVec3]> = reduced.iter().map(Vec::as_slice).collect();
+        quantise(best_quaternion(&search), children)
+    }
+
     #[test]
     fn quaternions_use_the_whole_range() {
         let leaves = slanted_leaves(0.0);
@@ -275,10 +261,7 @@ mod tests {
     fn more_refinements_never_cost_more() {
         let leaves = slanted_leaves(0.0);
         let children: Vec<&[DVec3]> = leaves.iter().map(Vec::as_slice).collect();
-        let cost = |refinements| {
-            let options = FrameOptions { refinements, ..FrameOptions::default() };
-            ChildPoints::new(&children, &options).cost(best_quaternion(&children, &options))
-        };
+        let cost = |refinements| ChildPoints::new(&children).cost(refined(&children, refinements));
         assert!(cost(64) <= cost(0));
     }
 

@@ -6,7 +6,7 @@
 use super::initial_hull::{InitialHull, InitialInput};
 use super::levels::{ClosedSurface, LEVELS};
 use crate::collapse::{Conditions, MAX_STAR};
-use crate::lp::{HalfSpace, minimise_bounded};
+use crate::lp::{HalfSpace, Order, minimise_bounded};
 use crate::mesh::Mesh;
 use crate::tight::moves::{Rounding, Shell, StarFace};
 use crate::tight::proof::side;
@@ -114,7 +114,7 @@ fn lifted(star: &[StarFace], from: DVec3, rounding: &Rounding, margin: f64) -> O
             offset: height + face.normal.dot(face.corners[0] - from) / unit,
         };
         let mut planes: Vec<HalfSpace> = star.iter().map(plane).collect();
-        let x = minimise_bounded(DVec3::ZERO, &mut planes, 1.0)?;
+        let x = minimise_bounded(DVec3::ZERO, &mut planes, 1.0, Order::MostViolated)?;
         let x = rounding.round(from + x * unit)?;
         star.iter().all(|face| side(&face.corners, x) > 0.0).then_some(x)
     })

@@ -103,7 +103,7 @@ impl TriangleSlabs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tight::random::SplitMix;
+    use crate::random::SplitMix;
 
     /// Unit cubes.
     fn grown(block: Block) -> Bounds {

@@ -4,7 +4,7 @@ use super::editor::HullEditor;
 use super::placement::PlacementObjective;
 use super::star::radius;
 use super::tolerance::GAIN;
-use crate::tight::random::SplitMix;
+use crate::random::SplitMix;
 use glam::DVec3;
 
 impl HullEditor<'_> {

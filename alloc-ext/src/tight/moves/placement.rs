@@ -17,7 +17,7 @@ use super::margin_planes::FaceMargin;
 use super::mesh_planes::Trial;
 use super::star::{Frame, StarFace, corners, radius};
 use super::tolerance::ROUNDING;
-use crate::lp::{HalfSpace, minimise_bounded};
+use crate::lp::{HalfSpace, Order, minimise_bounded};
 use crate::surface::{Bounds, Frontier};
 use crate::tight::proof::Obstacle;
 use glam::DVec3;
@@ -83,7 +83,12 @@ impl Placer {
             self.planes.extend(self.cuts.iter().flatten());
             self.planes.extend(&self.pushes);
             self.planes.extend(&self.fixed);
-            let x = minimise_bounded(direction, &mut self.planes, objective.centre_weight)?;
+            let x = minimise_bounded(
+                direction,
+                &mut self.planes,
+                objective.centre_weight,
+                Order::MostViolated,
+            )?;
             let x = centre + x * radius;
             // Vertices of the mesh are cheap to look for and find nearly every plane. Edges are
             // looked for once no vertex is in the way.

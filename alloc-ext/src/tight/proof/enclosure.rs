@@ -61,7 +61,7 @@ fn to_f32(p: DVec3) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tight::random::SplitMix;
+    use crate::random::SplitMix;
 
     type Surface = (Vec<DVec3>, Vec<[u32; 3]>);
 

@@ -8,13 +8,11 @@
 //! | `distance_field.rs` | bounds of the distance to the mesh, kept on a lattice |
 //! | `enclosure.rs` | whether a whole surface is an outer hull; components inside others |
 //! | `volume.rs` | the volume that a mesh bounds, and the void of its hull |
-//! | `no_volume.rs` | why a mesh bounds no volume |
 //! | `tetrahedron.rs` | the tetrahedron that an edit cuts off, in floating point |
 
 mod clearance;
 mod distance_field;
 mod enclosure;
-mod no_volume;
 mod obstacle;
 mod predicates;
 mod tetrahedron;
@@ -23,7 +21,6 @@ mod volume;
 pub(crate) use clearance::{Clearance, Nearest};
 pub(crate) use distance_field::DistanceField;
 pub(crate) use enclosure::{is_outer_hull, outermost};
-pub use no_volume::NoVolume;
 pub(crate) use obstacle::Obstacle;
 pub(crate) use predicates::{Face, Triangle, are_apart, is_degenerate, side};
 pub(crate) use tetrahedron::Tetrahedron;

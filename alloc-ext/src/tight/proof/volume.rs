@@ -1,9 +1,8 @@
 //! The volume that a mesh bounds, and the void of its hull.
 
 use super::enclosure::is_embedded;
-use super::no_volume::NoVolume;
 use super::predicates::{Face, is_degenerate};
-use crate::mesh::{Mesh, require_closed_manifold};
+use crate::mesh::{Mesh, NoVolume, require_closed_manifold};
 use crate::surface::{Enclosures, SignedVolume, components};
 use glam::DVec3;
 
@@ -244,7 +243,7 @@ mod tests {
         let hull = joined(&[(tetrahedron(1.1, -0.01), false)]);
         let solid = Solid::of(&twice).unwrap();
         assert_eq!(solid.void(&hull, 1.331 / 6.0), Err(NoVolume::Overlapping));
-        // A hull of the same volume proves nothing, whatever rounding says.
+        // A hull of the same volume proves nothing, however it is rounded.
         let once = joined(&[(tetrahedron(1.1, -0.01), false)]);
         let volume = Solid::of(&once).unwrap().volume;
         let void = Solid::of(&once).unwrap().void(&hull, volume * (1.0 - 1e-12)).unwrap();

@@ -13,9 +13,9 @@
 use super::candidate::{CandidateHull, keep_better};
 use super::hull_search::HullSearch;
 use crate::collapse::Conditions;
+use crate::error::BuildError;
 use crate::tight::initial::{InitialHull, InitialInput, closure_hull, grown_box, lifted_levels};
 use crate::tight::moves::HullEditor;
-use crate::tight::options::WrapError;
 use crate::tight::report::{Outcome, Start};
 use std::time::Instant;
 
@@ -71,6 +71,13 @@ impl Target {
     }
 }
 
+/// What happens to an initial hull whose turn it is.
+enum Next {
+    Try,
+    Skip,
+    Stop,
+}
+
 impl<'a> HullSearch<'a, '_> {
     /// Voxels of the first closure if the margin is so large that the mesh's shape shows little at
     /// that distance. Voxels of half the margin then show all of it.
@@ -83,35 +90,20 @@ impl<'a> HullSearch<'a, '_> {
     }
 
     /// The best hull of a number of faces. It is polished if it descends.
-    pub(super) fn of_faces(&mut self, target: Target) -> Result<CandidateHull<'a>, WrapError> {
+    pub(super) fn of_faces(&mut self, target: Target) -> Result<CandidateHull<'a>, BuildError> {
         let mut best: Option<CandidateHull<'a>> = None;
         let large_margin = self.large_margin_voxels();
         if self.solid.is_some() && large_margin.is_none() {
             self.try_levels(target, &mut best);
         }
-        let is_solid = self.is_solid_itself(best.as_ref(), target);
         // A level, or the closure for a large margin, needs no competitor once it reaches the goal.
         let is_enough = best.is_some() || large_margin.is_some();
-        let finest = finest(target.faces);
-        // If the levels of the finest closure meet themselves in narrow places, a slightly coarser
-        // grid may do.
-        let second = Some(finest * 2 / 3).filter(|&voxels| Some(voxels) > COARSER[0]);
-        let coarser = COARSER.into_iter().filter(|&voxels| voxels != Some(finest));
-        let finest = if self.is_hurried { None } else { Some(finest) };
-        let first = [large_margin, finest, second].into_iter().flatten().map(Some);
-        for voxels in first.chain(coarser) {
-            let is_late = self.is_late();
-            if is_late && best.is_none() && voxels.is_some() {
-                self.is_hurried = true;
-                continue;
-            }
-            let is_reached = best.as_ref().is_some_and(|best| best.stop != Outcome::Stuck);
-            let is_settled = is_enough && (!target.is_few() || is_solid) && is_reached;
-            if best.is_some() && (is_settled || is_late) {
-                break;
-            }
-            if is_reached && voxels == LAST_RESORT {
-                continue;
+        let all_compete = target.is_few() && !self.is_solid_itself(best.as_ref(), target);
+        for voxels in self.closures(target, large_margin) {
+            match self.next(voxels, best.as_ref(), !is_enough || all_compete) {
+                Next::Try => {}
+                Next::Skip => continue,
+                Next::Stop => break,
             }
             let input = self.initial_input();
             let initial = match voxels {
@@ -129,6 +121,54 @@ impl<'a> HullSearch<'a, '_> {
             self.finish(&mut best);
         }
         Ok(best)
+    }
+
+    /// Voxels of the closures in the order in which they are tried; `None` is the grown box.
+    fn closures(
+        &self,
+        target: Target,
+        large_margin: Option<usize>,
+    ) -> impl Iterator<Item = Option<usize>> + use<> {
+        let finest = finest(target.faces);
+        // If the levels of the finest closure meet themselves in narrow places, a slightly coarser
+        // grid may do.
+        let second = Some(finest * 2 / 3).filter(|&voxels| Some(voxels) > COARSER[0]);
+        let coarser = COARSER.into_iter().filter(move |&voxels| voxels != Some(finest));
+        let finest = if self.is_hurried { None } else { Some(finest) };
+        [large_margin, finest, second].into_iter().flatten().map(Some).chain(coarser)
+    }
+
+    /// Whether the next initial hull is tried. With `is_open` a hull that reached its goal has to
+    /// compete with the others.
+    ///
+    /// | best so far | in time | out of time |
+    /// | --- | --- | --- |
+    /// | none | try | skip to the grown box, which is quick |
+    /// | stuck | try | stop |
+    /// | reached, `is_open` | try all but the last resort | stop |
+    /// | reached, not `is_open` | stop | stop |
+    fn next(
+        &mut self,
+        voxels: Option<usize>,
+        best: Option<&CandidateHull<'a>>,
+        is_open: bool,
+    ) -> Next {
+        let is_late = self.is_late();
+        let Some(best) = best else {
+            if is_late && voxels.is_some() {
+                self.is_hurried = true;
+                return Next::Skip;
+            }
+            return Next::Try;
+        };
+        let is_reached = best.stop != Outcome::Stuck;
+        if is_late || is_reached && !is_open {
+            Next::Stop
+        } else if is_reached && voxels == LAST_RESORT {
+            Next::Skip
+        } else {
+            Next::Try
+        }
     }
 
     /// Tries levels of the mesh's own progressive hull, in half of the time: the other half is for

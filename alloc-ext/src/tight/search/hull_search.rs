@@ -1,10 +1,11 @@
 //! [`HullSearch`]: the inputs and the state of a search.
 
+use crate::error::BuildError;
 use crate::mesh::Mesh;
 use crate::surface::Stored;
 use crate::tight::initial::InitialInput;
 use crate::tight::moves::Rounding;
-use crate::tight::options::{Options, WrapError};
+use crate::tight::options::Options;
 use crate::tight::proof::{Obstacle, Solid};
 use crate::tight::report::Progress;
 use std::time::Instant;
@@ -63,8 +64,8 @@ impl<'a> HullSearch<'a, '_> {
     }
 
     /// Why there is no initial hull.
-    pub(super) fn no_room(&self) -> WrapError {
-        if self.obstacle.margin() > 0.0 { WrapError::MarginTooLarge } else { WrapError::NoRoom }
+    pub(super) fn no_room(&self) -> BuildError {
+        if self.obstacle.margin() > 0.0 { BuildError::MarginTooLarge } else { BuildError::NoRoom }
     }
 
     pub(super) fn is_late(&self) -> bool {

@@ -21,12 +21,13 @@ mod void;
 pub(crate) use candidate::CandidateHull;
 pub(crate) use hull_search::HullSearch;
 
-use super::options::{Goal, WrapError};
+use super::options::Goal;
+use crate::error::BuildError;
 use faces::Target;
 
 impl<'a> HullSearch<'a, '_> {
     /// The best hull found for the goal of the options.
-    pub fn run(&mut self) -> Result<CandidateHull<'a>, WrapError> {
+    pub fn run(&mut self) -> Result<CandidateHull<'a>, BuildError> {
         match self.options.goal {
             Goal::Faces(faces) => self.of_faces(Target { faces, descends: true }),
             Goal::Void(void) => self.fewest_faces_by_void(void),

@@ -1,7 +1,7 @@
 //! Polishing: edits in rounds that lose volume at a given number of faces.
 
+use crate::random::SplitMix;
 use crate::tight::moves::HullEditor;
-use crate::tight::random::SplitMix;
 
 /// How far polishing goes: a number of stars, so that the result does not depend on the machine.
 #[derive(Clone, Debug)]

@@ -2,15 +2,23 @@
 //!
 //! Every edit keeps within the slack. So there is no number of faces to try: a hull comes down
 //! until no edge may collapse any more.
+//!
+//! | initial hull | when it is tried |
+//! | --- | --- |
+//! | grown box | first, once |
+//! | level of the mesh's own progressive hull | in each round, with [`FINER`] times the faces of the round before, until it has the mesh's faces; not if there is none, or if the margin is large |
+//! | two voxel closures | in each round without a level, or whose level was the finest and too loose; then with twice the voxels |
+//!
+//! Rounds end with the first hull within the slack, or with the finest level and closures.
 
 use super::candidate::{CandidateHull, keep_better};
 use super::hull_search::HullSearch;
 use super::void::{FINER, LEAST_SAVING, TOO_FEW};
 use crate::collapse::Conditions;
+use crate::error::BuildError;
 use crate::tight::initial::{
     InitialHull, InitialInput, STAIR_CONDITIONS, closure_hull, grown_box, lifted_levels,
 };
-use crate::tight::options::WrapError;
 use crate::tight::report::Outcome;
 
 /// Target faces of the first level. Faces that are too far from the mesh are split; more faces
@@ -23,68 +31,106 @@ const VOXELS_PER_SLACK: f64 = 2.0;
 /// Fewest and most voxels along the longest side of a closure.
 const VOXELS: [usize; 2] = [6, 160];
 
+/// How fine the initial hulls of a round are.
+struct Round {
+    /// Target faces of the level.
+    faces: usize,
+    /// Voxels along the longest side of the closures.
+    voxels: usize,
+    /// Whether some round had a level.
+    has_level: bool,
+    /// Whether later rounds have no finer level.
+    no_finer_level: bool,
+}
+
 impl<'a> HullSearch<'a, '_> {
     /// See [`Goal::Slack`](crate::tight::Goal::Slack).
     pub(super) fn fewest_faces_by_slack(
         &mut self,
         slack: f64,
-    ) -> Result<CandidateHull<'a>, WrapError> {
+    ) -> Result<CandidateHull<'a>, BuildError> {
         let input = self.initial_input();
         let mut best: Option<CandidateHull<'a>> = None;
         if let Some(initial) = grown_box(&input) {
             keep_better(&mut best, self.within_slack(initial, slack));
         }
-        let mut faces = COARSEST;
-        let mut voxels = self.slack_voxels(slack);
-        // Twice the voxels take eight times as long, and rarely help where two closures do not.
-        let finest = (2 * voxels).min(VOXELS[1]);
-        let mut has_level = false;
-        let mut no_finer_level = self.solid.is_none() || self.large_margin_voxels().is_some();
         // Edits keep some steps of the grid off the mesh. So no hull reaches such a slack, and
         // finer initial hulls do not help.
         let is_below_grid =
             slack - self.obstacle.margin() <= input.rounding.half_step(self.largest_coordinate());
-        let mut reached = false;
-        while !reached && !self.is_late() {
-            if !no_finer_level {
-                let input = InitialInput { stored: self.stored, ..input };
-                let levels = lifted_levels(&input, self.mesh, faces, self.on_progress);
-                if let Some(level) = levels.ample.or(levels.exact) {
-                    has_level = true;
-                    let hull = self.within_slack(level, slack);
-                    reached = hull.stop == Outcome::Reached;
-                    keep_better(&mut best, hull);
-                }
-                no_finer_level = faces >= self.mesh.triangles.len();
-            }
-            // Closures where there is no level, or no level is within the slack.
-            let mut is_finest = false;
-            if !reached && (!has_level || no_finer_level && !is_below_grid) {
-                // Walls along the axes do better by the first, all others by the second.
-                for conditions in [Conditions::PAPER, STAIR_CONDITIONS] {
-                    if self.is_late() {
-                        break;
-                    }
-                    let closure = closure_hull(&input, voxels, faces, conditions, self.on_progress);
-                    if let Some(closure) = closure {
-                        let hull = self.within_slack(closure, slack);
-                        reached |= hull.stop == Outcome::Reached;
-                        keep_better(&mut best, hull);
-                    }
-                }
-                is_finest = voxels >= finest;
-                voxels = (2 * voxels).min(VOXELS[1]);
-            }
-            if is_below_grid || is_finest && (no_finer_level || !has_level) {
+        let mut round = Round {
+            faces: COARSEST,
+            voxels: self.slack_voxels(slack),
+            has_level: false,
+            no_finer_level: self.solid.is_none() || self.large_margin_voxels().is_some(),
+        };
+        // Twice the voxels take eight times as long, and rarely help where two closures do not.
+        let finest = (2 * round.voxels).min(VOXELS[1]);
+        while !self.is_late() {
+            if !round.no_finer_level && self.try_level(&mut round, slack, &mut best) {
                 break;
             }
-            faces = faces.saturating_mul(FINER);
+            let mut is_finest = false;
+            if !round.has_level || round.no_finer_level && !is_below_grid {
+                if self.try_closures(&round, slack, &mut best) {
+                    break;
+                }
+                is_finest = round.voxels >= finest;
+                round.voxels = (2 * round.voxels).min(VOXELS[1]);
+            }
+            if is_below_grid || is_finest && (round.no_finer_level || !round.has_level) {
+                break;
+            }
+            round.faces = round.faces.saturating_mul(FINER);
         }
         let mut best = best.ok_or_else(|| self.no_room())?;
         if self.is_late() {
             best.stop = Outcome::OutOfTime;
         }
         Ok(best)
+    }
+
+    /// Tries a level; whether it comes within the slack.
+    fn try_level(
+        &mut self,
+        round: &mut Round,
+        slack: f64,
+        best: &mut Option<CandidateHull<'a>>,
+    ) -> bool {
+        let input = InitialInput { stored: self.stored, ..self.initial_input() };
+        let levels = lifted_levels(&input, self.mesh, round.faces, self.on_progress);
+        round.no_finer_level = round.faces >= self.mesh.triangles.len();
+        let Some(level) = levels.ample.or(levels.exact) else { return false };
+        round.has_level = true;
+        let hull = self.within_slack(level, slack);
+        let is_within = hull.stop == Outcome::Reached;
+        keep_better(best, hull);
+        is_within
+    }
+
+    /// Tries two closures of one grid; whether one comes within the slack.
+    fn try_closures(
+        &mut self,
+        round: &Round,
+        slack: f64,
+        best: &mut Option<CandidateHull<'a>>,
+    ) -> bool {
+        let input = self.initial_input();
+        let mut is_within = false;
+        // Walls along the axes do better by the first, all others by the second.
+        for conditions in [Conditions::PAPER, STAIR_CONDITIONS] {
+            if self.is_late() {
+                break;
+            }
+            let Round { voxels, faces, .. } = *round;
+            if let Some(closure) = closure_hull(&input, voxels, faces, conditions, self.on_progress)
+            {
+                let hull = self.within_slack(closure, slack);
+                is_within |= hull.stop == Outcome::Reached;
+                keep_better(best, hull);
+            }
+        }
+        is_within
     }
 
     fn slack_voxels(&self, slack: f64) -> usize {

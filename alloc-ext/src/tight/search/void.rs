@@ -7,9 +7,9 @@ use super::candidate::CandidateHull;
 use super::descent::STAGE;
 use super::faces::{FEW_FACES, Target};
 use super::hull_search::HullSearch;
+use crate::error::BuildError;
+use crate::mesh::NoVolume;
 use crate::tight::moves::HullEditor;
-use crate::tight::options::WrapError;
-use crate::tight::proof::NoVolume;
 use crate::tight::report::Outcome;
 
 /// Faces that the search begins with.
@@ -29,7 +29,7 @@ impl<'a> HullSearch<'a, '_> {
     pub(super) fn fewest_faces_by_void(
         &mut self,
         void: f64,
-    ) -> Result<CandidateHull<'a>, WrapError> {
+    ) -> Result<CandidateHull<'a>, BuildError> {
         let mut faces = FINEST;
         let mut best = self.of_faces(Target { faces, descends: false })?;
         while !self.has_void(&best.editor, void)
@@ -88,13 +88,13 @@ impl<'a> HullSearch<'a, '_> {
     }
 
     /// Requires that the hull does not prove the mesh's volume to count places more than once.
-    fn require_measure(&self, editor: &HullEditor<'a>) -> Result<(), WrapError> {
+    fn require_measure(&self, editor: &HullEditor<'a>) -> Result<(), BuildError> {
         let shell = &editor.shell;
         let corner = |p: glam::DVec3| p.as_vec3().to_array();
         let hull: Vec<[[f32; 3]; 3]> =
             shell.alive().map(|f| shell.triangle(f).map(corner)).collect();
         match self.solid.filter(|solid| solid.is_more_than(&hull)) {
-            Some(_) => Err(WrapError::NoVolume(NoVolume::Overlapping)),
+            Some(_) => Err(BuildError::NoVolume(NoVolume::Overlapping)),
             None => Ok(()),
         }
     }

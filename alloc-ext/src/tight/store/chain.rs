@@ -4,11 +4,12 @@ use super::distances::{Distances, distances};
 use super::section::{Stored, sections};
 use crate::bvh::TreeOptions;
 use crate::emit::Sections;
+use crate::error::BuildError;
 use crate::mesh::Input;
+use crate::mesh::NoVolume;
 use crate::surface::VertexBits;
 use crate::tight::hull::{Hull, wrap};
-use crate::tight::options::{Goal, Options, WrapError};
-use crate::tight::proof::NoVolume;
+use crate::tight::options::{Goal, Options};
 use crate::tight::report::{Progress, Report};
 use meshsweep_core::internal::format::layout::MAX_LEVELS;
 use meshsweep_core::internal::num::Radius16;
@@ -110,12 +111,10 @@ impl ChainOptions {
     }
 
     fn of_tree(&self) -> TreeOptions {
-        TreeOptions {
-            closest: self.closest,
-            segments: self.segments,
-            single: matches!(self.vertex_bits, VertexBits::Grid24 | VertexBits::F32),
-            ..TreeOptions::default()
-        }
+        TreeOptions::default()
+            .with_closest(self.closest)
+            .with_segments(self.segments)
+            .with_f32(matches!(self.vertex_bits, VertexBits::Grid24 | VertexBits::F32))
     }
 
     fn of_hull(&self, goal: Goal) -> Options {
@@ -165,19 +164,18 @@ pub struct HullReport {
 /// report names its goal.
 ///
 /// The hulls enclose the vertices of `input.mesh`. The blob's answers hold for the input file: they
-/// include the distance that vertices were moved. Panics if the mesh or a hull has more than
-/// [`MAX_TRIANGLES`](crate::bvh::MAX_TRIANGLES).
+/// include the distance that vertices were moved.
 ///
 /// Cost: that of [`wrap()`] for each hull; some hundred distance queries for each triangle of the
 /// hulls, and one for each triangle of the mesh.
 ///
 /// # Errors
-/// [`WrapError`].
+/// [`BuildError`].
 pub fn chain(
     input: Input<'_>,
     options: &ChainOptions,
     mut on_progress: impl FnMut(Stage),
-) -> Result<(Sections, Vec<HullReport>), WrapError> {
+) -> Result<(Sections, Vec<HullReport>), BuildError> {
     let Input { mesh, moved, .. } = input;
     let goals = options.goals();
     let of = goals.len();
@@ -203,7 +201,7 @@ pub fn chain(
             slacks.for_each(|slack| *slack = slack.min(most));
         }
         if !fits(&distances) {
-            return Err(WrapError::NoRoom);
+            return Err(BuildError::NoRoom);
         }
         let void = hull.report.void;
         overlaps |= void == Err(NoVolume::Overlapping);
@@ -222,18 +220,18 @@ pub fn chain(
         // One hull proves it of the mesh, so that no hull has a void.
         made.iter_mut().for_each(|(_, report)| report.void = Err(NoVolume::Overlapping));
     }
-    let stored: Vec<Stored> = made
+    let stored = made
         .iter_mut()
         .map(|(hull, report)| {
             // The rounding of the mesh when it was read adds to the hull's distance from the input.
             hull.mesh.rounding = mesh.rounding;
             let void = report.void.unwrap_or(0.0);
             let stored =
-                Stored::new(&hull.mesh, moved, &report.distances, void, &options.of_tree());
+                Stored::new(&hull.mesh, moved, &report.distances, void, &options.of_tree())?;
             report.bytes = stored.bytes();
-            stored
+            Ok(stored)
         })
-        .collect();
+        .collect::<Result<Vec<Stored>, BuildError>>()?;
     let tables = sections(input, &stored);
     Ok((tables, made.into_iter().map(|(_, report)| report).collect()))
 }

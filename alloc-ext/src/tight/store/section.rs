@@ -3,6 +3,7 @@
 use super::distances::Distances;
 use crate::bvh::{self, TreeOptions};
 use crate::emit::Sections;
+use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
 use crate::surface::scale_exponent;
 use glam::Vec3;
@@ -32,8 +33,8 @@ impl Stored {
         distances: &Distances,
         void: f64,
         options: &TreeOptions,
-    ) -> Stored {
-        let blob = hull_tree(hull, moved, options);
+    ) -> Result<Stored, BuildError> {
+        let blob = hull_tree(hull, moved, options)?;
         let slacks =
             distances.slacks.iter().flat_map(|&slack| Radius16::round_up(slack).0.to_le_bytes());
         let record = TightRecord {
@@ -43,7 +44,7 @@ impl Stored {
             // A mesh of very little volume may give a ratio beyond the range of f32.
             void_ratio: void.min(f64::from(f32::MAX)) as f32,
         };
-        Stored { record, blob, slacks: slacks.collect() }
+        Ok(Stored { record, blob, slacks: slacks.collect() })
     }
 
     /// Bytes in the section, without padding.
@@ -53,14 +54,14 @@ impl Stored {
 }
 
 /// The blob of the hull's tree, in single precision if a grid of 16 bits moves a vertex.
-fn hull_tree(hull: &Mesh, moved: f64, options: &TreeOptions) -> Vec<u8> {
+fn hull_tree(hull: &Mesh, moved: f64, options: &TreeOptions) -> Result<Vec<u8>, BuildError> {
     let of = |is_f32: bool, moved: f64, rounding: f64| {
         let hull = Mesh { rounding, ..hull.clone() };
-        let options = TreeOptions { single: is_f32, ..*options };
-        bvh::build(Input { moved, ..hull.as_input() }, &options).0
+        let options = options.with_f32(is_f32);
+        Ok::<Sections, BuildError>(bvh::build(Input { moved, ..hull.as_input() }, &options)?.0)
     };
-    let is_f32 = options.single || of(false, 0.0, 0.0).header.surface_error > 0.0;
-    of(is_f32, moved, hull.rounding).to_bytes()
+    let is_f32 = options.is_f32 || of(false, 0.0, 0.0)?.header.surface_error > 0.0;
+    Ok(of(is_f32, moved, hull.rounding)?.to_bytes())
 }
 
 /// The section of a chain of hulls.

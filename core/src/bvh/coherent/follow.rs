@@ -8,8 +8,8 @@ use crate::bvh::leaf_distance::nearest_and_edges;
 use crate::bvh::node::{LANE_MASK, NodeFrame, box_distances, nearest_lane};
 use crate::bvh::point_query::PointQuery;
 use crate::geom::fan::{Nearness, PointFan, WIDTH, point_leaf};
-use crate::num::sqrt_approx;
 use crate::num::tolerance::{FAN_DISTANCE, ROOT_AND_PRODUCTS, SHORTFALL, U32};
+use crate::num::{lesser, sqrt_approx};
 use crate::query::Work;
 use glam::Vec3;
 
@@ -273,7 +273,7 @@ impl<'a, 't> Follow<'a, 't> {
         }
         // The plain query refines slivers and may find them nearer.
         if near.lower_bound_sq < self.refine_below {
-            self.sliver_lower_sq = least(self.sliver_lower_sq, near.lower_bound_sq);
+            self.sliver_lower_sq = lesser(self.sliver_lower_sq, near.lower_bound_sq);
         }
         if child.known() == Known::Triangles {
             let key = self.key_of_triangles(near.lower_bound_sq);
@@ -340,11 +340,11 @@ impl<'a, 't> Follow<'a, 't> {
         let mut lower_bound_sq = f32::MAX;
         self.each(&leaf, |_, lane, near| {
             if lane != best.lane {
-                lower_bound_sq = least(lower_bound_sq, near.lower_bound_sq);
+                lower_bound_sq = lesser(lower_bound_sq, near.lower_bound_sq);
             }
         });
         self.work.triangles += leaf.shape().triangles() as u32;
-        least(others, self.key_of_triangles(lower_bound_sq))
+        lesser(others, self.key_of_triangles(lower_bound_sq))
     }
 
     /// The triangle `lane` of the first entry's leaf, if it is certainly still the nearest. All
@@ -362,9 +362,4 @@ impl<'a, 't> Follow<'a, 't> {
             && lower_bound_sq >= self.query.refine_below(distance_sq);
         if certain { Some(Nearest { distance_sq, child, lane, v, w, at: 0 }) } else { None }
     }
-}
-
-#[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
-    if b < a { b } else { a }
 }

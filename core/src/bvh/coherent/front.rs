@@ -8,6 +8,7 @@
 //! Entries that lately could hold the answer are active. They stand first. The least key of the
 //! inactive entries is known, so most queries never read them.
 
+use crate::num::lesser;
 use crate::num::tolerance::PATH_SUM;
 
 /// A child of a node and the kind of its bound in 32 bits: 24 for the node (a blob has no more), 5
@@ -160,7 +161,7 @@ impl TraversalFront<'_> {
     pub(crate) fn insert(&mut self, key: f32, child: Child, horizon: f32) {
         let last = self.extent.count;
         if !self.has_room(1) {
-            self.extent.dropped = least(self.extent.dropped, key);
+            self.extent.dropped = lesser(self.extent.dropped, key);
             return;
         }
         self.set(last, key, child);
@@ -169,7 +170,7 @@ impl TraversalFront<'_> {
             self.swap(last, self.extent.active);
             self.extent.active += 1;
         } else {
-            self.extent.rest = least(self.extent.rest, key);
+            self.extent.rest = lesser(self.extent.rest, key);
         }
     }
 
@@ -179,7 +180,7 @@ impl TraversalFront<'_> {
         let last = self.extent.active.saturating_sub(1);
         self.swap(i, last);
         self.extent.active = last;
-        self.extent.rest = least(self.extent.rest, key);
+        self.extent.rest = lesser(self.extent.rest, key);
     }
 
     /// Whether there are entries that are not active.
@@ -198,7 +199,7 @@ impl TraversalFront<'_> {
                 self.swap(i, active);
                 active += 1;
             } else {
-                rest = least(rest, key);
+                rest = lesser(rest, key);
             }
         }
         (self.extent.active, self.extent.rest) = (active, rest);
@@ -226,7 +227,7 @@ impl TraversalFront<'_> {
                 self.set(kept, key, child);
                 kept += 1;
             } else {
-                dropped = least(dropped, key);
+                dropped = lesser(dropped, key);
             }
         }
         (self.extent.count, self.extent.dropped) = (kept, dropped);
@@ -238,11 +239,6 @@ impl TraversalFront<'_> {
         let active = self.keys.get(1..self.extent.active).unwrap_or(&[]);
         active
             .iter()
-            .fold(least(self.extent.rest, self.extent.dropped), |second, &key| least(second, key))
+            .fold(lesser(self.extent.rest, self.extent.dropped), |second, &key| lesser(second, key))
     }
-}
-
-#[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
-    if b < a { b } else { a }
 }

@@ -5,6 +5,7 @@ use crate::bvh::format::FanLeaf;
 use crate::bvh::node::{WIDE, in_memory};
 use crate::geom::fan::{Edges8, LANES_BELOW, WIDTH};
 use crate::num::tolerance::SLIVER_SINE_SQ;
+use crate::num::{greater, of_eight};
 use glam::Vec3;
 
 /// Whether no triangle of a leaf is a sliver. Triangles without area are slivers. `None` says that
@@ -34,9 +35,7 @@ pub(crate) fn has_no_sliver(leaf: &FanLeaf<'_>) -> Option<bool> {
         let lack = if normal > 0.0 { lack } else { 1.0 };
         excess[i] = f32::from_bits(lack.to_bits() & used[i]);
     }
-    let [a, b, c, d, e, f, g, h] = in_memory(excess);
-    let most = |a: f32, b: f32| if b > a { b } else { a };
-    Some(most(most(most(a, e), most(b, f)), most(most(c, g), most(d, h))) <= 0.0)
+    Some(of_eight(in_memory(excess), greater) <= 0.0)
 }
 
 fn square(v: Vec3) -> f32 {

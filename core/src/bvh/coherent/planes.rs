@@ -9,8 +9,8 @@ use super::front::Child;
 use crate::bvh::format::{Bvh, FanLeaf};
 use crate::bvh::node::in_memory;
 use crate::geom::fan::{Edges8, LANES_BELOW, WIDTH};
-use crate::num::sqrt_approx;
 use crate::num::tolerance::{PLANE_NORMAL, SHORTFALL};
+use crate::num::{greater, lesser, of_eight, sqrt_approx};
 use glam::Vec3;
 
 /// Planes of a coherent query: a power of two.
@@ -111,13 +111,12 @@ fn separate_wide(edges: &Edges8, triangles: usize, (lane, v, w): At) -> Option<(
         let second = n.x * gx[i] + n.y * gy[i] + n.z * gz[i];
         let centre = n.x * sx[i] + n.y * sy[i] + n.z * sz[i];
         let beyond = if first > 0.0 { first } else { 0.0 };
-        let beyond = if second > beyond { second } else { beyond };
+        let beyond = greater(beyond, second);
         // An unused lane may hold any value. A large one keeps it from being the least.
         along[i] =
             f32::from_bits((centre - beyond).to_bits() & used[i] | f32::MAX.to_bits() & !used[i]);
     }
-    let [a, b, c, d, e, f, g, h] = in_memory(along);
-    Some((n, less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))))
+    Some((n, of_eight(in_memory(along), lesser)))
 }
 
 /// The same, vertex by vertex.
@@ -129,8 +128,8 @@ fn separate_narrow(leaf: &FanLeaf<'_>, p: Vec3, (lane, v, w): At) -> Option<(Vec
     let n = normal(from - leaf.spoke(lane, which) * v - leaf.spoke(lane + 1, which) * w)?;
     let other = p - leaf.centre(leaf.shape().centres() - 1 - which.min(leaf.shape().centres() - 1));
     let along = dot(n, from);
-    let nearest = (0..=count).fold(0.0, |least, i| less(least, -dot(n, leaf.spoke(i, which))));
-    Some((n, less(along + nearest, dot(n, other))))
+    let nearest = (0..=count).fold(0.0, |least, i| lesser(least, -dot(n, leaf.spoke(i, which))));
+    Some((n, lesser(along + nearest, dot(n, other))))
 }
 
 /// The middle of the model's box. Planes are measured from it, so that rounding is in proportion to
@@ -149,9 +148,4 @@ fn place(child: Child) -> usize {
 #[inline(always)]
 fn dot(a: Vec3, b: Vec3) -> f32 {
     a.x * b.x + a.y * b.y + a.z * b.z
-}
-
-#[inline(always)]
-fn less(a: f32, b: f32) -> f32 {
-    if b < a { b } else { a }
 }

@@ -6,7 +6,7 @@
 use super::follow::{Follow, Nearest, NoAnswer};
 use super::front::{Child, Extent, Known, TraversalFront};
 use super::planes::Planes;
-use crate::bvh::closest_point::{Hint, closest_point_from};
+use crate::bvh::closest_point::Hint;
 use crate::bvh::format::Bvh;
 use crate::bvh::point_query::PointQuery;
 use crate::num::sqrt_approx;
@@ -17,6 +17,7 @@ use glam::Vec3;
 
 /// The answer of a [`CoherentQuery`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CoherentClosest {
     /// The answer of [`Bvh::closest_point`], with the same bits. `work` is that of this query.
     pub closest: ClosestPoint,
@@ -243,15 +244,10 @@ impl Memory {
         budget: &Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<CoherentClosest, QueryError> {
-        budget.check()?;
-        if scratch.is_empty() {
-            return Err(QueryError::NoScratch);
-        }
-        let query = PointQuery::new(tree, point)?;
-        let first = tree.frame(0).ok_or(QueryError::NO_DISTANCES)?;
+        let query = PointQuery::prepare(tree, point, budget, scratch)?;
+        let first = tree.frame(0).ok_or(QueryError::Unchecked)?;
         if query.far || budget.relative > 0.0 || budget.absolute > 0.0 {
-            let closest =
-                closest_point_from(tree, point, &mut Hint::NONE.clone(), budget, scratch)?;
+            let closest = tree.closest_point(point, *budget, scratch)?;
             return Ok(CoherentClosest { closest, safe_radius: 0.0 });
         }
         let of = (core::ptr::from_ref(first).addr(), tree.header().nodes);
@@ -275,7 +271,7 @@ impl Memory {
             self.extent = Extent::EMPTY;
             (self.last.known, self.last.second) = (false, 0.0);
         }
-        let mut closest = closest_point_from(tree, point, &mut self.hint, budget, scratch)?;
+        let mut closest = tree.closest_point_from(point, &mut self.hint, *budget, scratch)?;
         self.pace.plain_query(&closest.work);
         self.last.plain_upper =
             query.units.inward(closest.distance.upper) + query.units.surface_error;

@@ -89,11 +89,7 @@ impl BvhHeader {
         Ok(BvhHeader {
             flags,
             grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
-            grid_origin: [
-                word(field::GRID_ORIGIN)?.cast_signed(),
-                word(field::GRID_ORIGIN + 4)?.cast_signed(),
-                word(field::GRID_ORIGIN + 8)?.cast_signed(),
-            ],
+            grid_origin: bytes.u32x3(field::GRID_ORIGIN).ok_or(short)?.map(u32::cast_signed),
             nodes: word(field::NODES)?,
             leaves: word(field::LEAVES)?,
             vertices: word(field::VERTICES)?,

@@ -7,6 +7,7 @@ use super::frame::NodeFrame;
 use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::FRAME_BYTES;
 use crate::geom::fan::WIDTH;
+use crate::num::greater;
 
 /// Keys of a node's children: squared distances from the point, grid units. No key is below the
 /// parent's, and the low three bits hold the lane. Lanes from `count` on are [`NO_CHILD`].
@@ -28,7 +29,7 @@ pub fn box_distances(
 /// The key of one lane.
 #[inline(always)]
 fn key(distance_sq: f32, parent: f32, count: u32, lane: u32) -> f32 {
-    let far = if distance_sq > parent { distance_sq } else { parent };
+    let far = greater(parent, distance_sq);
     let far = if lane < count { far } else { NO_CHILD };
     f32::from_bits(far.to_bits() & !LANE_MASK | lane)
 }
@@ -59,7 +60,7 @@ pub(crate) fn wide(
 fn outside(low: u8, high: u8, q: f32, weight: f32) -> f32 {
     let below = f32::from(low) - q;
     let beyond = q - f32::from(high);
-    let far = if below > beyond { below } else { beyond };
+    let far = greater(beyond, below);
     let far = if far > 0.0 { far } else { 0.0 };
     // This order keeps every product within f32's range. A flat node's steps are tiny, so a far
     // point is very many steps away.

@@ -8,6 +8,7 @@
 use super::keys::{LANE_MASK, NO_CHILD, WIDE, in_memory};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::geom::fan::{LANES_BELOW, WIDTH};
+use crate::num::{greater, lesser};
 
 /// A segment as the boxes see it, grid units. See `core/docs/rounding.md` §9.
 #[derive(Clone, Copy, Debug)]
@@ -106,8 +107,8 @@ pub(crate) fn wide(
         let leave_x = at(x.far[i], x.step, x.leave);
         let leave_y = at(y.far[i], y.step, y.leave);
         let leave_z = at(z.far[i], z.step, z.leave);
-        let enter = greater(greater(enter_x, enter_y), greater(enter_z, from));
-        let leave = less(less(leave_x, leave_y), less(leave_z, limit));
+        let enter = greater(greater(from, enter_z), greater(enter_y, enter_x));
+        let leave = lesser(lesser(limit, leave_z), lesser(leave_y, leave_x));
         let key = if enter <= leave { enter } else { NO_CHILD };
         // An absent lane may hold any box: its key is overwritten.
         let bits = key.to_bits() & !LANE_MASK & present[i] | NO_CHILD.to_bits() & !present[i];
@@ -128,8 +129,8 @@ pub(crate) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32)
             let (Some(&near), Some(&far)) = (axis.near.get(lane), axis.far.get(lane)) else {
                 return false;
             };
-            enter = greater(f32::from(near) * axis.step + axis.enter, enter);
-            leave = less(f32::from(far) * axis.step + axis.leave, leave);
+            enter = greater(enter, f32::from(near) * axis.step + axis.enter);
+            leave = lesser(leave, f32::from(far) * axis.step + axis.leave);
             enter <= leave
         });
         if overlaps {
@@ -137,14 +138,4 @@ pub(crate) fn narrow(Sides(axes): &Sides<'_>, count: u32, from: f32, limit: f32)
         }
     }
     keys
-}
-
-#[inline(always)]
-fn greater(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn less(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
 }

@@ -1,6 +1,7 @@
 //! Keys of the children of a node: a bound, and the lane in its low bits.
 
 use crate::geom::fan::WIDTH;
+use crate::num::{lesser, of_eight};
 
 /// The low bits of a key hold its lane.
 pub const LANE_MASK: u32 = WIDTH as u32 - 1;
@@ -18,9 +19,7 @@ pub fn nearest_lane(keys: &[f32; WIDTH]) -> f32 {
         let least = keys.iter().fold(NO_CHILD.to_bits(), |least, key| least.min(key.to_bits()));
         return f32::from_bits(least);
     }
-    let less = |a: f32, b: f32| if b < a { b } else { a };
-    let [a, b, c, d, e, f, g, h] = *keys;
-    less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h)))
+    of_eight(*keys, lesser)
 }
 
 /// The same lanes, forced into memory. Otherwise the compiler undoes the vectorisation: it computes

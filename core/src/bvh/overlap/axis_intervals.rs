@@ -9,6 +9,7 @@ use super::relative_pose::{DIRECTIONS, Side};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::bvh::node::{WIDE, in_memory};
 use crate::geom::fan::WIDTH;
+use crate::num::lesser;
 
 /// `[direction][child]`, common units.
 #[derive(Clone, Copy, Debug)]
@@ -138,7 +139,7 @@ pub(crate) fn wide(a: &AxisIntervals, b: &AxisIntervals, i: usize) -> [f32; WIDT
     for d in 0..DIRECTIONS {
         let (from, to) = (a.low[d][i], a.high[d][i]);
         for (depth, (low, high)) in depths.iter_mut().zip(b.low[d].iter().zip(&b.high[d])) {
-            *depth = less(*depth, less(high - from, to - low));
+            *depth = lesser(*depth, lesser(high - from, to - low));
         }
     }
     in_memory(depths)
@@ -158,7 +159,7 @@ pub(crate) fn narrow(a: &AxisIntervals, b: &AxisIntervals, i: usize, lanes: u32)
                 else {
                     break;
                 };
-                least = less(least, less(high - from, to - low));
+                least = lesser(least, lesser(high - from, to - low));
                 if least < 0.0 {
                     break;
                 }
@@ -167,11 +168,6 @@ pub(crate) fn narrow(a: &AxisIntervals, b: &AxisIntervals, i: usize, lanes: u32)
         }
     }
     depths
-}
-
-#[inline(always)]
-fn less(a: f32, b: f32) -> f32 {
-    if b < a { b } else { a }
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::relative_pose::RelativePose;
 use crate::bvh::format::layout::boxes;
 use crate::bvh::format::{Bvh, BvhChild};
 use crate::geom::{Contact, Pose};
-use crate::query::{Ended, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
 
 /// Places of two triangles: node, child and lane in each tree.
 pub(crate) type PairPlace = [[u32; 3]; 2];
@@ -38,7 +38,7 @@ const LARGER: f32 = 4.0;
 pub(crate) fn descend(
     [a, b]: [&Bvh<'_>; 2],
     pose: &Pose,
-    steps: u32,
+    budget: &Budget,
     scratch: &mut [ScratchEntry],
     visitor: &mut impl PairVisitor,
 ) -> Result<(Option<Ended>, Work), QueryError> {
@@ -46,23 +46,21 @@ pub(crate) fn descend(
     if !(a.serves_segments() && b.serves_segments()) {
         return Err(QueryError::NO_SEGMENTS);
     }
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
+    budget.check_with(scratch)?;
     let (stack, _) = scratch.as_chunks_mut::<2>();
     let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
-    let units = [pose.sides[0].unit, pose.sides[1].unit];
+    let models = Models { a, b, pose: &pose };
     let mut truncated = None;
     let mut used = 0usize;
     let mut nodes = [0u32; 2];
     // The children of each node that still count, as bits.
     let mut wanted = [u32::MAX; 2];
     loop {
-        if work.splits >= steps {
+        if work.splits >= budget.steps {
             return Ok((Some(Ended::Steps), work));
         }
         work.splits += 1;
-        let pairs = open(a, b, &pose, nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
+        let pairs = models.pairs(nodes, wanted, &mut work).ok_or(QueryError::Unchecked)?;
         let mut next = None;
         if pairs.bits != [0; 2] {
             // Surfaces that meet mostly do so where boxes overlap most.
@@ -88,7 +86,7 @@ pub(crate) fn descend(
                 child(a, 0).ok_or(QueryError::Unchecked)?,
                 child(b, 1).ok_or(QueryError::Unchecked)?,
             ];
-            let [opens_a, opens_b] = opened(a, b, &children, units).ok_or(QueryError::Unchecked)?;
+            let [opens_a, opens_b] = models.opened(&children).ok_or(QueryError::Unchecked)?;
             if opens_a || opens_b {
                 // A child that is not opened stays a child of its parent, alone.
                 let down = |opens: bool, which: usize| {
@@ -103,7 +101,7 @@ pub(crate) fn descend(
                 wanted = [rows, columns];
                 break;
             }
-            let go_on = leaves(a, b, &pose, parents, lanes, children, visitor, &mut work);
+            let go_on = models.leaves(parents, lanes, children, visitor, &mut work);
             if !go_on.ok_or(QueryError::Unchecked)? {
                 return Ok((truncated, work));
             }
@@ -140,71 +138,66 @@ fn without([low, high]: [u32; 2], [i, j]: [u32; 2]) -> [u32; 2] {
     if i < 4 { [low & !bit, high] } else { [low, high & !bit] }
 }
 
-/// Which of two children to open: both, unless one is a leaf or much smaller.
-#[inline(always)]
-fn opened(
-    a: &Bvh<'_>,
-    b: &Bvh<'_>,
-    children: &[BvhChild; 2],
-    units: [f32; 2],
-) -> Option<[bool; 2]> {
-    let [first, second] = children;
-    Some(match (first.is_leaf(), second.is_leaf()) {
-        (false, false) => {
-            let (x, y) = (size(a, first.at)? * units[0], size(b, second.at)? * units[1]);
-            [x * LARGER >= y, y * LARGER >= x]
-        }
-        (a, b) => [!a, !b],
-    })
+/// Two trees, one of them moved.
+struct Models<'a> {
+    a: &'a Bvh<'a>,
+    b: &'a Bvh<'a>,
+    pose: &'a RelativePose,
 }
 
-/// Pairs of children of two nodes, `wanted` of each, whose boxes meet.
-#[inline(always)]
-fn open(
-    a: &Bvh<'_>,
-    b: &Bvh<'_>,
-    pose: &RelativePose,
-    nodes: [u32; 2],
-    wanted: [u32; 2],
-    work: &mut Work,
-) -> Option<Pairs> {
-    let side = |tree: &Bvh<'_>, which: usize| {
-        let count = tree.links(nodes[which])?.count;
-        let intervals = AxisIntervals::of(&pose.sides[which], tree.boxes(nodes[which])?, count)?;
-        Some((intervals, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
-    };
-    let ((first, rows), (second, lanes)) = (side(a, 0)?, side(b, 1)?);
-    work.nodes = work.nodes.saturating_add(rows.count_ones() * lanes.count_ones());
-    Some(pairs(&first, &second, rows, lanes))
-}
+impl Models<'_> {
+    /// Which of two children to open: both, unless one is a leaf or much smaller.
+    #[inline(always)]
+    fn opened(&self, [first, second]: &[BvhChild; 2]) -> Option<[bool; 2]> {
+        Some(match (first.is_leaf(), second.is_leaf()) {
+            (false, false) => {
+                let [unit_a, unit_b] = [self.pose.sides[0].unit, self.pose.sides[1].unit];
+                let (x, y) = (size(self.a, first.at)? * unit_a, size(self.b, second.at)? * unit_b);
+                [x * LARGER >= y, y * LARGER >= x]
+            }
+            (a, b) => [!a, !b],
+        })
+    }
 
-/// Visits a pair of leaves. `true` to go on.
-#[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "the descent's state, inlined")]
-fn leaves(
-    a: &Bvh<'_>,
-    b: &Bvh<'_>,
-    pose: &RelativePose,
-    nodes: [u32; 2],
-    lanes: [u32; 2],
-    [first, second]: [BvhChild; 2],
-    visitor: &mut impl PairVisitor,
-    work: &mut Work,
-) -> Option<bool> {
-    let (p, q) = (a.leaf_at(first.at, first.shape)?, b.leaf_at(second.at, second.shape)?);
-    let mut pair = LeafPair::new(pose, &p, &q);
-    for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
-        while bits != 0 {
-            let j = bits.trailing_zeros();
-            bits &= bits - 1;
-            let contact = pair.meet(i, j as usize, work);
-            if contact != Contact::Apart {
-                let place = [[nodes[0], lanes[0], i as u32], [nodes[1], lanes[1], j]];
-                if !visitor.pair(place, contact)? {
-                    return Some(false);
+    /// Pairs of children of two nodes, `wanted` of each, whose boxes meet.
+    #[inline(always)]
+    fn pairs(&self, nodes: [u32; 2], wanted: [u32; 2], work: &mut Work) -> Option<Pairs> {
+        let side = |tree: &Bvh<'_>, which: usize| {
+            let (count, boxes) = (tree.links(nodes[which])?.count, tree.boxes(nodes[which])?);
+            let intervals = AxisIntervals::of(&self.pose.sides[which], boxes, count)?;
+            Some((intervals, u32::MAX >> (32 - count.clamp(1, 8)) & wanted[which]))
+        };
+        let ((first, rows), (second, lanes)) = (side(self.a, 0)?, side(self.b, 1)?);
+        work.nodes = work.nodes.saturating_add(rows.count_ones() * lanes.count_ones());
+        Some(pairs(&first, &second, rows, lanes))
+    }
+
+    /// Visits a pair of leaves. `true` to go on.
+    #[inline(always)]
+    fn leaves(
+        &self,
+        nodes: [u32; 2],
+        lanes: [u32; 2],
+        [first, second]: [BvhChild; 2],
+        visitor: &mut impl PairVisitor,
+        work: &mut Work,
+    ) -> Option<bool> {
+        let p = self.a.leaf_at(first.at, first.shape)?;
+        let q = self.b.leaf_at(second.at, second.shape)?;
+        let mut pair = LeafPair::new(self.pose, &p, &q);
+        for (i, mut bits) in pair.candidates()?.into_iter().enumerate() {
+            while bits != 0 {
+                let j = bits.trailing_zeros();
+                bits &= bits - 1;
+                let contact = pair.meet(i, j as usize, work);
+                if contact != Contact::Apart {
+                    let place = [[nodes[0], lanes[0], i as u32], [nodes[1], lanes[1], j]];
+                    if !visitor.pair(place, contact)? {
+                        return Some(false);
+                    }
                 }
             }
         }
+        Some(true)
     }
-    Some(true)
 }

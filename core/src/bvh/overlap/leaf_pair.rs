@@ -6,6 +6,7 @@ use crate::bvh::format::FanLeaf;
 use crate::bvh::node::WIDE;
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
+use crate::num::{greater, lesser};
 use crate::query::Work;
 
 /// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
@@ -55,7 +56,7 @@ impl Corners {
     /// The box of all vertices.
     #[inline(always)]
     fn extent(&self) -> Extent {
-        let low = self.at.map(|axis| axis.into_iter().fold(f32::MAX, less));
+        let low = self.at.map(|axis| axis.into_iter().fold(f32::MAX, lesser));
         let high = self.at.map(|axis| axis.into_iter().fold(f32::MIN, greater));
         Extent { low, high }
     }
@@ -68,7 +69,7 @@ impl Corners {
         for i in 0..SLOTS {
             far[i] = x[i].abs() + y[i].abs() + z[i].abs();
         }
-        far.iter().fold(0.0, |most, &far| if far > most { far } else { most })
+        far.iter().fold(0.0, |most, &far| greater(most, far))
     }
 }
 
@@ -187,7 +188,7 @@ impl Boxes {
         for ((x, low), high) in corners.at.iter().zip(&mut boxes.low).zip(&mut boxes.high) {
             for i in 0..WIDTH {
                 let (c, e, g) = (blend(first[i], x), x[RING + i], x[RING + 1 + i]);
-                low[i] = less(c, less(e, g));
+                low[i] = lesser(c, lesser(e, g));
                 high[i] = greater(c, greater(e, g));
             }
         }
@@ -235,16 +236,6 @@ impl Extent {
         }
         bits
     }
-}
-
-#[inline(always)]
-fn less(a: f32, b: f32) -> f32 {
-    if b < a { b } else { a }
-}
-
-#[inline(always)]
-fn greater(a: f32, b: f32) -> f32 {
-    if b > a { b } else { a }
 }
 
 /// The first or the second centre.
@@ -296,7 +287,7 @@ impl<'a> LeafPair<'a> {
             return Some([0; WIDTH]);
         }
         let (far_a, far_b) = (self.a.max_norm(), self.b.max_norm());
-        let far = if far_a > far_b { far_a } else { far_b };
+        let far = greater(far_b, far_a);
         let shift = self.pose.vertex_error + self.pose.vertex_error;
         let (mut rows, mut lanes) = (0u32, 0u32);
         for (i, &bits) in near.iter().enumerate() {
@@ -359,7 +350,7 @@ impl<'a> LeafPair<'a> {
         } else {
             triangles_meet(a, b, vertex_error)
         };
-        if contact != Contact::Open {
+        if contact != Contact::Undecided {
             return contact;
         }
         work.exact = work.exact.saturating_add(1);

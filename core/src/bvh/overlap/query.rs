@@ -7,6 +7,7 @@ use crate::query::{Budget, Ended, QueryError, ScratchEntry, Undecided, Verdict, 
 
 /// Whether two surfaces meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Overlap {
     /// `Yes`: the surfaces of the input meshes meet. `No`: they have no common point. Undecided for
     /// [`Resolution`](Undecided::Resolution): they come nearer to each other than the stored meshes
@@ -23,6 +24,7 @@ pub struct Overlap {
 
 /// Two triangles that meet or may meet: their numbers in the input files, the first mesh's first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct TrianglePair {
     /// The triangles.
     pub triangles: [u32; 2],
@@ -37,6 +39,7 @@ impl TrianglePair {
 
 /// All pairs that meet or may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Overlaps {
     /// Pairs in the slice.
     pub stored: usize,
@@ -86,7 +89,7 @@ impl Bvh<'_> {
     /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if an entry of the matrix is
     /// beyond 2, one grid is 2^40 times as coarse as the other, or a surface error is beyond 2^30
     /// grid units; [`QueryError::NotServed`] unless both trees have boxes for segments;
-    /// [`QueryError::NoScratch`].
+    /// [`QueryError::Tolerance`], [`QueryError::NoScratch`].
     pub fn overlap(
         &self,
         other: &Bvh<'_>,
@@ -95,7 +98,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<Overlap, QueryError> {
         let mut first = FirstPair::default();
-        let (truncated, work) = descend([self, other], &pose, budget.steps, scratch, &mut first)?;
+        let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut first)?;
         let (verdict, place) = match (first.met, truncated, first.undecided) {
             (Some(place), _, _) => (Verdict::Yes, Some(place)),
             (None, Some(why), _) => (Verdict::Undecided(why.undecided()), None),
@@ -137,7 +140,7 @@ impl Bvh<'_> {
     ) -> Result<Overlaps, QueryError> {
         let mut all =
             AllPairs { a: self, b: other, pairs, stored: 0, dropped: 0, is_undecided: false };
-        let (truncated, work) = descend([self, other], &pose, budget.steps, scratch, &mut all)?;
+        let (truncated, work) = descend([self, other], &pose, &budget, scratch, &mut all)?;
         let ended = match truncated {
             Some(why) => why,
             None if all.dropped > 0 => Ended::Scratch,

@@ -7,10 +7,10 @@
 
 use crate::bvh::format::Bvh;
 use crate::geom::Pose;
-use crate::num::exp2;
 use crate::num::tolerance::{
     OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
 };
+use crate::num::{exp2, greater};
 use crate::query::QueryError;
 
 /// Directions along which boxes are compared: the axes of both trees' boxes.
@@ -60,7 +60,7 @@ fn extent(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (low, high) = (tree.scale().low, tree.scale().high);
     let along = |low: f32, high: f32, origin: f64| {
         let (low, high) = ((f64::from(low) - origin).abs(), (f64::from(high) - origin).abs());
-        1.0 + if low > high { low } else { high }
+        1.0 + greater(high, low)
     };
     [along(low.x, high.x, x), along(low.y, high.y, y), along(low.z, high.z, z)]
 }
@@ -75,7 +75,7 @@ fn most([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
 }
 
 fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |most, x| if x > most { x } else { most })
+    values.into_iter().fold(0.0, greater)
 }
 
 impl RelativePose {
@@ -95,7 +95,7 @@ impl RelativePose {
         let exponent =
             |tree: &Bvh<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
         let (ea, eb) = (exponent(a), exponent(b));
-        let common = if ea > eb { ea } else { eb };
+        let common = greater(eb, ea);
         if ea - eb > RATIO || eb - ea > RATIO {
             return Err(QueryError::PoseOutOfDomain);
         }
@@ -167,7 +167,7 @@ impl RelativePose {
             grow: [0.0; DIRECTIONS],
             unit: unit_b as f32,
         };
-        let larger = if error_a > error_b { error_a } else { error_b };
+        let larger = greater(error_b, error_a);
         Ok(Some(RelativePose {
             sides: [first, second],
             matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
@@ -188,7 +188,7 @@ fn stretch(rows: &[[f64; 3]; 3]) -> f64 {
     let mut most = 0f64;
     for a in rows {
         let sum = rows.iter().fold(0.0, |sum, b| sum + dot(*a, *b).abs());
-        most = if sum > most { sum } else { most };
+        most = greater(most, sum);
     }
     libm::sqrt(most) * (1.0 + 16.0 * U64)
 }

@@ -6,8 +6,8 @@
 //! order in which the wide kernel overrides them.
 
 use super::lanes::WIDTH;
-use crate::num::sqrt_approx;
 use crate::num::tolerance::LEAST_DENOMINATOR;
+use crate::num::{greater, sqrt_approx};
 use glam::Vec3;
 
 /// The distance of a point and a triangle, as computed (`core/docs/rounding.md` §8).
@@ -65,7 +65,7 @@ impl PointFan {
     /// across the way to its centre. Three products. The limit must allow for rounding already.
     #[inline(always)]
     pub fn is_beyond(&self, a: &SpokeTerms, b: &SpokeTerms, limit: f32) -> bool {
-        let least = self.centre_sq - above(above(0.0, a.along), b.along);
+        let least = self.centre_sq - greater(greater(0.0, a.along), b.along);
         least > 0.0 && least * least > limit * self.centre_sq
     }
 
@@ -103,20 +103,20 @@ impl PointFan {
                 } else {
                     // A coordinate that rounding made negative counts as 0: the point must lie on
                     // the triangle.
-                    let (pa, pb, pc) = (above(0.0, va), above(0.0, vb), above(0.0, vc));
+                    let (pa, pb, pc) = (greater(0.0, va), greater(0.0, vb), greater(0.0, vc));
                     (nv, nw, least) = (pb, pc, pa + pb + pc);
                 }
             }
             // A part of a triangle that f32 cannot tell from a point. The dividend is smaller
             // still.
-            den = above(LEAST_DENOMINATOR, least);
+            den = greater(LEAST_DENOMINATOR, least);
         }
         let inverse = 1.0 / den;
         let (v, w) = (nv * inverse, nw * inverse);
         let r = residual(s, a.edge, b.edge, v, w);
         let distance_sq = dot(r, r);
         let (ra, rb) = (dot(r, a.edge), dot(r, b.edge));
-        let support = above(above(0.0, ra), rb);
+        let support = greater(greater(0.0, ra), rb);
         let slack = support - (v * ra + w * rb);
         Nearness { distance_sq, lower_bound_sq: distance_sq - (slack + slack), v, w }
     }
@@ -154,7 +154,7 @@ pub fn refined(&[s, e, g]: &[Vec3; 3], near: &Nearness) -> Nearness {
         }
     }
     let share = |along: f32, length_sq: f32| {
-        let share = above(0.0, along) / above(LEAST_DENOMINATOR, length_sq);
+        let share = greater(0.0, along) / greater(LEAST_DENOMINATOR, length_sq);
         if share < 1.0 { share } else { 1.0 }
     };
     offer(share(dot(s, e), dot(e, e)), 0.0);
@@ -173,12 +173,6 @@ fn residual(s: Vec3, e: Vec3, g: Vec3, v: f32, w: f32) -> Vec3 {
 #[inline(always)]
 fn cross(a: Vec3, b: Vec3) -> Vec3 {
     Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
-}
-
-/// The greater of two numbers. The rules of `f32::max` for NaN cost instructions.
-#[inline(always)]
-fn above(a: f32, b: f32) -> f32 {
-    if b > a { b } else { a }
 }
 
 /// All triangles of a leaf, in order. `s` gives the point less the first or the second centre,
@@ -227,19 +221,20 @@ pub fn lower_bound(s: Vec3, e: Vec3, g: Vec3) -> f32 {
     let side = if dot(normal, s) < 0.0 { -normal } else { normal };
     // Along `s` too: a triangle that `is_beyond` leaves out must be as far here.
     let seen = [s, e, g];
-    let best = above(0.0, above(supported(s, &seen), supported(r, &seen)));
-    let best = above(best, above(supported(orthogonal(e), &seen), supported(orthogonal(g), &seen)));
-    above(best, above(supported(orthogonal(g - e), &seen), supported(side, &seen)))
+    let best = greater(0.0, greater(supported(s, &seen), supported(r, &seen)));
+    let best =
+        greater(best, greater(supported(orthogonal(e), &seen), supported(orthogonal(g), &seen)));
+    greater(best, greater(supported(orthogonal(g - e), &seen), supported(side, &seen)))
 }
 
 /// Distance of the supporting plane across `direction`; 0 if `direction` has no length.
 #[inline(never)]
 fn supported(direction: Vec3, &[s, e, g]: &[Vec3; 3]) -> f32 {
-    let largest = above(above(direction.x.abs(), direction.y.abs()), direction.z.abs());
+    let largest = greater(greater(direction.x.abs(), direction.y.abs()), direction.z.abs());
     if largest > LEAST_DENOMINATOR {
         // Of length about 1, so that no square leaves f32's range.
         let d = direction * (1.0 / largest);
-        (dot(d, s) - above(above(0.0, dot(d, e)), dot(d, g))) / sqrt_approx(dot(d, d))
+        (dot(d, s) - greater(greater(0.0, dot(d, e)), dot(d, g))) / sqrt_approx(dot(d, d))
     } else {
         0.0
     }

@@ -6,6 +6,7 @@
 //! checks it.
 
 use super::lanes::WIDTH;
+use crate::num::greater;
 use crate::num::tolerance::LEAST_DENOMINATOR;
 
 /// Spokes of the triangles of a leaf: `e` to ring vertex `i`, `g` to ring vertex `i + 1`, each from
@@ -97,7 +98,7 @@ pub fn point_leaf8(edges: &Edges8, used: &[u32; WIDTH]) -> Nearness8 {
         let ra = rx * ex + ry * ey + rz * ez;
         let rb = rx * gx + ry * gy + rz * gz;
         let above = if ra > 0.0 { ra } else { 0.0 };
-        let support = if rb > above { rb } else { above };
+        let support = greater(above, rb);
         let slack = support - (v * ra + w * rb);
         (along_e[i], along_g[i]) = (v, w);
         // Bits again: an unused lane may hold anything.

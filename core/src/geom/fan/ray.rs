@@ -19,6 +19,7 @@ use super::lanes::WIDTH;
 use crate::num::tolerance::{
     FAN_PARAMETER, FAN_SHEAR, LEAST_DENOMINATOR, PRODUCT_UNDERFLOW, STILL, U32,
 };
+use crate::num::{greater, lesser};
 use glam::Vec3;
 
 /// A segment as fans see it, grid units: a line, sheared into the third axis, and a range of
@@ -51,7 +52,7 @@ pub struct Crossing {
     pub upper: f32,
     /// The stored triangle is met, as computed.
     pub stored: bool,
-    /// The input's triangle is met, whatever the rounding.
+    /// It is proved that the input's triangle is met.
     pub certain: bool,
     /// If the line meets the input's triangle, then within the range of parameters.
     pub within: bool,
@@ -186,14 +187,14 @@ impl FanRay {
     #[inline(never)]
     pub fn crossing(&self, [a, b, c]: [Shadow; 3], wanted: f32) -> Option<Crossing> {
         let near = |p: f32, q: f32, r: f32| {
-            let (low, high) = (less(less(p, q), r), greater(greater(p, q), r));
+            let (low, high) = (lesser(r, lesser(q, p)), greater(r, greater(q, p)));
             (low <= self.doubt) & (high >= -self.doubt)
         };
         if !(near(a.x, b.x, c.x) & near(a.y, b.y, c.y)) {
             return None;
         }
-        let (first, last) = (less(less(a.t, b.t), c.t), greater(greater(a.t, b.t), c.t));
-        let rounding = FAN_PARAMETER * U32 * greater(first.abs(), last.abs()) + self.slack;
+        let (first, last) = (lesser(c.t, lesser(b.t, a.t)), greater(c.t, greater(b.t, a.t)));
+        let rounding = FAN_PARAMETER * U32 * greater(last.abs(), first.abs()) + self.slack;
         let (mut lower, mut upper) = (first - rounding, last + rounding);
         if upper < 0.0 || lower > self.end {
             return None;
@@ -208,12 +209,12 @@ impl FanRay {
             let share = 1.0 / total;
             let flat = (p.area * share) * a.t + (q.area * share) * b.t + (r.area * share) * c.t;
             let spread = 0.75 * ((last - first) * (doubt / (total.abs() - doubt))) + rounding;
-            lower = greater(lower, flat - spread);
-            upper = less(upper, flat + spread);
+            lower = greater(flat - spread, lower);
+            upper = lesser(flat + spread, upper);
             if upper < 0.0 || lower > self.end {
                 return None;
             }
-            t = less(greater(flat, first), last);
+            t = lesser(last, greater(first, flat));
             let inside = |sign: f32| {
                 (sign * p.area > p.doubt) & (sign * q.area > q.doubt) & (sign * r.area > r.doubt)
             };
@@ -236,7 +237,7 @@ impl FanRay {
                 && let Some((enter, leave)) = in_plane([a, b, c])
                 && leave >= 0.0
             {
-                (t, stored) = (greater(enter, 0.0), true);
+                (t, stored) = (greater(0.0, enter), true);
             }
         } else if stored & !plain {
             let total = wa + wb + wc;
@@ -244,14 +245,14 @@ impl FanRay {
             if total.abs() > STILL {
                 let share = 1.0 / total;
                 let inside = (wa * share) * a.t + (wb * share) * b.t + (wc * share) * c.t;
-                t = less(greater(inside, first), last);
+                t = lesser(last, greater(first, inside));
             }
         }
         stored &= (t >= 0.0) & (t <= self.end);
         Some(Crossing {
             t,
-            lower: greater(lower, 0.0),
-            upper: less(upper, self.end),
+            lower: greater(0.0, lower),
+            upper: lesser(self.end, upper),
             stored: stored | certain,
             certain,
             within,
@@ -322,15 +323,15 @@ fn in_plane([a, b, c]: [Shadow; 3]) -> Option<(f32, f32)> {
             continue;
         }
         let (from, to) = (p.x.abs() + p.y.abs(), q.x.abs() + q.y.abs());
-        let (mut low, mut high) = (less(p.t, q.t), greater(p.t, q.t));
+        let (mut low, mut high) = (lesser(q.t, p.t), greater(q.t, p.t));
         if from + to > 0.0 {
             let t = p.t + (q.t - p.t) * (from / (from + to));
-            let t = less(greater(t, low), high);
+            let t = lesser(high, greater(low, t));
             (low, high) = (t, t);
         }
         range = Some(match range {
             None => (low, high),
-            Some((first, last)) => (less(first, low), greater(last, high)),
+            Some((first, last)) => (lesser(low, first), greater(high, last)),
         });
     }
     range
@@ -341,16 +342,6 @@ fn in_plane([a, b, c]: [Shadow; 3]) -> Option<(f32, f32)> {
 #[inline(always)]
 fn cross(a: Shadow, b: Shadow) -> f32 {
     a.x * b.y - a.y * b.x
-}
-
-#[inline(always)]
-fn greater(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn less(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
 }
 
 /// Triangles of a leaf that the segment's line may meet, a bit for each. The others are proved

@@ -255,6 +255,7 @@ impl Hull<'_> {
                 || split.right == 0
                 || split.right >= k
                 || split.vertex >= split.origin
+                || !split.error.is_finite()
             {
                 return Err(bad);
             }

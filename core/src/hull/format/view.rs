@@ -94,6 +94,8 @@ pub struct Split<'a> {
     pub right: usize,
     /// No point of the fine triangles is farther than this from `vertex`, local frame.
     pub reach: f32,
+    /// The largest finite certified radius of the triangles that the split removes, local frame.
+    pub error: f32,
     /// Number of the split's first triangle, for [`Hull::radius`].
     pub first_triangle: u32,
     ring: Bytes<'a>,
@@ -119,6 +121,12 @@ impl Split<'_> {
     #[inline(always)]
     pub fn destination(&self) -> VertIdx {
         VertIdx(self.origin.0.wrapping_add(1))
+    }
+
+    /// Corners of coarse triangle `i < ring_len`, which the split removes.
+    #[inline]
+    pub fn coarse(&self, i: usize) -> Option<[VertIdx; 3]> {
+        if i < self.len { Some([self.vertex, self.ring(i)?, self.ring(i + 1)?]) } else { None }
     }
 
     /// Triangles that the split brings: `ring_len + 2`.
@@ -210,10 +218,10 @@ impl Hull<'_> {
         self.header.queue_capacity as usize
     }
 
-    /// Words of each of the two bit sets of a [`RefinedHull`](crate::RefinedHull) with which every
-    /// split can be performed.
-    pub fn refined_words(&self) -> usize {
-        (self.header.splits as usize).div_ceil(32)
+    /// Splits of the hierarchy. A [`RefinedHull`](crate::RefinedHull) of as many can be refined to
+    /// the surface.
+    pub fn split_count(&self) -> u32 {
+        self.header.splits
     }
 
     /// Least and greatest corner of the surface's box, input units, rounded to f32.
@@ -343,12 +351,13 @@ impl<'a> Hull<'a> {
     pub fn split(&self, split: SplitIdx) -> Option<Split<'a>> {
         let i = split.usize();
         let Widths { vertex: wv, ring: wr, .. } = self.widths;
-        let bytes = wv + wr + 2;
+        let bytes = wv + wr + 3;
         let at = i.wrapping_mul(bytes);
         let vertex = VertIdx(self.splits.index(at, wv)?);
         let start = self.splits.index(at + wv, wr)?;
         let right = usize::from(self.splits.u8(at + wv + wr)?);
         let reach = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
+        let error = Radius8(self.splits.u8(at + wv + wr + 2)?).get();
         let end = if split.0.checked_add(1)? < self.header.splits {
             self.splits.index(at + bytes + wv, wr)?
         } else {
@@ -361,6 +370,7 @@ impl<'a> Hull<'a> {
             origin: VertIdx(self.header.base_vertices.checked_add(split.0.checked_mul(2)?)?),
             right,
             reach,
+            error,
             first_triangle: self
                 .header
                 .base_triangles
@@ -386,6 +396,34 @@ impl<'a> Hull<'a> {
     #[inline(always)]
     pub fn made_by(&self, vertex: VertIdx) -> Option<SplitIdx> {
         vertex.0.checked_sub(self.header.base_vertices).map(|past_base| SplitIdx(past_base / 2))
+    }
+
+    /// Whether a vertex is the first (0) or the second (1) that its split brings.
+    #[inline(always)]
+    pub(crate) fn which(&self, vertex: VertIdx) -> u32 {
+        vertex.0.wrapping_sub(self.header.base_vertices) & 1
+    }
+
+    /// The vertex that a split brings first (0) or second (1).
+    #[inline(always)]
+    pub(crate) fn brought_by(&self, split: SplitIdx, which: u32) -> VertIdx {
+        VertIdx(self.header.base_vertices.wrapping_add(split.0.wrapping_mul(2)).wrapping_add(which))
+    }
+
+    /// The vertex that a split replaces, without the rest of its record.
+    #[inline(always)]
+    pub(crate) fn replaced_by(&self, split: SplitIdx) -> Option<VertIdx> {
+        let Widths { vertex: wv, ring: wr, .. } = self.widths;
+        self.splits.index(split.usize().wrapping_mul(wv + wr + 3), wv).map(VertIdx)
+    }
+
+    /// Star radius and error of a split, without the rest of its record.
+    #[inline(always)]
+    pub(crate) fn reach_and_error(&self, split: SplitIdx) -> Option<[f32; 2]> {
+        let bytes = self.widths.vertex + self.widths.ring + 3;
+        let at = split.usize().wrapping_mul(bytes).wrapping_add(bytes - 2);
+        let [reach, error] = self.splits.array::<2>(at)?;
+        Some([Radius8(reach).get(), Radius8(error).get()])
     }
 
     /// Certified radius of a triangle of any level, local frame: base triangles first, then those

@@ -1,6 +1,6 @@
 //! Opening the tight hulls of a blob, and the check.
 
-use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, TIGHT_NESTED, field};
+use super::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES, field};
 use super::view::{TightHulls, read};
 use crate::bvh::format::Bvh;
 use crate::format::layout::{MAX_LEVELS, SECTION_ALIGNMENT, SectionKind};
@@ -41,16 +41,15 @@ impl<'a> TightHulls<'a> {
         let malformed = OpenError::Section { index };
         let (head, rest) = data.split_at_checked(TIGHT_BYTES).ok_or(malformed)?;
         let head = Bytes(head);
-        let (count, flags) =
-            (head.u32(field::COUNT).ok_or(malformed)?, head.u32(field::FLAGS).ok_or(malformed)?);
-        if flags & !TIGHT_NESTED != 0 {
+        let count = head.u32(field::COUNT).ok_or(malformed)?;
+        if head.u32(field::RESERVED) != Some(0) {
             return Err(OpenError::Reserved);
         }
         if !(1..=MAX_LEVELS).contains(&count) {
             return Err(OpenError::Counts { what: "number of tight hulls" });
         }
         let table = rest.get(..count as usize * TIGHT_HULL_BYTES).ok_or(malformed)?;
-        Ok(TightHulls { flags, records: table.as_chunks().0, data: Bytes(data) })
+        Ok(TightHulls { records: table.as_chunks().0, data: Bytes(data) })
     }
 
     fn check(&self) -> Result<(), OpenError> {

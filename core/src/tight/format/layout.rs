@@ -1,18 +1,16 @@
-//! Sizes, flags and offsets in the section of the tight hulls.
+//! Sizes and offsets in the section of the tight hulls.
 
 /// Bytes of the header of the tight hulls.
 pub const TIGHT_BYTES: usize = 8;
 /// Bytes of the record of a tight hull.
 pub const TIGHT_HULL_BYTES: usize = 24;
-/// Flag of the tight hulls: each encloses all that follow it.
-pub const TIGHT_NESTED: u32 = 1;
 
 /// Offsets in the header of the tight hulls.
 pub mod field {
     /// u32.
     pub const COUNT: usize = 0;
-    /// u32.
-    pub const FLAGS: usize = 4;
+    /// Four zeros.
+    pub const RESERVED: usize = 4;
 }
 
 /// Offsets in the record of a hull.

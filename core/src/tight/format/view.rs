@@ -5,10 +5,11 @@
 //! accepts, has as many triangles as the hull has faces, and every distance is finite and at least
 //! 0. Accessors return `Option` all the same. No path can panic.
 
-use super::layout::{TIGHT_HULL_BYTES, TIGHT_NESTED, record};
+use super::layout::{TIGHT_HULL_BYTES, record};
 use crate::bvh::format::Bvh;
 use crate::format::Bytes;
 use crate::num::Radius16;
+use crate::num::lesser;
 
 /// The record of a tight hull. Lengths are in input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +28,6 @@ pub struct TightRecord {
 /// The tight hulls of a blob, coarse to fine. Copies are cheap: it borrows the bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct TightHulls<'a> {
-    pub(crate) flags: u32,
     pub(crate) records: &'a [[u8; TIGHT_HULL_BYTES]],
     /// The section.
     pub(crate) data: Bytes<'a>,
@@ -85,11 +85,6 @@ impl<'a> TightHulls<'a> {
         self.records.len() as u32
     }
 
-    /// Whether each hull encloses all finer ones.
-    pub fn is_nested(&self) -> bool {
-        self.flags & TIGHT_NESTED != 0
-    }
-
     /// The records, coarse to fine.
     pub fn records(&self) -> impl Iterator<Item = TightRecord> + 'a {
         self.records.iter().filter_map(|record| read(record).map(|(_, record)| record))
@@ -144,6 +139,6 @@ impl<'a> TightHull<'a> {
     pub fn slack(&self, face: u32) -> Option<f32> {
         let stored = Radius16(u16::from_le_bytes(*self.slacks.get(face as usize)?)).get();
         // The code of a distance may be rounded up beyond the largest.
-        Some(if stored < self.record.slack { stored } else { self.record.slack })
+        Some(lesser(self.record.slack, stored))
     }
 }

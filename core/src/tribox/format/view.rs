@@ -2,8 +2,8 @@
 //!
 //! If [`Triboxes::open`] returned `Ok`, then every node but the root is the child of exactly one
 //! node, which has a lesser number and whose parameters hold the child's, no node is more than
-//! [`MAX_TRIBOX_DEPTH`](super::layout::MAX_TRIBOX_DEPTH) splits deep, and every node's planes touch
-//! what is between them, so that its [boundary](Tribox::boundary) is exact. Accessors return
+//! [`MAX_TRIBOX_DEPTH`](super::layout::MAX_TRIBOX_DEPTH) splits deep, and every plane of a node
+//! touches the node's tribox, so that its [boundary](Tribox::boundary) is exact. Accessors return
 //! `Option` all the same. No path can panic.
 
 use super::layout::{
@@ -50,11 +50,7 @@ impl TriboxesHeader {
         Ok(TriboxesHeader {
             flags,
             grid_exponent: word(field::GRID_EXPONENT)?.cast_signed(),
-            grid_origin: [
-                word(field::GRID_ORIGIN)?.cast_signed(),
-                word(field::GRID_ORIGIN + 4)?.cast_signed(),
-                word(field::GRID_ORIGIN + 8)?.cast_signed(),
-            ],
+            grid_origin: bytes.u32x3(field::GRID_ORIGIN).ok_or(short)?.map(u32::cast_signed),
             nodes: word(field::NODES)?,
             levels: word(field::LEVELS)?,
             depth: word(field::DEPTH)?,

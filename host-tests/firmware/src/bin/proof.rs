@@ -3,195 +3,154 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
 use bare::Input;
-use meshsweep_suite::ask::{curve, hull, tight, tree, tribox, triboxes};
+use meshsweep_suite::ask::hull::Focus;
+use meshsweep_suite::ask::{Asked, curve, hull, tight, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
+use meshsweep_suite::place::{Motion, Point};
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_hull_open(input: &Input<'_>, fold: &mut Fold) {
-    match hull::open(input.blob) {
-        Ok(model) => {
-            fold.point(hull::bounds(&model)[0]);
-            hull::contents(&model, fold);
+macro_rules! open {
+    ($($name:ident: $room:ident;)*) => {$(
+        #[unsafe(no_mangle)]
+        extern "C" fn $name(input: &Input<'_>, fold: &mut Fold) {
+            match $room::open(input.blob) {
+                Ok(opened) => {
+                    fold.point($room::bounds(&opened)[0]);
+                    $room::contents(&opened, fold);
+                }
+                Err(refused) => fold.word(refused.0),
+            }
         }
-        Err(refused) => fold.word(refused.0),
-    }
+    )*};
 }
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_hull_closest(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
-    #[cfg(feature = "inject_panic")]
-    fold.byte([1, 2, 3][input.any]);
-    if let Ok(model) = hull::open(input.blob) {
-        hull::closest(&model, input.a, scratch, &mut (), fold);
-    }
+open! {
+    ask_hull_open: hull;
+    ask_tree_open: tree;
+    ask_triboxes_open: triboxes;
+    ask_tight_open: tight;
+    ask_curve_open: curve;
 }
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_open(input: &Input<'_>, fold: &mut Fold) {
-    match tree::open(input.blob) {
-        Ok(tree) => {
-            fold.point(tree::bounds(&tree)[0]);
-            tree::contents(&tree, fold);
+ask! {
+    ask_hull_closest: hull::Model<'t>, |model, input, scratch, fold| {
+        #[cfg(feature = "inject_panic")]
+        fold.byte([1, 2, 3][input.any]);
+        hull::closest(model, input.a, scratch, &mut (), fold)
+    };
+    ask_hull_first_hit: hull::Model<'t>, |model, input, scratch, fold| {
+        hull::first_hit(model, ends(input), scratch, &mut (), fold)
+    };
+    ask_hull_all_hits: hull::Model<'t>, |model, input, scratch, fold| {
+        hull::all_hits(model, ends(input), scratch, &mut (), fold)
+    };
+    ask_hull_outer_hits: hull::Model<'t>, |model, input, scratch, fold| {
+        hull::outer_hits(model, ends(input), scratch, &mut (), fold)
+    };
+    ask_hull_refine: hull::Model<'t>, |model, input, scratch, fold| {
+        let [radius, cosine, error] = input.b;
+        let focuses = [
+            Focus::Everywhere,
+            Focus::Ball { centre: input.a, radius },
+            Focus::Box { a: input.a, b: input.b },
+            Focus::Segment { a: input.a, b: input.b, radius },
+            Focus::Eye { position: input.a, axis: input.b, cosine, error_per_distance: error },
+        ];
+        for focus in focuses {
+            hull::refine(model, &focus, error, scratch, &mut (), fold);
         }
-        Err(refused) => fold.word(refused.0),
-    }
+    };
+    ask_tree_closest: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::closest(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_follow: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::follow(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_coherent: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::coherent(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_nearest: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::nearest(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_signed: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::signed(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_cull: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::cull(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_stopped: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::stopped(tree, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_is_within: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::is_within(tree, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_all_within: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::all_within(tree, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_first_hit: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::first_hit(tree, ends(input), scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_facing: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::facing(tree, ends(input), scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_any_hit: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::any_hit(tree, ends(input), scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_all_hits: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::all_hits(tree, ends(input), scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_overlap: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::overlap(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_all_overlaps: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::all_overlaps(tree, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    };
+    ask_tree_batch: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        let [a, b] = ends(input);
+        tree::batch(tree, &[a, b, a, b, a, b, a, b], scratch, &mut Asked::new((), fold))
+    };
+    ask_triboxes_apart: triboxes::Triboxes<'t>, |all, input, scratch, fold| {
+        triboxes::reject(all, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    };
+    ask_triboxes_candidates: triboxes::Triboxes<'t>, |all, input, scratch, fold| {
+        triboxes::candidates(all, tree::pose(motion(input)), scratch, &mut Asked::new((), fold))
+    };
+    ask_triboxes_distance: triboxes::Triboxes<'t>, |all, input, scratch, fold| {
+        triboxes::nearest(all, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_triboxes_clip: triboxes::Triboxes<'t>, |all, input, scratch, fold| {
+        triboxes::first(all, ends(input), scratch, &mut Asked::new((), fold))
+    };
+    ask_tight_closest: tight::Hulls<'t>, |hulls, input, scratch, fold| {
+        tight::closest(hulls, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_tight_stopped: tight::Hulls<'t>, |hulls, input, scratch, fold| {
+        tight::stopped(hulls, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_tight_is_within: tight::Hulls<'t>, |hulls, input, scratch, fold| {
+        tight::is_within(hulls, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_curve_closest: curve::Curve<'t>, |curves, input, scratch, fold| {
+        curve::closest(curves, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_curve_stopped: curve::Curve<'t>, |curves, input, scratch, fold| {
+        curve::stopped(curves, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_curve_is_within: curve::Curve<'t>, |curves, input, scratch, fold| {
+        curve::is_within(curves, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
 }
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_hull_first_hit(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
-    if let Ok(model) = hull::open(input.blob) {
-        hull::first_hit(&model, [input.a, input.b], scratch, &mut (), fold);
-    }
+fn ends(input: &Input<'_>) -> [Point; 2] {
+    [input.a, input.b]
 }
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_hull_all_hits(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
-    if let Ok(model) = hull::open(input.blob) {
-        hull::all_hits(&model, [input.a, input.b], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_hull_outer_hits(input: &Input<'_>, scratch: &mut hull::Scratch, fold: &mut Fold) {
-    if let Ok(model) = hull::open(input.blob) {
-        hull::outer_hits(&model, [input.a, input.b], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_closest(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::closest(&tree, input.a, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_follow(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::follow(&tree, input.a, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_stopped(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::stopped(&tree, input.a, input.b[0], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_is_within(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::is_within(&tree, input.a, input.b[0], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_nearest(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::nearest(&tree, input.a, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_all_within(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::all_within(&tree, input.a, input.b[0], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_signed(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::signed(&tree, input.a, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_first_hit(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::first_hit(&tree, [input.a, input.b], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_facing(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::facing(&tree, [input.a, input.b], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_any_hit(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::any_hit(&tree, [input.a, input.b], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_all_hits(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::all_hits(&tree, [input.a, input.b], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_session<'t>(
-    input: &Input<'t>,
-    scratch: &mut tree::Scratch<'t>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::session(&tree, input.a, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_batch<'t>(
-    input: &Input<'t>,
-    scratch: &mut tree::Scratch<'t>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        let [a, b] = [input.a, input.b];
-        tree::batch(&tree, &[a, b, a, b, a, b, a, b], scratch, &mut (), fold);
-    }
+fn motion(input: &Input<'_>) -> Motion {
+    ([input.a, input.b, input.a], input.b)
 }
 
 #[unsafe(no_mangle)]
@@ -212,156 +171,4 @@ extern "C" fn ask_tribox_overlap(pairs: &([[f32; 3]; 2], [[f32; 3]; 2]), fold: &
 #[unsafe(no_mangle)]
 extern "C" fn ask_tribox_rest(points: &tribox::Points, input: &Input<'_>, fold: &mut Fold) {
     tribox::rest(points, input.a[0], input.any != 0, &mut (), fold);
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_overlap(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        let pose = tree::pose(([input.a, input.b, input.a], input.b));
-        tree::overlap(&tree, pose, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_all_overlaps(
-    input: &Input<'_>,
-    scratch: &mut tree::Scratch<'_>,
-    fold: &mut Fold,
-) {
-    if let Ok(tree) = tree::open(input.blob) {
-        let pose = tree::pose(([input.a, input.b, input.a], input.b));
-        tree::all_overlaps(&tree, pose, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tree_cull(input: &Input<'_>, scratch: &mut tree::Scratch<'_>, fold: &mut Fold) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::cull(&tree, input.a, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_open(input: &Input<'_>, fold: &mut Fold) {
-    match triboxes::open(input.blob) {
-        Ok(opened) => {
-            fold.point(triboxes::bounds(&opened)[0]);
-            triboxes::contents(&opened, fold);
-        }
-        Err(refused) => fold.word(refused.0),
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_apart(
-    input: &Input<'_>,
-    scratch: &mut triboxes::Scratch,
-    fold: &mut Fold,
-) {
-    if let Ok(opened) = triboxes::open(input.blob) {
-        triboxes::reject(&opened, &([input.a, input.b, input.a], input.b), scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_candidates(
-    input: &Input<'_>,
-    scratch: &mut triboxes::Scratch,
-    fold: &mut Fold,
-) {
-    if let Ok(opened) = triboxes::open(input.blob) {
-        triboxes::candidates(
-            &opened,
-            &([input.a, input.b, input.a], input.b),
-            scratch,
-            &mut (),
-            fold,
-        );
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_distance(
-    input: &Input<'_>,
-    scratch: &mut triboxes::Scratch,
-    fold: &mut Fold,
-) {
-    if let Ok(opened) = triboxes::open(input.blob) {
-        triboxes::nearest(&opened, input.a, scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_triboxes_clip(
-    input: &Input<'_>,
-    scratch: &mut triboxes::Scratch,
-    fold: &mut Fold,
-) {
-    if let Ok(opened) = triboxes::open(input.blob) {
-        triboxes::first(&opened, [input.a, input.b], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tight_open(input: &Input<'_>, fold: &mut Fold) {
-    match tight::open(input.blob) {
-        Ok(opened) => {
-            fold.point(tight::bounds(&opened)[0]);
-            tight::contents(&opened, fold);
-        }
-        Err(refused) => fold.word(refused.0),
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tight_closest(input: &Input<'_>, scratch: &mut tight::Scratch, fold: &mut Fold) {
-    if let Ok(opened) = tight::open(input.blob) {
-        tight::closest(&opened, input.a, scratch, &mut (), fold);
-        tight::stopped(&opened, input.a, input.b[0], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_tight_is_within(
-    input: &Input<'_>,
-    scratch: &mut tight::Scratch,
-    fold: &mut Fold,
-) {
-    if let Ok(opened) = tight::open(input.blob) {
-        tight::is_within(&opened, input.a, input.b[0], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_curve_open(input: &Input<'_>, fold: &mut Fold) {
-    match curve::open(input.blob) {
-        Ok(opened) => {
-            fold.point(curve::bounds(&opened)[0]);
-            curve::contents(&opened, fold);
-        }
-        Err(refused) => fold.word(refused.0),
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_curve_closest(input: &Input<'_>, scratch: &mut curve::Scratch, fold: &mut Fold) {
-    if let Ok(opened) = curve::open(input.blob) {
-        curve::closest(&opened, input.a, scratch, &mut (), fold);
-        curve::stopped(&opened, input.a, input.b[0], scratch, &mut (), fold);
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "C" fn ask_curve_is_within(
-    input: &Input<'_>,
-    scratch: &mut curve::Scratch,
-    fold: &mut Fold,
-) {
-    if let Ok(opened) = curve::open(input.blob) {
-        curve::is_within(&opened, input.a, input.b[0], scratch, &mut (), fold);
-    }
 }

@@ -2,16 +2,13 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::hull::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::hull;
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_closest(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(model) = hull::open(input.blob) {
-        hull::closest(&model, input.a, scratch, &mut (), fold);
-    }
+ask! {
+    ask_closest: hull::Model<'t>,
+        |model, input, scratch, fold| hull::closest(model, input.a, scratch, &mut (), fold);
 }

@@ -2,16 +2,14 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::curve::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::{Asked, curve};
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_closest(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(opened) = curve::open(input.blob) {
-        curve::closest(&opened, input.a, scratch, &mut (), fold);
-    }
+ask! {
+    ask_closest: curve::Curve<'t>, |curves, input, scratch, fold| {
+        curve::closest(curves, input.a, scratch, &mut Asked::new((), fold))
+    };
 }

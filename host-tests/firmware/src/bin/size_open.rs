@@ -2,16 +2,12 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
 use meshsweep_suite::ask::hull;
-use meshsweep_suite::fold::Fold;
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_open(input: &Input<'_>, fold: &mut Fold) {
-    if let Ok(model) = hull::open(input.blob) {
-        fold.point(hull::bounds(&model)[0]);
-    }
+ask! {
+    ask_open: hull::Model<'t>, |model, input, _scratch, fold| fold.point(hull::bounds(model)[0]);
 }

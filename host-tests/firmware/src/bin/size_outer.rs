@@ -2,16 +2,14 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::hull::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::hull;
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_outer_hits(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(model) = hull::open(input.blob) {
-        hull::outer_hits(&model, [input.a, input.b], scratch, &mut (), fold);
-    }
+ask! {
+    ask_outer_hits: hull::Model<'t>, |model, input, scratch, fold| {
+        hull::outer_hits(model, [input.a, input.b], scratch, &mut (), fold)
+    };
 }

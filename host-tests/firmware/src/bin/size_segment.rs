@@ -3,16 +3,14 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::hull::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::hull;
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_first_hit(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(model) = hull::open(input.blob) {
-        hull::first_hit(&model, [input.a, input.b], scratch, &mut (), fold);
-    }
+ask! {
+    ask_first_hit: hull::Model<'t>, |model, input, scratch, fold| {
+        hull::first_hit(model, [input.a, input.b], scratch, &mut (), fold)
+    };
 }

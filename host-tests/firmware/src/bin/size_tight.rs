@@ -3,16 +3,14 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::tight::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::{Asked, tight};
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_is_within(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(opened) = tight::open(input.blob) {
-        tight::is_within(&opened, input.a, input.b[0], scratch, &mut (), fold);
-    }
+ask! {
+    ask_is_within: tight::Hulls<'t>, |hulls, input, scratch, fold| {
+        tight::is_within(hulls, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
 }

@@ -2,16 +2,14 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::tree::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::{Asked, tree};
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_closest(input: &Input<'_>, scratch: &mut Scratch<'_>, fold: &mut Fold) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::closest(&tree, input.a, scratch, &mut (), fold);
-    }
+ask! {
+    ask_closest: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::closest(tree, input.a, scratch, &mut Asked::new((), fold))
+    };
 }

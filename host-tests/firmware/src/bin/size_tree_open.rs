@@ -2,16 +2,12 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
 use meshsweep_suite::ask::tree;
-use meshsweep_suite::fold::Fold;
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_open(input: &Input<'_>, fold: &mut Fold) {
-    if let Ok(tree) = tree::open(input.blob) {
-        fold.point(tree::bounds(&tree)[0]);
-    }
+ask! {
+    ask_open: tree::Bvh<'t>, |tree, input, _scratch, fold| fold.point(tree::bounds(tree)[0]);
 }

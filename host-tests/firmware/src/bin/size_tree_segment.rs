@@ -3,16 +3,14 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::tree::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::{Asked, tree};
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_first_hit(input: &Input<'_>, scratch: &mut Scratch<'_>, fold: &mut Fold) {
-    if let Ok(tree) = tree::open(input.blob) {
-        tree::first_hit(&tree, [input.a, input.b], scratch, &mut (), fold);
-    }
+ask! {
+    ask_first_hit: tree::Bvh<'t>, |tree, input, scratch, fold| {
+        tree::first_hit(tree, [input.a, input.b], scratch, &mut Asked::new((), fold))
+    };
 }

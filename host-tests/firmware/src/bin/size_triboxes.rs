@@ -2,16 +2,15 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../bare.rs"]
 mod bare;
 
-use bare::Input;
-use meshsweep_suite::ask::triboxes::{self, Scratch};
-use meshsweep_suite::fold::Fold;
+use meshsweep_suite::ask::{Asked, tree, triboxes};
 
-#[unsafe(no_mangle)]
-extern "C" fn ask_apart(input: &Input<'_>, scratch: &mut Scratch, fold: &mut Fold) {
-    if let Ok(opened) = triboxes::open(input.blob) {
-        triboxes::reject(&opened, &([input.a, input.b, input.a], input.b), scratch, &mut (), fold);
-    }
+ask! {
+    ask_apart: triboxes::Triboxes<'t>, |all, input, scratch, fold| {
+        let pose = tree::pose(([input.a, input.b, input.a], input.b));
+        triboxes::reject(all, pose, scratch, &mut Asked::new((), fold))
+    };
 }

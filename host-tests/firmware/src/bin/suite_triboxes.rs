@@ -2,17 +2,10 @@
 #![no_std]
 #![no_main]
 
+#[macro_use]
 #[path = "../suite.rs"]
 mod suite;
 
 use meshsweep_suite::ask::triboxes::{Scratch, Triboxes};
-use suite::Shared;
 
-static SCRATCH: Shared<Scratch> = Shared::new(Scratch::new());
-
-#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
-#[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
-fn main() -> ! {
-    // SAFETY: the entry runs once.
-    unsafe { suite::main::<Triboxes<'static>>(&SCRATCH) }
-}
+image!(Triboxes<'static>, Scratch);

@@ -10,10 +10,10 @@ macro_rules! file {
 }
 
 /// The mesh's vertices.
-#[allow(dead_code, reason = "an engine may bring a mesh of its own")]
+#[allow(dead_code, reason = "each engine reads its own")]
 pub const VERTICES: Records<3> = file!("vertices.f32");
 /// The mesh's triangles.
-#[allow(dead_code, reason = "an engine may bring a mesh of its own")]
+#[allow(dead_code, reason = "each engine reads its own")]
 pub const TRIANGLES: Records<3> = file!("triangles.u32");
 
 /// The box tree of the mesh.

@@ -52,7 +52,6 @@ pub unsafe fn begin() {
 }
 
 /// Bytes in use, and the most since the last call: blocks as the allocator rounds them.
-#[allow(dead_code, reason = "images that are never started do not ask")]
 pub fn used() -> (usize, usize) {
     // SAFETY: see `Sync`.
     let state = unsafe { &mut *HEAP.0.get() };

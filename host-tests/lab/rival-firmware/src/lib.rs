@@ -4,7 +4,7 @@
 //! ```text
 //! carried (what the host wrote) ─┐
 //! engine  (trait) ───────────────┼─ race (asks, counts, prints) ─ bin/race_NAME
-//! heap    (counting allocator) ──┘                                bin/size_NAME_QUESTION (linked, never started)
+//! heap    (counting allocator) ──┘
 //! ```
 //! Another engine is another `bin/race_NAME.rs` that implements [`race::Engine`].
 

@@ -2,13 +2,13 @@
 //!
 //! ```text
 //! convex_hull ──────┬─ dop (slabs; `clip` makes them solids) ─┐
-//!                   ├─ workload::sphere ──────────────────────┼─ sizes (volume, area)
+//!                   ├─ workload::sphere ──────────────────────┼─ sizes (volume)
 //!                   └─ oriented_box ──────────────────────────┴─ contenders (each with its rig: the same in f32)
 //!                                                                    │
 //! pose (a moved copy) ─ workload::contact (whether the meshes meet) ───┴─ false_positives ─ cost
 //! ```
 //! The tribox (Crosnier & Rossignac 1999) is the 18-DOP of the axes and the edges' diagonals. All
-//! but what is timed is in f64, of the f32 mesh.
+//! but what is counted is in f64, of the f32 mesh.
 
 pub mod clip;
 pub mod contact;
@@ -38,7 +38,7 @@ struct Bounds {
     hull: ConvexHull,
     slabs: Vec<(Slabs, Dop, Solid)>,
     sphere: Sphere,
-    boxes: [(&'static str, OrientedBox); 2],
+    oriented: OrientedBox,
 }
 
 impl Bounds {
@@ -56,11 +56,8 @@ impl Bounds {
                 (slabs, dop, solid)
             })
             .collect();
-        let boxes = [
-            ("oriented box, principal axes", OrientedBox::principal(subject, &hull.points)),
-            ("oriented box, least on a hull's face", OrientedBox::on_a_face(&hull)),
-        ];
-        Ok(Self { hull, slabs, sphere, boxes })
+        let oriented = OrientedBox::on_a_face(&hull);
+        Ok(Self { hull, slabs, sphere, oriented })
     }
 }
 
@@ -73,39 +70,26 @@ pub fn tables(subject: &Subject, counts: Option<&[Cost]>) -> Result<Vec<Table>, 
     let mut contenders = contenders::contenders(&bounds)?;
     let cases = Cases::new(subject, &bounds);
     let tallies: Vec<Tally> =
-        contenders.iter().map(|contender| Tally::of(&cases, contender)).collect();
+        contenders.iter_mut().map(|contender| Tally::of(&cases, contender)).collect();
     let mut tables = vec![sizes(&bounds), false_positives::table(&cases, &contenders, &tallies)];
-    tables.extend(cost::tables(&cases, &mut contenders, &tallies, counts));
+    tables.extend(counts.map(|counts| cost::table(&contenders, &tallies, counts)));
     Ok(tables)
 }
 
 fn sizes(bounds: &Bounds) -> Table {
-    let columns =
-        ["bound", "faces", "vertices", "volume", "of the hull's", "area", "of the hull's area"];
-    let mut table = Table::new("bounds", "Convex bounds: volume and area, input units", &columns);
-    let hull = [bounds.hull.volume(), bounds.hull.area()];
-    let mut push = |name: &str, counts: Option<[usize; 2]>, [volume, area]: [f64; 2]| {
-        table.push(row![
-            name,
-            counts.map(|[faces, _]| faces),
-            counts.map(|[_, vertices]| vertices),
-            four_digits(volume),
-            fixed(volume / hull[0], 3),
-            four_digits(area),
-            fixed(area / hull[1], 3),
-        ]);
+    let columns = ["bound", "faces", "vertices", "volume", "of the hull's"];
+    let mut table = Table::new("bounds", "Convex bounds: volume, input units", &columns);
+    let hull = bounds.hull.volume();
+    let mut push = |name: &str, counts: Option<[usize; 2]>, volume: f64| {
+        let [faces, vertices] =
+            counts.map_or([Cell::Empty, Cell::Empty], |two| two.map(Cell::from));
+        table.push(row![name, faces, vertices, four_digits(volume), fixed(volume / hull, 3)]);
     };
     for (slabs, _, solid) in &bounds.slabs {
-        push(
-            slabs.name,
-            Some([solid.faces.len(), solid.vertices.len()]),
-            [solid.volume(), solid.area()],
-        );
+        push(slabs.name, Some([solid.faces.len(), solid.vertices.len()]), solid.volume());
     }
-    push("smallest enclosing sphere", None, [bounds.sphere.volume(), bounds.sphere.area()]);
-    for (name, oriented) in &bounds.boxes {
-        push(name, Some([6, 8]), [oriented.volume(), oriented.area()]);
-    }
+    push("smallest enclosing sphere", None, bounds.sphere.volume());
+    push("oriented box, least on a hull's face", Some([6, 8]), bounds.oriented.volume());
     push("convex hull", Some([bounds.hull.triangles.len(), bounds.hull.points.len()]), hull);
     table.note(
         "faces and vertices: those left of the solid, merged at 1e-9 of its size; of the hull: triangles",
@@ -113,7 +97,7 @@ fn sizes(bounds: &Bounds) -> Table {
     table.note(
         "axes: x, y, z; edges: x±y, y±z, z±x; corners: x±y±z; a direction is a slab, so two planes",
     );
-    table.note("principal axes: parry3d's obb, of all vertices; on a face: least volume with a side on a face of the hull");
+    table.note("on a face: least volume with a side on a face of the hull");
     table
 }
 

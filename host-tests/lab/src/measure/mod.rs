@@ -5,7 +5,7 @@
 //! subject (mesh, builds) ─┬─ hulls    (paper 000, Tables 1 and 2)
 //! workload (queries) ─────┼─ segments (paper 000, Table 3) ─┐
 //! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
-//! brute (f64 oracle) ─────┼─ trade    (speed for accuracy)  │
+//! brute (f64 oracle) ─────┼─ cuts     (bytes for accuracy)  │
 //!                         ├─ storage  (bytes, levels) ──────┤
 //!                         ├─ tree     (all of the box tree) ┤
 //!                         ├─ overlap  (mesh against mesh) ──┤
@@ -19,6 +19,7 @@
 pub mod bounds;
 pub(crate) mod brute;
 mod closest;
+mod cuts;
 mod hulls;
 mod overlap;
 mod paper;
@@ -28,7 +29,6 @@ mod segments;
 pub(crate) mod stopwatch;
 mod storage;
 pub mod tight;
-mod trade;
 mod tree;
 pub mod triboxes;
 
@@ -113,18 +113,15 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load(file)?;
     let built = subject.build(BASE_FACES, Priority::Program)?;
     let model = open(&built.bytes)?;
-    let mut tables =
-        vec![subject_table(&subject), hulls::table(&subject), storage::build_times(&built)];
+    let mut tables = vec![subject_table(&subject), hulls::table(&subject)];
     tables.extend([
         storage::sections(&Blob::open(&built.bytes).map_err(|error| error.to_string())?),
         storage::limits(&model),
-        storage::levels(&model),
     ]);
     tables.push(segments::work(&subject)?);
     tables.push(segments::engines(&subject, &model)?);
     tables.extend(closest::tables(&subject, &model)?);
-    tables.extend([trade::tolerances(&subject, &model)?, trade::steps(&subject, &model)?]);
-    tables.push(trade::cuts(&subject, &model)?);
+    tables.push(cuts::table(&subject, &model)?);
     tables.push(storage::proofs(&built.bytes)?);
     tables.extend(tree::tables(&subject)?);
     Ok(tables)

@@ -138,7 +138,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let columns = ["engine", "motions", "boxes", "nodes opened", "triangle pairs", "in f64"];
     let mut work = Table::new("overlap_work", "What that took, in mean", &columns);
     for (name, single) in [("16-bit grid", false), ("f32 vertices", true)] {
-        let options = TreeOptions { closest: false, single, ..TreeOptions::default() };
+        let options = TreeOptions::default().with_closest(false).with_f32(single);
         let bytes = build(
             meshsweep::mesh::Input {
                 input_triangles: subject.triangles_read,
@@ -146,6 +146,7 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
             },
             &options,
         )
+        .expect("builds")
         .0
         .to_bytes();
         let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;

@@ -1,6 +1,6 @@
 //! Segments: the paper's counts (Table 3), and the engines against each other.
 
-use meshsweep_core::{Budget, Ended, Face, Hit, Hull, RefinedHull, ScratchEntry, Search, Work};
+use meshsweep_core::{Budget, Ended, Hit, Hull, RefinedHull, ScratchEntry, Search, Work};
 use meshsweep_host_tests::workload::segments;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
@@ -80,15 +80,17 @@ fn cover(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], queue: usize) -> Result<R
     })
 }
 
+/// Splits of the refined hull.
+const SPLITS: usize = 4096;
+
 fn hull(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result<Run, String> {
-    let words = model.refined_words();
-    let (mut performed, mut swept) = (vec![0; words], vec![0; words]);
-    let mut candidates = vec![Face::EMPTY; 1024];
+    let mut refined = Box::new(RefinedHull::<SPLITS>::new());
+    let mut scratch = [ScratchEntry::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 64];
-    let mut front = RefinedHull::new(&mut performed, &mut swept, &mut candidates);
     Run::of(segments, |[a, b]| {
+        refined.reset();
         let answer = model
-            .outer_hits(a, b, search, &mut front, &mut hits, Budget::EXACT)
+            .outer_hits(a, b, search, &mut refined, &mut hits, Budget::EXACT, &mut scratch)
             .map_err(|error| error.to_string())?;
         let settled = answer.ended == Ended::Exact && !answer.starts_inside;
         Ok((hits.get(..answer.stored).and_then(<[Hit]>::first).copied(), answer.work, settled))

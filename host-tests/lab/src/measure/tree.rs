@@ -3,7 +3,7 @@
 mod accuracy;
 mod trade;
 
-use meshsweep::bvh::fans::{Fan, FanLeaf, FanReport, Weights, decompose, pack};
+use meshsweep::bvh::fans::{Fan, FanLeaf, FanReport, decompose, pack};
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
 use meshsweep::emit::Sections;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, ScratchEntry, SectionKind};
@@ -18,7 +18,7 @@ use super::stopwatch::Stopwatch;
 /// An answer or a proof fails.
 pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let grid = Built::new(subject, &TreeOptions::default());
-    let single = Built::new(subject, &TreeOptions { single: true, ..TreeOptions::default() });
+    let single = Built::new(subject, &TreeOptions::default().with_f32(true));
     let mut tables = vec![shape(&grid), sections(subject), fans(subject)];
     tables.push(accuracy::table(subject, &grid, &single)?);
     tables.extend(trade::tables(subject, &grid)?);
@@ -41,7 +41,8 @@ impl Built {
                 ..subject.mesh.as_input()
             },
             options,
-        );
+        )
+        .expect("builds");
         let bytes = tables.to_bytes();
         Self { tables, report, bytes }
     }
@@ -109,13 +110,13 @@ fn sections(subject: &Subject) -> Table {
     let columns = ["section", "closest only", "segments only", "both", "both, f32", "everything"];
     let mut table =
         Table::new("tree_sections", "Bytes a triangle of a box tree that serves", &columns);
-    let both = TreeOptions { closest: true, segments: true, cull: false, ..TreeOptions::default() };
+    let both = TreeOptions::default().with_closest(true).with_segments(true).with_cull(false);
     let kinds = [
-        TreeOptions { segments: false, ..both },
-        TreeOptions { closest: false, ..both },
+        both.with_segments(false),
+        both.with_closest(false),
         both,
-        TreeOptions { single: true, ..both },
-        TreeOptions { cull: true, ..both },
+        both.with_f32(true),
+        both.with_cull(true),
     ];
     let built = kinds.map(|options| Built::new(subject, &options));
     let triangles = subject.mesh.triangles.len() as f64;
@@ -154,7 +155,7 @@ fn fans(subject: &Subject) -> Table {
     let mesh = &subject.mesh;
     let at = |p: &[f32; 3]| glam::Vec3::from_array(*p).as_dvec3();
     let positions: Vec<glam::DVec3> = mesh.positions.iter().map(at).collect();
-    let papers = decompose(&mesh.triangles, mesh.positions.len(), &Weights::default());
+    let papers = decompose(&mesh.triangles, mesh.positions.len());
     let patches = pack(&mesh.triangles, &positions);
     let mut push = |name: &str, report: FanReport| {
         let stored = report.leaves > 0;

@@ -3,7 +3,7 @@
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::Answer;
-use super::workload::{Queries, stride};
+use super::workload::Queries;
 use crate::measure::brute::Brute;
 
 /// How well an engine's answers agree with others'.
@@ -33,10 +33,10 @@ pub struct Truth<'a> {
 }
 
 impl<'a> Truth<'a> {
-    /// Asks every triangle `count` to `3 count` times.
+    /// Asks every triangle about `count` queries or one more.
     pub fn new(subject: &Subject, queries: &'a Queries, count: usize) -> Self {
         let brute = Brute::new(subject);
-        let stride = stride(queries.len(), 3 * count);
+        let stride = (queries.len() / count).max(1);
         let known = match queries.thinned(stride) {
             Queries::Points(points) => {
                 points.iter().map(|&point| Some(brute.distance(point))).collect()
@@ -52,11 +52,10 @@ impl<'a> Truth<'a> {
         Self { queries, diagonal: subject.diagonal(), stride, known }
     }
 
-    /// Compares the answers to every `stride`-th query; `reference` holds parry3d's to all.
-    pub fn compare(&self, answers: &[Answer], stride: usize, reference: &[Answer]) -> Agreement {
+    /// Compares the answers; `reference` holds parry3d's.
+    pub fn compare(&self, answers: &[Answer], reference: &[Answer]) -> Agreement {
         let mut agreement = Agreement::default();
-        for (number, answer) in answers.iter().enumerate() {
-            let query = number * stride;
+        for (query, answer) in answers.iter().enumerate() {
             let value = self.value(query, answer);
             if query.is_multiple_of(self.stride)
                 && let Some(truth) = self.known[query / self.stride]
@@ -85,7 +84,7 @@ impl<'a> Truth<'a> {
     /// A distance or a parameter, infinity for a miss.
     fn value(&self, query: usize, answer: &Answer) -> f64 {
         match (answer, self.queries) {
-            (Answer::Distance(value) | Answer::Hit(value), _) => f64::from(*value),
+            (Answer::Hit(value), _) => f64::from(*value),
             (Answer::Point(point), Queries::Points(asked)) => distance(asked[query], *point),
             (Answer::Point(_), Queries::Segments(_)) | (Answer::Miss, _) => f64::INFINITY,
         }

@@ -19,7 +19,7 @@ use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 
 use super::engine::{Answer, Engine, each};
-use super::{Scope, Workload};
+use super::workload::Workload;
 
 struct Compressed {
     tree: CwBvh,
@@ -31,11 +31,7 @@ struct Compressed {
 ///
 /// # Errors
 /// None.
-pub fn build<'a>(
-    subject: &Subject,
-    _: &Scope,
-    _: &'a mut Vec<u8>,
-) -> Result<Option<Box<dyn Engine + 'a>>, String> {
+pub fn build<'a>(subject: &Subject, _: &'a mut Vec<u8>) -> Result<Box<dyn Engine + 'a>, String> {
     let at = |v: u32| subject.mesh.positions[v as usize].into();
     let triangles: Vec<Triangle> = subject
         .mesh
@@ -49,7 +45,7 @@ pub fn build<'a>(
         &mut Duration::default(),
     );
     let triangles = tree.primitive_indices.iter().map(|&index| triangles[index as usize]).collect();
-    Ok(Some(Box::new(Compressed { tree, triangles })))
+    Ok(Box::new(Compressed { tree, triangles }))
 }
 
 impl Engine for Compressed {
@@ -59,8 +55,8 @@ impl Engine for Compressed {
             + size_of_val(self.triangles.as_slice())
     }
 
-    fn limit(&self, workload: Workload) -> usize {
-        if workload == Workload::Segments { usize::MAX } else { 0 }
+    fn answers(&self, workload: Workload) -> bool {
+        workload == Workload::Segments
     }
 
     fn closest(&mut self, _: &[[f32; 3]], _: &mut Vec<Answer>) -> Result<(), String> {

@@ -4,20 +4,20 @@ use std::hint::black_box;
 
 use meshsweep_host_tests::workload::Subject;
 
-use super::{Scope, Workload, cwbvh, hull, parry, scalar, tree};
+use super::workload::Workload;
+use super::{cwbvh, parry, tree};
 
 /// An index over one mesh that answers lists of queries. A list is one call, so that the call's
-/// cost is no part of a query's, a session may carry over what it knows, and a batch may be sorted.
+/// cost is no part of a query's, a coherent query may carry over what it knows, and a batch may be
+/// sorted.
 pub trait Engine {
     /// Bytes that it keeps to answer, the triangles included.
     fn bytes(&self) -> usize;
 
-    /// How many queries of a workload it can be asked in reasonable time; 0 if it does not answer
-    /// the question at all.
-    fn limit(&self, workload: Workload) -> usize;
+    /// Whether it takes part in a workload.
+    fn answers(&self, workload: Workload) -> bool;
 
-    /// Replaces `answers` by those to `points`, in their order: [`Answer::Point`] or
-    /// [`Answer::Distance`].
+    /// Replaces `answers` by those to `points`, in their order: [`Answer::Point`].
     ///
     /// # Errors
     /// The engine's refusal.
@@ -35,23 +35,19 @@ pub trait Engine {
     ) -> Result<(), String>;
 }
 
-/// What an engine says; each says it in the way that costs it least.
+/// What an engine says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
     /// The closest point of the surface.
     Point([f32; 3]),
-    /// The distance.
-    Distance(f32),
     /// The parameter of the first hit, 0 at the segment's start, 1 at its end.
     Hit(f32),
     /// No hit.
     Miss,
 }
 
-/// A mesh's engine, or none if it does not take part. The blob is for one that reads its index from
-/// bytes, which have to outlive it.
-type Build =
-    for<'a> fn(&Subject, &Scope, &'a mut Vec<u8>) -> Result<Option<Box<dyn Engine + 'a>>, String>;
+/// A mesh's engine. The blob is for one that reads its index from bytes, which have to outlive it.
+type Build = for<'a> fn(&Subject, &'a mut Vec<u8>) -> Result<Box<dyn Engine + 'a>, String>;
 
 /// An engine that takes part.
 pub struct Entrant {
@@ -59,8 +55,6 @@ pub struct Entrant {
     pub name: &'static str,
     /// What else there is to know of it, for the table of engines.
     pub remark: &'static str,
-    /// Whether its instructions are counted.
-    pub counted: bool,
     /// Builds its index.
     pub build: Build,
 }
@@ -69,50 +63,37 @@ pub struct Entrant {
 pub const REFERENCE: &str = "parry3d";
 
 /// All engines, in the order of the tables.
-pub const ENTRANTS: [Entrant; 8] = [
+pub const ENTRANTS: [Entrant; 6] = [
     Entrant {
         name: REFERENCE,
         remark: "TriMesh: project_local_point, cast_local_ray",
-        counted: true,
         build: parry::build,
     },
     Entrant {
         name: "obvhs",
         remark: "CWBVH, very slow build, own triangle test; no closest points",
-        counted: true,
         build: cwbvh::build,
     },
     Entrant {
         name: "tree",
         remark: "closest_point, first_hit on the box tree, 16-bit grid",
-        counted: true,
         build: tree::build,
     },
     Entrant {
-        name: "session",
+        name: "coherent",
         remark: "CoherentQuery of 128 entries on the same tree, along paths",
-        counted: true,
-        build: tree::build_session,
+        build: tree::build_coherent,
     },
     Entrant {
         name: "batch",
         remark: "closest_points on the same tree, Morton order included",
-        counted: true,
         build: tree::build_batch,
     },
     Entrant {
         name: "tree single",
         remark: "the same with vertices in f32",
-        counted: true,
         build: tree::build_single,
     },
-    Entrant {
-        name: "hull",
-        remark: "closest_point, first_hit on the cover tree, f64 at the end",
-        counted: true,
-        build: hull::build,
-    },
-    Entrant { name: "scalar", remark: "every triangle, f32", counted: false, build: scalar::build },
 ];
 
 /// Asks one query after the other. Each answer passes through a [`black_box`], so that none is

@@ -3,7 +3,7 @@
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, each};
-use super::{Scope, Workload};
+use super::workload::Workload;
 use crate::measure::rival::Rival;
 
 struct Parry(Rival);
@@ -12,12 +12,8 @@ struct Parry(Rival);
 ///
 /// # Errors
 /// parry3d's refusal.
-pub fn build<'a>(
-    subject: &Subject,
-    _: &Scope,
-    _: &'a mut Vec<u8>,
-) -> Result<Option<Box<dyn Engine + 'a>>, String> {
-    Ok(Some(Box::new(Parry(Rival::new(subject)?))))
+pub fn build<'a>(subject: &Subject, _: &'a mut Vec<u8>) -> Result<Box<dyn Engine + 'a>, String> {
+    Ok(Box::new(Parry(Rival::new(subject)?)))
 }
 
 impl Engine for Parry {
@@ -25,8 +21,8 @@ impl Engine for Parry {
         self.0.bytes()
     }
 
-    fn limit(&self, _: Workload) -> usize {
-        usize::MAX
+    fn answers(&self, _: Workload) -> bool {
+        true
     }
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {

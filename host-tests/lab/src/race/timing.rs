@@ -4,8 +4,7 @@ use meshsweep_host_tests::workload::Subject;
 
 use super::agreement::{Agreement, Truth};
 use super::engine::{Answer, ENTRANTS, Engine, Entrant, REFERENCE};
-use super::workload::{Queries, stride};
-use super::{Scale, Scope, Workload};
+use super::workload::{Queries, Scale, Workload};
 use crate::measure::rival::Rival;
 use crate::measure::stopwatch::Stopwatch;
 
@@ -37,19 +36,13 @@ pub struct Lap {
 }
 
 /// Builds every index. `blobs` has one place for each entrant.
-pub fn lanes<'a>(
-    subject: &Subject,
-    scope: &Scope,
-    blobs: &'a mut [Vec<u8>],
-) -> Result<Vec<Lane<'a>>, String> {
+pub fn lanes<'a>(subject: &Subject, blobs: &'a mut [Vec<u8>]) -> Result<Vec<Lane<'a>>, String> {
     let mut lanes = Vec::new();
     for (entrant, blob) in ENTRANTS.iter().zip(blobs) {
         let begun = Stopwatch::start();
-        let built = (entrant.build)(subject, scope, blob);
-        let build_seconds = begun.seconds();
-        if let Some(engine) = built.map_err(|reason| format!("{}: {reason}", entrant.name))? {
-            lanes.push(Lane { entrant, engine, build_seconds });
-        }
+        let engine = (entrant.build)(subject, blob)
+            .map_err(|reason| format!("{}: {reason}", entrant.name))?;
+        lanes.push(Lane { entrant, engine, build_seconds: begun.seconds() });
     }
     Ok(lanes)
 }
@@ -71,7 +64,7 @@ pub fn laps(subject: &Subject, scale: Scale, lanes: &mut [Lane<'_>]) -> Result<V
                 queries: run.answers.len(),
                 nanoseconds: run.nanoseconds,
                 speed: reference.nanoseconds / run.nanoseconds,
-                agreement: truth.compare(&run.answers, run.stride, &reference.answers),
+                agreement: truth.compare(&run.answers, &reference.answers),
             });
         }
     }
@@ -80,9 +73,6 @@ pub fn laps(subject: &Subject, scale: Scale, lanes: &mut [Lane<'_>]) -> Result<V
 
 struct Run {
     engine: &'static str,
-    queries: Queries,
-    /// Of the workload's queries every how many-th was asked.
-    stride: usize,
     answers: Vec<Answer>,
     nanoseconds: f64,
 }
@@ -94,34 +84,23 @@ fn rounds(
 ) -> Result<Vec<Run>, String> {
     let mut runs: Vec<(Run, &mut Lane<'_>)> = lanes
         .iter_mut()
-        .filter(|lane| lane.engine.limit(workload) > 0)
+        .filter(|lane| lane.engine.answers(workload))
         .map(|lane| {
-            let stride = stride(queries.len(), lane.engine.limit(workload));
-            let queries = queries.thinned(stride);
             let answers = Vec::with_capacity(queries.len());
-            (
-                Run {
-                    engine: lane.entrant.name,
-                    queries,
-                    stride,
-                    answers,
-                    nanoseconds: f64::INFINITY,
-                },
-                lane,
-            )
+            (Run { engine: lane.entrant.name, answers, nanoseconds: f64::INFINITY }, lane)
         })
         .collect();
     for _ in 0..ROUNDS {
         for (run, lane) in &mut runs {
             let begun = Stopwatch::start();
-            match &run.queries {
+            match queries {
                 Queries::Points(points) => lane.engine.closest(points, &mut run.answers)?,
                 Queries::Segments(segments) => {
                     lane.engine.first_hits(segments, &mut run.answers)?
                 }
             }
-            run.nanoseconds = run.nanoseconds.min(begun.nanoseconds_each(run.queries.len()));
-            if run.answers.len() != run.queries.len() {
+            run.nanoseconds = run.nanoseconds.min(begun.nanoseconds_each(queries.len()));
+            if run.answers.len() != queries.len() {
                 return Err(format!("{} left queries unanswered", run.engine));
             }
         }

@@ -10,55 +10,55 @@ use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Facing, Hint, Scr
 use meshsweep_host_tests::workload::Subject;
 
 use super::engine::{Answer, Engine, try_each};
-use super::{Scope, Workload};
+use super::workload::Workload;
 
-/// One query after the other, each on its own.
-struct Alone<'a> {
+/// How a list of points is asked.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// Each on its own.
+    Alone,
+    /// Each from where the one before ended.
+    Coherent,
+    /// All at once, in Morton order where they come in none.
+    Batch,
+}
+
+struct Tree<'a> {
     bytes: usize,
     tree: Bvh<'a>,
     stack: Vec<ScratchEntry>,
+    /// Answers of a batch.
+    found: Vec<ClosestPoint>,
+    way: Way,
     workloads: &'static [Workload],
 }
 
-/// Builds a tree of a mesh, which may be open, and opens it; the blob's bytes.
+/// A tree of a mesh, which may be open.
 fn open<'a>(
     subject: &Subject,
-    options: &TreeOptions,
+    is_f32: bool,
     blob: &'a mut Vec<u8>,
-) -> Result<(usize, Bvh<'a>), String> {
-    let (tables, _) = build_tree(
-        meshsweep::mesh::Input {
-            input_triangles: subject.triangles_read,
-            ..subject.mesh.as_input()
-        },
-        options,
-    );
+    way: Way,
+    workloads: &'static [Workload],
+) -> Result<Box<dyn Engine + 'a>, String> {
+    let input = meshsweep::mesh::Input {
+        input_triangles: subject.triangles_read,
+        ..subject.mesh.as_input()
+    };
+    let options = TreeOptions::default().with_f32(is_f32);
+    let (tables, _) = build_tree(input, &options).map_err(|error| error.to_string())?;
     *blob = tables.to_bytes();
     let tree = Bvh::open(blob).map_err(|error| error.to_string())?;
-    Ok((blob.len(), tree))
+    let stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+    Ok(Box::new(Tree { bytes: blob.len(), tree, stack, found: Vec::new(), way, workloads }))
 }
 
-fn alone<'a>(
-    subject: &Subject,
-    options: &TreeOptions,
-    blob: &'a mut Vec<u8>,
-    workloads: &'static [Workload],
-) -> Result<Option<Box<dyn Engine + 'a>>, String> {
-    let (bytes, tree) = open(subject, options, blob)?;
-    let entries = tree.header().stack_entries as usize;
-    Ok(Some(Box::new(Alone { bytes, tree, stack: vec![ScratchEntry::EMPTY; entries], workloads })))
-}
-
-/// On every mesh.
+/// One query after the other.
 ///
 /// # Errors
 /// None but a fault of the builder.
-pub fn build<'a>(
-    subject: &Subject,
-    _: &Scope,
-    blob: &'a mut Vec<u8>,
-) -> Result<Option<Box<dyn Engine + 'a>>, String> {
-    alone(subject, &TreeOptions::default(), blob, &Workload::ALL)
+pub fn build<'a>(subject: &Subject, blob: &'a mut Vec<u8>) -> Result<Box<dyn Engine + 'a>, String> {
+    open(subject, false, blob, Way::Alone, &Workload::ALL)
 }
 
 /// With vertices as they were, in f32.
@@ -67,27 +67,71 @@ pub fn build<'a>(
 /// None but a fault of the builder.
 pub fn build_single<'a>(
     subject: &Subject,
-    _: &Scope,
     blob: &'a mut Vec<u8>,
-) -> Result<Option<Box<dyn Engine + 'a>>, String> {
-    let options = TreeOptions { single: true, ..TreeOptions::default() };
-    alone(subject, &options, blob, &[Workload::Far, Workload::Near, Workload::Segments])
+) -> Result<Box<dyn Engine + 'a>, String> {
+    let workloads = &[Workload::Far, Workload::Near, Workload::Segments];
+    open(subject, true, blob, Way::Alone, workloads)
 }
 
-impl Engine for Alone<'_> {
+/// On paths, a coherent query.
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build_coherent<'a>(
+    subject: &Subject,
+    blob: &'a mut Vec<u8>,
+) -> Result<Box<dyn Engine + 'a>, String> {
+    open(subject, false, blob, Way::Coherent, &[Workload::Path, Workload::Orbit])
+}
+
+/// All queries of a list at once.
+///
+/// # Errors
+/// None but a fault of the builder.
+pub fn build_batch<'a>(
+    subject: &Subject,
+    blob: &'a mut Vec<u8>,
+) -> Result<Box<dyn Engine + 'a>, String> {
+    let workloads = &[Workload::Far, Workload::Near, Workload::Field];
+    open(subject, false, blob, Way::Batch, workloads)
+}
+
+impl Engine for Tree<'_> {
     fn bytes(&self) -> usize {
         self.bytes
     }
 
-    fn limit(&self, workload: Workload) -> usize {
-        if self.workloads.contains(&workload) { usize::MAX } else { 0 }
+    fn answers(&self, workload: Workload) -> bool {
+        self.workloads.contains(&workload)
     }
 
     fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        try_each(points, answers, |point| {
-            let found = black_box(self.tree.closest_point(point, Budget::EXACT, &mut self.stack));
-            found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
-        })
+        let Self { tree, stack, found, .. } = self;
+        match self.way {
+            Way::Alone => try_each(points, answers, |point| {
+                let found = black_box(tree.closest_point(point, Budget::EXACT, stack));
+                found.map(|found| Answer::Point(found.point)).map_err(|error| error.to_string())
+            }),
+            Way::Coherent => {
+                let mut query = CoherentQuery::<128>::new();
+                try_each(points, answers, |point| {
+                    let found = black_box(query.closest_point(tree, point, Budget::EXACT, stack));
+                    found
+                        .map(|found| Answer::Point(found.closest.point))
+                        .map_err(|error| error.to_string())
+                })
+            }
+            Way::Batch => {
+                found.resize(points.len(), ClosestPoint::EMPTY);
+                // The entries behind the descent's own put the points in order.
+                stack.resize(tree.scratch_entries() + 2 * points.len(), ScratchEntry::EMPTY);
+                tree.closest_points(points, &mut Hint::NONE.clone(), found, Budget::EXACT, stack)
+                    .map_err(|error| error.to_string())?;
+                answers.clear();
+                answers.extend(found.iter().map(|found| Answer::Point(found.point)));
+                Ok(())
+            }
+        }
     }
 
     fn first_hits(
@@ -101,102 +145,5 @@ impl Engine for Alone<'_> {
             let found = found.map_err(|error| error.to_string())?;
             Ok(found.hit.map_or(Answer::Miss, |hit| Answer::Hit(hit.t)))
         })
-    }
-}
-
-/// On paths, each query from where the one before ended.
-///
-/// # Errors
-/// None but a fault of the builder.
-pub fn build_session<'a>(
-    subject: &Subject,
-    _: &Scope,
-    blob: &'a mut Vec<u8>,
-) -> Result<Option<Box<dyn Engine + 'a>>, String> {
-    let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
-    let stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    Ok(Some(Box::new(Following { bytes, tree, stack })))
-}
-
-struct Following<'a> {
-    bytes: usize,
-    tree: Bvh<'a>,
-    stack: Vec<ScratchEntry>,
-}
-
-impl Engine for Following<'_> {
-    fn bytes(&self) -> usize {
-        self.bytes
-    }
-
-    fn limit(&self, workload: Workload) -> usize {
-        if matches!(workload, Workload::Path | Workload::Orbit) { usize::MAX } else { 0 }
-    }
-
-    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        let mut session = CoherentQuery::<128>::new();
-        try_each(points, answers, |point| {
-            let found =
-                black_box(session.closest_point(&self.tree, point, Budget::EXACT, &mut self.stack));
-            found.map(|found| Answer::Point(found.closest.point)).map_err(|error| error.to_string())
-        })
-    }
-
-    fn first_hits(&mut self, _: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        answers.clear();
-        Ok(())
-    }
-}
-
-/// All queries of a list at once, in Morton order where they come in none.
-///
-/// # Errors
-/// None but a fault of the builder.
-pub fn build_batch<'a>(
-    subject: &Subject,
-    _: &Scope,
-    blob: &'a mut Vec<u8>,
-) -> Result<Option<Box<dyn Engine + 'a>>, String> {
-    let (bytes, tree) = open(subject, &TreeOptions::default(), blob)?;
-    let stack = vec![ScratchEntry::EMPTY; tree.header().stack_entries as usize];
-    Ok(Some(Box::new(Batched { bytes, tree, stack, found: Vec::new() })))
-}
-
-struct Batched<'a> {
-    bytes: usize,
-    tree: Bvh<'a>,
-    stack: Vec<ScratchEntry>,
-    found: Vec<ClosestPoint>,
-}
-
-impl Engine for Batched<'_> {
-    fn bytes(&self) -> usize {
-        self.bytes
-    }
-
-    fn limit(&self, workload: Workload) -> usize {
-        if matches!(workload, Workload::Far | Workload::Near | Workload::Field) {
-            usize::MAX
-        } else {
-            0
-        }
-    }
-
-    fn closest(&mut self, points: &[[f32; 3]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        self.found.resize(points.len(), ClosestPoint::EMPTY);
-        // The entries behind the descent's own put the points in order.
-        let entries = self.tree.scratch_entries() + 2 * points.len();
-        self.stack.resize(entries, ScratchEntry::EMPTY);
-        let Self { tree, stack, found, .. } = self;
-        tree.closest_points(points, &mut Hint::NONE.clone(), found, Budget::EXACT, stack)
-            .map_err(|error| error.to_string())?;
-        answers.clear();
-        answers.extend(self.found.iter().map(|found| Answer::Point(found.point)));
-        Ok(())
-    }
-
-    fn first_hits(&mut self, _: &[[[f32; 3]; 2]], answers: &mut Vec<Answer>) -> Result<(), String> {
-        answers.clear();
-        Ok(())
     }
 }

@@ -72,12 +72,9 @@ pub struct Scale {
 
 impl Scale {
     /// For numbers to quote.
-    pub const FULL: Self = Self { random: 20_000, coherent: 40_000, side: 64, checked: 100 };
+    pub const FULL: Self = Self { random: 20_000, coherent: 40_000, side: 64, checked: 200 };
     /// For a look.
-    pub const QUICK: Self = Self { random: 4_000, coherent: 8_000, side: 24, checked: 30 };
-    /// For a simulator that is fifty times slower. The field keeps its spacing, on which
-    /// neighbours' nearness depends; few of its rows are taken.
-    pub const COUNTED: Self = Self { random: 1_000, coherent: 2_000, side: 64, checked: 0 };
+    pub const QUICK: Self = Self { random: 4_000, coherent: 8_000, side: 24, checked: 60 };
 }
 
 /// A list of queries of one kind.
@@ -103,56 +100,5 @@ impl Queries {
                 Self::Segments(segments.iter().copied().step_by(stride).collect())
             }
         }
-    }
-
-    /// The first `run` of every `period`.
-    pub fn runs(&self, run: usize, period: usize) -> Self {
-        fn kept<T: Copy>(all: &[T], run: usize, period: usize) -> Vec<T> {
-            all.chunks(period).flat_map(|chunk| &chunk[..run.min(chunk.len())]).copied().collect()
-        }
-        match self {
-            Self::Points(points) => Self::Points(kept(points, run, period)),
-            Self::Segments(segments) => Self::Segments(kept(segments, run, period)),
-        }
-    }
-}
-
-/// The least power of three that thins `count` to at most `limit`. Of any two such strides one
-/// divides the other, so that lists thinned differently have queries in common; and none has a
-/// factor in common with a field's rows, so that a thinned field has nodes of every column.
-pub(super) fn stride(count: usize, limit: usize) -> usize {
-    let mut stride = 1;
-    while count.div_ceil(stride) > limit.max(1) {
-        stride *= 3;
-    }
-    stride
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Queries, stride};
-
-    fn numbered(count: u16) -> Queries {
-        Queries::Points((0..count).map(|i| [f32::from(i); 3]).collect())
-    }
-
-    fn firsts(queries: &Queries) -> Vec<f32> {
-        match queries {
-            Queries::Points(points) => points.iter().map(|point| point[0]).collect(),
-            Queries::Segments(_) => Vec::new(),
-        }
-    }
-
-    #[test]
-    fn a_stride_keeps_at_most_the_limit() {
-        assert_eq!([stride(10, 10), stride(10, 9), stride(10, 4), stride(10, 3)], [1, 3, 3, 9]);
-        assert_eq!(stride(10, 0), 27);
-        assert_eq!(firsts(&numbered(10).thinned(3)), [0.0, 3.0, 6.0, 9.0]);
-    }
-
-    #[test]
-    fn runs_are_the_first_of_each_period() {
-        assert_eq!(firsts(&numbered(10).runs(2, 4)), [0.0, 1.0, 4.0, 5.0, 8.0, 9.0]);
-        assert_eq!(firsts(&numbered(5).runs(2, 4)), [0.0, 1.0, 4.0]);
     }
 }

@@ -42,7 +42,7 @@ pub fn load(file: Option<&Path>) -> Result<Subject, String> {
         return Subject::load(file);
     }
     let (positions, triangles) = rough_sphere(5, 0.05, 1);
-    Ok(subject("rough-sphere".to_owned(), Mesh::new(positions, triangles)))
+    Ok(Subject::of("rough-sphere", Mesh::new(positions, triangles)))
 }
 
 impl Course {
@@ -51,7 +51,7 @@ impl Course {
     pub fn lay(mesh: &Subject, faces: usize, seed: u64) -> Result<Self, String> {
         let hull = hull_of(&mesh.mesh, faces, &BuildOptions::default(), |_| {});
         let (reduced, _, _) = hull.map_err(|error| error.to_string())?;
-        let subject = subject(mesh.name.clone(), reduced);
+        let subject = Subject::of(mesh.name.clone(), reduced);
         let folder = workspace::target().join("rival").join(format!("{}-{faces}", mesh.name));
         let path = path(&subject, seed)?;
         let course = Self {
@@ -78,7 +78,8 @@ impl Course {
             records.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect()
         };
         let Mesh { positions, triangles, .. } = &self.subject.mesh;
-        let (tables, _) = bvh::build(self.subject.mesh.as_input(), &TreeOptions::default());
+        let (tables, _) =
+            bvh::build(self.subject.mesh.as_input(), &TreeOptions::default()).expect("builds");
         file("tree.msw", tables.to_bytes())?;
         file("vertices.f32", numbers(positions))?;
         file(
@@ -92,14 +93,6 @@ impl Course {
         let ply = fs::File::create(self.folder.join("mesh.ply")).map_err(failed)?;
         write_ply(&self.subject.mesh, &mut BufWriter::new(ply)).map_err(failed)
     }
-}
-
-fn subject(name: String, mesh: Mesh) -> Subject {
-    let corner = |pick: fn(f32, f32) -> f32, start: f32| {
-        std::array::from_fn(|axis| mesh.positions.iter().map(|p| p[axis]).fold(start, pick))
-    };
-    let bounds = [corner(f32::min, f32::INFINITY), corner(f32::max, f32::NEG_INFINITY)];
-    Subject { name, triangles_read: mesh.triangles.len(), bounds, mesh }
 }
 
 /// Small steps along the surface, outside of it and off it by about [`OFF`], with a heading that

@@ -3,18 +3,14 @@
 //!
 //! Two triangles apart are nearest to each other at a corner of one and a point inside the other,
 //! or at points of two edges. So the distance is more than `d` if it is for each corner above the
-//! other triangle's inside, and for each pair of edges. All numbers are multiples of one power of
-//! two, in integers; lengths are compared by their squares, and divisors are moved to the other
-//! side.
+//! other triangle's inside, and for each pair of edges. Lengths are compared by their squares, and
+//! divisors are moved to the other side.
 
 use super::Corners;
-use num_bigint::BigInt;
-use num_traits::{Signed, Zero};
+use crate::oracle::dyadic::Dyadic;
+use crate::oracle::vector::{cross, dot, minus};
 
-type Vector = [BigInt; 3];
-
-/// Least exponent of the mantissas' last bits of any `f64`.
-const LEAST: i32 = -1074;
+type Vector = [Dyadic; 3];
 
 /// A margin.
 pub(super) struct Margin {
@@ -28,17 +24,9 @@ impl Margin {
 
     /// Whether the triangles, which are apart, are farther apart.
     pub(super) fn is_kept(&self, s: &Corners, t: &Corners) -> bool {
-        let exponent = s
-            .iter()
-            .chain(t)
-            .flatten()
-            .chain([&self.length])
-            .map(|&x| last_bit(x))
-            .min()
-            .unwrap_or(LEAST);
-        let integers = |t: &Corners| t.map(|p| p.map(|x| integer(x, exponent)));
-        let (s, t) = (integers(s), integers(t));
-        let length = integer(self.length, exponent);
+        let exact = |t: &Corners| t.map(|p| p.map(Dyadic::from));
+        let (s, t) = (exact(s), exact(t));
+        let length = Dyadic::from(self.length);
         let most = &length * &length;
         let above = |t: &[Vector; 3], s: &[Vector; 3]| s.iter().all(|p| corner_is_far(p, t, &most));
         above(&s, &t)
@@ -59,7 +47,7 @@ pub(super) fn is_beyond(triangle: &Corners, face: &Corners, margin: f64) -> bool
     let (u, v) = (edge(b), edge(c));
     let normal = [[1, 2], [2, 0], [0, 1]].map(|[i, j]: [usize; 2]| u[i] * v[j] - u[j] * v[i]);
     let length = normal.map(|x| x * x).iter().sum::<f64>().sqrt();
-    // Whatever direction rounding has made of the normal, it is taken as exact.
+    // Rounding may have turned the normal. The rounded normal is a direction like any other.
     let low = face.iter().map(|&p| height(normal, a, p)[0]).fold(f64::INFINITY, f64::min);
     let high = triangle.iter().map(|&p| height(normal, a, p)[1]).fold(f64::NEG_INFINITY, f64::max);
     let gap = (low - high).next_down();
@@ -81,67 +69,26 @@ fn height(normal: [f64; 3], origin: [f64; 3], p: [f64; 3]) -> [f64; 2] {
     bounds
 }
 
-/// Exponent of the last bit that is set; that of the largest for 0.
-fn last_bit(x: f64) -> i32 {
-    if x == 0.0 {
-        return i32::MAX;
-    }
-    let bits = x.to_bits();
-    let (field, fraction) = ((bits >> 52 & 0x7FF) as i32, bits & ((1 << 52) - 1));
-    if field == 0 {
-        LEAST + fraction.trailing_zeros().cast_signed()
-    } else {
-        (field - 1075) + (fraction | 1 << 52).trailing_zeros().cast_signed()
-    }
-}
-
-/// `x / 2^exponent`, which is an integer.
-fn integer(x: f64, exponent: i32) -> BigInt {
-    if x == 0.0 {
-        return BigInt::zero();
-    }
-    let bits = x.to_bits();
-    let (field, fraction) = ((bits >> 52 & 0x7FF) as i32, bits & ((1 << 52) - 1));
-    let (mantissa, of) =
-        if field == 0 { (fraction, LEAST) } else { (fraction | 1 << 52, field - 1075) };
-    let zeros = mantissa.trailing_zeros();
-    let odd =
-        BigInt::from(mantissa >> zeros) << (of + zeros.cast_signed() - exponent).unsigned_abs();
-    if x < 0.0 { -odd } else { odd }
-}
-
-fn minus(a: &Vector, b: &Vector) -> Vector {
-    [0, 1, 2].map(|k| &a[k] - &b[k])
-}
-
-fn dot(a: &Vector, b: &Vector) -> BigInt {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    [[1, 2], [2, 0], [0, 1]].map(|[i, j]| &a[i] * &b[j] - &a[j] * &b[i])
-}
-
 /// Whether a corner is farther from a triangle's plane, if its foot is inside; true if it is not,
 /// or there is no plane.
-fn corner_is_far(p: &Vector, [a, b, c]: &[Vector; 3], most: &BigInt) -> bool {
+fn corner_is_far(p: &Vector, [a, b, c]: &[Vector; 3], most: &Dyadic) -> bool {
     let normal = cross(&minus(b, a), &minus(c, a));
     let square = dot(&normal, &normal);
     let beyond = [[a, b], [b, c], [c, a]]
         .iter()
-        .any(|[u, v]| dot(&normal, &cross(&minus(v, u), &minus(p, u))).is_negative());
-    if square.is_zero() || beyond {
+        .any(|[u, v]| dot(&normal, &cross(&minus(v, u), &minus(p, u))).sign() < 0);
+    if square.sign() == 0 || beyond {
         return true;
     }
     let height = dot(&normal, &minus(p, a));
-    &height * &height > most * square
+    &height * &height > most * &square
 }
 
 /// Whether a point is farther from a segment.
-fn point_is_far(p: &Vector, a: &Vector, b: &Vector, most: &BigInt) -> bool {
+fn point_is_far(p: &Vector, a: &Vector, b: &Vector, most: &Dyadic) -> bool {
     let (along, to) = (minus(b, a), minus(p, a));
     let (square, foot) = (dot(&along, &along), dot(&along, &to));
-    if !foot.is_positive() {
+    if foot.sign() <= 0 {
         return dot(&to, &to) > *most;
     }
     if foot >= square {
@@ -149,11 +96,11 @@ fn point_is_far(p: &Vector, a: &Vector, b: &Vector, most: &BigInt) -> bool {
         return dot(&to, &to) > *most;
     }
     let area = cross(&along, &to);
-    dot(&area, &area) > most * square
+    dot(&area, &area) > most * &square
 }
 
 /// Whether two segments are farther apart.
-fn edges_are_far([a, b]: [&Vector; 2], [c, d]: [&Vector; 2], most: &BigInt) -> bool {
+fn edges_are_far([a, b]: [&Vector; 2], [c, d]: [&Vector; 2], most: &Dyadic) -> bool {
     let ends = point_is_far(a, c, d, most)
         && point_is_far(b, c, d, most)
         && point_is_far(c, a, b, most)
@@ -166,12 +113,12 @@ fn edges_are_far([a, b]: [&Vector; 2], [c, d]: [&Vector; 2], most: &BigInt) -> b
     let square = dot(&across, &across);
     // The lines are nearest to each other at a + x·u and c + y·v, with these times `square`.
     let [x, y] = [dot(&cross(&w, &v), &across), dot(&cross(&w, &u), &across)];
-    let between = |z: &BigInt| z.is_positive() && *z < square;
-    if square.is_zero() || !between(&x) || !between(&y) {
+    let between = |z: &Dyadic| z.sign() > 0 && *z < square;
+    if square.sign() == 0 || !between(&x) || !between(&y) {
         return true;
     }
     let gap = dot(&w, &across);
-    &gap * &gap > most * square
+    &gap * &gap > most * &square
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use super::{Corners, Surface};
 use crate::check::side;
 
 /// Faces by the strips of y that they reach into.
-pub(super) struct Winding {
+#[derive(Debug)]
+pub struct Winding {
     faces: Vec<Corners>,
     low: f64,
     high: f64,
@@ -18,7 +19,9 @@ const STRIPS: usize = 256;
 const YZ: [usize; 2] = [1, 2];
 
 impl Winding {
-    pub(super) fn new(hull: &Surface) -> Self {
+    /// Of a closed surface.
+    #[must_use]
+    pub fn new(hull: &Surface) -> Self {
         let faces: Vec<Corners> = hull.triangles.iter().map(|&t| hull.corners(t)).collect();
         let ys = || faces.iter().flatten().map(|p| p[1]);
         let (low, high) =
@@ -40,7 +43,10 @@ impl Winding {
     /// Crossings of the ray along +x from `p`, which is thought to be moved by an infinitesimal
     /// step along y and one infinitely smaller along z, so that it meets no edge: outwards
     /// count 1, inwards −1.
-    pub(super) fn around(&self, p: [f64; 3]) -> Result<i64, String> {
+    ///
+    /// # Errors
+    /// The point is on a face.
+    pub fn around(&self, p: [f64; 3]) -> Result<i64, String> {
         if !(self.low <= p[1] && p[1] <= self.high) {
             return Ok(0);
         }

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use crate::corrupt::{crc32, entries, word};
+use crate::check::sections::{check_header, header_word, section};
+use crate::corrupt::word;
 
 /// A leaf: vertices as stored, centres first.
 #[derive(Clone, Debug)]
@@ -92,21 +93,6 @@ pub(super) struct TreeBlob {
     pub(super) source: Vec<u32>,
 }
 
-/// Bytes of a section; none if it is not there.
-fn section<'a>(bytes: &'a [u8], kind: u32, name: &str) -> Result<&'a [u8], String> {
-    let Some(entry) = entries(bytes).into_iter().find(|entry| entry.kind == kind) else {
-        return Ok(&[]);
-    };
-    let start = entry.offset as usize;
-    let body =
-        bytes.get(start..start + entry.bytes as usize).ok_or(format!("{name} leaves the blob"))?;
-    if Some(crc32(body)) == word(bytes, entry.at + 12) {
-        Ok(body)
-    } else {
-        Err(format!("the CRC of {name} does not hold"))
-    }
-}
-
 fn float(record: &[u8], at: usize) -> f32 {
     word(record, at).map_or(f32::NAN, f32::from_bits)
 }
@@ -140,16 +126,8 @@ impl TreeBlob {
     /// Reads all sections. Leaves are found through the links, so that vertices and triangles that
     /// no node names are an error.
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, String> {
-        if bytes.get(..10) != Some(b"meshswep\x01\x00".as_slice())
-            || word(bytes, 16) != u32::try_from(bytes.len()).ok()
-        {
-            return Err("not a whole blob of version 1".into());
-        }
-        let at = |offset: usize| word(bytes, offset).ok_or("the header is cut short".to_owned());
-        let table_end = (at(12)? as usize).min(bytes.len()).max(160);
-        if crc32(&[&bytes[..156], &bytes[160..table_end]].concat()) != at(156)? {
-            return Err("the header's CRC does not hold".into());
-        }
+        check_header(bytes)?;
+        let at = |offset: usize| header_word(bytes, offset);
         let head = section(bytes, 12, "the tree's header")?;
         if head.len() != 64 {
             return Err("no box tree".into());

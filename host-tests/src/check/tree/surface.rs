@@ -98,7 +98,7 @@ impl<'a> Near<'a> {
             let way = &Dyadic::from(stored[k]) - &Dyadic::from(there[k]);
             &sum + &(&way * &way)
         });
-        allowed.is_non_negative() && square <= &allowed * &allowed
+        allowed.sign() >= 0 && square <= &allowed * &allowed
     }
 }
 

@@ -41,13 +41,19 @@ pub enum Family {
     /// Faces of a box and its cut edges, in whole and half numbers: many planes through every
     /// vertex.
     Box,
+    /// [`stairs`]: inserted as they come, nearly every constraint is violated.
+    Stairs,
+    /// [`sphere`].
+    Sphere,
 }
 
 impl Family {
     /// Those without built-in coincidences.
     pub const RANDOM: [Self; 4] = [Self::Around, Self::Bounded, Self::Anything, Self::Star];
+    /// Those that can have any number of constraints, with a function that makes them.
+    pub const LARGE: [(Self, Large); 2] = [(Self::Stairs, stairs), (Self::Sphere, sphere)];
     /// The others.
-    pub const DEGENERATE: [Self; 11] = [
+    pub const DEGENERATE: [Self; 13] = [
         Self::Duplicates,
         Self::Parallel,
         Self::NearlyParallel,
@@ -59,6 +65,8 @@ impl Family {
         Self::Unbounded,
         Self::Face,
         Self::Box,
+        Self::Stairs,
+        Self::Sphere,
     ];
 
     /// One program of this family.
@@ -83,9 +91,54 @@ impl Family {
             Self::Unbounded => unbounded(random),
             Self::Face => face(random),
             Self::Box => cut_box(random),
+            Self::Stairs => {
+                let count = 6 + random.below(10);
+                stairs(random, count)
+            }
+            Self::Sphere => {
+                let count = 6 + random.below(10);
+                sphere(random, count)
+            }
         };
         program.representable()
     }
+}
+
+/// Makes a program with a given number of constraints.
+pub type Large = fn(&mut Random, usize) -> Program;
+
+/// Three floors, then stairs along x, along y and along z, from the lowest step to the highest. The
+/// steps lean by less than their height, so each lies wholly above those before it near the origin.
+///
+/// Inserted as they come, every step is violated, and so is every earlier one along the two other
+/// axes in the programs on its plane and on its lines: the work is cubic.
+#[must_use]
+pub fn stairs(random: &mut Random, count: usize) -> Program {
+    let axes = DVec3::AXES;
+    let mut constraints: Vec<HalfSpace> =
+        axes.into_iter().map(|normal| HalfSpace { normal, offset: -1.0 }).collect();
+    let steps = count.saturating_sub(3);
+    let each = steps.div_ceil(3);
+    for step in 0..steps {
+        let height = 1.0 / each as f64;
+        let lean = random.direction() * (0.1 * height);
+        let normal = (axes[step / each] + lean).normalize();
+        constraints.push(HalfSpace { normal, offset: (step % each) as f64 * height - 0.5 });
+    }
+    Program { objective: DVec3::splat(1.0).normalize(), constraints }
+}
+
+/// Tangent planes of the unit sphere, which lies in every half-space: none is redundant. Three
+/// slanting floors bound the program.
+#[must_use]
+pub fn sphere(random: &mut Random, count: usize) -> Program {
+    let floor = |x: f64, y: f64| DVec3::new(x, y, 1.0).normalize();
+    let floors = [floor(1.0, 0.0), floor(-1.0, 1.0), floor(-1.0, -1.0)];
+    let tangent = |normal| HalfSpace { normal, offset: -1.0 };
+    let mut constraints: Vec<HalfSpace> = floors.map(tangent).to_vec();
+    let others = count.saturating_sub(constraints.len());
+    constraints.extend((0..others).map(|_| tangent(random.direction())));
+    Program { objective: DVec3::Z, constraints }
 }
 
 /// A half-space of random direction that holds `point`, by up to `slack`.

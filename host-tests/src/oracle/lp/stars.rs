@@ -37,8 +37,7 @@ impl Star {
         Self::Corner,
     ];
 
-    /// The program of one random star of this kind; the objective is the sum of its area vectors,
-    /// scaled to length 1.
+    /// The program of one random star of this kind.
     #[must_use]
     pub fn program(self, random: &mut Random) -> Program {
         let left = 3 + random.below(3);
@@ -49,19 +48,9 @@ impl Star {
         }
         self.place(random, &mut points);
         let middle = (points[0] + points[1]) / 2.0;
-        let radius = points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
-        for point in &mut points {
-            *point = (*point - middle) / radius;
-        }
-        let (mut objective, mut constraints) = (DVec3::ZERO, Vec::new());
-        for [a, b, c] in triangles(left, right) {
-            let area = (points[b] - points[a]).cross(points[c] - points[a]);
-            objective += area;
-            let normal = area.normalize();
-            let offset = normal.dot(points[a]);
-            constraints.push(HalfSpace { normal, offset });
-        }
-        Program { objective: objective.normalize(), constraints }
+        let faces: Vec<[DVec3; 3]> =
+            triangles(left, right).into_iter().map(|face| face.map(|v| points[v])).collect();
+        of_faces(&faces, middle)
     }
 
     fn height(self, random: &mut Random, point: DVec3) -> f64 {
@@ -88,6 +77,24 @@ impl Star {
             *point = (turn * *point + shift).as_vec3().as_dvec3();
         }
     }
+}
+
+/// The program of the star of an edge with this middle; faces without area have no plane. The
+/// objective is the sum of the area vectors, scaled to length 1.
+#[must_use]
+pub fn of_faces(faces: &[[DVec3; 3]], middle: DVec3) -> Program {
+    let corners = faces.iter().flatten();
+    let radius = corners.map(|p| p.distance(middle)).fold(0.0, f64::max);
+    let (mut objective, mut constraints) = (DVec3::ZERO, Vec::new());
+    for face in faces {
+        let [a, b, c] = face.map(|p| (p - middle) / radius);
+        let area = (b - a).cross(c - a);
+        objective += area;
+        if let Some(normal) = area.try_normalize() {
+            constraints.push(HalfSpace { normal, offset: normal.dot(a) });
+        }
+    }
+    Program { objective: objective.normalize_or_zero(), constraints }
 }
 
 /// The edge's vertices, then the ring around them in order: `left` points about the first, `right`

@@ -1,11 +1,11 @@
 //! Questions to the curves of a blob.
 
 pub use meshsweep_core::Curve;
-use meshsweep_core::{Budget, CurveClosest, CurveSegment, QueryError, ScratchEntry};
+use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry};
 
-use super::{Refused, Subject, how, refusal, timed, verdict};
+use super::{Asked, Refused, Subject, how, verdict};
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer};
+use crate::place::{Bounds, Placer, Point};
 use crate::{Clock, Kind};
 
 /// Entries of the queue: enough for the suite's blobs, and some to go best first.
@@ -69,20 +69,21 @@ impl<'t> Subject<'t> for Curve<'t> {
         clock: &mut impl Clock,
         fold: &mut Fold,
     ) {
+        let to = &mut Asked::new(clock, fold);
         match kind {
-            Kind::Contents => contents(self, fold),
+            Kind::Contents => contents(self, to.fold),
             Kind::ClosestFar => {
-                closest(self, place.far(), scratch, clock, fold);
+                closest(self, place.far(), scratch, to);
             }
             Kind::ClosestNear => {
-                let base = closest(self, place.far(), scratch, &mut (), fold);
-                closest(self, place.near(base), scratch, clock, fold);
+                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+                closest(self, place.near(base), scratch, to);
             }
             Kind::ClosestPath => {
-                closest(self, place.step(), scratch, clock, fold);
+                closest(self, place.step(), scratch, to);
             }
-            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, clock, fold),
-            Kind::Within => is_within(self, place.far(), place.distance(), scratch, clock, fold),
+            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
+            Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),
             _ => {}
         }
     }
@@ -113,24 +114,14 @@ pub fn contents(curve: &Curve<'_>, fold: &mut Fold) {
     fold.f32(curve.surface_error());
 }
 
-/// The answer's point.
-fn answered(fold: &mut Fold, answer: Result<CurveClosest, QueryError>) -> [f32; 3] {
-    match answer {
-        Ok(near) => {
-            fold.f32(near.distance.lower);
-            fold.f32(near.distance.upper);
-            fold.point(near.point);
-            segment(fold, Some(near.segment));
-            fold.f32(near.t);
-            fold.f32(near.safe_motion);
-            how(fold, near.work, near.ended);
-            near.point
-        }
-        Err(error) => {
-            refusal(fold, error);
-            [0.0; 3]
-        }
-    }
+fn closest_point(fold: &mut Fold, answer: &CurveClosest) {
+    fold.f32(answer.distance.lower);
+    fold.f32(answer.distance.upper);
+    fold.point(answer.point);
+    segment(fold, Some(answer.segment));
+    fold.f32(answer.t);
+    fold.f32(answer.safe_motion);
+    how(fold, answer.work, answer.ended);
 }
 
 fn segment(fold: &mut Fold, segment: Option<CurveSegment>) {
@@ -139,51 +130,49 @@ fn segment(fold: &mut Fold, segment: Option<CurveSegment>) {
     fold.word(segment);
 }
 
-/// The closest point.
+/// The closest point; returns it.
 #[inline(never)]
 pub fn closest(
     curve: &Curve<'_>,
-    point: [f32; 3],
+    p: Point,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) -> [f32; 3] {
-    let answer = timed(clock, || curve.closest_point(point, Budget::EXACT, &mut scratch.0));
-    answered(fold, answer)
+    to: &mut Asked<'_, impl Clock>,
+) -> Point {
+    let call = || curve.closest_point(p, Budget::EXACT, &mut scratch.0);
+    to.answer(call, closest_point).map_or(p, |answer| answer.point)
 }
 
 /// The closest point with a tolerance, and in too few steps with one entry.
 #[inline(never)]
 pub fn stopped(
     curve: &Curve<'_>,
-    point: [f32; 3],
+    p: Point,
     absolute: f32,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
+    to: &mut Asked<'_, impl Clock>,
 ) {
     let tolerant = Budget::EXACT.with_relative(0.1).with_absolute(absolute);
-    let answer = timed(clock, || curve.closest_point(point, tolerant, &mut scratch.0));
-    answered(fold, answer);
-    let short = scratch.0.get_mut(..1).unwrap_or_default();
-    answered(fold, curve.closest_point(point, Budget::EXACT.with_steps(9), short));
+    let brief = Budget::EXACT.with_steps(9);
+    for (budget, entries) in [(tolerant, ENTRIES), (brief, 1)] {
+        let queue = scratch.0.get_mut(..entries).unwrap_or_default();
+        to.answer(|| curve.closest_point(p, budget, queue), closest_point);
+    }
 }
 
 /// Whether the curve is within a distance.
 #[inline(never)]
 pub fn is_within(
     curve: &Curve<'_>,
-    point: [f32; 3],
+    p: Point,
     distance: f32,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
+    to: &mut Asked<'_, impl Clock>,
 ) {
-    match timed(clock, || curve.within(point, distance, Budget::EXACT, &mut scratch.0)) {
-        Ok(answer) => {
+    to.answer(
+        || curve.within(p, distance, Budget::EXACT, &mut scratch.0),
+        |fold, answer| {
             segment(fold, answer.segment);
             verdict(fold, answer.work, answer.verdict);
-        }
-        Err(error) => refusal(fold, error),
-    }
+        },
+    );
 }

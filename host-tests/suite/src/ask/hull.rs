@@ -1,6 +1,7 @@
 //! Questions to the split hierarchy.
 
-use meshsweep_core::{Blob, Budget, Face, Hit, Hull, RefinedHull, ScratchEntry, Search};
+pub use meshsweep_core::Focus;
+use meshsweep_core::{Blob, Budget, Change, Hit, Hull, RefinedHull, ScratchEntry, Search};
 
 use super::{Refused, Subject, timed};
 use crate::fold::Fold;
@@ -17,41 +18,39 @@ pub struct Model<'t> {
 /// Entries of the queue.
 const QUEUE: usize = 256;
 
-/// Words of each bit set of the front: 2,048 splits.
-const FRONT_WORDS: usize = 64;
+/// Splits of the refined hull.
+const SPLITS: usize = 256;
 
-/// What the queries need beside the model, 4 KiB in all.
+/// What the queries need beside the model, 7 KiB in all.
 #[derive(Debug)]
-pub struct Scratch {
+pub struct Scratch<'t> {
     queue: [ScratchEntry; QUEUE],
     hits: [Hit; 16],
-    performed: [u32; FRONT_WORDS],
-    swept: [u32; FRONT_WORDS],
-    candidates: [Face; 64],
+    refined: RefinedHull<'t, SPLITS>,
+    changes: [Change; 64],
 }
 
-impl Scratch {
+impl Scratch<'_> {
     /// Scratch that no query has used.
     #[must_use]
     pub const fn new() -> Self {
         Self {
             queue: [ScratchEntry::EMPTY; QUEUE],
             hits: [Hit::EMPTY; 16],
-            performed: [0; FRONT_WORDS],
-            swept: [0; FRONT_WORDS],
-            candidates: [Face::EMPTY; 64],
+            refined: RefinedHull::new(),
+            changes: [Change::EMPTY; 64],
         }
     }
 }
 
-impl Default for Scratch {
+impl Default for Scratch<'_> {
     fn default() -> Self {
         Self::new()
     }
 }
 
 impl<'t> Subject<'t> for Model<'t> {
-    type Scratch = Scratch;
+    type Scratch = Scratch<'t>;
 
     fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
         open(bytes)
@@ -62,11 +61,11 @@ impl<'t> Subject<'t> for Model<'t> {
     }
 
     fn memory_suffices(&self) -> bool {
-        self.hull.scratch_entries() <= QUEUE && self.hull.refined_words() <= FRONT_WORDS
+        self.hull.scratch_entries() <= QUEUE
     }
 
     fn memory(&self) -> usize {
-        size_of::<Scratch>()
+        size_of::<Scratch<'_>>()
     }
 
     fn suits(kind: Kind) -> bool {
@@ -80,6 +79,7 @@ impl<'t> Subject<'t> for Model<'t> {
                 | Kind::FirstHit
                 | Kind::AllHits
                 | Kind::OuterHits
+                | Kind::Refine
         )
     }
 
@@ -87,7 +87,7 @@ impl<'t> Subject<'t> for Model<'t> {
         &self,
         kind: Kind,
         place: &mut Placer,
-        scratch: &mut Scratch,
+        scratch: &mut Scratch<'t>,
         clock: &mut impl Clock,
         fold: &mut Fold,
     ) {
@@ -108,6 +108,10 @@ impl<'t> Subject<'t> for Model<'t> {
             Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
             Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
             Kind::OuterHits => outer_hits(self, place.segment(), scratch, clock, fold),
+            Kind::Refine => {
+                let (focus, error) = focus(self, place);
+                refine(self, &focus, error, scratch, clock, fold);
+            }
             _ => {}
         }
     }
@@ -153,7 +157,7 @@ pub fn contents(model: &Model<'_>, fold: &mut Fold) {
 pub fn closest(
     model: &Model<'_>,
     point: [f32; 3],
-    scratch: &mut Scratch,
+    scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) -> [f32; 3] {
@@ -173,7 +177,7 @@ pub fn closest(
 pub fn first_hit(
     model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
-    scratch: &mut Scratch,
+    scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
@@ -187,7 +191,7 @@ pub fn first_hit(
 pub fn all_hits(
     model: &Model<'_>,
     [a, b]: [[f32; 3]; 2],
-    scratch: &mut Scratch,
+    scratch: &mut Scratch<'_>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
@@ -203,31 +207,77 @@ pub fn all_hits(
     }
 }
 
-/// The hits of the segment from `a` to `b` that the refined hull finds from outside.
-pub fn outer_hits(
-    model: &Model<'_>,
+/// The hits of the segment from `a` to `b` that the refined hull finds from outside: from the base
+/// hull, then from the hull that this leaves.
+pub fn outer_hits<'t>(
+    model: &Model<'t>,
     [a, b]: [[f32; 3]; 2],
-    scratch: &mut Scratch,
+    scratch: &mut Scratch<'t>,
     clock: &mut impl Clock,
     fold: &mut Fold,
 ) {
-    let Scratch { hits: found, performed, swept, candidates, .. } = scratch;
-    let mut ask = |search| {
-        let mut refined = RefinedHull::new(performed, swept, candidates);
-        match model.hull.outer_hits(a, b, search, &mut refined, found, Budget::EXACT) {
-            Ok(answer) => {
-                fold.f32(answer.t.lower);
-                fold.f32(answer.t.upper);
-                super::hits(fold, found.get(..answer.stored).unwrap_or_default());
-                fold.word(answer.dropped);
-                fold.word(u32::from(answer.starts_inside));
-                super::how(fold, answer.work, answer.ended);
-            }
-            Err(error) => super::refusal(fold, error),
-        }
-    };
+    let Scratch { queue, hits: found, refined, .. } = scratch;
     timed(clock, || {
-        ask(Search::First);
-        ask(Search::Outer);
+        refined.reset();
+        for search in [Search::First, Search::Outer] {
+            match model.hull.outer_hits(a, b, search, refined, found, Budget::EXACT, queue) {
+                Ok(answer) => {
+                    fold.f32(answer.t.lower);
+                    fold.f32(answer.t.upper);
+                    super::hits(fold, found.get(..answer.stored).unwrap_or_default());
+                    fold.word(answer.dropped);
+                    fold.word(u32::from(answer.starts_inside));
+                    super::how(fold, answer.work, answer.ended);
+                }
+                Err(error) => super::refusal(fold, error),
+            }
+        }
     });
+}
+
+/// The focus of a path that seldom jumps, half of the time a ball; and the error.
+fn focus(model: &Model<'_>, place: &mut Placer) -> (Focus, f32) {
+    let [least, greatest] = bounds(model);
+    let size = greatest[0] - least[0];
+    let here = place.step_or_jump();
+    let focus = match place.rng.next_u32() & 7 {
+        0 => Focus::Box { a: here, b: place.near(here) },
+        1 => Focus::Segment { a: here, b: place.far(), radius: size / 64.0 },
+        2 => Focus::Eye {
+            position: here,
+            axis: core::array::from_fn(|_| place.rng.signed_unit()),
+            cosine: place.rng.signed_unit(),
+            error_per_distance: 0.03125,
+        },
+        3 => Focus::Everywhere,
+        _ => Focus::Ball { centre: here, radius: size / 8.0 },
+    };
+    (focus, if focus == Focus::Everywhere { size / 64.0 } else { size / 1024.0 })
+}
+
+/// The hull that a focus needs: the update, its changes, and all faces.
+pub fn refine<'t>(
+    model: &Model<'t>,
+    focus: &Focus,
+    error: f32,
+    scratch: &mut Scratch<'t>,
+    clock: &mut impl Clock,
+    fold: &mut Fold,
+) {
+    let Scratch { refined, changes, .. } = scratch;
+    match timed(clock, || refined.update(&model.hull, focus, error, changes)) {
+        Ok(update) => {
+            for word in [update.faces, update.performed, update.undone, update.dropped] {
+                fold.word(word);
+            }
+            fold.f32(update.error_left);
+            for change in changes.get(..update.stored).unwrap_or_default() {
+                change.removed(&model.hull).flatten().for_each(|corner| fold.word(corner.0));
+            }
+        }
+        Err(error) => super::refusal(fold, error),
+    }
+    for face in refined.faces(&model.hull) {
+        face.corners.into_iter().for_each(|corner| fold.word(corner.0));
+    }
 }

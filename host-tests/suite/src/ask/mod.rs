@@ -85,6 +85,41 @@ impl Refused {
     }
 }
 
+/// One query: the clock that is told of the core's work, and the fold that takes the answer.
+#[derive(Debug)]
+pub struct Asked<'f, C> {
+    clock: C,
+    fold: &'f mut Fold,
+}
+
+impl<'f, C: Clock> Asked<'f, C> {
+    /// Nothing asked yet; `()` is no clock.
+    pub const fn new(clock: C, fold: &'f mut Fold) -> Self {
+        Self { clock, fold }
+    }
+
+    /// Calls the core between the clock's two readings.
+    #[inline(always)]
+    fn timed<T>(&mut self, call: impl FnOnce() -> T) -> T {
+        timed(&mut self.clock, call)
+    }
+
+    /// Calls the core, and folds its answer by `told`, or its refusal.
+    #[inline(always)]
+    fn answer<T>(
+        &mut self,
+        call: impl FnOnce() -> Result<T, QueryError>,
+        told: impl FnOnce(&mut Fold, &T),
+    ) -> Option<T> {
+        let answer = self.timed(call);
+        match &answer {
+            Ok(answer) => told(self.fold, answer),
+            Err(error) => refusal(self.fold, *error),
+        }
+        answer.ok()
+    }
+}
+
 /// Calls the core between the clock's two readings.
 #[inline(always)]
 fn timed<T>(clock: &mut impl Clock, call: impl FnOnce() -> T) -> T {
@@ -133,7 +168,7 @@ fn verdict(fold: &mut Fold, work: Work, verdict: Verdict) {
         Verdict::Yes | Verdict::No => Ended::Exact,
         Verdict::Undecided(Undecided::Steps) => Ended::Steps,
         Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
-        Verdict::Undecided(_) => Ended::Resolution,
+        _ => Ended::Resolution,
     };
     how(fold, work, ended);
 }

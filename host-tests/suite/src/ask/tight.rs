@@ -1,13 +1,11 @@
 //! Questions to the finest tight hull of a blob, about the mesh within.
 
-use meshsweep_core::Budget;
 pub use meshsweep_core::TightHull;
-use meshsweep_core::TightHulls;
-use meshsweep_core::{ScratchEntry, Verdict};
+use meshsweep_core::{Budget, ScratchEntry, TightHulls, Verdict};
 
-use super::{Refused, Subject, closest_point as fold_answer, refusal, timed, tree, verdict};
+use super::{Asked, Refused, Subject, closest_point, tree, verdict};
 use crate::fold::Fold;
-use crate::place::{Bounds, Placer};
+use crate::place::{Bounds, Placer, Point};
 use crate::{Clock, Kind};
 
 /// Entries of the stack.
@@ -81,17 +79,18 @@ impl<'t> Subject<'t> for Hulls<'t> {
         clock: &mut impl Clock,
         fold: &mut Fold,
     ) {
+        let to = &mut Asked::new(clock, fold);
         match kind {
-            Kind::Contents => contents(self, fold),
+            Kind::Contents => contents(self, to.fold),
             Kind::ClosestFar => {
-                closest(self, place.far(), scratch, clock, fold);
+                closest(self, place.far(), scratch, to);
             }
             Kind::ClosestNear => {
-                let base = closest(self, place.far(), scratch, &mut (), fold);
-                closest(self, place.near(base), scratch, clock, fold);
+                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+                closest(self, place.near(base), scratch, to);
             }
-            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, clock, fold),
-            Kind::Within => is_within(self, place.far(), place.distance(), scratch, clock, fold),
+            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
+            Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),
             _ => {}
         }
     }
@@ -116,7 +115,6 @@ pub fn bounds(hulls: &Hulls<'_>) -> Bounds {
 /// What the table says of each hull, its tree, and its distances.
 pub fn contents(hulls: &Hulls<'_>, fold: &mut Fold) {
     fold.word(hulls.all.count());
-    fold.word(u32::from(hulls.all.is_nested()));
     for record in hulls.all.records() {
         fold.word(record.faces);
         [record.slack, record.depth, record.void_ratio].into_iter().for_each(|x| fold.f32(x));
@@ -134,21 +132,12 @@ pub fn contents(hulls: &Hulls<'_>, fold: &mut Fold) {
 #[inline(never)]
 pub fn closest(
     hulls: &Hulls<'_>,
-    point: [f32; 3],
+    p: Point,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) -> [f32; 3] {
-    match timed(clock, || hulls.finest.closest_point(point, Budget::EXACT, &mut scratch.stack)) {
-        Ok(answer) => {
-            fold_answer(fold, &answer);
-            answer.point
-        }
-        Err(error) => {
-            refusal(fold, error);
-            point
-        }
-    }
+    to: &mut Asked<'_, impl Clock>,
+) -> Point {
+    let call = || hulls.finest.closest_point(p, Budget::EXACT, &mut scratch.stack);
+    to.answer(call, closest_point).map_or(p, |answer| answer.point)
 }
 
 /// The same of the coarsest hull with a tolerance of `distance`, and of the finest with two nodes
@@ -156,11 +145,10 @@ pub fn closest(
 #[inline(never)]
 pub fn stopped(
     hulls: &Hulls<'_>,
-    point: [f32; 3],
+    p: Point,
     distance: f32,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
+    to: &mut Asked<'_, impl Clock>,
 ) {
     let coarsest = hulls.all.get(0).unwrap_or(hulls.finest);
     let tolerant = Budget::EXACT.with_absolute(distance);
@@ -171,10 +159,7 @@ pub fn stopped(
         (&hulls.finest, Budget::EXACT, 4),
     ] {
         let stack = scratch.stack.get_mut(..entries).unwrap_or_default();
-        match timed(clock, || hull.closest_point(point, stop, stack)) {
-            Ok(answer) => fold_answer(fold, &answer),
-            Err(error) => refusal(fold, error),
-        }
+        to.answer(|| hull.closest_point(p, stop, stack), closest_point);
     }
 }
 
@@ -182,21 +167,20 @@ pub fn stopped(
 #[inline(never)]
 pub fn is_within(
     hulls: &Hulls<'_>,
-    point: [f32; 3],
+    p: Point,
     distance: f32,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
+    to: &mut Asked<'_, impl Clock>,
 ) {
-    match timed(clock, || hulls.finest.within(point, distance, Budget::EXACT, &mut scratch.stack)) {
-        Ok(answer) => {
+    to.answer(
+        || hulls.finest.within(p, distance, Budget::EXACT, &mut scratch.stack),
+        |fold, answer| {
             fold.word(match answer.verdict {
                 Verdict::Yes => 1,
                 Verdict::No => 2,
-                Verdict::Undecided(_) => 3,
+                _ => 3,
             });
             verdict(fold, answer.work, answer.verdict);
-        }
-        Err(error) => refusal(fold, error),
-    }
+        },
+    );
 }

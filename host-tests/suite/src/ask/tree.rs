@@ -8,13 +8,13 @@ pub use meshsweep_core::Bvh;
 use meshsweep_core::Hit;
 use meshsweep_core::{CoherentQuery, Hint, Neighbor, ScratchEntry, TrianglePair};
 
-use super::{Refused, Subject};
+use super::{Asked, Refused, Subject};
 use crate::fold::Fold;
 use crate::place::{Bounds, Placer};
 use crate::{Clock, Kind};
 
 pub use distance::{
-    all_within, batch, closest, follow, is_within, nearest, session, signed, stopped,
+    all_within, batch, closest, coherent, follow, is_within, nearest, signed, stopped,
 };
 pub use meeting::{all_overlaps, overlap, pose};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
@@ -29,7 +29,7 @@ pub struct Scratch<'t> {
     hits: [Hit; 8],
     near: [Neighbor; 8],
     hint: Hint,
-    session: CoherentQuery<'t>,
+    coherent: CoherentQuery<'t>,
     facing: [u32; 64],
     pairs: [ScratchEntry; Bvh::OVERLAP_ENTRIES],
     meeting: [TrianglePair; 8],
@@ -44,7 +44,7 @@ impl Scratch<'_> {
             hits: [Hit::EMPTY; 8],
             near: [Neighbor::EMPTY; 8],
             hint: Hint::NONE,
-            session: CoherentQuery::new(),
+            coherent: CoherentQuery::new(),
             facing: [0; 64],
             pairs: [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES],
             meeting: [TrianglePair::EMPTY; 8],
@@ -80,7 +80,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        kind != Kind::OuterHits && !kind.is_triboxes()
+        !matches!(kind, Kind::OuterHits | Kind::Refine) && !kind.is_triboxes()
     }
 
     fn ask(
@@ -91,47 +91,34 @@ impl<'t> Subject<'t> for Bvh<'t> {
         clock: &mut impl Clock,
         fold: &mut Fold,
     ) {
+        let to = &mut Asked::new(clock, fold);
         match kind {
-            Kind::Arith
-            | Kind::OuterHits
-            | Kind::TriboxBounds
-            | Kind::TriboxFaces
-            | Kind::TriboxOverlap
-            | Kind::BoxOverlap
-            | Kind::TriboxRest
-            | Kind::TriboxesApart
-            | Kind::TriboxesCandidates
-            | Kind::TriboxesDistance
-            | Kind::TriboxesClip => {}
-            Kind::Contents => contents(self, fold),
+            Kind::Contents => contents(self, to.fold),
             Kind::ClosestFar => {
-                closest(self, place.far(), scratch, clock, fold);
+                closest(self, place.far(), scratch, to);
             }
             Kind::ClosestNear => {
                 // The base is an answer: a wrong one shows in this block already, so its
                 // consequences mislead nobody.
-                let base = closest(self, place.far(), scratch, &mut (), fold);
-                closest(self, place.near(base), scratch, clock, fold);
+                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+                closest(self, place.near(base), scratch, to);
             }
-            Kind::ClosestPath => follow(self, place.step(), scratch, clock, fold),
-            Kind::CoherentQuery => session(self, place.step_or_jump(), scratch, clock, fold),
-            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, clock, fold),
-            Kind::Within => is_within(self, place.far(), place.distance(), scratch, clock, fold),
-            Kind::AllWithin => {
-                all_within(self, place.far(), place.distance(), scratch, clock, fold)
-            }
-            Kind::Nearest => nearest(self, place.far(), scratch, clock, fold),
-            Kind::Signed => signed(self, place.far(), scratch, clock, fold),
-            Kind::FirstHit => first_hit(self, place.segment(), scratch, clock, fold),
-            Kind::Facing => facing(self, place.segment(), scratch, clock, fold),
-            Kind::AnyHit => any_hit(self, place.segment(), scratch, clock, fold),
-            Kind::AllHits => all_hits(self, place.segment(), scratch, clock, fold),
-            Kind::Batch => {
-                batch(self, &core::array::from_fn(|_| place.far()), scratch, clock, fold)
-            }
-            Kind::Cull => cull(self, place.far(), scratch, clock, fold),
-            Kind::Overlap => overlap(self, pose(place.motion()), scratch, clock, fold),
-            Kind::AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, clock, fold),
+            Kind::ClosestPath => follow(self, place.step(), scratch, to),
+            Kind::CoherentQuery => coherent(self, place.step_or_jump(), scratch, to),
+            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
+            Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),
+            Kind::AllWithin => all_within(self, place.far(), place.distance(), scratch, to),
+            Kind::Nearest => nearest(self, place.far(), scratch, to),
+            Kind::Signed => signed(self, place.far(), scratch, to),
+            Kind::FirstHit => first_hit(self, place.segment(), scratch, to),
+            Kind::Facing => facing(self, place.segment(), scratch, to),
+            Kind::AnyHit => any_hit(self, place.segment(), scratch, to),
+            Kind::AllHits => all_hits(self, place.segment(), scratch, to),
+            Kind::Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, to),
+            Kind::Cull => cull(self, place.far(), scratch, to),
+            Kind::Overlap => overlap(self, pose(place.motion()), scratch, to),
+            Kind::AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, to),
+            _ => {}
         }
     }
 }
@@ -182,10 +169,10 @@ pub fn contents(tree: &Bvh<'_>, fold: &mut Fold) {
             let child = links.child(lane);
             fold.word(child.at);
             fold.byte(child.shape.0);
-            let Some(patch) = tree.leaf(node, lane) else { continue };
+            let Some(fans) = tree.leaf(node, lane) else { continue };
             let first = links.triangle(lane);
             for triangle in 0..child.shape.triangles() {
-                for corner in patch.corners(triangle) {
+                for corner in fans.corners(triangle) {
                     fold.point(corner.to_array());
                 }
                 super::number(fold, tree.source(first.wrapping_add(triangle as u32)));

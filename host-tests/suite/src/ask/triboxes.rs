@@ -1,14 +1,12 @@
 //! Questions to the tribox hierarchy of a blob.
 
-use meshsweep_core::Budget;
-use meshsweep_core::Pose;
-use meshsweep_core::QueryError;
 pub use meshsweep_core::Triboxes;
-use meshsweep_core::{Bound, NodePair, ScratchEntry};
+use meshsweep_core::{Bound, Budget, NodePair, Pose, ScratchEntry};
 
-use super::{Refused, Subject, how, number, refusal, timed};
+use super::tree::pose;
+use super::{Asked, Refused, Subject, how, number};
 use crate::fold::Fold;
-use crate::place::{Bounds, Motion, Placer};
+use crate::place::{Bounds, Ends, Placer, Point};
 use crate::{Clock, Kind};
 
 /// Entries of the stack of pairs: more than twice most splits above a node of the suite's blobs.
@@ -76,12 +74,13 @@ impl<'t> Subject<'t> for Triboxes<'t> {
         clock: &mut impl Clock,
         fold: &mut Fold,
     ) {
+        let to = &mut Asked::new(clock, fold);
         match kind {
-            Kind::Contents => contents(self, fold),
-            Kind::TriboxesApart => reject(self, &place.motion(), scratch, clock, fold),
-            Kind::TriboxesCandidates => candidates(self, &place.motion(), scratch, clock, fold),
-            Kind::TriboxesDistance => nearest(self, place.far(), scratch, clock, fold),
-            Kind::TriboxesClip => first(self, place.segment(), scratch, clock, fold),
+            Kind::Contents => contents(self, to.fold),
+            Kind::TriboxesApart => reject(self, pose(place.motion()), scratch, to),
+            Kind::TriboxesCandidates => candidates(self, pose(place.motion()), scratch, to),
+            Kind::TriboxesDistance => nearest(self, place.far(), scratch, to),
+            Kind::TriboxesClip => first(self, place.segment(), scratch, to),
             _ => {}
         }
     }
@@ -123,87 +122,53 @@ pub fn contents(triboxes: &Triboxes<'_>, fold: &mut Fold) {
     }
 }
 
-fn pose(&(rotation, translation): &Motion) -> Pose {
-    Pose { rotation, translation }
-}
-
 fn pairs(fold: &mut Fold, pairs: &[NodePair]) {
     pairs.iter().for_each(|pair| fold.word(u32::from(pair.a) << 16 | u32::from(pair.b)));
 }
 
 /// Whether the model is apart from a copy of it that was moved.
 #[inline(never)]
-pub fn reject(
-    triboxes: &Triboxes<'_>,
-    motion: &Motion,
-    scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let pose = pose(motion);
-    match timed(clock, || triboxes.separation(triboxes, pose, Budget::EXACT, &mut scratch.stack)) {
-        Ok(answer) => {
+pub fn reject(all: &Triboxes<'_>, pose: Pose, s: &mut Scratch, to: &mut Asked<'_, impl Clock>) {
+    to.answer(
+        || all.separation(all, pose, Budget::EXACT, &mut s.stack),
+        |fold, answer| {
             pairs(fold, answer.may_meet.as_slice());
             how(fold, answer.work, answer.ended);
-        }
-        Err(error) => refusal(fold, error),
-    }
+        },
+    );
 }
 
 /// Where it may meet that copy; more pairs than there are places for.
 #[inline(never)]
 pub fn candidates(
-    triboxes: &Triboxes<'_>,
-    motion: &Motion,
+    all: &Triboxes<'_>,
+    pose: Pose,
     scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
+    to: &mut Asked<'_, impl Clock>,
 ) {
-    let pose = pose(motion);
     let Scratch { stack, found } = scratch;
-    match timed(clock, || triboxes.candidates(triboxes, pose, found, Budget::EXACT, stack)) {
-        Ok(answer) => {
-            pairs(fold, found.get(..answer.stored).unwrap_or_default());
-            fold.word(answer.dropped);
-            how(fold, answer.work, answer.ended);
-        }
-        Err(error) => refusal(fold, error),
+    let call = || all.candidates(all, pose, found, Budget::EXACT, stack);
+    if let Some(answer) = to.answer(call, |_, _| ()) {
+        pairs(to.fold, found.get(..answer.stored).unwrap_or_default());
+        to.fold.word(answer.dropped);
+        how(to.fold, answer.work, answer.ended);
     }
 }
 
-fn bound(fold: &mut Fold, answer: Result<Bound, QueryError>) {
-    match answer {
-        Ok(answer) => {
-            fold.f32(answer.lower);
-            number(fold, answer.node);
-            how(fold, answer.work, answer.ended);
-        }
-        Err(error) => refusal(fold, error),
-    }
+fn bound(fold: &mut Fold, answer: &Bound) {
+    fold.f32(answer.lower);
+    number(fold, answer.node);
+    how(fold, answer.work, answer.ended);
 }
 
 /// A lower bound of a distance.
 #[inline(never)]
-pub fn nearest(
-    triboxes: &Triboxes<'_>,
-    point: [f32; 3],
-    scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let answer = timed(clock, || triboxes.distance(point, Budget::EXACT, &mut scratch.stack));
-    bound(fold, answer);
+pub fn nearest(all: &Triboxes<'_>, p: Point, s: &mut Scratch, to: &mut Asked<'_, impl Clock>) {
+    to.answer(|| all.distance(p, Budget::EXACT, &mut s.stack), bound);
 }
 
 /// Where a segment first enters.
 #[inline(never)]
-pub fn first(
-    triboxes: &Triboxes<'_>,
-    [a, b]: [[f32; 3]; 2],
-    scratch: &mut Scratch,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    let answer = timed(clock, || triboxes.clip(a, b, Budget::EXACT, &mut scratch.stack));
-    bound(fold, answer);
+pub fn first(all: &Triboxes<'_>, [a, b]: Ends, s: &mut Scratch, to: &mut Asked<'_, impl Clock>) {
+    to.answer(|| all.clip(a, b, Budget::EXACT, &mut s.stack), bound);
 }

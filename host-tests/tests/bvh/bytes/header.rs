@@ -157,7 +157,7 @@ fn fewer_input_triangles_than_source_numbers_are_refused() {
 
 #[test]
 fn sections_of_a_wrong_length_are_refused() {
-    let bytes = blob_of(icosphere(2), &TreeOptions { cull: true, ..TreeOptions::default() });
+    let bytes = blob_of(icosphere(2), &TreeOptions::default().with_cull(true));
     for section in entries(&bytes) {
         for shorter in [4, 20, section.bytes] {
             let mut changed = bytes.clone();

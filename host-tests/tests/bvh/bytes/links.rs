@@ -93,7 +93,7 @@ fn tags_of_no_shape_name_the_node() {
 /// One triangle below a chain of so many nodes.
 fn chain(nodes: usize) -> Vec<u8> {
     let mesh = Mesh::new(vec![[0.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.0, 1.0, 0.25]], vec![[0, 1, 2]]);
-    let (mut tables, report) = build(mesh.as_input(), &TreeOptions::default());
+    let (mut tables, report) = build(mesh.as_input(), &TreeOptions::default()).expect("builds");
     let header = BvhHeader { nodes: nodes as u32, ..report.header };
     for (kind, bytes) in &mut tables.bodies {
         let one = bytes.clone();

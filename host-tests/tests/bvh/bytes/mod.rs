@@ -9,12 +9,12 @@ mod whole;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep_core::{Budget, Bvh, CoherentQuery, OpenError, Pose, SectionKind};
-use meshsweep_host_tests::corrupt::{Asker, entry, seal};
+use meshsweep_host_tests::corrupt::{self, Asker};
 use meshsweep_host_tests::generate::{Triangles, icosphere};
 
 fn blob_of((positions, triangles): Triangles, options: &TreeOptions) -> Vec<u8> {
     let mesh = Mesh::new(positions, triangles);
-    build(mesh.as_input(), options).0.to_bytes()
+    build(mesh.as_input(), options).expect("builds").0.to_bytes()
 }
 
 /// A sphere of 320 triangles: more than one level of nodes, and every section that needs no choice.
@@ -23,7 +23,7 @@ fn sphere() -> Vec<u8> {
 }
 
 fn single() -> Vec<u8> {
-    blob_of(icosphere(2), &TreeOptions { single: true, ..TreeOptions::default() })
+    blob_of(icosphere(2), &TreeOptions::default().with_f32(true))
 }
 
 fn open(bytes: &[u8]) -> Result<(), OpenError> {
@@ -32,14 +32,11 @@ fn open(bytes: &[u8]) -> Result<(), OpenError> {
 
 /// Opens a blob after an edit of one section's bytes, its CRCs right.
 fn edited(
-    mut bytes: Vec<u8>,
+    bytes: Vec<u8>,
     kind: SectionKind,
     edit: impl FnOnce(&mut [u8]),
 ) -> Result<(), OpenError> {
-    let at = entry(&bytes, kind as u32);
-    edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
-    seal(&mut bytes);
-    open(&bytes)
+    corrupt::edited(bytes, kind, edit, open)
 }
 
 fn record(section: SectionKind, index: u32) -> Result<(), OpenError> {

@@ -9,40 +9,20 @@ const FRAME: usize = 108;
 const BOXES: usize = 72;
 
 #[test]
-fn frames_out_of_range_name_the_node() {
-    let huge = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38];
-    for node in [0usize, 3] {
-        for field in 0..15 {
-            let negative = (field >= 12).then_some(-1.0);
+fn frames_and_boxes_out_of_range_name_the_node() {
+    // The fields that may not be negative come last.
+    for (kind, bytes, fields, signed) in
+        [(SectionKind::TreeFrames, FRAME, 15, 12), (SectionKind::TreeBoxes, BOXES, 6, 3)]
+    {
+        for (node, field) in [0, 3].into_iter().flat_map(|node| (0..fields).map(move |f| (node, f)))
+        {
+            let negative = (field >= signed).then_some(-1.0);
+            let huge = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38];
             for x in huge.into_iter().chain(negative) {
-                let result = edited(sphere(), SectionKind::TreeFrames, |bytes| {
-                    put_u32(bytes, FRAME * node + 48 + 4 * field, x.to_bits());
+                let result = edited(sphere(), kind, |section| {
+                    put_u32(section, bytes * node + 48 + 4 * field, x.to_bits());
                 });
-                assert_eq!(
-                    result,
-                    record(SectionKind::TreeFrames, node as u32),
-                    "{x} in field {field}"
-                );
-            }
-        }
-    }
-}
-
-#[test]
-fn boxes_out_of_range_name_the_node() {
-    let huge = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38];
-    for node in [0usize, 3] {
-        for field in 0..6 {
-            let negative = (field >= 3).then_some(-1.0);
-            for x in huge.into_iter().chain(negative) {
-                let result = edited(sphere(), SectionKind::TreeBoxes, |bytes| {
-                    put_u32(bytes, BOXES * node + 48 + 4 * field, x.to_bits());
-                });
-                assert_eq!(
-                    result,
-                    record(SectionKind::TreeBoxes, node as u32),
-                    "{x} in field {field}"
-                );
+                assert_eq!(result, record(kind, node as u32), "{x} in field {field}");
             }
         }
     }

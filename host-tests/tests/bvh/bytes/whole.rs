@@ -57,8 +57,8 @@ fn every_word_replaced_by_a_hostile_one_is_refused_or_safe_to_ask() {
 #[test]
 fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
     let blobs = [
-        blob_of(bracket(), &TreeOptions { cull: true, ..TreeOptions::default() }),
-        blob_of(bracket(), &TreeOptions { single: true, ..TreeOptions::default() }),
+        blob_of(bracket(), &TreeOptions::default().with_cull(true)),
+        blob_of(bracket(), &TreeOptions::default().with_f32(true)),
     ];
     let rng = &mut Rng::new(77);
     for bytes in &blobs {

@@ -39,39 +39,24 @@ fn certain_ones_are_within_and_none_that_is_within_is_missing() {
                 (0..scene.triangles.len() as u32).map(|t| scene.truth_of(p, t)).collect();
             for d in distances(scene, p) {
                 let (answer, out) = ask(scene, p, d, truths.len() + 1, &Budget::EXACT, STACK);
-                let name = &scene.name;
-                assert_eq!(
-                    (answer.dropped, answer.ended),
-                    (0, Ended::Exact),
-                    "{name}: {p:?}: {d:e}"
-                );
+                assert_eq!((answer.dropped, answer.ended), (0, Ended::Exact), "{d:e}");
                 let mut listed = vec![false; truths.len()];
                 for (i, near) in out.iter().enumerate() {
                     let truth = truths[near.triangle() as usize];
                     let holds = f64::from(near.distance().lower) <= truth.upper
                         && truth.lower <= f64::from(near.distance().upper);
-                    assert!(holds, "{name}: {p:?}: {near:?} does not contain {truth:?}");
-                    assert!(near.distance().lower <= d, "{name}: {p:?}: {near:?} is beyond {d:e}");
-                    assert_eq!(
-                        near.distance().upper <= d,
-                        i < answer.certain,
-                        "{name}: {p:?}: {near:?} {d:e}"
-                    );
+                    assert!(holds, "{near:?} does not contain {truth:?}");
+                    assert!(near.distance().lower <= d, "{near:?} is beyond {d:e}");
+                    assert_eq!(near.distance().upper <= d, i < answer.certain, "{near:?} {d:e}");
                     assert!(
                         !std::mem::replace(&mut listed[near.triangle() as usize], true),
-                        "{name}: twice"
+                        "twice"
                     );
                 }
                 for (t, truth) in truths.iter().enumerate().filter(|(t, _)| !listed[*t]) {
-                    assert!(
-                        truth.upper > f64::from(d),
-                        "{name}: {p:?}: {t} at {truth:?} misses from {d:e}"
-                    );
+                    assert!(truth.upper > f64::from(d), "{t} at {truth:?} misses from {d:e}");
                 }
-                assert!(
-                    out.is_sorted_by(|a, b| a.distance().upper <= b.distance().upper),
-                    "{name}: {p:?}"
-                );
+                assert!(out.is_sorted_by(|a, b| a.distance().upper <= b.distance().upper));
             }
         }
     }
@@ -85,13 +70,8 @@ fn what_does_not_fit_is_counted_and_the_closest_are_kept() {
                 let (all, most) = ask(scene, p, d, scene.triangles.len(), &Budget::EXACT, STACK);
                 for n in [0, 1, 3, 10] {
                     let (answer, out) = ask(scene, p, d, n, &Budget::EXACT, STACK);
-                    assert_eq!(
-                        answer.stored + answer.dropped as usize,
-                        all.stored,
-                        "{}: {p:?}",
-                        scene.name
-                    );
-                    assert_eq!(out, most[..answer.stored], "{}: {p:?}: {d:e}", scene.name);
+                    assert_eq!(answer.stored + answer.dropped as usize, all.stored);
+                    assert_eq!(out, most[..answer.stored], "{d:e}");
                     assert_eq!(answer.certain, all.certain.min(answer.stored));
                 }
             }
@@ -109,11 +89,7 @@ fn short_stacks_and_few_steps_store_only_what_is_within() {
                     let (answer, out) =
                         ask(scene, p, d, 16, &Budget::EXACT.with_steps(steps), entries);
                     for near in out.iter().take(answer.certain) {
-                        assert!(
-                            scene.truth_of(p, near.triangle()).lower <= f64::from(d),
-                            "{}: {p:?}",
-                            scene.name
-                        );
+                        assert!(scene.truth_of(p, near.triangle()).lower <= f64::from(d));
                     }
                     cut += u32::from(answer.ended != Ended::Exact);
                 }

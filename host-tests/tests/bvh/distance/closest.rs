@@ -28,7 +28,7 @@ fn interval_contains_the_true_distance_on_every_mesh() {
         for p in scene.points(POINTS, &mut Rng::new(11)) {
             let answer = ask(&tree, p, &Budget::EXACT, STACK);
             contains(scene, p, &answer, scene.truth(p));
-            assert_eq!(answer.ended, Ended::Exact, "{}", scene.name);
+            assert_eq!(answer.ended, Ended::Exact);
         }
     }
 }
@@ -41,11 +41,7 @@ fn exact_interval_is_as_wide_as_the_stored_surface_and_rounding() {
             let answer = ask(&tree, p, &Budget::EXACT, STACK);
             let width = f64::from(answer.distance.upper) - f64::from(answer.distance.lower);
             let allowed = allowed_width(scene, f64::from(answer.distance.upper));
-            assert!(
-                width <= allowed,
-                "{}: {p:?}: {answer:?} is {width:e} wide, {allowed:e} allowed",
-                scene.name
-            );
+            assert!(width <= allowed, "{answer:?} is {width:e} wide, {allowed:e} allowed");
         }
     }
 }
@@ -59,29 +55,17 @@ fn witness_lies_on_the_named_triangle_and_within_upper() {
             let named = scene.corners(answer.triangle.expect("a tree has all triangles"));
             let rounding = 8.0 * f64::from(f32::EPSILON) * scene.reach();
             let off = distance_to_triangle(answer.point, named).lower;
-            assert!(
-                off <= rounding + surface_error(scene),
-                "{}: {p:?}: {answer:?} is {off:e} off",
-                scene.name
-            );
+            assert!(off <= rounding + surface_error(scene), "{answer:?} is {off:e} off");
             let gap: f64 =
                 (0..3).map(|k| (f64::from(p[k]) - f64::from(answer.point[k])).powi(2)).sum();
-            assert!(
-                gap.sqrt() <= f64::from(answer.distance.upper) + rounding,
-                "{}: {p:?}: {answer:?}",
-                scene.name
-            );
-            assert!(
-                distance_to_triangle(p, named).lower <= f64::from(answer.distance.upper),
-                "{}: {p:?}",
-                scene.name
-            );
+            assert!(gap.sqrt() <= f64::from(answer.distance.upper) + rounding, "{answer:?}");
+            assert!(distance_to_triangle(p, named).lower <= f64::from(answer.distance.upper));
         }
     }
 }
 
 #[test]
-fn answer_has_the_same_bits_whatever_the_hint_and_what_the_stack_held() {
+fn answer_has_the_same_bits_with_any_hint_and_any_used_stack() {
     for scene in all() {
         let tree = scene.bvh();
         let same =
@@ -92,10 +76,10 @@ fn answer_has_the_same_bits_whatever_the_hint_and_what_the_stack_held() {
             let plain = ask(&tree, p, &Budget::EXACT, STACK);
             let hinted =
                 tree.closest_point_from(p, &mut hint, Budget::EXACT, &mut used).expect("finite");
-            assert_eq!(same(&plain), same(&hinted), "{}: {p:?}", scene.name);
+            assert_eq!(same(&plain), same(&hinted));
             let again =
                 tree.closest_point_from(p, &mut hint, Budget::EXACT, &mut used).expect("finite");
-            assert_eq!(same(&plain), same(&again), "{}: {p:?}", scene.name);
+            assert_eq!(same(&plain), same(&again));
         }
     }
 }
@@ -131,14 +115,9 @@ fn named_stack_never_overflows_and_a_longer_one_answers_alike() {
         let entries = tree.header().stack_entries as usize;
         for p in scene.points(POINTS / 2, &mut Rng::new(15)) {
             let answer = ask(&tree, p, &Budget::EXACT, entries);
-            assert_eq!(answer.ended, Ended::Exact, "{}: {p:?}", scene.name);
+            assert_eq!(answer.ended, Ended::Exact);
             for more in [1, 2, 5, 7, 8, 40] {
-                assert_eq!(
-                    ask(&tree, p, &Budget::EXACT, entries + more),
-                    answer,
-                    "{}: {p:?}",
-                    scene.name
-                );
+                assert_eq!(ask(&tree, p, &Budget::EXACT, entries + more), answer);
             }
         }
     }
@@ -164,7 +143,7 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
                 for steps in [0, 1, 2, 5, 20] {
                     let answer = ask(&tree, p, &Budget::EXACT.with_steps(steps), entries);
                     contains(scene, p, &answer, truth);
-                    assert!(answer.work.splits <= steps, "{}: {answer:?}", scene.name);
+                    assert!(answer.work.splits <= steps, "{answer:?}");
                 }
             }
             for relative in [1e-6, 0.01, 0.5, 100.0] {
@@ -177,8 +156,7 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
                 assert!(
                     f64::from(answer.distance.upper) - f64::from(answer.distance.lower)
                         <= allowed * 1.001,
-                    "{}: {p:?} {relative}: {answer:?}",
-                    scene.name
+                    "{relative}: {answer:?}"
                 );
             }
             for absolute in [size * 1e-6, size * 0.01, size] {
@@ -189,8 +167,7 @@ fn short_stacks_few_steps_and_tolerances_still_contain_the_truth() {
                     + boxes(&answer);
                 assert!(
                     f64::from(answer.distance.upper) - f64::from(answer.distance.lower) <= allowed,
-                    "{}: {p:?} {absolute:e}: {answer:?}",
-                    scene.name
+                    "{absolute:e}: {answer:?}"
                 );
             }
         }

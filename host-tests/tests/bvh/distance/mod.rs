@@ -5,5 +5,4 @@ mod closest;
 mod nearest;
 mod scenes;
 mod side;
-mod winding;
 mod within;

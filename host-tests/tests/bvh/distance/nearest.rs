@@ -55,31 +55,22 @@ fn intervals_hold_and_the_rest_is_farther() {
                 let (answer, out) = ask(scene, p, n, &Budget::EXACT, STACK);
                 check(scene, p, &truths, &answer, &out);
                 assert_eq!(answer.ended, Ended::Exact);
-                assert_eq!(out.len(), n.min(truths.len()), "{}: {p:?}", scene.name);
-                assert!(
-                    out.is_sorted_by(|a, b| a.distance().upper <= b.distance().upper),
-                    "{}: {p:?}",
-                    scene.name
-                );
+                assert_eq!(out.len(), n.min(truths.len()));
+                assert!(out.is_sorted_by(|a, b| a.distance().upper <= b.distance().upper));
                 if n > truths.len() {
                     assert_eq!(answer.rest_lower, f32::INFINITY);
                 }
                 let mut sorted: Vec<f64> = truths.iter().map(|t| t.lower).collect();
                 sorted.sort_by(f64::total_cmp);
                 for (near, truth) in out.iter().zip(sorted) {
-                    assert!(
-                        truth <= f64::from(near.distance().upper),
-                        "{}: {p:?}: {near:?} {truth:?}",
-                        scene.name
-                    );
+                    assert!(truth <= f64::from(near.distance().upper), "{near:?} {truth:?}");
                 }
                 // As close as the last one stored, but for what f32 and the grid cannot tell.
                 if let (Some(last), true) = (out.last(), n < truths.len()) {
                     let slack = allowed_width(scene, f64::from(last.distance().upper));
                     assert!(
                         f64::from(answer.rest_lower) >= f64::from(last.distance().upper) - slack,
-                        "{}: {p:?}: {answer:?} {last:?}",
-                        scene.name
+                        "{answer:?} {last:?}"
                     );
                 }
             }
@@ -96,17 +87,10 @@ fn first_is_the_closest_point_and_fewer_are_a_prefix() {
             let (_, most) = ask(scene, p, 20, &Budget::EXACT, STACK);
             assert_eq!(
                 (Some(most[0].triangle()), most[0].distance().upper),
-                (closest.triangle, closest.distance.upper),
-                "{}: {p:?}",
-                scene.name
+                (closest.triangle, closest.distance.upper)
             );
             for n in 1..most.len() {
-                assert_eq!(
-                    ask(scene, p, n, &Budget::EXACT, STACK).1,
-                    most[..n],
-                    "{}: {p:?}",
-                    scene.name
-                );
+                assert_eq!(ask(scene, p, n, &Budget::EXACT, STACK).1, most[..n]);
             }
         }
     }
@@ -119,7 +103,7 @@ fn witnesses_lie_on_their_triangles() {
             for near in ask(scene, p, 12, &Budget::EXACT, STACK).1 {
                 let off = distance_to_triangle(near.point(), scene.corners(near.triangle())).lower;
                 let allowed = surface_error(scene) + 8.0 * f64::from(f32::EPSILON) * scene.reach();
-                assert!(off <= allowed, "{}: {p:?}: {near:?} is {off:e} off", scene.name);
+                assert!(off <= allowed, "{near:?} is {off:e} off");
             }
         }
     }

@@ -31,7 +31,7 @@ fn no_boundary_takes_more_than_112_additions_24_halvings_24_comparisons() {
 }
 
 /// Every edge of the 18 loops is run through once in each direction.
-fn edges_are_paired(of: &Boundary<f32>) -> usize {
+fn edges_are_paired(of: &Boundary) -> usize {
     let mut seen = [[0u8; VERTICES]; VERTICES];
     for face in 0..FACES {
         let vertices = of.face(face);
@@ -153,7 +153,7 @@ fn vertices(of: &Polytope) -> Vec<[u32; 3]> {
 fn boundaries_are_the_intersections_of_their_half_spaces() {
     let mut rng = Rng::new(13);
     let mut dimensions = [0u32; 4];
-    for round in 0..100_000 {
+    for round in 0..20_000 {
         let scale = if round % 5 == 0 { 1024.0 } else { 1.0 };
         let moved: Vec<_> =
             points(&mut rng).into_iter().map(|p| p.map(|x| x * scale + 3.0)).collect();
@@ -189,7 +189,7 @@ fn boundaries_are_the_intersections_of_their_half_spaces() {
             assert_eq!(faces, exact.distinct_faces().count(), "{tribox:?}");
         }
     }
-    assert!(dimensions.iter().all(|&count| count > 1000), "{dimensions:?}");
+    assert!(dimensions.iter().all(|&count| count > 200), "{dimensions:?}");
 }
 
 #[test]

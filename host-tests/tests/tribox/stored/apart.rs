@@ -1,7 +1,6 @@
 //! What is said to be apart is: by exact polytopes, by exact surfaces, at any scale.
 
 use super::{blob, mesh, of};
-use meshsweep::mesh::Mesh;
 use meshsweep_core::{Budget, Ended, NodePair, Pose, QueryError, ScratchEntry, Tribox, Triboxes};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, rough_sphere, scaled, torus,
@@ -106,12 +105,7 @@ fn leaves_that_are_left_out_have_no_common_point() {
 }
 
 fn subject(triangles: &Triangles) -> Subject {
-    let mesh: Mesh = mesh(triangles);
-    let (low, high) =
-        mesh.positions.iter().fold(([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]), |(l, h), p| {
-            ([0, 1, 2].map(|k| l[k].min(p[k])), [0, 1, 2].map(|k| h[k].max(p[k])))
-        });
-    Subject { name: String::new(), triangles_read: mesh.triangles.len(), mesh, bounds: [low, high] }
+    Subject::of("", mesh(triangles))
 }
 
 #[test]
@@ -276,6 +270,11 @@ fn poses_that_are_none_are_refused() {
     assert_eq!(
         all.separation(&all, Pose::IDENTITY, Budget::EXACT, &mut []).unwrap_err(),
         QueryError::NoScratch
+    );
+    let bad = Budget::EXACT.with_absolute(f32::NAN);
+    assert_eq!(
+        all.separation(&all, Pose::IDENTITY, bad, stack).unwrap_err(),
+        QueryError::Tolerance
     );
     // As far as there are numbers, and of no volume at all.
     let far = Pose { translation: [1e36, -1e36, 1e36], ..Pose::IDENTITY };

@@ -7,10 +7,10 @@ use meshsweep::hull::{self, BuildOptions};
 use meshsweep::tribox::{cut, store};
 use meshsweep_core::{Blob, Bvh, OpenError, SectionKind, Triboxes};
 use meshsweep_host_tests::corrupt::{
-    assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal, word,
+    self, assert_damage_is_safe, assert_only_the_whole_opens, entry, put_u32, seal, word,
 };
 use meshsweep_host_tests::fuzz_targets::{ask_triboxes, triboxes_seeds};
-use meshsweep_host_tests::generate::{Rng, groove_block, icosphere, torus};
+use meshsweep_host_tests::generate::{groove_block, icosphere, torus};
 use std::collections::HashSet;
 use std::sync::OnceLock;
 
@@ -30,13 +30,11 @@ fn ask(bytes: &[u8]) -> Result<(), OpenError> {
 
 /// Opens after an edit of the section, the CRCs right.
 fn edited(edit: impl FnOnce(&mut [u8])) -> Result<(), OpenError> {
-    let mut bytes = small();
-    let at = entry(&bytes, SectionKind::Triboxes as u32);
-    edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
-    seal(&mut bytes);
-    let result = open(&bytes);
-    assert_eq!(Blob::open(&bytes).map(|_| ()), result, "the whole blob is as strict");
-    result
+    corrupt::edited(small(), SectionKind::Triboxes, edit, |bytes| {
+        let result = open(bytes);
+        assert_eq!(Blob::open(bytes).map(|_| ()), result, "the whole blob is as strict");
+        result
+    })
 }
 
 // Where things stand in the section.
@@ -63,23 +61,8 @@ fn open_rejects_truncation_and_every_flipped_bit() {
 }
 
 #[test]
-fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
-    for bytes in triboxes_seeds() {
-        let section = entry(bytes, SectionKind::Triboxes as u32);
-        let end = section.offset as usize + (section.bytes as usize).min(1000);
-        let bits = (0..8 * 200).chain(8 * section.offset as usize..8 * end);
-        let outcome = flip_bits(bytes, bits, ask);
-        assert!(outcome.opened > 50 && outcome.reasons.len() >= 6, "{outcome:?}");
-    }
-}
-
-#[test]
-fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
-    let rng = &mut Rng::new(5);
-    for bytes in triboxes_seeds() {
-        let section = entry(bytes, SectionKind::Triboxes as u32);
-        replace_bytes(bytes, (2000, 30), rng, |_, _| section, ask);
-    }
+fn damage_with_right_checksums_is_refused_or_safe_to_ask() {
+    assert_damage_is_safe(triboxes_seeds(), SectionKind::Triboxes, 1000, (2000, 30), ask);
 }
 
 #[test]
@@ -186,7 +169,7 @@ fn planes_that_do_not_touch_or_leave_the_parent_name_the_node() {
 fn blobs_hold_triboxes_beside_anything_or_alone() {
     let torus = mesh(&groove_block());
     let (triboxes, _) = store(torus.as_input(), 8).expect("in the domain");
-    let (tree, _) = build(torus.as_input(), &TreeOptions::default());
+    let (tree, _) = build(torus.as_input(), &TreeOptions::default()).expect("builds");
     let options = BuildOptions { base_faces: 40, ..BuildOptions::default() };
     let hull = hull::build(torus.as_input(), &options, |_| ()).expect("a hull").tables.sections();
     for parts in 1..8 {

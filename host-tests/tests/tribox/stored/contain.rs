@@ -7,7 +7,7 @@ use meshsweep_core::{Blob, Triboxes};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, cube, groove_block, joined, rough_sphere, scaled, torus, transformed,
 };
-use meshsweep_host_tests::oracle::distance_to_mesh;
+use meshsweep_host_tests::oracle::{distance_to_mesh, winding_number};
 
 const DIRECTIONS: [[f64; 3]; 9] = [
     [1.0, 0.0, 0.0],
@@ -45,22 +45,6 @@ fn samples(mesh: &Mesh) -> Vec<[f64; 3]> {
         }
     }
     all
-}
-
-/// By angles: far enough from the surface it is an integer.
-fn winding(p: [f64; 3], mesh: &Mesh) -> f64 {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let mut sum = 0.0;
-    for t in 0..mesh.triangles.len() {
-        let corners = mesh.corners(t).expect("a triangle");
-        let [a, b, c] = corners.map(|v| [0, 1, 2].map(|k| f64::from(v[k]) - p[k]));
-        let cross =
-            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
-        let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
-        sum += 2.0
-            * dot(a, cross).atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-    }
-    sum / (4.0 * std::f64::consts::PI)
 }
 
 fn leaves(triboxes: Triboxes<'_>) -> Vec<([f32; 9], [f32; 9])> {
@@ -130,7 +114,7 @@ fn every_level_of_a_solid_holds_its_inside() {
         for _ in 0..600 {
             let corner = |of: [f32; 9]| [of[0], of[1], of[2]];
             let p = rng.point_in(corner(root.low), corner(root.high)).map(f64::from);
-            let number = winding(p, &mesh);
+            let number = winding_number(p, &mesh.positions, &mesh.triangles, 1.0);
             for level in triboxes.levels() {
                 let held = outside(&leaves(triboxes.coarser(level.triboxes)), p) <= 0.0;
                 assert!(held || number.abs() < 0.5, "{name}, {} triboxes: {p:?}", level.triboxes);

@@ -106,4 +106,7 @@ fn what_is_no_point_is_refused() {
         assert_eq!(triboxes.clip(fine, odd, Budget::EXACT, stack).unwrap_err(), error);
     }
     assert_eq!(triboxes.distance(fine, Budget::EXACT, &mut []).unwrap_err(), QueryError::NoScratch);
+    let bad = Budget::EXACT.with_relative(-1.0);
+    assert_eq!(triboxes.distance(fine, bad, stack).unwrap_err(), QueryError::Tolerance);
+    assert_eq!(triboxes.clip(fine, fine, bad, stack).unwrap_err(), QueryError::Tolerance);
 }

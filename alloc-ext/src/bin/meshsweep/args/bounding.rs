@@ -143,10 +143,6 @@ pub struct TriboxArgs {
 
 impl TriboxArgs {
     pub fn options(&self) -> SplitOptions {
-        SplitOptions {
-            leaves: 1 << (self.levels - 1),
-            simplify: self.simplify,
-            ..SplitOptions::default()
-        }
+        SplitOptions::default().with_leaves(1 << (self.levels - 1)).with_simplify(self.simplify)
     }
 }

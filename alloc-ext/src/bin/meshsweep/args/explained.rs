@@ -24,8 +24,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     triangle\n  \
     segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
-    hull      hull --level, cut, and closest and segment with --engine cover: 35 to 50 bytes a \
-    triangle more\n  \
+    hull      hull --level, refine, cut, and closest and segment with --engine cover: 36 to 51 \
+    bytes a triangle more\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 \
     bytes a tribox\n  \
     tight     closest and within, by an interval, and hull --tight: hulls of few faces, 16 to 23 \
@@ -90,13 +90,13 @@ pub fn closest() -> String {
 
 pub fn within() -> String {
     format!(
-        "The column 'within' says yes or no, both proved; or unknown, if the distance differs \
+        "The column 'within' says yes or no, both proved; or undecided, if the distance differs \
          from D by less than rounding and the blob's surface error, or if the query ended early. \
-         To avoid collisions, treat unknown as yes. Only the surface counts: deep inside a part \
+         To avoid collisions, treat undecided as yes. Only the surface counts: deep inside a part \
          the answer is no. 'triangle' is one that is near enough; \
-         {TRIANGLES}. With --all a last row of unknown without a triangle says that the query \
+         {TRIANGLES}. With --all a last row of undecided without a triangle says that the query \
          ended early and triangles may be missing.\n\n\
-         By a tight hull, no means no for the solid with its inside, and unknown means between \
+         By a tight hull, no means no for the solid with its inside, and undecided means between \
          hull and mesh. A tighter hull may decide.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
@@ -119,11 +119,11 @@ pub fn nearest() -> String {
 
 pub fn signed() -> String {
     format!(
-        "The column 'side' says outside or inside, both proved; or undefined, and then 'reason' \
+        "The column 'side' says outside or inside, both proved; or undecided, and then 'reason' \
          says why: open mesh, the mesh bounds no solid; at the surface, the interval of the \
          distance begins at 0; rounding, single precision leaves the side undecided; out of \
          steps, out of stack, the query ended early. lower and upper are the bounds of the signed \
-         distance, negative inside. If the side is undefined, they are -upper and upper of the \
+         distance, negative inside. If the side is undecided, they are -upper and upper of the \
          distance; {TRIANGLES}.\n\n\
          The side is that of the nearest surface. Parts that overlap are not united: a point in \
          one part is outside if the front of another part is nearer. Unite them first.\n\n\
@@ -148,10 +148,10 @@ pub const FIELD: &str = "FILE is raw little-endian f32 if it is named *.f32 or *
 
 pub fn segment() -> String {
     format!(
-        "The column 'hit' says yes, with the first hit; no, which is proved; or unknown, if the \
+        "The column 'hit' says yes, with the first hit; no, which is proved; or undecided, if the \
          query ended early, the blob is cut, or rounding and the blob's surface error leave it \
          undecided. The segment is then proved clear before t, which px, py, pz belong to. With \
-         --all an unknown hit is a place where the stored triangle is met and the mesh's may be. \
+         --all an undecided hit is a place where the stored triangle is met and the mesh's may be. \
          t runs from 0 to 1 along the segment, rounded to f32; {TRIANGLES}.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
@@ -167,11 +167,11 @@ pub fn overlap() -> String {
          quaternion (qw, qx, qy, qz), which need not have length 1 and may not be 0. It is \
          rounded to a matrix of f32, and the answer is about that matrix. --matrix takes any \
          matrix with entries up to 2 as it is.\n\n\
-         The column 'contact' says apart or meets, both proved; or open, if the surfaces touch or \
+         The column 'contact' says apart or meets, both proved; or undecided, if the surfaces touch or \
          come nearer than rounding and the blobs' surface errors, or if the query ended early. \
          Only surfaces count: a mesh inside of another one is apart from it. first and second are \
          triangles that meet, counted from 0 in the order of their mesh files. With --all each \
-         line has one pair, undecided pairs included; an open without triangles says that pairs \
+         line has one pair, undecided pairs included; an undecided line without triangles says that pairs \
          may be missing. Poses count from 0. Options with poses stand after the blobs.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
@@ -215,6 +215,17 @@ pub const HULL: &str = "The hull of a mesh is closed, does not cross itself, and
     meshsweep hull scan.ply --faces 500 --effort 4 -o hull.ply\n  \
     meshsweep hull part.msw --level 0 -o coarsest.ply\n  \
     meshsweep hull hulls.msw --tight 200 -o hull.ply";
+
+pub const REFINE: &str = "The hull is closed and encloses the mesh. Where it meets the focus, no \
+    face is farther than --error from the part of the mesh that it stands for, unless the output \
+    says what is left. Without a focus that is everywhere. With --eye the error may be larger: as \
+    long as one of --pixels at the distance of the face. The blob is built --for hull.\n\n\
+    Examples:\n  \
+    meshsweep refine part.msw --error 0.1 -o hull.ply\n  \
+    meshsweep refine part.msw --near 10,0,5 --within 4 --error 0.01 -o hull.ply\n  \
+    meshsweep refine part.msw --box 0,0,0,10,10,5 --error 0.01 -o hull.ply\n  \
+    meshsweep refine part.msw --segment 0,0,9,0,0,-9 --within 1 --error 0 -o hull.ply\n  \
+    meshsweep refine part.msw --eye 0,0,90 --look 0,0,-1 --fov 50 --pixels 1000 -o hull.ply";
 
 pub const CUT: &str = "meshsweep info lists the levels. --level leaves the box tree out: it holds \
     all of the surface or nothing.\n\n\

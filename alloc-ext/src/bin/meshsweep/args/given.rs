@@ -39,7 +39,16 @@ pub fn queries<const N: usize>() -> impl TypedValueParser<Value = Given<N>> {
 /// A text of numbers alone is a query. A file of such a name must be given with its directory.
 fn given<const N: usize>(text: OsString) -> Result<Given<N>, String> {
     let Some(characters) = text.to_str().filter(|text| are_numbers(text)) else {
-        return Ok(Given::File(text.into()));
+        let file = PathBuf::from(text);
+        return match file.extension() {
+            _ if file.as_os_str().is_empty() => {
+                Err(format!("no query; write {} with commas, or name a file", names(N)))
+            }
+            Some(extension) if extension.eq_ignore_ascii_case("msw") => {
+                Err("a blob, and a query is wanted here; name blobs first".to_owned())
+            }
+            _ => Ok(Given::File(file)),
+        };
     };
     let numbers: Vec<f32> =
         characters.split(',').map(|field| number::parse(field.trim())).collect::<Result<_, _>>()?;
@@ -101,6 +110,8 @@ mod tests {
             ("1,2,3,4", "4 numbers"),
             ("1,2,nan", "is not finite"),
             ("1,2,1e39", "is beyond f32"),
+            ("", "no query; write 3: x, y, z with commas, or name a file"),
+            ("part.MSW", "a blob, and a query is wanted here; name blobs first"),
         ] {
             assert!(point(text).unwrap_err().starts_with(why), "{text}");
         }

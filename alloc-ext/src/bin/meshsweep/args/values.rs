@@ -61,6 +61,14 @@ pub fn point(text: &str) -> Result<[f32; 3], String> {
     coordinates.and_then(|p| <[f32; 3]>::try_from(p).ok()).ok_or_else(|| wanted.to_owned())
 }
 
+/// Two points: six finite numbers.
+pub fn two_points(text: &str) -> Result<[[f32; 3]; 2], String> {
+    let wanted = || "six numbers are wanted, as 1,-2.5,3,4,5,6".to_owned();
+    let comma = text.match_indices(',').nth(2).ok_or_else(wanted)?.0;
+    let end = |text: &str| point(text).map_err(|_| wanted());
+    Ok([end(&text[..comma])?, end(&text[comma + 1..])?])
+}
+
 /// A direction: three finite numbers, not all 0.
 pub fn direction(text: &str) -> Result<[f32; 3], String> {
     let along = point(text)?;
@@ -189,6 +197,10 @@ mod tests {
         assert_eq!(point("1,-2.5,3e2"), Ok([1.0, -2.5, 300.0]));
         for wrong in ["", "1,2", "1,2,3,4", "1,2,nan", "1,2,1e39"] {
             assert!(point(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(two_points("1,2,3,-4,5,6"), Ok([[1.0, 2.0, 3.0], [-4.0, 5.0, 6.0]]));
+        for wrong in ["", "1,2,3", "1,2,3,4,5", "1,2,3,4,5,6,7", "1,2,3,4,5,inf"] {
+            assert!(two_points(wrong).is_err(), "{wrong}");
         }
         assert_eq!(direction("0,-1,0"), Ok([0.0, -1.0, 0.0]));
         assert!(direction("0,0,-0").is_err());

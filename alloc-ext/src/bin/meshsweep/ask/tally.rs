@@ -4,9 +4,9 @@ use meshsweep_core::{Ended, Work};
 
 /// Words for queries that ended with `Ended::Resolution`: more work does not help them.
 const RESOLUTION: &str =
-    "left open by rounding or the blob (cut, or vertices moved to a grid), or for touching";
+    "left undecided by rounding or the blob (cut, or vertices moved to a grid), or for touching";
 
-/// The same where the blob knows the mesh by a tight hull alone, which leaves most queries open.
+/// The same where the blob knows the mesh by a tight hull alone, which leaves most queries undecided.
 const BY_HULL: &str =
     "answered as far as the hull tells: it stands off from the mesh; a finer hull tells more";
 
@@ -22,7 +22,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub fn count(&mut self, (ended, work): (Ended, Work)) {
+    pub fn count(&mut self, ended: Ended, work: Work) {
         self.work += u64::from(work.total());
         *match ended {
             Ended::Exact => &mut self.exact,
@@ -31,15 +31,6 @@ impl Tally {
             Ended::Scratch => &mut self.scratch,
             _ => &mut self.resolution,
         } += 1;
-    }
-
-    pub fn add(&mut self, other: &Tally) {
-        self.exact += other.exact;
-        self.tolerance += other.tolerance;
-        self.steps += other.steps;
-        self.scratch += other.scratch;
-        self.resolution += other.resolution;
-        self.work += other.work;
     }
 
     pub fn queries(&self) -> usize {

@@ -1,21 +1,11 @@
 //! Queries on several threads: the same answers in the same order as on one thread.
 
-use super::tally::Tally;
 use meshsweep_core::QueryError;
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
 
-/// A query that is refused, by its index, and why.
+/// A row that is refused, by its index, and why.
 pub type Refused = (usize, QueryError);
-
-/// Answers of all threads.
-pub struct Answers<A> {
-    /// In the order of the queries, up to the first one that is refused.
-    pub answers: Vec<A>,
-    /// The first query that is refused.
-    pub refused: Option<Refused>,
-    pub tally: Tally,
-}
 
 /// The number of threads: `wanted`, or else one for each processor; at most one for each of the
 /// `parts` of the work.
@@ -36,17 +26,18 @@ pub fn each<T: Send>(threads: usize, work: impl Fn() -> T + Sync) -> Vec<T> {
     })
 }
 
-/// Asks all `rows` in chunks of `at_once`. `worker` makes a thread's worker. A worker gets the
-/// index of a chunk's first row and the chunk; it appends the answers and counts them. If it
-/// refuses rows, it names the one of the least index, and appends at most the answers before it.
+/// Asks all `rows` in chunks of `at_once`. `worker` makes a thread's worker. A worker gets a chunk
+/// and appends its answers. If it refuses rows, it names the first of them by its index in the
+/// chunk, and appends at most the answers before it. Returns the answers in the order of the rows,
+/// up to the first refused row, and that row.
 pub fn ask<R: Sync, A: Send, W>(
     rows: &[R],
     threads: usize,
     at_once: usize,
     worker: impl Fn() -> W + Sync,
-) -> Answers<A>
+) -> (Vec<A>, Option<Refused>)
 where
-    W: FnMut(usize, &[R], &mut Vec<A>, &mut Tally) -> Result<(), Refused>,
+    W: FnMut(&[R], &mut Vec<A>) -> Result<(), Refused>,
 {
     let chunks = Mutex::new(rows.chunks(at_once).enumerate());
     let all = each(threads, || {
@@ -55,24 +46,18 @@ where
         // No thread can panic while it holds the lock.
         while let Some((chunk, rows)) = chunks.lock().ok().and_then(|mut chunks| chunks.next()) {
             let mut answers = Vec::with_capacity(rows.len());
-            let mut tally = Tally::default();
-            let refused = worker(chunk * at_once, rows, &mut answers, &mut tally).err();
-            done.push((chunk, answers, tally));
-            if refused.is_some() {
-                return (done, refused);
+            let asked = worker(rows, &mut answers);
+            done.push((chunk, answers));
+            if let Err((index, error)) = asked {
+                return (done, Some((chunk * at_once + index, error)));
             }
         }
         (done, None)
     });
-    // Threads take chunks in order. So all chunks before the first refused query were asked.
+    // Threads take chunks in order. So all chunks before the first refused row were asked.
     let refused = all.iter().filter_map(|(_, refused)| *refused).min_by_key(|(index, _)| *index);
     let mut done: Vec<_> = all.into_iter().flat_map(|(done, _)| done).collect();
-    done.retain(|(chunk, ..)| refused.is_none_or(|(index, _)| *chunk <= index / at_once));
-    done.sort_unstable_by_key(|(chunk, ..)| *chunk);
-    let mut asked = Answers { answers: Vec::new(), refused, tally: Tally::default() };
-    for (_, answers, tally) in done {
-        asked.answers.extend(answers);
-        asked.tally.add(&tally);
-    }
-    asked
+    done.retain(|(chunk, _)| refused.is_none_or(|(index, _)| *chunk <= index / at_once));
+    done.sort_unstable_by_key(|(chunk, _)| *chunk);
+    (done.into_iter().flat_map(|(_, answers)| answers).collect(), refused)
 }

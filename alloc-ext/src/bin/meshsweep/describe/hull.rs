@@ -9,9 +9,6 @@ use meshsweep_core::{Hull, Level, ScratchEntry};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// Bytes of one word of a refined hull's bit set.
-const WORD: usize = size_of::<u32>();
-
 /// Distance between the stored surface and the file's, rounded up, in the mesh's unit.
 fn surface_error(header: &Header) -> f32 {
     up_to_f32(f64::from(header.surface_error) * exp2(header.scale_exponent))
@@ -41,11 +38,6 @@ fn distances(header: &Header, level: &Level) -> LevelDistances {
 /// Bytes of a queue with which no query overflows.
 fn queue_bytes(hull: &Hull<'_>) -> usize {
     hull.scratch_entries() * size_of::<ScratchEntry>()
-}
-
-/// Bytes of both bit sets of a refined hull that can perform every split.
-fn front_bytes(hull: &Hull<'_>) -> usize {
-    2 * hull.refined_words() * WORD
 }
 
 /// How coordinates are stored.
@@ -80,9 +72,8 @@ fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     )?;
     writeln!(
         out,
-        "  front: {} in each of 2 bit sets, {} bytes of RAM: every split can be performed",
-        Counted(hull.refined_words(), "word"),
-        front_bytes(hull)
+        "  refined hull: 16 bytes of RAM for each split that is performed, {} for all",
+        16 * hull.split_count() as usize
     )?;
     writeln!(
         out,
@@ -145,8 +136,6 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
         "capacities": {
             "queue": hull.scratch_entries(),
             "queue_bytes": queue_bytes(hull),
-            "front_words": hull.refined_words(),
-            "front_bytes": front_bytes(hull),
             "dependency_depth": hull.header().dependency_depth,
         },
         "levels": levels,

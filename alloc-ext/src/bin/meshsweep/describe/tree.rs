@@ -64,9 +64,9 @@ pub(super) fn write(out: &mut dyn Write, tree: &Bvh<'_>, diagonal: f64) -> io::R
         )?;
     }
     let closed = if tree.is_closed() {
-        "closed: signed distance is defined"
+        "closed: signed distance is that of the nearest surface"
     } else {
-        "open: signed distance is undefined"
+        "open: every side is undecided"
     };
     writeln!(out, "  {closed}")?;
     writeln!(

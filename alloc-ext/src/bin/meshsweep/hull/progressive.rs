@@ -23,10 +23,12 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     let (hull, void, stuck) = hull_of(&solid.mesh, options.base_faces, &options, |progress| {
         bar.show(from.saturating_sub(progress.faces))
     })
-    .map_err(|error| Failure::Build { file: args.input.clone(), error })?;
+    .map_err(|error| Failure::build(&args.input, error))?;
     let time = started.elapsed();
     drop(bar);
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
+    let wires =
+        wires_off_surface(&solid.mesh).map_err(|error| Failure::build(&args.input, error))?;
     Output::stdout().finish(|out| {
         write_repairs(out, &args.input, &solid)?;
         writeln!(
@@ -37,7 +39,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
             Percent((void * 100.0).max(0.0)),
             time.as_secs_f64()
         )?;
-        write_wires(out, wires_off_surface(&solid.mesh))?;
+        write_wires(out, wires)?;
         stuck.map_or(Ok(()), |stuck| writeln!(out, "{}", why_stuck(faces, &stuck)))
     })
 }

@@ -9,12 +9,11 @@ use meshsweep::BuildError;
 use meshsweep::counted::Counted;
 use meshsweep::mesh::{Mesh, write_ply};
 use meshsweep::tight::hull_mesh;
-use meshsweep_core::{Hull, Level, VertIdx};
+use meshsweep_core::{Hull, HullFace, VertIdx};
 
 /// Writes the finest tight hull of at most so many faces.
 pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
-    let bytes = blob_file::read(&args.input)?;
-    let blob = blob_file::open(&args.input, &bytes)?;
+    let blob = blob_file::open(&args.input)?;
     let hull = served::require_tight(&args.input, &blob, faces)?;
     Output::file(&args.output)?.finish(|out| write_ply(&hull_mesh(&hull), out))?;
     Output::stdout().finish(|out| {
@@ -29,8 +28,7 @@ pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
 
 /// Writes level `index` of the hull hierarchy.
 pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
-    let bytes = blob_file::read(&args.input)?;
-    let blob = blob_file::open(&args.input, &bytes)?;
+    let blob = blob_file::open(&args.input)?;
     let hierarchy = served::require_hull(&args.input, &blob)?;
     let levels = hierarchy.header().levels;
     let no_level = || Failure::Build {
@@ -38,7 +36,7 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
         error: BuildError::NoLevel { wanted: index, levels },
     };
     let level = hierarchy.level(index).ok_or_else(no_level)?;
-    let hull = level_mesh(&hierarchy, &level);
+    let hull = mesh_of(&hierarchy, hierarchy.faces(&level));
     Output::file(&args.output)?.finish(|out| write_ply(&hull, out))?;
     Output::stdout().finish(|out| {
         writeln!(
@@ -52,13 +50,13 @@ pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
     })
 }
 
-/// The hull of a level in the mesh's unit. The scale is a power of two, so its vertices are exactly
-/// the stored ones.
-fn level_mesh(hull: &Hull<'_>, level: &Level) -> Mesh {
+/// Faces of a hull as a mesh in the mesh's unit. The scale is a power of two, so its vertices are
+/// exactly the stored ones.
+pub fn mesh_of(hull: &Hull<'_>, faces: impl Iterator<Item = HullFace>) -> Mesh {
     let mut number = vec![None; hull.header().vertices as usize];
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
-    for face in hull.faces(level) {
+    for face in faces {
         triangles.push(face.corners.map(|vertex: VertIdx| {
             *number[vertex.usize()].get_or_insert_with(|| {
                 positions.push(hull.vertex(vertex).unwrap_or_default());

@@ -34,7 +34,7 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
     for mesh in &meshes {
         let mut bars = StageBars::default();
         let hull = wrap(mesh, &options, |progress| bars.show(progress));
-        hulls.push(hull.map_err(|error| Failure::Wrap { file: args.input.clone(), error })?);
+        hulls.push(hull.map_err(|error| Failure::build(&args.input, error))?);
     }
     let asked = Tightness { slack: args.slack, void: args.void, by_faces: "--faces" };
     require_met(&args.input, asked, hulls.iter().map(|hull| &hull.report))?;

@@ -1,32 +1,55 @@
-//! The box tree in the race.
+//! The box tree in the race: the blob read where it lies, a stack that the caller owns.
 #![no_std]
 #![no_main]
 
 #[path = "../carried.rs"]
 mod carried;
-#[path = "../tree.rs"]
-mod tree;
 
-use meshsweep_core::ClosestPoint;
 use meshsweep_core::internal::num::sqrt_approx;
+use meshsweep_core::{Budget, Bvh, ClosestPoint, CoherentQuery, Facing, ScratchEntry};
 use meshsweep_rival_firmware::race::{self, Engine};
-use tree::BoxTree;
 
-struct Asked(BoxTree);
+/// Entries of the stack: what trees of so many triangles ask for, and some more.
+const STACK: usize = 64;
 
-impl Engine for Asked {
+/// Nodes of the coherent query's front.
+const FRONT: usize = 64;
+
+struct BoxTree {
+    tree: Bvh<'static>,
+    stack: [ScratchEntry; STACK],
+    coherent: CoherentQuery<'static, FRONT>,
+}
+
+impl BoxTree {
+    #[inline(never)]
+    fn open(blob: &'static [u8]) -> Self {
+        Self {
+            tree: Bvh::open(blob).expect("a blob with a tree"),
+            stack: [ScratchEntry::EMPTY; STACK],
+            coherent: CoherentQuery::new(),
+        }
+    }
+}
+
+impl Engine for BoxTree {
     type Closest = Option<ClosestPoint>;
 
     fn memory(&self) -> usize {
-        self.0.memory().expect("a stack that is long enough")
+        let entries = self.tree.scratch_entries();
+        assert!(entries <= STACK, "a stack that is too short");
+        size_of::<Bvh<'_>>() + entries * size_of::<ScratchEntry>()
     }
 
+    #[inline(never)]
     fn closest(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
-        self.0.closest(point)
+        self.tree.closest_point(point, Budget::EXACT, &mut self.stack).ok()
     }
 
+    #[inline(never)]
     fn follow(&mut self, point: [f32; 3]) -> Option<ClosestPoint> {
-        self.0.follow(point)
+        let Self { tree, stack, coherent } = self;
+        Some(coherent.closest_point(tree, point, Budget::EXACT, stack).ok()?.closest)
     }
 
     fn distance(point: [f32; 3], closest: &Option<ClosestPoint>) -> f32 {
@@ -35,16 +58,14 @@ impl Engine for Asked {
         sqrt_approx(x * x + y * y + z * z)
     }
 
+    #[inline(never)]
     fn first_hit(&mut self, a: [f32; 3], b: [f32; 3]) -> Option<f32> {
-        Some(self.0.first_hit(a, b)?.hit?.t)
+        let found = self.tree.first_hit(a, b, Facing::Both, Budget::EXACT, &mut self.stack);
+        Some(found.ok()?.hit?.t)
     }
 }
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    race::run(
-        &carried::QUESTIONS,
-        || (0, 0),
-        || Asked(BoxTree::open(carried::TREE).expect("a blob with a tree")),
-    )
+    race::run(&carried::QUESTIONS, || (0, 0), || BoxTree::open(carried::TREE))
 }

@@ -38,8 +38,6 @@ impl About {
 pub struct Judged {
     /// Whether it meets the resting one.
     pub meets: bool,
-    /// Comparisons that told.
-    pub comparisons: usize,
     /// Of the moved bound, over the convex hull's.
     pub volume: f64,
 }
@@ -52,8 +50,6 @@ pub struct Contender<'a> {
     pub about: About,
     /// Points that are moved.
     pub vertices: usize,
-    /// Comparisons of a test at most, if they are counted.
-    pub most: Option<usize>,
     /// What is so of it.
     pub judge: Box<dyn Fn(&Pose) -> Judged + 'a>,
     /// What it costs.
@@ -63,8 +59,7 @@ pub struct Contender<'a> {
 /// Coordinates between which f32 squares neither overflow nor vanish.
 const SIZES: std::ops::Range<f64> = 1e-15..1e15;
 
-/// All of them; each slab bound that is taken about its own vertices right after the one about the
-/// hull's.
+/// All of them.
 ///
 /// # Errors
 /// The mesh is too large or too small for f32.
@@ -90,7 +85,6 @@ pub fn contenders(bounds: &Bounds) -> Result<Vec<Contender<'_>>, String> {
                 name: slabs.label,
                 about,
                 vertices: points.len(),
-                most: Some(2 * slabs.directions.len()),
                 judge: Box::new(move |pose| judged(bounds, slabs, rest, &moved(pose), pose)),
                 rig: rig.ok_or_else(|| format!("{} is in f64 only", slabs.name))?,
             });
@@ -106,37 +100,28 @@ pub fn contenders(bounds: &Bounds) -> Result<Vec<Contender<'_>>, String> {
         name: "sphere",
         about: About::Rigid,
         vertices: 1,
-        most: Some(1),
-        judge: Box::new(move |pose| Judged { meets: meets(pose), comparisons: 1, volume }),
+        judge: Box::new(move |pose| Judged { meets: meets(pose), volume }),
         rig: rigid::sphere(sphere),
     });
-    for (name, oriented) in ["oriented box, principal axes", "oriented box, on a face"]
-        .into_iter()
-        .zip(bounds.boxes.iter().map(|(_, oriented)| oriented))
-    {
-        let volume = oriented.volume() / hull.volume();
-        all.push(Contender {
-            name,
-            about: About::Rigid,
-            vertices: 1,
-            most: Some(15),
-            judge: Box::new(move |pose| {
-                let (meets, comparisons) =
-                    oriented.meets(&oriented.moved(pose.rotation, pose.shift));
-                Judged { meets, comparisons, volume }
-            }),
-            rig: rigid::oriented(oriented),
-        });
-    }
+    let oriented = &bounds.oriented;
+    let volume = oriented.volume() / hull.volume();
+    all.push(Contender {
+        name: "oriented box, on a face",
+        about: About::Rigid,
+        vertices: 1,
+        judge: Box::new(move |pose| Judged {
+            meets: oriented.meets(&oriented.moved(pose.rotation, pose.shift)),
+            volume,
+        }),
+        rig: rigid::oriented(oriented),
+    });
     let supports = Supports::new(hull);
     all.push(Contender {
         name: "convex hull",
         about: About::Rigid,
         vertices: 0,
-        most: None,
         judge: Box::new(move |pose| Judged {
             meets: supports.meets_moved(&parry(pose)),
-            comparisons: 0,
             volume: 1.0,
         }),
         rig: rigid::hull(hull),
@@ -145,11 +130,10 @@ pub fn contenders(bounds: &Bounds) -> Result<Vec<Contender<'_>>, String> {
 }
 
 fn judged(bounds: &Bounds, slabs: &Slabs, rest: &Dop, moved: &Dop, pose: &Pose) -> Judged {
-    let (meets, comparisons) = rest.meets(moved);
     // The corners of what a ball encloses are within √3 of its radius, so the corners of what these
     // enclose within 3.
     let solid = moved.solid(slabs, pose.apply(bounds.sphere.centre), 2.0 * bounds.sphere.radius);
-    Judged { meets, comparisons, volume: solid.volume() / bounds.hull.volume() }
+    Judged { meets: rest.meets(moved), volume: solid.volume() / bounds.hull.volume() }
 }
 
 /// The library's triboxes.
@@ -163,7 +147,6 @@ fn outward<'a>(bounds: &'a Bounds, slabs: &'a Slabs) -> Result<[Contender<'a>; 2
         name: "tribox rounded outward",
         about,
         vertices,
-        most: Some(18),
         judge: Box::new(move |pose| judged(bounds, slabs, &dop(rest), &dop(moved(pose)), pose)),
         rig,
     };

@@ -26,8 +26,8 @@ const MOST_TRIBOXES: usize = 256;
 /// bits: where these are does not change how many bytes they take.
 fn hull_bytes(hull: &Mesh) -> usize {
     let faces = hull.triangles.len();
-    let options = TreeOptions { closest: true, segments: false, ..TreeOptions::default() };
-    let (tree, _) = build(hull.as_input(), &options);
+    let options = TreeOptions::default().with_closest(true).with_segments(false);
+    let (tree, _) = build(hull.as_input(), &options).expect("builds");
     let blob = tree.to_bytes();
     TIGHT_BYTES + TIGHT_HULL_BYTES + blob.len() + faces * size_of::<Radius16>()
 }
@@ -85,9 +85,9 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
     counts.extend(hulls.iter().map(|hull| (triboxes_of(hull_bytes(&hull.hull)), Some(hull.asked))));
     counts.retain(|&(count, _)| count <= MOST_TRIBOXES);
     let leaves = counts.iter().map(|&(count, _)| count).max().unwrap_or(1);
-    let bytes = box_tree(&subject.mesh);
+    let bytes = box_tree(&subject.mesh).expect("builds");
     let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
-    let options = SplitOptions { leaves, ..SplitOptions::default() };
+    let options = SplitOptions::default().with_leaves(leaves);
     let all = Hierarchy::new(&subject.mesh, &tree, &options).map_err(|error| error.to_string())?;
     for (count, faces) in counts {
         let leaves = all.leaves(count);
@@ -120,8 +120,7 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
 
 /// All of it as one trade of faces for void, for the plot.
 pub fn trade(tight: &Table, beside: &Table) -> Table {
-    let mut table =
-        Table::new("tight_trade", "Void against faces", &["bound", "faces", "void %", "label"]);
+    let mut table = Table::new("tight_trade", "Void against faces", &["bound", "faces", "void %"]);
     let column = |of: &Table, name: &str| of.columns.iter().position(|column| *column == name);
     let series = [
         ("void %", "tight"),
@@ -133,18 +132,14 @@ pub fn trade(tight: &Table, beside: &Table) -> Table {
             continue;
         };
         for row in &tight.rows {
-            table.push(row![name, row[faces].clone(), row[void].clone(), row[void].text()]);
+            table.push(row![name, row[faces].clone(), row[void].clone()]);
         }
     }
-    let columns = ["kind", "faces", "void %", "bound"].map(|name| column(beside, name));
-    if let [Some(kind), Some(faces), Some(void), Some(bound)] = columns {
+    if let [Some(kind), Some(faces), Some(void)] =
+        ["kind", "faces", "void %"].map(|name| column(beside, name))
+    {
         for row in &beside.rows {
-            table.push(row![
-                row[kind].text(),
-                row[faces].clone(),
-                row[void].clone(),
-                row[bound].text()
-            ]);
+            table.push(row![row[kind].text(), row[faces].clone(), row[void].clone()]);
         }
     }
     table

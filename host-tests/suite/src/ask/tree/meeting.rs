@@ -4,8 +4,7 @@ use meshsweep_core::{Budget, Pose, Verdict};
 
 use super::{Bvh, Scratch};
 use crate::Clock;
-use crate::ask::{self, timed};
-use crate::fold::Fold;
+use crate::ask::{self, Asked};
 use crate::place::Motion;
 
 /// A motion as the core takes it.
@@ -16,29 +15,20 @@ pub fn pose((rotation, translation): Motion) -> Pose {
 
 /// Whether the surface meets its moved copy.
 #[inline(never)]
-pub fn overlap(
-    tree: &Bvh<'_>,
-    pose: Pose,
-    scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
-) {
-    match timed(clock, || tree.overlap(tree, pose, Budget::EXACT, &mut scratch.pairs)) {
-        Ok(answer) => {
+pub fn overlap(tree: &Bvh<'_>, pose: Pose, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Clock>) {
+    to.answer(
+        || tree.overlap(tree, pose, Budget::EXACT, &mut s.pairs),
+        |fold, answer| {
             fold.word(match answer.verdict {
                 Verdict::No => 1,
                 Verdict::Yes => 2,
-                Verdict::Undecided(_) => 3,
+                _ => 3,
             });
-            answer
-                .triangles
-                .unwrap_or([u32::MAX; 2])
-                .into_iter()
-                .for_each(|number| fold.word(number));
+            let triangles = answer.triangles.unwrap_or([u32::MAX; 2]);
+            triangles.into_iter().for_each(|number| fold.word(number));
             ask::verdict(fold, answer.work, answer.verdict);
-        }
-        Err(error) => ask::refusal(fold, error),
-    }
+        },
+    );
 }
 
 /// Pairs of nodes that a search for all pairs may open: what it needs differs by orders of
@@ -51,21 +41,16 @@ pub fn all_overlaps(
     tree: &Bvh<'_>,
     pose: Pose,
     scratch: &mut Scratch<'_>,
-    clock: &mut impl Clock,
-    fold: &mut Fold,
+    to: &mut Asked<'_, impl Clock>,
 ) {
     let Scratch { pairs, meeting, .. } = scratch;
-    match timed(clock, || {
-        tree.overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs)
-    }) {
-        Ok(answer) => {
-            for pair in meeting.iter().take(answer.stored) {
-                pair.triangles.into_iter().for_each(|number| fold.word(number));
-                fold.word(u32::from(pair.is_certain));
-            }
-            fold.word(answer.dropped);
-            ask::how(fold, answer.work, answer.ended);
+    let call = || tree.overlaps(tree, pose, meeting, Budget::EXACT.with_steps(STEPS), pairs);
+    if let Some(answer) = to.answer(call, |_, _| ()) {
+        for pair in meeting.iter().take(answer.stored) {
+            pair.triangles.into_iter().for_each(|number| to.fold.word(number));
+            to.fold.word(u32::from(pair.is_certain));
         }
-        Err(error) => ask::refusal(fold, error),
+        to.fold.word(answer.dropped);
+        ask::how(to.fold, answer.work, answer.ended);
     }
 }

@@ -51,7 +51,6 @@ pub fn about(slabs: &Slabs, points: &[DVec3], hull: &[DVec3]) -> Option<Box<dyn 
         "box" => rig(points, hull, |p| p),
         "14-DOP" => rig(points, hull, move |p: [f32; 3]| join::<3, 4, 7>(p, corners(p))),
         "tribox" => rig(points, hull, move |p| join::<3, 6, 9>(p, edges(p))),
-        "20-DOP" => rig(points, hull, move |p| join::<4, 6, 10>(corners(p), edges(p))),
         "24-DOP" => rig(points, hull, move |p| {
             let [_, b, c, d] = corners(p);
             join::<9, 3, 12>(join::<3, 6, 9>(p, edges(p)), [b, c, d])

@@ -1,11 +1,11 @@
 //! Why a mesh bounds no volume, so that a hull of it has no void.
 
+use super::{EdgePlace, MeshError};
 use crate::counted::Counted;
-use crate::mesh::{EdgePlace, MeshError};
 use std::fmt;
 
 /// Why a mesh bounds no volume: its first defect in the order of
-/// [`require_closed_manifold`](crate::mesh::require_closed_manifold), with one place of the defect.
+/// [`require_closed_manifold`](super::require_closed_manifold), with one place of the defect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVolume {
     /// Edges have one triangle only.
@@ -24,7 +24,7 @@ pub enum NoVolume {
         /// One of them.
         at: EdgePlace,
     },
-    /// Several fans meet in a vertex; [`repair`](crate::mesh::repair) splits it.
+    /// Several fans meet in a vertex; [`repair`](super::repair) splits it.
     Pinched {
         /// Number of vertices.
         vertices: usize,
@@ -38,14 +38,14 @@ pub enum NoVolume {
         /// An edge where the sides change.
         at: EdgePlace,
     },
-    /// Neighbours are wound against each other; [`repair`](crate::mesh::repair) turns them.
+    /// Neighbours are wound against each other; [`repair`](super::repair) turns them.
     MixedWinding {
         /// Number of edges with such neighbours.
         edges: usize,
         /// One of them.
         at: EdgePlace,
     },
-    /// Outermost components face inwards; [`repair`](crate::mesh::repair) turns them.
+    /// Outermost components face inwards; [`repair`](super::repair) turns them.
     InsideOut {
         /// Number of them.
         parts: usize,
@@ -66,13 +66,13 @@ pub enum NoVolume {
     Indistinct,
     /// No triangle has an area.
     NoArea,
-    /// The arrays break the contract of [`Mesh`](crate::mesh::Mesh).
+    /// The arrays break the contract of [`Mesh`](super::Mesh).
     Invalid,
 }
 
 impl NoVolume {
     /// The first defect.
-    pub(super) fn of(error: &MeshError) -> Self {
+    pub(crate) fn of(error: &MeshError) -> Self {
         let named = match error {
             MeshError::Open { edge_count: edges, places, .. } => {
                 places.first().map(|&at| NoVolume::Open { edges: *edges, at })

@@ -1,0 +1,106 @@
+//! The visitor of all questions about more than the nearest triangle.
+
+use super::descent::{LeafVisit, LeafVisitor};
+use super::leaf_distance::nearest_triangle;
+use super::point_query::PointQuery;
+use super::triangle_bounds::{each_triangle, lower_of};
+use crate::bvh::format::{Bvh, FanLeaf};
+
+/// A triangle that a descent has reached.
+#[derive(Clone, Copy)]
+pub(crate) struct LeafTriangle {
+    pub(crate) distance_sq: f32,
+    pub(crate) lower_bound_sq: f32,
+    /// In the blob.
+    pub(crate) number: u32,
+    pub(crate) node: u32,
+    pub(crate) child: u32,
+    pub(crate) lane: u32,
+}
+
+impl LeafTriangle {
+    /// The leaf that holds the triangle.
+    pub(crate) fn leaf<'t>(&self, tree: &Bvh<'t>) -> Option<FanLeaf<'t>> {
+        tree.leaf(self.node, self.child)
+    }
+
+    /// Lower bound of the triangle's distance, grid units. `leaf` is the triangle's.
+    #[inline]
+    pub(crate) fn lower(&self, leaf: &FanLeaf<'_>, query: &PointQuery) -> f32 {
+        lower_of(leaf, self.lane as usize, query.p, self.distance_sq, self.lower_bound_sq)
+    }
+}
+
+/// How to go on after the nearest triangle of a leaf.
+pub(crate) enum Next {
+    /// Look at every triangle of the leaf within the limit.
+    Triangles,
+    /// The other triangles of the leaf cannot change the answer.
+    Leaf,
+    /// The question is answered.
+    Nothing,
+}
+
+/// The part of a question that takes triangles one by one, in any order.
+pub(crate) trait TriangleCollector {
+    /// Takes a triangle whose squared lower bound is not beyond `limit`. May lower the limit.
+    fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, limit: &mut f32);
+
+    /// Looks at the nearest triangle of a leaf. `None` says that the tree is unchecked.
+    #[inline(always)]
+    fn nearest(&mut self, _: &LeafVisit<'_>, _distance_sq: f32, _limit: f32) -> Option<Next> {
+        Some(Next::Triangles)
+    }
+
+    /// Whether the question is answered.
+    #[inline(always)]
+    fn is_answered(&self) -> bool {
+        false
+    }
+}
+
+/// The visitor. It skips a leaf at once if its nearest triangle is beyond the limit.
+pub(crate) struct TriangleVisitor<'a, C> {
+    pub(crate) tree: &'a Bvh<'a>,
+    pub(crate) query: &'a PointQuery,
+    /// Squared bound above which no triangle can change the answer.
+    pub(crate) limit: f32,
+    pub(crate) collector: C,
+}
+
+impl<C: TriangleCollector> LeafVisitor for TriangleVisitor<'_, C> {
+    #[inline(always)]
+    fn limit(&self) -> f32 {
+        self.limit
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let near = nearest_triangle(&visit.leaf, self.query.p)?;
+        match self.collector.nearest(visit, near.distance_sq, self.limit)? {
+            Next::Triangles if near.lower_bound_sq <= self.limit => self.each(visit),
+            Next::Triangles | Next::Leaf => Some(true),
+            Next::Nothing => Some(false),
+        }
+    }
+}
+
+impl<C: TriangleCollector> TriangleVisitor<'_, C> {
+    /// Hands the triangles of a leaf to the collector. Returns whether to go on.
+    #[inline(never)]
+    fn each(&mut self, visit: &LeafVisit<'_>) -> Option<bool> {
+        let TriangleVisitor { tree, query, limit, collector } = self;
+        let LeafVisit { leaf, node, lane: child, .. } = visit;
+        let first = tree.links(*node)?.triangle(*child);
+        each_triangle(query, leaf, |lane, distance_sq, lower_bound_sq| {
+            if lower_bound_sq > *limit {
+                return;
+            }
+            let (node, child, lane) = (*node, *child, lane as u32);
+            let number = first.wrapping_add(lane);
+            let here = LeafTriangle { distance_sq, lower_bound_sq, number, node, child, lane };
+            collector.take(here, leaf, limit);
+        });
+        Some(!collector.is_answered())
+    }
+}

@@ -1,0 +1,334 @@
+//! The refined hull follows a focus: splits that it needs are performed, splits that it no longer
+//! needs are undone (Guéziec 2000, 4.2; Platis & Theoharis 2003, 3.2.2, who do not coarsen).
+//!
+//! A split is needed if its error exceeds the wanted one where the ball of its vertex and star
+//! radius meets the focus. Whether a split is needed does not depend on the others. So while memory
+//! is left, the splits that are performed are the least set in which every needed split of an
+//! existing vertex is performed, whatever the order, and one pass over the existing vertices finds
+//! them: new vertices come at the end of the list.
+//!
+//! If the memory gets full, a floor rises: splits of no greater need are left out and undone. It
+//! falls again when there is room.
+
+use super::focus::{Focus, FocusQuery};
+use super::refined_hull::{Refined, RefinedHull, erased};
+use crate::hull::format::{Hull, SplitIdx, VertIdx};
+use crate::num::up_to_f32;
+use crate::query::QueryError;
+
+/// What an update did, and what it left undone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refinement {
+    /// Faces of the refined hull.
+    pub faces: u32,
+    /// Splits performed.
+    pub performed: u32,
+    /// Splits undone.
+    pub undone: u32,
+    /// The largest error among the splits that are needed and do not fit in the memory, input
+    /// units, rounded up. 0 if all needed splits are performed.
+    pub error_left: f32,
+    /// Changes in the slice.
+    pub stored: usize,
+    /// Changes that did not fit. The slice keeps the first ones.
+    pub dropped: u32,
+}
+
+/// A split that an update performed or undid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// The split.
+    split: SplitIdx,
+    /// Whether it was performed. Else it was undone.
+    is_performed: bool,
+}
+
+impl Change {
+    /// Any value, for filling arrays.
+    pub const EMPTY: Change = Change { split: SplitIdx(0), is_performed: false };
+
+    /// Number of the split.
+    pub fn split(&self) -> u32 {
+        self.split.0
+    }
+
+    /// Whether the split was performed. Else it was undone.
+    pub fn is_performed(&self) -> bool {
+        self.is_performed
+    }
+
+    /// Corners of the faces that the change removed.
+    pub fn removed(&self, hull: &Hull<'_>) -> impl Iterator<Item = [VertIdx; 3]> {
+        star(hull, self.split, !self.is_performed)
+    }
+
+    /// Corners of the faces that the change added.
+    pub fn added(&self, hull: &Hull<'_>) -> impl Iterator<Item = [VertIdx; 3]> {
+        star(hull, self.split, self.is_performed)
+    }
+}
+
+/// The fine or the coarse triangles of a split.
+fn star<'a>(
+    hull: &Hull<'a>,
+    split: SplitIdx,
+    fine: bool,
+) -> impl Iterator<Item = [VertIdx; 3]> + use<'a> {
+    let split = hull.split(split);
+    let count = split.map_or(0, |s| if fine { s.fine_len() } else { s.ring_len() });
+    (0..count).filter_map(move |i| if fine { split?.fine(i) } else { split?.coarse(i) })
+}
+
+impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
+    /// Refines the hull around a focus and coarsens it elsewhere. Then every face that meets the
+    /// focus stands for surface no farther from it than `error` (input units; for an eye than the
+    /// larger of `error` and the error at the face's distance), or is a triangle of the surface,
+    /// unless [`Refinement::error_left`] is above 0. A face to which no surface is assigned says
+    /// nothing of it. On a cut blob the finest faces keep the error of the last level.
+    ///
+    /// A performed split is kept while a focus and an error larger by an eighth need it, so that
+    /// small motions change little. If `SPLITS` are too few, the splits of the greatest need are
+    /// performed, and at least half of the memory is used.
+    ///
+    /// `changes` gets the splits that were undone and performed, in this order. A caller that
+    /// removes and adds the faces of each change, one after the other, has the faces of the hull.
+    /// If some were [`dropped`](Refinement::dropped), take [`faces`](Self::faces) instead. An empty
+    /// slice is fine.
+    ///
+    /// Cost: linear in the base hull's vertices and the performed splits, some hundred instructions
+    /// each, and some thousand for each change.
+    ///
+    /// ```
+    /// use meshsweep_core::{Change, Focus, Hull, RefinedHull};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
+    /// let part = Hull::open(bytes)?;
+    /// let mut refined = RefinedHull::<128>::new();
+    /// let near = Focus::Ball { centre: [0.0, 0.0, 10.0], radius: 5.0 };
+    /// let mut changes = [Change::EMPTY; 64];
+    /// let update = refined.update(&part, &near, 0.5, &mut changes)?;
+    /// assert_eq!(refined.faces(&part).count(), update.faces as usize);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`]; [`QueryError::Tolerance`] if a
+    /// distance or an error is negative, NaN or infinite. The hull stays as it was.
+    pub fn update(
+        &mut self,
+        hull: &Hull<'t>,
+        focus: &Focus,
+        error: f32,
+        changes: &mut [Change],
+    ) -> Result<Refinement, QueryError> {
+        update(erased(&mut self.state), hull, focus, error, changes)
+    }
+}
+
+fn update(
+    state: &mut Refined,
+    hull: &Hull<'_>,
+    focus: &Focus,
+    error: f32,
+    changes: &mut [Change],
+) -> Result<Refinement, QueryError> {
+    if !hull.has_hull() {
+        return Err(QueryError::NO_HULL);
+    }
+    let query = FocusQuery::new(hull, focus, error)?;
+    state.begin(hull);
+    let mut update =
+        Update { state, hull, query, changes, stored: 0, dropped: 0, performed: 0, undone: 0 };
+    let left = update.run().ok_or(QueryError::Unchecked)?;
+    let Update { stored, dropped, performed, undone, .. } = update;
+    let splits = state.splits.len() as u32;
+    Ok(Refinement {
+        faces: hull.header().base_triangles.saturating_add(splits.saturating_mul(2)),
+        performed,
+        undone,
+        error_left: up_to_f32(f64::from(left) * hull.scale()),
+        stored,
+        dropped,
+    })
+}
+
+/// One update at work.
+struct Update<'a, 't> {
+    state: &'a mut Refined,
+    hull: &'a Hull<'t>,
+    query: FocusQuery,
+    changes: &'a mut [Change],
+    stored: usize,
+    dropped: u32,
+    performed: u32,
+    undone: u32,
+}
+
+/// How a pass over the existing vertices ended.
+enum Pass {
+    /// The memory is too short for a split of this need.
+    Full(f32),
+    /// All needs above the floor are met. The largest error among the others, 0 without.
+    Done(f32),
+}
+
+impl Update<'_, '_> {
+    /// The error that is left. `None`: the hull is unchecked.
+    fn run(&mut self) -> Option<f32> {
+        let mut was_full = false;
+        self.coarsen(KEPT)?;
+        loop {
+            match self.refine()? {
+                Pass::Full(need) => {
+                    // First go the splits that are kept without need. After that each step leaves
+                    // out one needed split at least, so the loop ends.
+                    if was_full {
+                        let least = self.least_need(need)?;
+                        self.state.floor = least.max(self.state.floor * FLOOR_STEP);
+                    }
+                    was_full = true;
+                    self.coarsen(1.0)?;
+                }
+                Pass::Done(left) if left > 0.0 && !was_full && self.has_room() => {
+                    let floor = self.state.floor / FLOOR_STEP;
+                    self.state.floor = if floor < LEAST_FLOOR { 0.0 } else { floor };
+                }
+                Pass::Done(left) => {
+                    if left == 0.0 {
+                        self.state.floor = 0.0;
+                    }
+                    return Some(left);
+                }
+            }
+        }
+    }
+
+    /// Whether half of the memory is free. A step of the floor frees about a third: errors are as
+    /// long as faces, so faces go with the square. So a floor that has risen stays, and splits are
+    /// not performed and undone in turns.
+    fn has_room(&self) -> bool {
+        self.state.splits.len() <= self.state.splits.capacity() / 2
+    }
+
+    /// Performs the needed splits of all existing vertices.
+    fn refine(&mut self) -> Option<Pass> {
+        let mut left = 0f32;
+        for vertex in 0..self.hull.header().base_vertices {
+            let vertex = VertIdx(vertex);
+            if let Some(split) = self.hull.split_of(vertex)
+                && !self.state.splits.contains(split)
+                && let Some(full) = self.meet(vertex, split, &mut left)?
+            {
+                return Some(full);
+            }
+        }
+        let mut position = 0;
+        while let Some(maker) = self.state.splits.get(position) {
+            for which in 0..2 {
+                let vertex = self.hull.brought_by(maker, which);
+                if !self.state.splits.is_replaced(position, which)
+                    && let Some(split) = self.hull.split_of(vertex)
+                    && let Some(full) = self.meet(vertex, split, &mut left)?
+                {
+                    return Some(full);
+                }
+            }
+            position += 1;
+        }
+        Some(Pass::Done(left))
+    }
+
+    /// Performs the split of an existing vertex if it is needed. The inner `Some` ends the pass.
+    #[inline(always)]
+    fn meet(&mut self, vertex: VertIdx, split: SplitIdx, left: &mut f32) -> Option<Option<Pass>> {
+        let [reach, error] = self.hull.reach_and_error(split)?;
+        if !self.query.is_above(error) {
+            return Some(None);
+        }
+        let need = self.query.need(self.hull.position(vertex)?, reach, error);
+        if need > self.state.floor {
+            return Some(if self.perform(split)? { None } else { Some(Pass::Full(need)) });
+        }
+        if need > 0.0 {
+            *left = left.max(error);
+        }
+        Some(None)
+    }
+
+    #[inline(never)]
+    fn perform(&mut self, split: SplitIdx) -> Option<bool> {
+        let before = self.state.splits.len();
+        let fits = self.state.perform_with_required(self.hull, split)?;
+        for position in before..self.state.splits.len() {
+            let split = self.state.splits.get(position)?;
+            self.performed = self.performed.saturating_add(1);
+            self.note(Change { split, is_performed: true });
+        }
+        Some(fits)
+    }
+
+    /// Undoes the splits that nothing needs, the last first: a split comes after those that it
+    /// requires. A focus and an error larger by the factor keep a split.
+    fn coarsen(&mut self, kept: f32) -> Option<()> {
+        let before = self.undone;
+        for position in (0..self.state.splits.len()).rev() {
+            if self.state.splits.is_required(position)
+                || self.need_at(position, kept)? > self.state.floor
+            {
+                continue;
+            }
+            let split = self.state.splits.get(position)?;
+            self.state.undo(self.hull, position)?;
+            self.undone = self.undone.saturating_add(1);
+            self.note(Change { split, is_performed: false });
+        }
+        if self.undone != before {
+            self.state.splits.close_gaps();
+        }
+        Some(())
+    }
+
+    /// The least need above 0 of the performed splits and of one more.
+    fn least_need(&self, more: f32) -> Option<f32> {
+        let mut least = more;
+        for position in 0..self.state.splits.len() {
+            let need = self.need_at(position, 1.0)?;
+            if need > 0.0 {
+                least = least.min(need);
+            }
+        }
+        Some(least)
+    }
+
+    /// The need of the split at a position, to a focus and an error larger by a factor.
+    #[inline]
+    fn need_at(&self, position: usize, factor: f32) -> Option<f32> {
+        let split = self.state.splits.get(position)?;
+        let [reach, error] = self.hull.reach_and_error(split)?;
+        if !self.query.is_above(error * factor) {
+            return Some(0.0);
+        }
+        let vertex = self.hull.position(self.hull.replaced_by(split)?)?;
+        Some(self.query.need(vertex, reach * factor, error * factor))
+    }
+
+    fn note(&mut self, change: Change) {
+        match self.changes.get_mut(self.stored) {
+            Some(slot) => {
+                *slot = change;
+                self.stored += 1;
+            }
+            None => self.dropped = self.dropped.saturating_add(1),
+        }
+    }
+}
+
+/// A performed split is kept while its ball and its error, larger by this factor, need it. A
+/// smaller factor undoes and repeats more while a focus moves to and fro. A larger one keeps more
+/// faces.
+const KEPT: f32 = 1.125;
+
+/// A floor rises by at least this factor, and falls by it: two steps of stored errors.
+const FLOOR_STEP: f32 = 1.25;
+
+/// A floor below the least stored error other than 0 is none.
+const LEAST_FLOOR: f32 = 1.0 / (1u32 << 30) as f32;

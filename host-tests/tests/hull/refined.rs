@@ -1,0 +1,427 @@
+//! The refined hull: every state that the tables allow is closed and encloses the part, and an
+//! update gives what its focus needs.
+
+use super::scenes::all;
+use glam::DVec3;
+use meshsweep_core::internal::hull::format::SplitIdx;
+use meshsweep_core::{Change, Focus, Hull, QueryError, RefinedHull, Refinement, VertIdx};
+use meshsweep_host_tests::check::{Mesh, Surface, Winding, canonical};
+use meshsweep_host_tests::generate::Rng;
+use meshsweep_host_tests::oracle::distance_to_triangle;
+use meshsweep_host_tests::scene::Scene;
+use std::collections::BTreeSet;
+
+/// Splits of a refined hull that holds all of each scene.
+const ALL: usize = 4096;
+
+/// A refined hull by the tables alone: a set of splits, and a mesh that refuses what does not fit.
+struct Replayed<'t> {
+    hull: Hull<'t>,
+    mesh: Mesh,
+    performed: BTreeSet<u32>,
+}
+
+impl<'t> Replayed<'t> {
+    fn new(hull: Hull<'t>) -> Self {
+        let mut mesh = Mesh::default();
+        for triangle in 0..hull.header().base_triangles {
+            let corners = hull.base_triangle(triangle).expect("in range");
+            mesh.add(corners.map(|v| v.0)).expect("the base hull is a mesh");
+        }
+        Self { hull, mesh, performed: BTreeSet::new() }
+    }
+
+    /// The vertex that a split replaces, and its ring.
+    fn named(&self, split: u32) -> impl Iterator<Item = VertIdx> {
+        let split = self.hull.split(SplitIdx(split)).expect("in range");
+        let ring = (0..split.ring_len()).map(move |i| split.ring(i).expect("in range"));
+        std::iter::once(split.vertex).chain(ring)
+    }
+
+    fn requires(&self, split: u32) -> BTreeSet<u32> {
+        self.named(split).filter_map(|v| self.hull.made_by(v)).map(|maker| maker.0).collect()
+    }
+
+    fn may_perform(&self, split: u32) -> bool {
+        !self.performed.contains(&split) && self.requires(split).is_subset(&self.performed)
+    }
+
+    fn may_undo(&self, split: u32) -> bool {
+        self.performed.contains(&split)
+            && !self.performed.range(split + 1..).any(|&s| self.requires(s).contains(&split))
+    }
+
+    /// Replaces the coarse triangles of a split by the fine ones, or the reverse.
+    fn turn(&mut self, number: u32, perform: bool) {
+        let split = self.hull.split(SplitIdx(number)).expect("in range");
+        let coarse = (0..split.ring_len()).map(|i| split.coarse(i).expect("in range"));
+        let fine = (0..split.fine_len()).map(|i| split.fine(i).expect("in range"));
+        let mut stars = [coarse.collect::<Vec<_>>(), fine.collect()];
+        if !perform {
+            stars.reverse();
+        }
+        let [old, new] = stars;
+        for corners in old {
+            self.mesh.remove(corners.map(|v| v.0)).expect("the star of the vertex");
+        }
+        for corners in new {
+            self.mesh.add(corners.map(|v| v.0)).expect("a free place");
+        }
+        let changed =
+            if perform { self.performed.insert(number) } else { self.performed.remove(&number) };
+        assert!(changed);
+    }
+
+    /// Closed, a manifold, and around each point at least as often as the surface, in exact
+    /// arithmetic.
+    fn assert_encloses(&self, points: &Inside) {
+        self.mesh.closed_manifold().expect("a closed manifold");
+        let hull = Winding::new(&surface(&self.hull, self.mesh.triangles()));
+        for &(p, turns) in &points.0 {
+            let around = hull.around(p).expect("below the surface is no face");
+            assert!(around >= turns, "{p:?} is not enclosed");
+        }
+    }
+
+    /// Vertices that exist, each with the split that would replace it.
+    fn existing(&self) -> impl Iterator<Item = (VertIdx, SplitIdx)> {
+        let of_base = 0..self.hull.header().base_vertices;
+        let brought = self.performed.iter().flat_map(|&split| {
+            let first = self.hull.header().base_vertices + 2 * split;
+            [first, first + 1]
+        });
+        of_base.chain(brought).filter_map(|v| {
+            let split = self.hull.split_of(VertIdx(v))?;
+            (!self.performed.contains(&split.0)).then_some((VertIdx(v), split))
+        })
+    }
+}
+
+/// Points just below the surface, each with the surface's winding number.
+struct Inside(Vec<([f64; 3], i64)>);
+
+fn surface(hull: &Hull<'_>, triangles: Vec<[u32; 3]>) -> Surface {
+    let position = |v| hull.position(VertIdx(v)).expect("in range").as_dvec3().to_array();
+    Surface { positions: (0..hull.header().vertices).map(position).collect(), triangles }
+}
+
+impl Inside {
+    fn new(scene: &Scene) -> Self {
+        let hull = scene.model();
+        let mut finest = Replayed::new(hull);
+        (0..hull.split_count()).for_each(|split| finest.turn(split, true));
+        let part = surface(&hull, finest.mesh.triangles());
+        let winding = Winding::new(&part);
+        let mut rng = Rng::new(91);
+        let mut points = Vec::new();
+        while points.len() < 60 {
+            // Just below the surface, where a hull that cuts into the part shows.
+            let triangle = part.triangles[rng.below(part.triangles.len())];
+            let [a, b, c] = triangle.map(|v| DVec3::from(part.positions[v as usize]));
+            let weights = [rng.unit_f64(), rng.unit_f64(), rng.unit_f64()];
+            let sum: f64 = weights.iter().sum();
+            let on = (a * weights[0] + b * weights[1] + c * weights[2]) / sum;
+            let inward = (c - a).cross(b - a);
+            let p = (on + inward.normalize_or_zero() * 1e-7).to_array();
+            if let Ok(turns @ 1..) = winding.around(p) {
+                points.push((p, turns));
+            }
+        }
+        Self(points)
+    }
+}
+
+#[test]
+fn any_order_that_the_tables_allow_gives_a_closed_mesh_around_the_part() {
+    for scene in all() {
+        let points = Inside::new(scene);
+        let mut state = Replayed::new(scene.model());
+        let count = state.hull.split_count() as usize;
+        let mut rng = Rng::new(92);
+        let (mut performed, mut undone) = (0, 0);
+        for step in 0..600 {
+            // Waves of refinement and coarsening, from a split drawn at random on.
+            let perform = step / 100 % 3 != 2;
+            let from = rng.below(count);
+            let legal = (from..count)
+                .chain(0..from)
+                .map(|s| s as u32)
+                .find(|&s| if perform { state.may_perform(s) } else { state.may_undo(s) });
+            let Some(split) = legal else { continue };
+            state.turn(split, perform);
+            *(if perform { &mut performed } else { &mut undone }) += 1;
+            if step % 75 == 74 {
+                state.assert_encloses(&points);
+            }
+        }
+        assert!(performed > 3 && undone > 3, "{}: {performed} {undone}", scene.name);
+    }
+}
+
+/// A focus somewhere around a scene, and an error.
+fn any_focus(scene: &Scene, rng: &mut Rng) -> (Focus, f32) {
+    let size = scene.size();
+    let here = scene.around(1.2, rng);
+    let focus = match rng.below(6) {
+        0 => Focus::Everywhere,
+        1 => Focus::Box { a: here, b: scene.around(1.2, rng) },
+        2 => Focus::Segment {
+            a: here,
+            b: scene.around(1.5, rng),
+            radius: size * rng.range(0.0, 0.1),
+        },
+        3 => Focus::Eye {
+            position: here,
+            axis: rng.direction(),
+            cosine: rng.range(-1.0, 1.0),
+            error_per_distance: rng.range(0.0, 0.1),
+        },
+        _ => Focus::Ball { centre: here, radius: size * rng.range(0.0, 0.3) },
+    };
+    let error = match rng.below(4) {
+        0 => 0.0,
+        _ => size * 0.5f32.powf(rng.range(4.0, 16.0)),
+    };
+    (focus, error)
+}
+
+/// Whether a ball certainly meets a focus and an error is certainly not allowed there, in the local
+/// frame, by arithmetic of its own.
+fn is_needed(
+    hull: &Hull<'_>,
+    focus: &Focus,
+    wanted: f32,
+    vertex: VertIdx,
+    [reach, error]: [f32; 2],
+) -> bool {
+    const SURE: f64 = 1e-5;
+    let local = |p: [f32; 3]| DVec3::from(p.map(f64::from)) / hull.scale();
+    let length = |x: f32| f64::from(x) / hull.scale();
+    let v = hull.position(vertex).expect("in range").as_dvec3();
+    let (reach, error) = (f64::from(reach), f64::from(error));
+    let least_error = length(wanted);
+    let gap = match *focus {
+        Focus::Everywhere => 0.0,
+        Focus::Ball { centre, radius } => v.distance(local(centre)) - length(radius),
+        Focus::Box { a, b } => {
+            let (a, b) = (local(a), local(b));
+            v.clamp(a.min(b), a.max(b)).distance(v)
+        }
+        Focus::Segment { a, b, radius } => {
+            let (a, way) = (local(a), local(b) - local(a));
+            let t = ((v - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+            v.distance(a + way * t) - length(radius)
+        }
+        Focus::Eye { position, axis, cosine, error_per_distance } => {
+            let from = v - local(position);
+            let distance = (from.length() - reach).max(0.0);
+            let axis = DVec3::from(axis.map(f64::from)).normalize();
+            let angle = (from.dot(axis) / from.length()).clamp(-1.0, 1.0).acos();
+            let half = f64::from(cosine).acos();
+            let span = (reach / from.length()).clamp(0.0, 1.0).asin();
+            return error > least_error * (1.0 + SURE)
+                && error > f64::from(error_per_distance) * distance * (1.0 + SURE)
+                && (distance == 0.0 || angle - span < half - SURE);
+        }
+        _ => unreachable!("no other focus"),
+    };
+    gap < reach * (1.0 - SURE) && error > least_error * (1.0 + SURE)
+}
+
+/// Whatever an update says holds: its changes are legal, one after the other; its faces are those of
+/// the splits; what is needed and not there is told.
+fn assert_update<const SPLITS: usize>(
+    name: &str,
+    state: &mut Replayed<'_>,
+    refined: &RefinedHull<'_, SPLITS>,
+    (focus, error): &(Focus, f32),
+    update: &Refinement,
+    changes: &[Change],
+) {
+    let say = || format!("{name}: {focus:?} {error}: {update:?}");
+    assert_eq!(update.dropped, 0, "{}", say());
+    assert_eq!(update.stored as u32, update.performed + update.undone, "{}", say());
+    for change in &changes[..update.stored] {
+        let perform = change.is_performed();
+        let legal = if perform {
+            state.may_perform(change.split())
+        } else {
+            state.may_undo(change.split())
+        };
+        assert!(legal, "{change:?} {}", say());
+        state.turn(change.split(), perform);
+    }
+    let mut faces: Vec<_> =
+        refined.faces(&state.hull).map(|face| canonical(face.corners.map(|v| v.0))).collect();
+    assert_eq!(faces.len(), update.faces as usize, "{}", say());
+    faces.sort_unstable();
+    assert_eq!(faces, state.mesh.triangles(), "{}", say());
+    assert_eq!(refined.splits(), state.performed.len(), "{}", say());
+    for (vertex, split) in state.existing() {
+        let split = state.hull.split(split).expect("in range");
+        let [reach, stored] = [split.reach, split.error];
+        if is_needed(&state.hull, focus, *error, vertex, [reach, stored]) {
+            let left = f64::from(update.error_left) / state.hull.scale();
+            assert!(left >= f64::from(stored), "{vertex:?} is needed: {}", say());
+        }
+    }
+}
+
+fn follow<const SPLITS: usize>(seed: u64, updates: usize) -> u32 {
+    let mut was_short = 0;
+    for scene in all() {
+        let points = Inside::new(scene);
+        let hull = scene.model();
+        let mut state = Replayed::new(hull);
+        let mut refined = Box::new(RefinedHull::<SPLITS>::new());
+        let mut changes = vec![Change::EMPTY; 1 << 16];
+        let mut rng = Rng::new(seed);
+        for i in 0..updates {
+            let asked = any_focus(scene, &mut rng);
+            let update = refined.update(&hull, &asked.0, asked.1, &mut changes).expect("in domain");
+            assert_update(&scene.name, &mut state, &refined, &asked, &update, &changes);
+            was_short += u32::from(update.error_left > 0.0);
+            if i % 8 == 7 {
+                state.assert_encloses(&points);
+            }
+        }
+    }
+    was_short
+}
+
+#[test]
+fn an_update_gives_what_any_focus_needs_by_legal_changes() {
+    assert_eq!(follow::<ALL>(93, 24), 0);
+}
+
+#[test]
+fn short_memory_encloses_and_says_what_is_left() {
+    assert!(follow::<0>(94, 8) > 0);
+    assert!(follow::<1>(95, 8) > 0);
+    assert!(follow::<2>(96, 8) > 0);
+    assert!(follow::<7>(97, 16) > 0);
+    assert!(follow::<40>(98, 16) > 0);
+}
+
+#[test]
+fn a_kept_hull_holds_all_that_a_fresh_one_does_and_comes_back_to_it() {
+    for scene in all() {
+        let hull = scene.model();
+        let splits_of = |refined: &RefinedHull<'_, ALL>| -> BTreeSet<[u32; 3]> {
+            refined.faces(&hull).map(|face| canonical(face.corners.map(|v| v.0))).collect()
+        };
+        let mut rng = Rng::new(99);
+        let mut kept = Box::new(RefinedHull::<ALL>::new());
+        let mut state = Replayed::new(hull);
+        let mut changes = vec![Change::EMPTY; 1 << 16];
+        let (size, mut here) = (scene.size(), scene.on_surface(&mut rng));
+        for _ in 0..40 {
+            let way = rng.direction();
+            here = std::array::from_fn(|k| here[k] + way[k] * size * 0.02);
+            let asked = (Focus::Ball { centre: here, radius: size * 0.1 }, size / 512.0);
+            let update = kept.update(&hull, &asked.0, asked.1, &mut changes).expect("in domain");
+            assert_update(&scene.name, &mut state, &kept, &asked, &update, &changes);
+            let mut fresh = Box::new(RefinedHull::<ALL>::new());
+            let mut fresh_state = Replayed::new(hull);
+            let update = fresh.update(&hull, &asked.0, asked.1, &mut changes).expect("in domain");
+            assert_update(&scene.name, &mut fresh_state, &fresh, &asked, &update, &changes);
+            assert!(fresh_state.performed.is_subset(&state.performed), "{}", scene.name);
+            // Away, where nothing is needed, and back.
+            let first = splits_of(&fresh);
+            let far = here.map(|x| x + size * 1e3);
+            let away = Focus::Ball { centre: far, radius: 0.0 };
+            fresh.update(&hull, &away, asked.1, &mut changes).expect("in domain");
+            assert_eq!(fresh.splits(), 0, "{}", scene.name);
+            fresh.update(&hull, &asked.0, asked.1, &mut changes).expect("in domain");
+            assert_eq!(splits_of(&fresh), first, "{}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn a_face_that_meets_the_focus_is_as_near_to_its_surface_as_was_asked() {
+    for scene in all().iter().filter(|scene| !scene.name.contains("1e")) {
+        let hull = scene.model();
+        let mut refined = Box::new(RefinedHull::<ALL>::new());
+        let mut rng = Rng::new(100);
+        let mut met = 0;
+        for _ in 0..40 {
+            let (centre, size) = (scene.on_surface(&mut rng), scene.size());
+            let (radius, error) = (size * rng.range(0.0, 0.2), size / 300.0);
+            let focus = Focus::Ball { centre, radius };
+            refined.update(&hull, &focus, error, &mut []).expect("in domain");
+            for face in refined.faces(&hull).filter(|face| face.radius.is_finite()) {
+                let corners = face.corners.map(|v| hull.vertex(v).expect("in range"));
+                let far = f64::from(radius) * (1.0 - 1e-4);
+                if distance_to_triangle(centre, corners).upper < far {
+                    met += 1;
+                    let stands_off = f64::from(face.radius) * hull.scale();
+                    assert!(stands_off <= f64::from(error), "{}: {focus:?} {face:?}", scene.name);
+                }
+            }
+        }
+        assert!(met > 100, "{}: {met}", scene.name);
+    }
+}
+
+#[test]
+fn memory_for_another_hull_starts_from_its_base() {
+    let (first, second) = (&all()[0], &all()[2]);
+    let (a, b) = (first.model(), second.model());
+    let mut refined = Box::new(RefinedHull::<ALL>::new());
+    refined.update(&a, &Focus::Everywhere, 0.0, &mut []).expect("in domain");
+    assert_eq!(refined.faces(&a).count(), first.triangles.len());
+    assert_eq!(refined.faces(&b).count(), b.header().base_triangles as usize);
+    let far = Focus::Ball { centre: [1e6; 3], radius: 0.0 };
+    let update = refined.update(&b, &far, 0.0, &mut []).expect("in domain");
+    assert_eq!((update.faces, update.undone), (b.header().base_triangles, 0));
+}
+
+#[test]
+fn faces_that_do_not_fit_are_counted() {
+    let hull = all()[0].model();
+    let mut refined = Box::new(RefinedHull::<ALL>::new());
+    refined.update(&hull, &Focus::Everywhere, 0.0, &mut []).expect("in domain");
+    let mut faces = [meshsweep_core::HullFace::EMPTY; 30];
+    let (stored, dropped) = refined.faces_into(&hull, &mut faces);
+    assert_eq!((stored, dropped as usize), (30, refined.faces(&hull).count() - 30));
+    assert!(refined.faces(&hull).zip(faces).all(|(face, copy)| face == copy));
+}
+
+#[test]
+fn changes_that_do_not_fit_are_counted() {
+    let hull = all()[0].model();
+    let mut refined = Box::new(RefinedHull::<ALL>::new());
+    let mut changes = [Change::EMPTY; 5];
+    let update = refined.update(&hull, &Focus::Everywhere, 0.0, &mut changes).expect("in domain");
+    assert_eq!((update.stored, update.stored as u32 + update.dropped), (5, update.performed));
+}
+
+#[test]
+fn a_focus_that_is_no_place_is_a_typed_error_and_changes_nothing() {
+    let hull = all()[0].model();
+    let mut refined = Box::new(RefinedHull::<ALL>::new());
+    refined.update(&hull, &Focus::Everywhere, 0.01, &mut []).expect("in domain");
+    let splits = refined.splits();
+    let (zero, nan) = ([0.0; 3], [0.0, f32::NAN, 0.0]);
+    let eye = |position, axis, cosine, error_per_distance| Focus::Eye {
+        position,
+        axis,
+        cosine,
+        error_per_distance,
+    };
+    for (focus, error, refusal) in [
+        (Focus::Ball { centre: nan, radius: 1.0 }, 0.1, QueryError::NotFinite),
+        (Focus::Ball { centre: zero, radius: -1.0 }, 0.1, QueryError::Tolerance),
+        (Focus::Ball { centre: [1e30; 3], radius: 1.0 }, 0.1, QueryError::OutOfDomain),
+        (Focus::Box { a: zero, b: nan }, 0.1, QueryError::NotFinite),
+        (Focus::Segment { a: zero, b: zero, radius: f32::NAN }, 0.1, QueryError::Tolerance),
+        (eye(zero, nan, 0.5, 0.1), 0.1, QueryError::NotFinite),
+        (eye(zero, zero, f32::NAN, 0.1), 0.1, QueryError::NotFinite),
+        (eye(zero, zero, 0.5, f32::INFINITY), 0.1, QueryError::Tolerance),
+        (Focus::Everywhere, -0.1, QueryError::Tolerance),
+    ] {
+        assert_eq!(refined.update(&hull, &focus, error, &mut []), Err(refusal), "{focus:?}");
+        assert_eq!(refined.splits(), splits);
+    }
+}
