@@ -17,14 +17,14 @@
 //! | [`mesh`] | mesh files, defects of a mesh, repair, report |
 //! | [`surface`] | the triangle surface that all builders share |
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
-//! | [`hausdorff`] | certified distances between two meshes |
+//! | `hausdorff` | certified distances between two meshes |
 //! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`cut`] | a coarser blob out of a finer one |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
-//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test keeps that
-//! (`host-tests/tests/house.rs`).
+//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test keeps
+//! that (`host-tests/tests/house.rs`).
 
 pub mod bvh;
 pub mod collapse;
@@ -33,7 +33,7 @@ pub mod curve;
 pub mod cut;
 pub mod emit;
 mod error;
-pub mod hausdorff;
+mod hausdorff;
 pub mod hull;
 pub mod lp;
 pub mod mesh;
@@ -43,3 +43,4 @@ pub mod tight;
 pub mod tribox;
 
 pub use error::BuildError;
+pub use hausdorff::Farthest;

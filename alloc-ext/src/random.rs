@@ -34,6 +34,12 @@ impl SplitMix {
         }
     }
 
+    /// Uniform in a box about a centre.
+    #[cfg(test)]
+    pub fn point(&mut self, centre: DVec3, size: DVec3) -> DVec3 {
+        centre + (DVec3::new(self.roll(), self.roll(), self.roll()) - 0.5) * size
+    }
+
     /// Each coordinate uniform in [−1, 1).
     pub fn direction(&mut self) -> DVec3 {
         DVec3::new(self.roll(), self.roll(), self.roll()) * 2.0 - 1.0

@@ -7,18 +7,15 @@ pub mod counted;
 pub mod fuzz_targets;
 pub mod generate;
 pub mod golden;
+#[cfg(doctest)]
+mod guide;
 pub mod oracle;
 pub mod picture;
 pub mod scene;
 pub mod workload;
 
-/// The Rust of `README.md`, run unchanged. Its path of a fixture starts in this folder, which is
-/// why `fixtures` is a link here.
+/// The Rust of `README.md`, run unchanged. Its paths start in the root's `fixtures`, to which
+/// `fixtures` is a link here.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 mod readme {}
-
-/// The recipes of the guide.
-#[cfg(doctest)]
-#[doc = include_str!("../../core/docs/guide.md")]
-mod guide {}

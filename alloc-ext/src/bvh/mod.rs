@@ -11,7 +11,7 @@ mod build;
 mod cones;
 mod encode;
 mod exact;
-pub mod fans;
+mod fans;
 mod nodes;
 mod source;
 mod store;

@@ -2,19 +2,18 @@
 
 /// The values of `t` that satisfy every `rate · t >= bound` so far: a closed interval, perhaps
 /// unbounded or empty.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
+pub(super) struct Interval {
     lower: f64,
     upper: f64,
 }
 
 impl Interval {
     /// Every number.
-    pub const ALL: Self = Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+    pub(super) const ALL: Self = Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
     /// Adds the constraint `rate · t >= bound`; `rate` must not be zero.
     #[inline(always)]
-    pub fn clip(&mut self, rate: f64, bound: f64) {
+    pub(super) fn clip(&mut self, rate: f64, bound: f64) {
         let t = bound / rate;
         // Conditional moves, for the sign is not predictable.
         let lower = if rate > 0.0 { t } else { f64::NEG_INFINITY };
@@ -26,14 +25,12 @@ impl Interval {
     /// The point of the interval nearest to `target`: the optimum of any convex objective with its
     /// minimum there. `None` if the interval is empty.
     #[inline(always)]
-    #[must_use]
-    pub fn nearest(&self, target: f64) -> Option<f64> {
+    pub(super) fn nearest(&self, target: f64) -> Option<f64> {
         (self.lower <= self.upper).then(|| target.max(self.lower).min(self.upper))
     }
 
     /// As [`Interval::nearest`], but for an empty interval the point half way between its ends.
-    #[must_use]
-    pub fn nearest_or_middle(&self, target: f64) -> f64 {
+    pub(super) fn nearest_or_middle(&self, target: f64) -> f64 {
         self.nearest(target).unwrap_or(0.5 * (self.lower + self.upper))
     }
 }

@@ -58,7 +58,7 @@ pub(super) fn nearest<const CONE: bool>(
     run: &mut Run,
     first: &Plane,
     second: &HalfSpace,
-    without: Option<DVec3>,
+    without: DVec3,
     pull: DVec3,
     constraints: &[HalfSpace],
 ) -> Option<DVec3> {
@@ -69,7 +69,7 @@ pub(super) fn nearest<const CONE: bool>(
     let sine_sq = direction.length_squared();
     let missing = offset::<CONE>(second) - second.normal.dot(first.foot);
     if sine_sq < PARALLEL * PARALLEL {
-        return without.filter(|_| missing <= CONTRADICTION * scale(first.foot));
+        return (missing <= CONTRADICTION * scale(first.foot)).then_some(without);
     }
     let inverse = 1.0 / sine_sq;
     // In `first`, across the line, towards the inside of `second`; as long as the sine, so that a

@@ -63,8 +63,6 @@ mod tolerance;
 use glam::DVec3;
 pub use half_space::HalfSpace;
 use insertion::insert;
-pub use interval::Interval;
-use line::Plane;
 use order::Run;
 pub use order::{Order, Work};
 use tolerance::DESCENT;
@@ -168,58 +166,6 @@ fn optimum<const CONE: bool>(
 ) -> Option<DVec3> {
     insert::<CONE>(run, pull, constraints, |run, h, _, inserted| {
         plane::nearest::<CONE>(run, h, pull, inserted)
-    })
-}
-
-/// [`minimise`] in two variables: among the points of the boundary of `plane` only.
-///
-/// [`Outcome::Infeasible`] also if `plane` has no normal.
-#[must_use]
-pub fn minimise_on_plane(
-    objective: DVec3,
-    plane: HalfSpace,
-    constraints: &mut [HalfSpace],
-    eps: f64,
-    order: Order,
-) -> Outcome {
-    if !(are_finite(constraints) && are_finite(&[plane]) && objective.is_finite()) {
-        return Outcome::Infeasible;
-    }
-    let mut run = Run::start(order, constraints);
-    let optimum = plane::nearest::<false>(&mut run, &plane, -objective / eps, constraints);
-    outcome(objective, eps, optimum, |pull| {
-        plane::nearest::<true>(&mut run, &plane, pull, constraints)
-    })
-}
-
-/// [`minimise`] in one variable: among the points that lie on the boundaries of both `planes` only.
-///
-/// [`Outcome::Infeasible`] also if the planes are parallel or have no normal.
-#[must_use]
-pub fn minimise_on_line(
-    objective: DVec3,
-    planes: [HalfSpace; 2],
-    constraints: &[HalfSpace],
-    eps: f64,
-) -> Outcome {
-    if !(are_finite(constraints) && are_finite(&planes) && objective.is_finite()) {
-        return Outcome::Infeasible;
-    }
-    let [first, second] = planes;
-    // No order matters on a line.
-    let mut run = Run::start(Order::MostViolated, &mut []);
-    let optimum = Plane::of::<false>(&first).and_then(|first| {
-        line::nearest::<false>(&mut run, &first, &second, None, -objective / eps, constraints)
-    });
-    outcome(objective, eps, optimum, |pull| {
-        line::nearest::<true>(
-            &mut run,
-            &Plane::of::<true>(&first)?,
-            &second,
-            None,
-            pull,
-            constraints,
-        )
     })
 }
 

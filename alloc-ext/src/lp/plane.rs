@@ -22,6 +22,6 @@ pub(super) fn nearest<const CONE: bool>(
     // offset.
     let start = plane.foot + plane.along(pull);
     insert::<CONE>(run, start, constraints, |run, second, without, inserted| {
-        line::nearest::<CONE>(run, &plane, second, Some(without), pull, inserted)
+        line::nearest::<CONE>(run, &plane, second, without, pull, inserted)
     })
 }

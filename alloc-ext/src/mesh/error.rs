@@ -71,14 +71,14 @@ pub enum MeshError {
     NonManifoldEdges { count: usize, most: usize, places: Vec<EdgePlace> },
     /// Vertices in which several triangle fans meet; `repair` splits them.
     NonManifoldVertices { count: usize, places: Vec<[f32; 3]> },
-    /// One-sided parts, such as a Möbius strip: no winding is consistent.
-    NonOrientable { part_count: usize, places: Vec<EdgePlace> },
+    /// One-sided components, such as a Möbius strip: no winding is consistent.
+    NonOrientable { component_count: usize, places: Vec<EdgePlace> },
     /// Neighbours wound against each other; `repair` unifies them.
     InconsistentWinding { edge_count: usize, places: Vec<EdgePlace> },
-    /// Outermost parts whose triangles face inwards; `repair` turns them.
-    InsideOut { part_count: usize, places: Vec<[f32; 3]> },
-    /// A closed part whose volume may be zero within rounding; `bound` is the rounding error of the
-    /// sum.
+    /// Outermost components whose triangles face inwards; `repair` turns them.
+    InsideOut { component_count: usize, places: Vec<[f32; 3]> },
+    /// A closed component whose volume may be zero within rounding; `bound` is the rounding error
+    /// of the sum.
     ZeroVolume { triangle: u32, at: [f32; 3], volume: f64, bound: f64 },
     /// An index, coordinate or length of a `Mesh` that breaks the type's promise.
     Invalid { reason: String },
@@ -198,10 +198,10 @@ impl fmt::Display for MeshError {
                     Points(places)
                 )
             }
-            Self::NonOrientable { part_count, places } => write!(
+            Self::NonOrientable { component_count, places } => write!(
                 f,
                 "no outside: {} (as a Möbius strip); cut or thicken it{}",
-                Counted(*part_count, "one-sided part"),
+                Counted(*component_count, "one-sided component"),
                 Edges(places)
             ),
             Self::InconsistentWinding { edge_count, places } => write!(
@@ -210,17 +210,17 @@ impl fmt::Display for MeshError {
                 Counted(*edge_count, "edge"),
                 Edges(places)
             ),
-            Self::InsideOut { part_count, places } => {
+            Self::InsideOut { component_count, places } => {
                 write!(
                     f,
                     "inside out: {}; run repair{}",
-                    Counted(*part_count, "outermost part"),
+                    Counted(*component_count, "outermost component"),
                     Points(places)
                 )
             }
             Self::ZeroVolume { triangle, at, volume, bound } => write!(
                 f,
-                "the closed part with triangle {triangle} at {at:?} has no volume ({volume:e} ± {bound:e}); remove or thicken it"
+                "the closed component with triangle {triangle} at {at:?} has no volume ({volume:e} ± {bound:e}); remove or thicken it"
             ),
             Self::Invalid { reason } => write!(f, "not a valid mesh: {reason}; run repair"),
         }

@@ -9,15 +9,16 @@ use super::winding::propagate;
 use super::{EdgePlace, Mesh, MeshError};
 
 /// Checks that a mesh is the boundary of a solid: each edge has exactly two triangles, wound
-/// against each other, each vertex one fan, each part a volume, and outermost parts face outwards.
+/// against each other, each vertex one fan, each component a volume, and outermost components face
+/// outwards.
 /// Cavities and several parts are welcome.
 ///
 /// That triangles do not cross each other is not checked.
 ///
 /// # Errors
 /// In this order: an array that breaks [`Mesh`]'s promise, no triangle with an area, boundary edges
-/// (as holes), non-manifold edges, non-manifold vertices, one-sided parts, inconsistent winding, a
-/// part without volume, inside-out parts. The last four kinds but one-sided parts and zero volume
+/// (as holes), non-manifold edges, non-manifold vertices, one-sided components, inconsistent winding, a
+/// component without volume, inside-out ones. The last four kinds but one-sided ones and zero volume
 /// cannot occur after [`repair`](super::repair()).
 pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
     check_arrays(mesh)?;
@@ -50,7 +51,7 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
     let conflicts: Vec<u32> = parts.kinds.iter().filter_map(|kind| kind.conflict).collect();
     if !conflicts.is_empty() {
         return Err(MeshError::NonOrientable {
-            part_count: conflicts.len(),
+            component_count: conflicts.len(),
             places: places(mesh, conflicts.into_iter()),
         });
     }
@@ -76,8 +77,8 @@ pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
     let inverted = || solids.iter().filter(|part| part.inside_out && !part.nested);
     match inverted().count() {
         0 => Ok(()),
-        part_count => Err(MeshError::InsideOut {
-            part_count,
+        component_count => Err(MeshError::InsideOut {
+            component_count,
             places: inverted().take(PLACES_KEPT).map(|part| first_corner(part.first)).collect(),
         }),
     }

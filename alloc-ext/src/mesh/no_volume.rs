@@ -34,7 +34,7 @@ pub enum NoVolume {
     /// Components have one side only, as a Klein bottle, which is closed, and a Möbius strip.
     OneSided {
         /// Number of them.
-        parts: usize,
+        components: usize,
         /// An edge where the sides change.
         at: EdgePlace,
     },
@@ -48,7 +48,7 @@ pub enum NoVolume {
     /// Outermost components face inwards; [`repair`](super::repair) turns them.
     InsideOut {
         /// Number of them.
-        parts: usize,
+        components: usize,
         /// A corner of one.
         at: [f32; 3],
     },
@@ -83,14 +83,14 @@ impl NoVolume {
             MeshError::NonManifoldVertices { count: vertices, places } => {
                 places.first().map(|&at| NoVolume::Pinched { vertices: *vertices, at })
             }
-            MeshError::NonOrientable { part_count: parts, places } => {
-                places.first().map(|&at| NoVolume::OneSided { parts: *parts, at })
+            MeshError::NonOrientable { component_count: components, places } => {
+                places.first().map(|&at| NoVolume::OneSided { components: *components, at })
             }
             MeshError::InconsistentWinding { edge_count: edges, places } => {
                 places.first().map(|&at| NoVolume::MixedWinding { edges: *edges, at })
             }
-            MeshError::InsideOut { part_count: parts, places } => {
-                places.first().map(|&at| NoVolume::InsideOut { parts: *parts, at })
+            MeshError::InsideOut { component_count: components, places } => {
+                places.first().map(|&at| NoVolume::InsideOut { components: *components, at })
             }
             MeshError::ZeroVolume { triangle, at, .. } => {
                 Some(NoVolume::Flat { triangle: *triangle, at: *at })
@@ -128,11 +128,11 @@ impl fmt::Display for NoVolume {
                     Point(at)
                 )
             }
-            NoVolume::OneSided { parts, at } => {
+            NoVolume::OneSided { components, at } => {
                 write!(
                     f,
                     "the mesh has no outside: {}, {}",
-                    Counted(parts, "one-sided part"),
+                    Counted(components, "one-sided component"),
                     Edge(at)
                 )
             }
@@ -142,18 +142,18 @@ impl fmt::Display for NoVolume {
                 Counted(edges, "edge"),
                 Edge(at)
             ),
-            NoVolume::InsideOut { parts, at } => {
+            NoVolume::InsideOut { components, at } => {
                 write!(
                     f,
                     "the mesh is inside out: {}, {}",
-                    Counted(parts, "outermost part"),
+                    Counted(components, "outermost component"),
                     Point(at)
                 )
             }
             NoVolume::Flat { triangle, at } => {
                 write!(
                     f,
-                    "a part of the mesh, that of triangle {triangle}, has a volume that cannot be \
+                    "a component of the mesh, that of triangle {triangle}, has a volume that cannot be \
                      told from 0, {}",
                     Point(at)
                 )

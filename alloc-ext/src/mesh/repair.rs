@@ -64,12 +64,12 @@ pub fn repair(raw: RawMesh) -> Result<(Mesh, RepairReport), MeshError> {
         positions.push(at);
     }
     // Splitting moves no corner to another edge: the half-edges' twins are those from before.
-    let parts = propagate(&triangles, &edges.twins());
-    wind(&positions, &mut triangles, &source, &parts, &mut report);
-    turn_outwards(&positions, &mut triangles, &source, &parts, &mut report);
+    let components = propagate(&triangles, &edges.twins());
+    wind(&positions, &mut triangles, &source, &components, &mut report);
+    turn_outwards(&positions, &mut triangles, &source, &components, &mut report);
     drop_unreferenced(&mut positions, &mut triangles, &mut wires, &first_at, &mut report);
 
-    report.part_count = parts.kinds.len();
+    report.component_count = components.kinds.len();
     report.vertices_kept = positions.len();
     report.triangles_kept = triangles.len();
     let has_merged_walls = report.opposite_duplicate.count > 0;
@@ -102,16 +102,16 @@ fn wind(
     positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
     source: &[u32],
-    parts: &Components,
+    components: &Components,
     report: &mut RepairReport,
 ) {
     for (t, triangle) in triangles.iter_mut().enumerate() {
-        if parts.rewind[t] {
+        if components.rewind[t] {
             report.rewound.triangle(source[t], positions[triangle[0] as usize]);
             triangle.swap(1, 2);
         }
     }
-    for half_edge in parts.kinds.iter().filter_map(|kind| kind.conflict) {
+    for half_edge in components.kinds.iter().filter_map(|kind| kind.conflict) {
         let t = half_edge as usize / 3;
         report
             .non_orientable
@@ -123,24 +123,27 @@ fn turn_outwards(
     positions: &[[f32; 3]],
     triangles: &mut [[u32; 3]],
     source: &[u32],
-    parts: &Components,
+    components: &Components,
     report: &mut RepairReport,
 ) {
-    let mut turn = vec![false; parts.kinds.len()];
-    for part in closed_components(positions, triangles, parts) {
-        turn[part.number as usize] = part.inside_out;
-        let (number, at) =
-            (source[part.first as usize], positions[triangles[part.first as usize][0] as usize]);
-        if !part.nested && part.inside_out {
-            report.turned_parts.triangle(number, at);
+    let mut turn = vec![false; components.kinds.len()];
+    for component in closed_components(positions, triangles, components) {
+        turn[component.number as usize] = component.inside_out;
+        let (number, at) = (
+            source[component.first as usize],
+            positions[triangles[component.first as usize][0] as usize],
+        );
+        if !component.nested && component.inside_out {
+            report.turned_components.triangle(number, at);
         }
         // Its winding after turning.
-        let faces_inwards = part.volume.is_negative() != part.inside_out && !part.volume.is_zero();
-        if part.nested && faces_inwards {
+        let faces_inwards =
+            component.volume.is_negative() != component.inside_out && !component.volume.is_zero();
+        if component.nested && faces_inwards {
             report.cavities.triangle(number, at);
         }
     }
-    for (triangle, &part) in triangles.iter_mut().zip(&parts.part) {
+    for (triangle, &part) in triangles.iter_mut().zip(&components.part) {
         if turn[part as usize] {
             triangle.swap(1, 2);
         }

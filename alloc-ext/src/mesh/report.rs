@@ -60,8 +60,8 @@ pub struct RepairReport {
     pub triangles_kept: usize,
     /// As [`Mesh::rounding`](super::Mesh::rounding).
     pub rounding: f64,
-    /// Components that are connected by edges, in the result.
-    pub part_count: usize,
+    /// Connected components of the result, by shared edges.
+    pub component_count: usize,
     /// Vertices merged into an earlier one at the same position (after rounding to `f32`; −0.0
     /// equals 0.0).
     pub welded: Finding,
@@ -87,14 +87,14 @@ pub struct RepairReport {
     pub unreferenced: Finding,
     /// Vertex copies added: one for each fan beyond the first at a vertex.
     pub split_vertices: Finding,
-    /// Triangles wound anew to agree with the majority of their part.
+    /// Triangles wound anew to agree with the majority of their connected component.
     pub rewound: Finding,
-    /// Closed outermost parts that were inside out and were turned, together with all parts inside
-    /// them. One place each.
-    pub turned_parts: Finding,
-    /// Closed parts that lie inside another and face inwards: cavities, left as they are.
+    /// Closed outermost components that were inside out and were turned, together with all
+    /// components inside them. One place each.
+    pub turned_components: Finding,
+    /// Closed components that lie inside another and face inwards: cavities, left as they are.
     pub cavities: Finding,
-    /// One-sided parts; left as they are, refused for a hull. The place is a triangle at which the
+    /// One-sided components; left as they are, refused for a hull. The place is a triangle at which the
     /// winding fails.
     pub non_orientable: Finding,
     /// The corners of the first zero-area triangles that were taken out, for
@@ -124,10 +124,10 @@ impl RepairReport {
             ),
             ("unreferenced", ["unreferenced vertex", "dropped"], &self.unreferenced),
             ("split_vertices", ["copy", "made of non-manifold vertices"], &self.split_vertices),
-            ("rewound", ["triangle", "rewound to agree with the part around"], &self.rewound),
-            ("turned_parts", ["inside-out part", "turned"], &self.turned_parts),
+            ("rewound", ["triangle", "rewound to agree with the component around"], &self.rewound),
+            ("turned_components", ["inside-out component", "turned"], &self.turned_components),
             ("cavities", ["cavity", "found and kept"], &self.cavities),
-            ("non_orientable", ["one-sided part", "found"], &self.non_orientable),
+            ("non_orientable", ["one-sided component", "found"], &self.non_orientable),
         ]
     }
 
@@ -159,12 +159,12 @@ impl fmt::Display for RepairReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{}, {} read; {}, {} kept; parts: {}",
+            "{}, {} read; {}, {} kept in {}",
             Counted(self.vertices_read, "vertex"),
             Counted(self.triangles_read, "triangle"),
             Counted(self.vertices_kept, "vertex"),
             Counted(self.triangles_kept, "triangle"),
-            self.part_count
+            Counted(self.component_count, "connected component")
         )?;
         if self.polygons_split > 0 {
             write!(

@@ -366,26 +366,14 @@ impl Probe {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::SplitMix;
 
-    /// The same numbers in every run (Steele, Lea & Flood 2014, SplitMix64).
-    struct Dice(u64);
-
-    impl Dice {
-        fn roll(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            (((z ^ (z >> 31)) >> 11) as f64) / (1u64 << 53) as f64
-        }
-    }
-
-    fn point(dice: &mut Dice) -> DVec3 {
+    fn point(dice: &mut SplitMix) -> DVec3 {
         DVec3::new(dice.roll(), dice.roll(), dice.roll()).as_vec3().as_dvec3()
     }
 
     /// Boxes of all sizes, some of them points, moved and scaled.
-    fn boxes(dice: &mut Dice, count: usize, scale: f64, shift: DVec3) -> Vec<Bounds> {
+    fn boxes(dice: &mut SplitMix, count: usize, scale: f64, shift: DVec3) -> Vec<Bounds> {
         let mut all = Vec::new();
         for i in 0..count {
             let low = point(dice);
@@ -397,7 +385,7 @@ mod tests {
 
     #[test]
     fn every_box_that_is_reached_is_visited_once_from_the_root_and_from_a_frontier() {
-        let mut dice = Dice(3);
+        let mut dice = SplitMix::new(3);
         for (count, scale, shift) in [
             (0, 1.0, 0.0),
             (1, 1.0, 0.0),
@@ -440,7 +428,7 @@ mod tests {
 
     #[test]
     fn what_is_below_a_raised_plane_is_passed_over() {
-        let mut dice = Dice(4);
+        let mut dice = SplitMix::new(4);
         let boxes = boxes(&mut dice, 5_000, 1.0, DVec3::ZERO);
         let tree = StaticTree::new(&boxes);
         let all = Bounds { low: DVec3::splat(-1.0), high: DVec3::splat(2.0) };
@@ -459,7 +447,7 @@ mod tests {
 
     #[test]
     fn the_nearest_box_is_found_wherever_the_point_is() {
-        let mut dice = Dice(5);
+        let mut dice = SplitMix::new(5);
         for (count, scale) in [(0, 1.0), (1, 1.0), (9, 1e30), (700, 1e-30), (3_000, 40.0)] {
             let boxes = boxes(&mut dice, count, scale, DVec3::splat(scale));
             let tree = StaticTree::new(&boxes);

@@ -1,7 +1,9 @@
 //! Splits a mesh into the components that get a hull each.
 
+use crate::bvh::MAX_TRIANGLES;
+use crate::error::BuildError;
 use crate::mesh::{Mesh, Wire, require_closed_manifold};
-use crate::surface::{Enclosures, components};
+use crate::surface::{Enclosures, components, require_valid};
 use rustc_hash::FxHashMap;
 
 /// Splits a mesh into its connected components, by shared vertices. Everything inside a closed
@@ -10,10 +12,13 @@ use rustc_hash::FxHashMap;
 ///
 /// Cost: n log n, and one point test for each component and each closed component whose box holds
 /// that point.
-#[must_use]
-pub fn split_components(mesh: &Mesh) -> Vec<Mesh> {
+///
+/// # Errors
+/// Those of [`wrap`](super::wrap()) on a mesh that [`repair`](crate::mesh::repair) did not make.
+pub fn split_components(mesh: &Mesh) -> Result<Vec<Mesh>, BuildError> {
+    require_valid(mesh, MAX_TRIANGLES)?;
     let parts = triangle_parts(mesh);
-    if mesh.wires.is_empty() { parts } else { distribute(mesh, parts) }
+    Ok(if mesh.wires.is_empty() { parts } else { distribute(mesh, parts) })
 }
 
 fn triangle_parts(mesh: &Mesh) -> Vec<Mesh> {
@@ -174,7 +179,7 @@ mod tests {
             mesh.triangles.extend(triangles.into_iter().map(|t| t.map(|v| v + first)));
         }
         mesh.source = (0..mesh.triangles.len() as u32).collect();
-        let parts = split_components(&mesh);
+        let parts = split_components(&mesh).unwrap();
         let sources: Vec<_> = parts.iter().map(|p| p.source.clone()).collect();
         assert_eq!(sources, [vec![0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15], vec![4, 5, 6, 7]]);
         assert!(parts.iter().all(|p| p.positions.len() == p.triangles.len()));

@@ -6,10 +6,13 @@ use super::excess::excess;
 use super::extent::Extent;
 use super::lattice::Lattice;
 use super::polygons::HalfSpace;
+use crate::bvh::MAX_TRIANGLES;
+use crate::error::BuildError;
 use crate::mesh::Mesh;
+use crate::surface::require_valid;
 use meshsweep_core::Bvh;
+use meshsweep_core::Tribox;
 use meshsweep_core::internal::num::exp2;
-use meshsweep_core::{Tribox, TriboxError};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -127,16 +130,15 @@ impl Hierarchy {
     /// Cost: for each leaf, and each plane tried there, one pass over its part of the mesh.
     ///
     /// # Errors
-    /// If a coordinate is not finite or beyond [`Tribox::DOMAIN`].
-    ///
-    /// # Panics
-    /// If a triangle names a vertex that is not there; [`repair`](crate::mesh::repair()) promises
-    /// that none does.
+    /// [`BuildError::Triboxes`] if a coordinate is beyond [`Tribox::DOMAIN`]; those of
+    /// [`bvh::build`](crate::bvh::build) on a mesh that [`repair`](crate::mesh::repair()) did not
+    /// make.
     pub fn new(
         mesh: &Mesh,
         tree: &Bvh<'_>,
         options: &SplitOptions,
-    ) -> Result<Hierarchy, TriboxError> {
+    ) -> Result<Hierarchy, BuildError> {
+        require_valid(mesh, MAX_TRIANGLES)?;
         let whole = Whole::new(mesh, tree);
         let root = whole.root(mesh)?;
         let measure = options.measure.unwrap_or(if is_flat(&root.tribox) {

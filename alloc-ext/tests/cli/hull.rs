@@ -221,7 +221,7 @@ fn what_keeps_a_mesh_from_having_a_void_is_named() {
             "glued_cubes.stl",
             "the mesh is not manifold: 4 edges with up to 3 triangles, as at triangle",
         ),
-        ("klein_bottle.obj", "the mesh has no outside: 1 one-sided part, as at triangle"),
+        ("klein_bottle.obj", "the mesh has no outside: 1 one-sided component, as at triangle"),
         (
             "flat.obj",
             "that of triangle 0, has a volume that cannot be told from 0, as at [0.0, 0.0, 0.0]",

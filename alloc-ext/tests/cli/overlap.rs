@@ -172,3 +172,18 @@ fn what_cannot_be_asked_is_refused_by_name() {
     assert!(pose_first.status.code() == Some(2) && stderr.contains("name blobs first"), "{stderr}");
     assert_eq!(wrong(&[arg(&torus), "-o", arg(&torus)]).status.code(), Some(1));
 }
+
+#[test]
+fn a_blob_after_poses_is_told_to_stand_before_them_whatever_its_name() {
+    let directory = scratch("overlap_order");
+    let first = blob(&directory, "torus.ply", &["--for", "segment"]);
+    let pose = "1,0,0,1,0,0,0";
+    for name in ["second.msw", "second.bin"] {
+        let second = directory.join(name);
+        fs::copy(&first, &second).unwrap();
+        let output = run(["overlap", arg(&first), "--pose", pose, arg(&second)]);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && stderr.contains("name blobs first"), "{stderr}");
+        ok(["overlap", arg(&first), arg(&second), "--pose", pose]);
+    }
+}

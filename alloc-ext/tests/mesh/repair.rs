@@ -48,7 +48,7 @@ fn clean_mesh_is_returned_bit_for_bit() {
     assert!(report.is_clean());
     assert_eq!(
         report.to_string(),
-        "4 vertices, 4 triangles read; 4 vertices, 4 triangles kept; parts: 1"
+        "4 vertices, 4 triangles read; 4 vertices, 4 triangles kept in 1 connected component"
     );
 }
 
@@ -197,7 +197,10 @@ fn bow_tie_vertex_is_split_into_one_copy_per_fan() {
     ));
     let (mesh, report) = mend(&positions, &triangles);
     assert_eq!(require_closed_manifold(&mesh), Ok(()));
-    assert_eq!((report.split_vertices.count, report.part_count, mesh.positions.len()), (1, 2, 8));
+    assert_eq!(
+        (report.split_vertices.count, report.component_count, mesh.positions.len()),
+        (1, 2, 8)
+    );
     assert_eq!(report.split_vertices.places[0].vertex, Some(0));
 }
 
@@ -212,7 +215,7 @@ fn minority_is_rewound_and_the_majority_stays() {
     ));
     let (mesh, report) = mend(&TETRAHEDRON, &triangles);
     assert_eq!(require_closed_manifold(&mesh), Ok(()));
-    assert_eq!((report.rewound.count, report.turned_parts.count), (1, 0));
+    assert_eq!((report.rewound.count, report.turned_components.count), (1, 0));
     assert_eq!(report.rewound.places[0].triangle, Some(2));
 }
 
@@ -222,11 +225,11 @@ fn inside_out_solid_is_turned() {
     let raw = Mesh::new(positions.clone(), triangles.clone());
     assert!(matches!(
         require_closed_manifold(&raw),
-        Err(MeshError::InsideOut { part_count: 1, .. })
+        Err(MeshError::InsideOut { component_count: 1, .. })
     ));
     let (mesh, report) = mend(&positions, &triangles);
     assert_eq!(volume(&mesh), 1.0);
-    assert_eq!(report.turned_parts.count, 1);
+    assert_eq!(report.turned_components.count, 1);
 }
 
 #[test]
@@ -250,7 +253,7 @@ fn inside_out_shell_is_turned_together_with_what_is_inside() {
         tetrahedron_at(30.0, 1.0, false),
     ]);
     let (mesh, report) = mend(&positions, &triangles);
-    assert_eq!((report.turned_parts.count, report.cavities.count), (2, 1));
+    assert_eq!((report.turned_components.count, report.cavities.count), (2, 1));
     assert!((volume(&mesh) - (512.0 - 1.0 + 1.0 + 1.0)).abs() < 1e-9);
 }
 
@@ -260,7 +263,7 @@ fn part_beside_another_inside_its_box_is_not_taken_for_nested() {
     let (positions, triangles) =
         join(&[tetrahedron_at(0.0, 8.0, false), tetrahedron_at(5.0, 1.0, true)]);
     let (mesh, report) = mend(&positions, &triangles);
-    assert_eq!((report.turned_parts.count, report.cavities.count), (1, 0));
+    assert_eq!((report.turned_components.count, report.cavities.count), (1, 0));
     assert_eq!(require_closed_manifold(&mesh), Ok(()));
 }
 
@@ -292,7 +295,7 @@ fn nesting_is_decided_though_rays_meet_vertices_and_edges() {
         join(&[octahedron(4.0, false), octahedron(1.0, true), octahedron(0.5, false)]);
     let (mesh, report) = mend(&positions, &triangles);
     assert_eq!(mesh.triangles, triangles);
-    assert_eq!((report.cavities.count, report.turned_parts.count), (1, 0));
+    assert_eq!((report.cavities.count, report.turned_components.count), (1, 0));
 }
 
 #[test]
@@ -310,7 +313,7 @@ fn one_sided_part_is_recorded_and_left_alone() {
 fn soup_is_accepted_with_all_its_holes() {
     let (mesh, report) = mend(&TETRAHEDRON, &[[0, 1, 2], [0, 1, 3]]);
     assert_eq!(mesh.triangles.len(), 2);
-    assert_eq!(report.part_count, 1);
+    assert_eq!(report.component_count, 1);
 }
 
 #[test]

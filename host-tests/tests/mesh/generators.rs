@@ -33,7 +33,7 @@ fn generated_meshes_are_clean_closed_manifolds_of_their_topology() {
         assert_eq!(require_closed_manifold(&mesh), Ok(()), "{name}");
         assert_eq!(mesh.triangles.len(), count, "{name}");
         assert_eq!(
-            (report.part_count, mesh.positions.len() + 2 * genus),
+            (report.component_count, mesh.positions.len() + 2 * genus),
             (parts, count / 2 + 2 * parts),
             "{name}"
         );

@@ -226,6 +226,7 @@ fn wires_are_enclosed_with_the_mesh() {
         assert!(hull.report.void.is_ok(), "the mesh is still a solid");
     }
     let counts: Vec<_> = split_components(&mesh)
+        .unwrap()
         .iter()
         .map(|part| [part.triangles.len(), part.wires.len()])
         .collect();

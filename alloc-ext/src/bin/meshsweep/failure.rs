@@ -5,7 +5,7 @@ use meshsweep::BuildError;
 use meshsweep::counted::Counted;
 use meshsweep::curve::CurveError;
 use meshsweep::mesh::MeshError;
-use meshsweep_core::{OpenError, QueryError, TriboxError};
+use meshsweep_core::{OpenError, QueryError};
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -52,8 +52,6 @@ pub enum Failure {
     },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
-    /// The mesh's coordinates are beyond the range of triboxes.
-    Tribox { file: PathBuf, error: TriboxError },
     /// The mesh bounds no solid, and signs are wanted.
     NotClosed { file: PathBuf },
     /// A grid reaches beyond f32.
@@ -210,9 +208,6 @@ impl fmt::Display for Failure {
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
             Failure::Open { file, error } => {
                 write!(f, "{}: {error}; {}", file.display(), remedy(error))
-            }
-            Failure::Tribox { file, error } => {
-                write!(f, "{}: {error}; choose a larger unit", file.display())
             }
             Failure::NotServed { file, part, build_for, other, served } => {
                 write!(f, "{}: has no {part}, and serves {served}", file.display())?;

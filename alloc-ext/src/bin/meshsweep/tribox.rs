@@ -25,7 +25,7 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
     let bytes = box_tree(&loaded.mesh).map_err(|error| Failure::build(&args.mesh, error))?;
     let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&args.mesh, error))?;
     let hierarchy = Hierarchy::new(&loaded.mesh, &tree, &args.options())
-        .map_err(|error| Failure::Tribox { file: args.mesh.clone(), error })?;
+        .map_err(|error| Failure::build(&args.mesh, error))?;
     let split_time = started.elapsed();
     let started = Instant::now();
     let levels = levels(args, &loaded.mesh, &tree, &hierarchy);

@@ -75,27 +75,9 @@ impl<'a> Adjacency<'a> {
         let across = self.across(half_edge);
         if across != NONE && self.vertex(across) == self.vertex(half_edge) { NONE } else { across }
     }
-
-    /// The next corner at the same vertex, in the winding's sense, or [`NONE`].
-    pub(super) fn next_around(&self, corner: u32) -> u32 {
-        self.opposite(preceding(corner))
-    }
-
-    /// The previous corner at the same vertex, or [`NONE`].
-    pub(super) fn previous_around(&self, corner: u32) -> u32 {
-        match self.opposite(corner) {
-            NONE => NONE,
-            half_edge => following(half_edge),
-        }
-    }
 }
 
 /// The half-edge after `half_edge` in its triangle.
 pub(super) const fn following(half_edge: u32) -> u32 {
     if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
-}
-
-/// The half-edge before `half_edge` in its triangle.
-pub(super) const fn preceding(half_edge: u32) -> u32 {
-    if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
 }

@@ -1,32 +1,21 @@
-//! Triangle fans: a soup split into fans, and fans packed into leaves of the box tree.
-//!
-//! ```text
-//! triangles ─┬─ decompose ─ fans     the paper's greedy rule, one fan after the other
-//!            └─ pack ────── leaves   the same rule for leaves of two fans, as the box tree has
-//! ```
+//! Triangle fans: a soup packed into leaves of one or two fans, as the box tree has.
 //!
 //! After Galin & Akkouche, *Fast Processing of Triangle Meshes using Triangle Fans* (2005), section
 //! 5. Any soup will do: open, non-manifold, inconsistently wound, with repeated corners. Every
-//! triangle is in exactly one fan exactly once, which [`validate()`] checks.
+//! triangle is in exactly one fan exactly once.
 
 mod adjacency;
-mod decompose;
 mod pack;
-mod report;
 mod score;
-mod validate;
 mod window;
 
 #[cfg(test)]
 mod tests;
 
-pub use decompose::decompose;
-pub use pack::pack;
-pub use report::FanReport;
-pub use validate::{FanFault, validate};
+pub(super) use pack::pack;
 
 /// Most triangles in a fan, and in a [`FanLeaf`]: the box tree tests a leaf in 8 lanes.
-pub const MAX_LEAF_TRIANGLES: usize = 8;
+pub(super) const MAX_LEAF_TRIANGLES: usize = 8;
 
 /// Triangles about one vertex.
 ///
@@ -34,15 +23,15 @@ pub const MAX_LEAF_TRIANGLES: usize = 8;
 /// `(centre, ring[i + 1], ring[i])`. The first corner may be another than in the mesh. `ring` holds
 /// one vertex more than there are triangles; for a fan that closes, its last vertex is its first.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fan {
+pub(super) struct Fan {
     /// The vertex that all triangles share.
-    pub centre: u32,
+    pub(crate) centre: u32,
     /// The vertices around it, in order.
-    pub ring: Vec<u32>,
+    pub(crate) ring: Vec<u32>,
     /// The triangles' numbers, in the ring's order: 1 to [`MAX_LEAF_TRIANGLES`].
-    pub triangles: Vec<u32>,
+    pub(crate) triangles: Vec<u32>,
     /// True if the ring runs against the mesh's winding.
-    pub reversed: bool,
+    pub(crate) reversed: bool,
 }
 
 /// A leaf of the box tree: one fan, or two that share a vertex of their rings.
@@ -50,33 +39,26 @@ pub struct Fan {
 /// It has at most [`MAX_LEAF_TRIANGLES`] triangles. `first` is not reversed; `second` may be. The
 /// ring of `second` starts with the last vertex of the ring of `first`, so both are one path.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FanLeaf {
+pub(super) struct FanLeaf {
     /// The fan at the path's start.
-    pub first: Fan,
+    pub(crate) first: Fan,
     /// The fan at its end, if there are two.
-    pub second: Option<Fan>,
+    pub(crate) second: Option<Fan>,
 }
 
 impl FanLeaf {
     /// The one or two fans.
-    pub fn fans(&self) -> impl Iterator<Item = &Fan> {
+    pub(crate) fn fans(&self) -> impl Iterator<Item = &Fan> {
         [Some(&self.first), self.second.as_ref()].into_iter().flatten()
     }
 
     /// The triangles' numbers in the order in which the leaf stores them.
-    pub fn triangles(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = u32> {
         self.fans().flat_map(|fan| fan.triangles.iter().copied())
     }
 
     /// How many triangles: 1 to [`MAX_LEAF_TRIANGLES`].
-    #[must_use]
-    pub fn triangle_count(&self) -> usize {
+    pub(crate) fn triangle_count(&self) -> usize {
         self.fans().map(|fan| fan.triangles.len()).sum()
-    }
-
-    /// How many vertices the leaf stores: one or two centres, and the path of both rings.
-    #[must_use]
-    pub fn vertex_count(&self) -> usize {
-        self.triangle_count() + 1 + self.fans().count()
     }
 }

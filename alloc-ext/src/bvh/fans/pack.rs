@@ -30,8 +30,7 @@ const SEEN: usize = 512;
 ///
 /// # Panics
 /// If a triangle names a vertex that has no position, or if there are 2³²/3 triangles or more.
-#[must_use]
-pub fn pack(triangles: &[[u32; 3]], positions: &[DVec3]) -> Vec<FanLeaf> {
+pub(in crate::bvh) fn pack(triangles: &[[u32; 3]], positions: &[DVec3]) -> Vec<FanLeaf> {
     let adjacency = Adjacency::new(positions.len(), triangles);
     let mut packing = Packing {
         adjacency: &adjacency,

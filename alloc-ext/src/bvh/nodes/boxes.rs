@@ -218,23 +218,7 @@ fn power_of_two(exponent: i32) -> f64 {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-
-    /// Deterministic numbers in 0..1 for tests of this folder.
-    pub(in super::super) struct Noise(pub u64);
-
-    impl Noise {
-        pub fn next(&mut self) -> f64 {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1u64 << 53) as f64
-        }
-
-        pub fn point(&mut self, centre: DVec3, size: DVec3) -> DVec3 {
-            centre + (DVec3::new(self.next(), self.next(), self.next()) - 0.5) * size
-        }
-    }
+    use crate::random::SplitMix;
 
     pub(in super::super) fn assert_covers_all(boxes: &NodeBoxes, children: &[&[DVec3]]) {
         for (lane, points) in children.iter().enumerate() {
@@ -255,7 +239,7 @@ pub(super) mod tests {
 
     #[test]
     fn grid_points_are_covered() {
-        let mut noise = Noise(1);
+        let mut noise = SplitMix::new(1);
         for size in [2.0, 30.0, 900.0, 65_535.0] {
             let children: Vec<Vec<DVec3>> = (0..7)
                 .map(|_| {
@@ -272,7 +256,7 @@ pub(super) mod tests {
 
     #[test]
     fn fractional_points_are_covered() {
-        let mut noise = Noise(2);
+        let mut noise = SplitMix::new(2);
         for size in [1e-9, 1e-3, 1.0, 140_000.0] {
             let children: Vec<Vec<DVec3>> = (0..8)
                 .map(|_| (0..20).map(|_| noise.point(DVec3::ZERO, DVec3::splat(size))).collect())
@@ -285,7 +269,7 @@ pub(super) mod tests {
 
     #[test]
     fn flat_collinear_and_single_points_are_covered() {
-        let mut noise = Noise(3);
+        let mut noise = SplitMix::new(3);
         let centre = DVec3::new(40_000.0, 3.0, 65_535.0);
         for size in [DVec3::new(900.0, 900.0, 0.0), DVec3::new(0.0, 0.0, 77.0), DVec3::ZERO] {
             for fraction in [0.0, 0.37] {
@@ -312,7 +296,7 @@ pub(super) mod tests {
 
     #[test]
     fn boxes_span_half_of_the_range_or_more() {
-        let mut noise = Noise(4);
+        let mut noise = SplitMix::new(4);
         let points: Vec<DVec3> = (0..200)
             .map(|_| noise.point(DVec3::splat(30_000.0), DVec3::splat(5000.0)).round())
             .collect();

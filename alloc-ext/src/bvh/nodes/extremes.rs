@@ -60,8 +60,8 @@ fn even_direction(rank: usize, count: usize) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::boxes::tests::Noise;
     use super::*;
+    use crate::random::SplitMix;
 
     #[test]
     fn few_points_are_all_kept() {
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn thickness_of_a_flat_patch_survives() {
-        let mut noise = Noise(5);
+        let mut noise = SplitMix::new(5);
         let points: Vec<DVec3> = (0..2000)
             .map(|_| noise.point(DVec3::ZERO, DVec3::new(1000.0, 800.0, 6.0)))
             .map(|p| DVec3::new(0.6 * p.x - 0.8 * p.z, p.y, 0.8 * p.x + 0.6 * p.z))

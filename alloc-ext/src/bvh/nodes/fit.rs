@@ -85,13 +85,13 @@ pub fn axis_aligned_boxes(topology: &Topology, leaves: &[&[DVec3]]) -> Vec<NodeB
 
 #[cfg(test)]
 mod tests {
-    use super::super::boxes::tests::Noise;
     use super::super::order::topology;
     use super::*;
+    use crate::random::SplitMix;
 
     /// Small leaves on a sphere.
     fn leaves(count: usize, fractional: bool) -> Vec<Vec<DVec3>> {
-        let mut noise = Noise(8);
+        let mut noise = SplitMix::new(8);
         let mut leaf = || {
             let normal = noise.point(DVec3::ZERO, DVec3::ONE).normalize();
             let centre = DVec3::splat(32_000.0) + normal * 30_000.0;

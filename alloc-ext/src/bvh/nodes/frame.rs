@@ -172,15 +172,16 @@ fn refine(search: &mut Search, steps: u32) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::boxes::tests::{Noise, assert_covers_all};
+    use super::super::boxes::tests::assert_covers_all;
     use super::super::boxes::{NodeBoxes, axis_aligned, quantise};
     use super::super::extremes::extreme_points;
     use super::*;
+    use crate::random::SplitMix;
 
     /// Four flat leaves side by side in a plane that is slanted against all axes.
     fn slanted_leaves(fraction: f64) -> Vec<Vec<DVec3>> {
         let turn = DQuat::from_xyzw(0.31, -0.22, 0.17, 0.9).normalize();
-        let mut noise = Noise(6);
+        let mut noise = SplitMix::new(6);
         let mut leaf = |i: i32| {
             let centre = DVec3::new(f64::from(i % 2) * 900.0, f64::from(i / 2) * 700.0, 0.0);
             (0..60)
@@ -222,7 +223,7 @@ mod tests {
 
     #[test]
     fn flat_and_collinear_children_are_covered() {
-        let mut noise = Noise(7);
+        let mut noise = SplitMix::new(7);
         for size in [DVec3::new(500.0, 300.0, 0.0), DVec3::new(0.0, 400.0, 0.0), DVec3::ZERO] {
             let leaves: Vec<Vec<DVec3>> = (0..8)
                 .map(|_| (0..6).map(|_| noise.point(DVec3::splat(9000.0), size).round()).collect())

@@ -140,16 +140,11 @@ impl Obstacle {
         tetrahedron: &Tetrahedron,
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
-        let mut highest = None::<Plane>;
-        let probe = self.point_tree.probe(tetrahedron.bounds(), tetrahedron.planes());
-        self.point_tree.visit_raising(near, probe, |i| {
+        highest(&self.point_tree, near, tetrahedron, |i, highest| {
             let p = self.points[i];
             let stands_out = highest.is_none_or(|plane| plane.holds(p)) && tetrahedron.holds(p);
-            let raised = if stands_out { raise(p) } else { None };
-            highest = raised.or(highest);
-            raised
-        });
-        highest
+            if stands_out { raise(p) } else { None }
+        })
     }
 
     /// As [`highest_point`](Self::highest_point), of the corners of the parts of triangles that lie
@@ -161,19 +156,15 @@ impl Obstacle {
         tetrahedron: &Tetrahedron,
         raise: impl Fn(DVec3) -> Option<Plane>,
     ) -> Option<Plane> {
-        let mut highest = None::<Plane>;
-        let probe = self.triangle_tree.probe(tetrahedron.bounds(), tetrahedron.planes());
-        self.triangle_tree.visit_raising(near, probe, |i| {
+        highest(&self.triangle_tree, near, tetrahedron, |i, highest| {
             let triangle = &self.triangles[i];
             if highest.is_some_and(|plane| triangle.iter().all(|&p| !plane.holds(p))) {
                 return None;
             }
             let mut raised = None;
             tetrahedron.clip(triangle, |p| raised = raise(p).or(raised));
-            highest = raised.or(highest);
             raised
-        });
-        highest
+        })
     }
 
     /// Calls `visit` with the vertices in all boxes that pass `keep`, and perhaps with others.
@@ -231,4 +222,22 @@ fn witnesses(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
         .filter(|&v| used[v] && least[v] == v as u32)
         .map(|v| positions[v])
         .collect()
+}
+
+/// The last plane that `raise` makes of an item and the highest plane so far.
+#[inline]
+fn highest(
+    tree: &StaticTree,
+    near: &Frontier,
+    tetrahedron: &Tetrahedron,
+    raise: impl Fn(usize, Option<Plane>) -> Option<Plane>,
+) -> Option<Plane> {
+    let mut highest = None;
+    let probe = tree.probe(tetrahedron.bounds(), tetrahedron.planes());
+    tree.visit_raising(near, probe, |i| {
+        let raised = raise(i, highest);
+        highest = raised.or(highest);
+        raised
+    });
+    highest
 }

@@ -157,9 +157,9 @@ mod tests {
         let inverted = joined(&[(unit(), true)]);
         let inverted = said(
             volume(&inverted).unwrap_err(),
-            "inside out: 1 outermost part, as at [0.0, 0.0, 0.0]",
+            "inside out: 1 outermost component, as at [0.0, 0.0, 0.0]",
         );
-        assert_eq!(inverted, NoVolume::InsideOut { parts: 1, at: [0.0; 3] });
+        assert_eq!(inverted, NoVolume::InsideOut { components: 1, at: [0.0; 3] });
         let flat = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0f32]];
         let flat = said(of(flat, &CORNER), "has a volume that cannot be told from 0");
         assert_eq!(flat, NoVolume::Flat { triangle: 0, at: [0.0; 3] });
@@ -196,8 +196,11 @@ mod tests {
             [5, 1, 3],
         ];
         let why = volume(&Mesh::new(six, faces.to_vec())).unwrap_err();
-        assert!(matches!(why, NoVolume::OneSided { parts: 1, .. }), "{why:?}");
-        assert!(why.to_string().contains("no outside: 1 one-sided part, as at triangle"), "{why}");
+        assert!(matches!(why, NoVolume::OneSided { components: 1, .. }), "{why:?}");
+        assert!(
+            why.to_string().contains("no outside: 1 one-sided component, as at triangle"),
+            "{why}"
+        );
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! The box tree on a mesh: what it takes, what its fans are, what it costs and how right it is.
 
 mod accuracy;
+mod fans;
 mod trade;
 
-use meshsweep::bvh::fans::{Fan, FanLeaf, FanReport, decompose, pack};
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
 use meshsweep::emit::Sections;
 use meshsweep_core::{Budget, Bvh, ClosestPoint, ScratchEntry, SectionKind};
@@ -19,7 +19,7 @@ use super::stopwatch::Stopwatch;
 pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let grid = Built::new(subject, &TreeOptions::default());
     let single = Built::new(subject, &TreeOptions::default().with_f32(true));
-    let mut tables = vec![shape(&grid), sections(subject), fans(subject)];
+    let mut tables = vec![shape(&grid), sections(subject), fans::table(subject, &grid)?];
     tables.push(accuracy::table(subject, &grid, &single)?);
     tables.extend(trade::tables(subject, &grid)?);
     tables.push(proofs(subject, [("16-bit grid", &grid), ("f32", &single)])?);
@@ -135,48 +135,6 @@ fn sections(subject: &Subject) -> Table {
     table.note(
         "vertices on a 16-bit grid but for f32; everything: both, and normal cones for culling",
     );
-    table
-}
-
-/// Fans of the paper's decomposition, and those that leaves hold.
-fn fans(subject: &Subject) -> Table {
-    let columns = [
-        "decomposition",
-        "triangles",
-        "fans",
-        "triangles a fan",
-        "of one triangle",
-        "patches",
-        "triangles a patch",
-        "stored vertices",
-        "vertices a triangle",
-    ];
-    let mut table = Table::new("fans", "Triangle fans", &columns);
-    let mesh = &subject.mesh;
-    let at = |p: &[f32; 3]| glam::Vec3::from_array(*p).as_dvec3();
-    let positions: Vec<glam::DVec3> = mesh.positions.iter().map(at).collect();
-    let papers = decompose(&mesh.triangles, mesh.positions.len());
-    let patches = pack(&mesh.triangles, &positions);
-    let mut push = |name: &str, report: FanReport| {
-        let stored = report.leaves > 0;
-        let of_patches = |cell: Cell| if stored { cell } else { Cell::Empty };
-        table.push(row![
-            name,
-            report.triangles,
-            report.fans,
-            fixed(report.triangles_per_fan(), 2),
-            report.degenerate,
-            of_patches(report.leaves.into()),
-            of_patches(fixed(report.triangles_per_leaf(), 2)),
-            of_patches(report.stored_vertices.into()),
-            of_patches(fixed(report.vertices_per_triangle(), 3)),
-        ]);
-    };
-    push("paper 003, fans of up to 8", FanReport::new(&papers, &[]));
-    let stored: Vec<&Fan> = patches.iter().flat_map(FanLeaf::fans).collect();
-    push("leaves: one or two fans", FanReport::new(stored, &patches));
-    table.note("the paper's figures: Victory 49,078 triangles in 9,747 fans, 5.04 a fan; on all models \"the average number is 5\"; it bounds no fan");
-    table.note("and its gains over separate triangles: 25 to 40 % of the time of distances, almost 40 % of segments'");
     table
 }
 

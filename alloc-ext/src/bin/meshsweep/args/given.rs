@@ -2,7 +2,10 @@
 
 use crate::number;
 use clap::builder::{OsStringValueParser, TypedValueParser};
+use meshsweep_core::internal::format::layout::MAGIC;
 use std::ffi::OsString;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// `N` numbers with commas between them; or a file of queries, `-` being the standard input.
@@ -40,14 +43,12 @@ pub fn queries<const N: usize>() -> impl TypedValueParser<Value = Given<N>> {
 fn given<const N: usize>(text: OsString) -> Result<Given<N>, String> {
     let Some(characters) = text.to_str().filter(|text| are_numbers(text)) else {
         let file = PathBuf::from(text);
-        return match file.extension() {
-            _ if file.as_os_str().is_empty() => {
-                Err(format!("no query; write {} with commas, or name a file", names(N)))
-            }
-            Some(extension) if extension.eq_ignore_ascii_case("msw") => {
-                Err("a blob, and a query is wanted here; name blobs first".to_owned())
-            }
-            _ => Ok(Given::File(file)),
+        return if file.as_os_str().is_empty() {
+            Err(format!("no query; write {} with commas, or name a file", names(N)))
+        } else if is_blob(&file) {
+            Err("a blob, and a query is wanted here; name blobs first".to_owned())
+        } else {
+            Ok(Given::File(file))
         };
     };
     let numbers: Vec<f32> =
@@ -56,6 +57,19 @@ fn given<const N: usize>(text: OsString) -> Result<Given<N>, String> {
     <[f32; N]>::try_from(numbers)
         .map(Given::Query)
         .map_err(|_| format!("{found} numbers, and a query needs {}", names(N)))
+}
+
+/// Whether a file is a blob, by its name or its first bytes. Options that take many queries would
+/// take a blob for one more. Nothing is read from a pipe: its queries are read later.
+fn is_blob(file: &Path) -> bool {
+    let mut magic = [0; MAGIC.len()];
+    let mut begins_as_blob = || {
+        file.is_file()
+            && File::open(file).and_then(|mut file| file.read_exact(&mut magic)).is_ok()
+            && magic == MAGIC
+    };
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("msw"))
+        || begins_as_blob()
 }
 
 /// Whether a text is two or more numbers with commas between them.

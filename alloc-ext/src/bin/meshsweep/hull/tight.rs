@@ -29,7 +29,8 @@ pub fn run(args: &HullArgs) -> Result<(), Failure> {
         .with_time_limit(limit)
         .with_vertex_bits(args.vertex_bits.format());
     let meshes =
-        if args.parts { split_components(&loaded.mesh) } else { vec![loaded.mesh.clone()] };
+        if args.parts { split_components(&loaded.mesh) } else { Ok(vec![loaded.mesh.clone()]) };
+    let meshes = meshes.map_err(|error| Failure::build(&args.input, error))?;
     let mut hulls = Vec::new();
     for mesh in &meshes {
         let mut bars = StageBars::default();
