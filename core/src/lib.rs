@@ -45,7 +45,7 @@
 //! | `format` | bytes that all structures share: header, section table, CRC, reading numbers |
 //! | `query` | types that all questions share: [`Budget`], [`Scratch`], intervals, work counters, errors |
 //! | `bvh` | the box tree over fans, one file per question |
-//! | `hull` | split tables: levels, the refined hull, the cover tree |
+//! | `hull` | split tables: levels, the refined hull, the sweep |
 //! | `tribox` | bounds of eighteen planes, and their hierarchy |
 //! | `curve` | polygonal curves in 2-D and 3-D |
 //! | `tight` | tight hulls, each stored as a box tree |
@@ -84,7 +84,9 @@ pub use format::layout::{BuildFor, SectionKind};
 pub use format::{OpenError, Section};
 pub use geom::Pose;
 pub use hull::format::VertIdx;
-pub use hull::{Change, Focus, Hull, HullFace, Level, OuterHits, RefinedHull, Refinement, Search};
+pub use hull::{
+    Change, Focus, Hull, HullFace, Level, OuterHits, RefinedHull, Refinement, Search, Sweep,
+};
 pub use query::{
     AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, QueryError, Scratch,
     ScratchEntry, Side, Undecided, Verdict, Work,

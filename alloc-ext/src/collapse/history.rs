@@ -112,9 +112,4 @@ impl VertexOrder {
         }
         VertexOrder { index, label, base }
     }
-
-    /// Splits after which a label exists.
-    pub fn ready(&self, label: u32) -> u32 {
-        self.index[label as usize].checked_sub(self.base).map_or(0, |past| past / 2 + 1)
-    }
 }

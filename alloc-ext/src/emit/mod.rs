@@ -40,7 +40,6 @@ impl Sections {
             base_triangles: 0,
             splits: 0,
             rings: 0,
-            nodes: 0,
             surface_triangles: 0,
             levels: 0,
             input_triangles,

@@ -13,7 +13,7 @@ use crate::mesh::Mesh;
 use arrayvec::ArrayVec;
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::point_triangle;
-use meshsweep_core::{Budget, Bvh, Hull, Interval, ScratchEntry};
+use meshsweep_core::{Budget, Bvh, Interval, ScratchEntry};
 use std::collections::BinaryHeap;
 
 /// The bound may exceed the true distance by this factor.
@@ -204,27 +204,6 @@ pub fn is_within(
         }
     }
     true
-}
-
-/// Upper bound of the largest distance from a point of `triangles` to a hull's surface, in the
-/// local frame.
-///
-/// `surface` gives the corners of the surface's triangle of a number, in the local frame.
-///
-/// Cost: that of [`farthest`].
-pub fn hull_to_surface(
-    hull: &Hull<'_>,
-    triangles: impl Iterator<Item = [DVec3; 3]>,
-    surface: impl Fn(u32) -> Option<[DVec3; 3]>,
-) -> f64 {
-    let mut scratch = vec![ScratchEntry::EMPTY; hull.scratch_entries() + 1024];
-    let nearest = |point: DVec3| {
-        Nearest::of_query(point, hull.scale(), |p| {
-            let answer = hull.closest_point(p, Budget::EXACT, &mut scratch).ok()?;
-            Some((answer.distance, answer.triangle.and_then(&surface)))
-        })
-    };
-    farthest(triangles, 0.0, nearest).upper
 }
 
 /// Where the nearest triangle of a mesh is, by the mesh's [box tree](crate::bvh::exact_blob).

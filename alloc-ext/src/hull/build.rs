@@ -1,22 +1,20 @@
 //! The stages of a hull hierarchy's build, in order, and their report.
 
-use super::cover::{Cover, Offspring, plant};
 use super::forest::{Forest, grow};
 use super::groups::{base_groups, sort_base};
-use super::tables::{NodeRecord, SplitRecord, Tables};
+use super::tables::{SplitRecord, Tables};
 use super::wires::wires_off_surface;
+use crate::bvh::exact_blob;
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
 use crate::error::BuildError;
-use crate::hausdorff::hull_to_surface;
+use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::{Input, Mesh};
 use crate::surface::{SignedVolume, Stored, VertexBits, store};
 use glam::{DVec3, Vec3};
-use meshsweep_core::Hull;
 use meshsweep_core::internal::geom::Aabb;
-use meshsweep_core::internal::hull::format::layout::MAX_RING;
-use meshsweep_core::internal::hull::format::{Children, NodeIdx};
+use meshsweep_core::internal::hull::format::layout::{MAX_RING, START_GROUP};
 use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
-use meshsweep_core::{Level, OpenError};
+use meshsweep_core::{Bvh, Hull, Level, VertIdx};
 use std::time::{Duration, Instant};
 
 /// Options of a build.
@@ -55,7 +53,7 @@ pub struct BuildReport {
     pub programs: u64,
     /// Time of the collapses.
     pub collapse_time: Duration,
-    /// Time of radii and cover tree.
+    /// Time of the radii.
     pub sweep_time: Duration,
     /// Time of certifying the levels' distances.
     pub certify_time: Duration,
@@ -111,13 +109,11 @@ pub fn build(
     let started = Instant::now();
     let order = VertexOrder::new(&history);
     let forest = grow(&history);
-    let level_splits = level_splits(&history);
-    let cover = plant(&history, &order, &forest, &level_splits);
     let sweep_time = started.elapsed();
     let started = Instant::now();
-    let mut tables = assemble(&stored, input, &history, &order, &forest, &cover);
-    tables.levels = levels(&history, &cover, &level_splits, volume);
-    certify(&mut tables).map_err(BuildError::Reopen)?;
+    let mut tables = assemble(&stored, input, &history, &order, &forest);
+    tables.levels = levels(&history, volume);
+    certify(&mut tables, &history)?;
     // Levels were measured to the triangles with an area, without it.
     if wires > 0.0 {
         let off = wires * meshsweep_core::internal::num::exp2(-stored.scale_exponent);
@@ -222,20 +218,18 @@ fn level_splits(history: &History) -> Vec<u32> {
     splits
 }
 
-fn levels(history: &History, cover: &Cover, level_splits: &[u32], volume: f64) -> Vec<Level> {
+fn levels(history: &History, volume: f64) -> Vec<Level> {
     let total = history.collapses.len();
     let mut added = vec![0.0; total + 1];
     for (i, volume) in history.added_volume.iter().enumerate() {
         added[i + 1] = added[i] + volume;
     }
     let void = |splits: u32| added[total - splits as usize] / volume;
-    level_splits
-        .iter()
-        .zip(&cover.node_limits)
-        .map(|(&splits, &nodes)| Level {
+    level_splits(history)
+        .into_iter()
+        .map(|splits| Level {
             faces: (history.base.len() + 2 * splits as usize) as u32,
             splits,
-            nodes,
             hull_to_surface: 0.0,
             surface_to_hull: 0.0,
             void_ratio: up_to_f32(void(splits)),
@@ -249,13 +243,20 @@ fn assemble(
     history: &History,
     order: &VertexOrder,
     forest: &Forest,
-    cover: &Cover,
 ) -> Tables {
     let index = |label: u32| order.index[label as usize];
     let mut splits = Vec::with_capacity(history.collapses.len());
     let mut rings = Vec::with_capacity(history.rings.len());
     let radius = |instance: u32| Radius8::round_up(forest.radius[instance as usize]);
     let mut radii: Vec<Radius8> = history.base_instances.iter().map(|&i| radius(i)).collect();
+    // The triangles of the mesh are the first instances.
+    let originals = history.original_triangles.len() as u32;
+    let numbers = |instances: &[u32]| {
+        let finals = instances.iter().filter(|&&instance| instance < originals);
+        finals.map(|&t| input.mesh.source[t as usize]).collect::<Vec<u32>>()
+    };
+    let mut source = numbers(&history.base_instances);
+    let mut source_starts = Vec::new();
     let mut splits_with = vec![None; order.label.len()];
     for (at, collapse) in history.collapses.iter().enumerate().rev() {
         debug_assert!(collapse.ring_len as usize <= MAX_RING, "a star holds fewer triangles");
@@ -276,29 +277,17 @@ fn assemble(
             vertex,
             ring_start: rings.len() as u32,
             right: collapse.right as u8,
+            before: forest.wings[at],
             reach: Radius8::round_up(reach * (1.0 + 1e-14)),
             error: Radius8(error.unwrap_or(0)),
         });
         rings.extend(history.ring(collapse).iter().map(|&l| index(l)));
         radii.extend(history.fine(at).iter().map(|&i| radius(i)));
+        if splits.len() as u32 % START_GROUP == 1 {
+            source_starts.push(source.len() as u32);
+        }
+        source.extend(numbers(history.fine(at)));
     }
-    let nodes = cover
-        .nodes
-        .iter()
-        .map(|node| {
-            let (first, count, leaf) = match node.offspring {
-                Offspring::Nodes { first, count } => (first, count, false),
-                Offspring::Triangles { first, count } => (first, count, true),
-            };
-            NodeRecord {
-                corners: node.corners.map(index),
-                radius: Radius16::round_up(node.radius),
-                first: first as u32,
-                count: count as u8,
-                leaf,
-            }
-        })
-        .collect();
     let single = |p: DVec3| p.as_vec3();
     let low = stored.positions.iter().fold(Vec3::INFINITY, |m, &p| m.min(single(p)));
     let high = stored.positions.iter().fold(Vec3::NEG_INFINITY, |m, &p| m.max(single(p)));
@@ -310,7 +299,7 @@ fn assemble(
         vertices: order.label.iter().map(|&l| single(history.positions[l as usize])).collect(),
         base_vertices: order.base,
         base: history.base.iter().map(|t| t.map(index)).collect(),
-        groups: base_groups(history)
+        groups: base_groups(history, forest)
             .into_iter()
             .map(|(corners, radius)| (corners.map(index), Radius16::round_up(radius)))
             .collect(),
@@ -318,44 +307,38 @@ fn assemble(
         rings,
         radii,
         splits_with,
-        nodes,
-        surface: cover
-            .triangles
-            .iter()
-            .map(|&t| history.original_triangles[t as usize].map(index))
-            .collect(),
-        source: cover.triangles.iter().map(|&t| input.mesh.source[t as usize]).collect(),
+        source_starts,
+        source,
         input_triangles: input.triangle_count(),
         surface_box: Aabb { min: low, max: high },
         levels: Vec::new(),
-        queue_capacity: cover.queue_capacity,
+        queue_capacity: forest.queue_entries,
         is_cut: false,
     }
 }
 
-/// Fills in certified distances between each level's cover and the surface, both ways, by queries
-/// of the finished blob.
-fn certify(tables: &mut Tables) -> Result<(), OpenError> {
+/// Fills in certified distances between each level's hull and the surface, both ways. The surface
+/// is asked by a box tree of its triangles.
+fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError> {
     let bytes = tables.to_bytes();
-    let model = Hull::open(&bytes)?;
-    let corners_of: rustc_hash::FxHashMap<u32, [u32; 3]> =
-        tables.source.iter().copied().zip(tables.surface.iter().copied()).collect();
-    let at = |v: u32| tables.vertices[v as usize].as_dvec3();
+    let model = Hull::open(&bytes).map_err(BuildError::Reopen)?;
+    let position = |label: usize| history.positions[label].as_vec3().to_array();
+    let surface = Mesh::new(
+        (0..history.original_vertices as usize).map(position).collect(),
+        history.original_triangles.clone(),
+    );
+    let tree = exact_blob(&surface)?;
+    let tree = Bvh::open(&tree).map_err(BuildError::Reopen)?;
+    let mut nearest = nearest_in(&tree, &surface);
+    let at = |v: VertIdx| tables.vertices[v.0 as usize].as_dvec3();
     let last = tables.levels.len() - 1;
     let mut measured = Vec::new();
     for level in &tables.levels[..last] {
-        let ends: Vec<_> = (0..level.nodes)
-            .filter_map(|index| model.node(NodeIdx(index)))
-            .filter(|node| match node.children {
-                Children::Nodes { first, count } => first + count > level.nodes,
-                Children::Triangles { .. } | Children::Cut => true,
-            })
-            .collect();
-        let surface_to_hull = ends.iter().map(|node| node.radius).fold(0f32, f32::max);
-        let triangles = ends.iter().map(|node| node.corners.map(|v| at(v.0)));
-        let farthest =
-            hull_to_surface(&model, triangles, |source| Some(corners_of.get(&source)?.map(at)));
-        measured.push((up_to_f32(farthest), surface_to_hull));
+        let faces: Vec<_> = model.faces(level).collect();
+        let surface_to_hull = faces.iter().map(|face| face.radius).fold(0f32, f32::max);
+        let triangles = faces.iter().map(|face| face.corners.map(at));
+        let hull_to_surface = farthest(triangles, 0.0, &mut nearest).upper;
+        measured.push((up_to_f32(hull_to_surface), surface_to_hull));
     }
     for (level, (hull_to_surface, surface_to_hull)) in tables.levels.iter_mut().zip(measured) {
         level.hull_to_surface = hull_to_surface;

@@ -23,16 +23,11 @@ pub fn cut(whole: &Hull<'_>, index: u32) -> Option<Tables> {
     tables.splits.truncate(splits);
     tables.rings.truncate(rings);
     tables.radii.truncate(tables.base.len() + rings + 2 * splits);
-    tables.nodes.truncate(level.nodes as usize);
-    for node in &mut tables.nodes {
-        if node.leaf || node.first + u32::from(node.count) > level.nodes {
-            (node.first, node.count, node.leaf) = (0, 0, true);
-        }
-    }
-    tables.surface.clear();
+    tables.source_starts.clear();
     tables.source.clear();
     tables.levels.truncate(index as usize + 1);
-    tables.queue_capacity = tables.queue_capacity.min(level.nodes);
+    // No queue holds a triangle twice.
+    tables.queue_capacity = tables.queue_capacity.min(tables.radii.len() as u32);
     tables.is_cut = true;
     Some(tables)
 }

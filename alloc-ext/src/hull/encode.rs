@@ -6,7 +6,7 @@ use glam::Vec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::format::Header;
 use meshsweep_core::internal::format::layout::{FLAG_CUT, VertexFormat, none};
-use meshsweep_core::internal::hull::format::layout::LEAF_FLAG;
+use meshsweep_core::internal::hull::format::layout::{LEFT_BEFORE, RIGHT_BEFORE};
 use meshsweep_core::internal::num::exp2;
 
 impl Tables {
@@ -39,8 +39,7 @@ impl Tables {
             base_triangles: self.base.len() as u32,
             splits: self.splits.len() as u32,
             rings: self.rings.len() as u32,
-            nodes: self.nodes.len() as u32,
-            surface_triangles: self.surface.len() as u32,
+            surface_triangles: self.source.len() as u32,
             levels: self.levels.len() as u32,
             hull_box: self.hull_box().corners(),
             queue_capacity: self.queue_capacity,
@@ -51,7 +50,7 @@ impl Tables {
 
     fn section(&self, kind: SectionKind, header: &Header) -> Vec<u8> {
         let (wv, ws) = (header.vertex_index_bytes(), header.split_index_bytes());
-        let (wr, wc) = (header.ring_index_bytes(), header.child_index_bytes());
+        let (wr, wt) = (header.ring_index_bytes(), header.start_index_bytes());
         let mut out = Vec::new();
         match kind {
             SectionKind::Vertices => {
@@ -64,7 +63,10 @@ impl Tables {
                 for split in &self.splits {
                     put(&mut out, split.vertex, wv);
                     put(&mut out, split.ring_start, wr);
-                    out.extend([split.right, split.reach.0, split.error.0]);
+                    let [right, left] = split.before;
+                    let bits =
+                        if right { RIGHT_BEFORE } else { 0 } | if left { LEFT_BEFORE } else { 0 };
+                    out.extend([split.right | bits, split.reach.0, split.error.0]);
                 }
             }
             SectionKind::BaseGroups => {
@@ -78,18 +80,8 @@ impl Tables {
             SectionKind::SplitsWith => {
                 self.splits_with.iter().for_each(|s| put(&mut out, s.unwrap_or(none(ws)), ws));
             }
-            SectionKind::Cover => {
-                for node in &self.nodes {
-                    node.corners.iter().for_each(|&v| put(&mut out, v, wv));
-                    out.extend(node.radius.0.to_le_bytes());
-                    // A child that was cut off is "none": it lies beyond every count.
-                    let first = if node.count == 0 { none(wc) } else { node.first };
-                    put(&mut out, first, wc);
-                    out.push(node.count | if node.leaf { LEAF_FLAG } else { 0 });
-                }
-            }
-            SectionKind::Surface => {
-                self.surface.iter().flatten().for_each(|&v| put(&mut out, v, wv))
+            SectionKind::SourceStarts => {
+                self.source_starts.iter().for_each(|&start| put(&mut out, start, wt));
             }
             SectionKind::Source => {
                 let width = header.source_index_bytes();
@@ -97,7 +89,7 @@ impl Tables {
             }
             SectionKind::Levels => {
                 for level in &self.levels {
-                    for word in [level.faces, level.splits, level.nodes] {
+                    for word in [level.faces, level.splits] {
                         out.extend(word.to_le_bytes());
                     }
                     for x in [level.hull_to_surface, level.surface_to_hull, level.void_ratio] {

@@ -1,23 +1,23 @@
-//! Parents and radii of all triangle instances.
+//! Radii of all triangle instances.
 
 use crate::collapse::History;
 use glam::DVec3;
 use meshsweep_core::internal::geom::point_triangle;
-
-/// Parent of an instance of the base hull.
-pub const NO_PARENT: u32 = u32::MAX;
+use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
 
 /// The forest over all triangle instances of a [`History`].
 #[derive(Clone, Debug)]
 pub struct Forest {
-    /// Coarse instance that each instance was assigned to.
-    pub parent: Vec<u32>,
-    /// Radius of each instance, local frame, before it is rounded for storage; infinite for an
-    /// instance that covers nothing.
+    /// Radius of each instance, local frame, before it is rounded for storage.
     pub radius: Vec<f64>,
+    /// For each collapse, whether the fine triangle at the right and at the left wing is a child of
+    /// the coarse triangle before the wing, and not of the one after it.
+    pub wings: Vec<[bool; 2]>,
     /// Original vertices below each instance of the base hull, in the order of
     /// `History::base_instances`.
     pub base_vertices: Vec<Vec<u32>>,
+    /// Queue entries that a depth-first sweep may need.
+    pub queue_entries: u32,
 }
 
 /// Largest distance from any of `vertices` to the triangle, an upper bound in real arithmetic.
@@ -28,80 +28,64 @@ pub fn cover_radius(positions: &[DVec3], vertices: &[u32], [a, b, c]: [DVec3; 3]
     })
 }
 
-/// Replays the collapses fine to coarse and assigns every fine triangle to the coarse one that
-/// covers it most tightly.
+/// Replays the collapses fine to coarse. A fine triangle at a ring edge is a child of the coarse
+/// one at the same edge. Each of the two at the wings is a child of one of the coarse two beside it: of
+/// the one that covers it more tightly.
 ///
-/// Cost: per collapse, vertices below the fragment times a few candidates.
+/// Cost: linear in the vertices below each fragment.
 pub fn grow(history: &History) -> Forest {
     let count = history.instances();
-    let mut parent = vec![NO_PARENT; count];
-    let mut radius = vec![f64::INFINITY; count];
+    let mut radius = vec![0.0; count];
+    let mut waiting = vec![0u32; count];
+    let mut wings = Vec::with_capacity(history.collapses.len());
     let mut below: Vec<Vec<u32>> = history.original_triangles.iter().map(|t| t.to_vec()).collect();
     below.resize(count, Vec::new());
-    radius[..history.original_triangles.len()].fill(0.0);
-
-    let mut corners = Vec::new();
     for (index, collapse) in history.collapses.iter().enumerate() {
-        let first = history.first_coarse(index);
-        corners.clear();
-        corners.extend((0..collapse.ring_len as usize).map(|i| {
+        let first = history.first_coarse(index) as usize;
+        let ring_len = collapse.ring_len as usize;
+        let fine = history.fine(index);
+        let at = |i: usize| {
             history.coarse_corners(collapse, i).map(|label| history.positions[label as usize])
-        }));
-        for (slot, &instance) in history.fine(index).iter().enumerate() {
-            let vertices = std::mem::take(&mut below[instance as usize]);
-            if vertices.is_empty() {
-                continue;
+        };
+        let mut children: Vec<Vec<u32>> = fine[..ring_len].iter().map(|&f| vec![f]).collect();
+        let right = collapse.right as usize;
+        let before = [(right, right - 1), (0, ring_len - 1)].map(|(after, before)| {
+            let vertices = &below[fine[ring_len + usize::from(after == 0)] as usize];
+            let reach = |i: usize| cover_radius(&history.positions, vertices, at(i));
+            reach(before) < reach(after)
+        });
+        wings.push(before);
+        children[if before[0] { right - 1 } else { right }].push(fine[ring_len]);
+        children[if before[1] { ring_len - 1 } else { 0 }].push(fine[ring_len + 1]);
+        for (i, children) in children.into_iter().enumerate() {
+            let coarse = first + i;
+            waiting[coarse] = entries(children.iter().map(|&child| waiting[child as usize])).max(1);
+            for child in children {
+                let vertices = std::mem::take(&mut below[child as usize]);
+                merge(&mut below[coarse], vertices);
             }
-            let natural = natural_parent(slot, collapse.ring_len as usize, collapse.right as usize);
-            let best = tightest(history, &vertices, &corners, natural);
-            let adopted = first as usize + best;
-            parent[instance as usize] = adopted as u32;
-            merge(&mut below[adopted], vertices);
-        }
-        for (i, &triangle) in corners.iter().enumerate() {
-            let coarse = first as usize + i;
-            if !below[coarse].is_empty() {
-                radius[coarse] = cover_radius(&history.positions, &below[coarse], triangle);
-            }
+            radius[coarse] = cover_radius(&history.positions, &below[coarse], at(i));
         }
     }
     let base_vertices =
         history.base_instances.iter().map(|&i| std::mem::take(&mut below[i as usize])).collect();
-    Forest { parent, radius, base_vertices }
+    let group = |instances: &[u32]| entries(instances.iter().map(|&i| waiting[i as usize]));
+    let groups = history.base_instances.chunks(BASE_GROUP as usize).map(group);
+    let queue_entries = entries(groups.map(|group| group.max(1))).max(1);
+    Forest { radius, wings, base_vertices, queue_entries }
 }
 
-/// The coarse triangle at the same ring edge; for the two that vanish, one beside them.
-fn natural_parent(slot: usize, ring: usize, right: usize) -> usize {
-    if slot < ring {
-        slot
-    } else if slot == ring {
-        right
-    } else {
-        0
+/// Queue entries that a depth-first sweep of triangles needs which enter the queue together, from
+/// the needs of each. An instance of the surface does not enter, and needs 0.
+///
+/// The first that is opened leaves the queue, and its siblings wait.
+fn entries(needs: impl Iterator<Item = u32>) -> u32 {
+    let (mut count, mut most) = (0u32, 0);
+    for need in needs.filter(|&need| need > 0) {
+        count += 1;
+        most = most.max(need);
     }
-}
-
-/// The coarse triangle with the least largest distance to `vertices`; ties to the natural one, then
-/// the first.
-fn tightest(history: &History, vertices: &[u32], corners: &[[DVec3; 3]], natural: usize) -> usize {
-    let mut best = natural;
-    let mut best_sq = f64::INFINITY;
-    let others = (0..corners.len()).filter(|&i| i != natural);
-    for candidate in std::iter::once(natural).chain(others) {
-        let [a, b, c] = corners[candidate];
-        let mut worst = 0f64;
-        for &v in vertices {
-            worst = worst.max(point_triangle(history.positions[v as usize], a, b, c).distance_sq);
-            if worst >= best_sq {
-                break;
-            }
-        }
-        if worst < best_sq {
-            best_sq = worst;
-            best = candidate;
-        }
-    }
-    best
+    (count + most).saturating_sub(1).max(count)
 }
 
 /// Union of vertex lists, without duplicates.

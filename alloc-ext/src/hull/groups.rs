@@ -1,5 +1,6 @@
 //! Bounds of sixteen base triangles at a time, for segments that meet few of them.
 
+use super::forest::Forest;
 use super::swept::best_cover;
 use crate::collapse::History;
 use glam::DVec3;
@@ -40,16 +41,21 @@ pub fn sort_base(history: &mut History) {
     history.base_instances = faces.iter().map(|f| f.2).collect();
 }
 
-/// For each sixteen base triangles a swept triangle that contains them: corners (labels) and
-/// radius.
-pub fn base_groups(history: &History) -> Vec<([u32; 3], f64)> {
-    let groups = history.base.chunks(BASE_GROUP as usize);
+/// For each sixteen base triangles a swept triangle that contains them and their parts of the
+/// surface: corners (labels) and radius.
+pub fn base_groups(history: &History, forest: &Forest) -> Vec<([u32; 3], f64)> {
+    let size = BASE_GROUP as usize;
+    let groups = history.base.chunks(size).zip(forest.base_vertices.chunks(size));
     groups
-        .map(|faces| {
-            let mut vertices: Vec<u32> = faces.iter().flatten().copied().collect();
+        .map(|(faces, below)| {
+            let mut corners: Vec<u32> = faces.iter().flatten().copied().collect();
+            corners.sort_unstable();
+            corners.dedup();
+            let mut vertices: Vec<u32> =
+                corners.iter().chain(below.iter().flatten()).copied().collect();
             vertices.sort_unstable();
             vertices.dedup();
-            best_cover(&history.positions, faces, &vertices, &vertices)
+            best_cover(&history.positions, faces, &corners, &vertices)
         })
         .collect()
 }

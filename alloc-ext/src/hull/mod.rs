@@ -1,4 +1,4 @@
-//! From a closed mesh to the tables of a hull hierarchy: certified radii and the cover tree.
+//! From a closed mesh to the tables of a hull hierarchy and their certified radii.
 //!
 //! Each collapse replaces a fine fragment by a coarse one. Every fine triangle gets one parent in
 //! the coarse fragment, so that all levels form a forest whose leaves are the mesh's own triangles;
@@ -7,7 +7,6 @@
 //! triangle (Guéziec 2000, 3.1) contain them. Rounded up, it is certified for any assignment.
 
 mod build;
-mod cover;
 mod cut;
 mod encode;
 mod forest;
@@ -18,5 +17,5 @@ mod wires;
 
 pub use build::{BuildOptions, BuildReport, Built, build, hull_of};
 pub use cut::cut;
-pub use tables::{NodeRecord, SplitRecord, Tables};
+pub use tables::{SplitRecord, Tables};
 pub use wires::wires_off_surface;

@@ -4,8 +4,8 @@
 use glam::Vec3;
 use meshsweep_core::Hull;
 use meshsweep_core::internal::geom::Aabb;
-use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
-use meshsweep_core::internal::hull::format::{Children, NodeIdx, SplitIdx, TriIdx};
+use meshsweep_core::internal::hull::format::layout::{BASE_GROUP, START_GROUP};
+use meshsweep_core::internal::hull::format::{SplitIdx, TriIdx};
 use meshsweep_core::internal::num::{Radius8, Radius16};
 use meshsweep_core::{Level, VertIdx};
 
@@ -20,25 +20,13 @@ pub struct SplitRecord {
     pub ring_start: u32,
     /// Position of the right wing in the ring.
     pub right: u8,
+    /// Whether the triangles at the right and at the left wing are children of the coarse
+    /// triangle before the wing.
+    pub before: [bool; 2],
     /// No point of the fine triangles is farther than this from `vertex`.
     pub reach: Radius8,
     /// The largest finite radius of the coarse triangles.
     pub error: Radius8,
-}
-
-/// A node of the cover tree.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NodeRecord {
-    /// Corners.
-    pub corners: [u32; 3],
-    /// Radius.
-    pub radius: Radius16,
-    /// First child, a node or a triangle.
-    pub first: u32,
-    /// Children.
-    pub count: u8,
-    /// Whether the children are triangles.
-    pub leaf: bool,
 }
 
 /// A hull hierarchy as a blob holds it.
@@ -66,11 +54,9 @@ pub struct Tables {
     pub radii: Vec<Radius8>,
     /// The split of each vertex.
     pub splits_with: Vec<Option<u32>>,
-    /// Cover tree.
-    pub nodes: Vec<NodeRecord>,
-    /// Triangles of the surface.
-    pub surface: Vec<[u32; 3]>,
-    /// Their numbers in the input file.
+    /// Triangles of the surface before those of each eighth split.
+    pub source_starts: Vec<u32>,
+    /// Numbers in the input file of the triangles of the surface.
     pub source: Vec<u32>,
     /// Triangles of the input file.
     pub input_triangles: u32,
@@ -78,7 +64,7 @@ pub struct Tables {
     pub surface_box: Aabb,
     /// Levels, coarse to fine.
     pub levels: Vec<Level>,
-    /// Queue entries that a descent may need.
+    /// Queue entries that a sweep may need.
     pub queue_capacity: u32,
     /// Whether finer levels were cut off.
     pub is_cut: bool,
@@ -126,34 +112,20 @@ impl Tables {
         for index in 0..h.splits {
             let split = hull.split(SplitIdx(index))?;
             let right = u8::try_from(split.right).ok()?;
+            let before = [split.right_parent != split.right, split.left_parent != 0];
             let reach = Radius8::round_up(f64::from(split.reach));
             let error = Radius8::round_up(f64::from(split.error));
             splits.push(SplitRecord {
                 vertex: split.vertex.0,
                 ring_start: rings.len() as u32,
                 right,
+                before,
                 reach,
                 error,
             });
             for i in 0..split.ring_len() {
                 rings.push(split.ring(i)?.0);
             }
-        }
-        let mut nodes = Vec::with_capacity(h.nodes as usize);
-        for index in 0..h.nodes {
-            let node = hull.node(NodeIdx(index))?;
-            let (first, count, leaf) = match node.children {
-                Children::Nodes { first, count } => (first, count, false),
-                Children::Triangles { first, count } => (first, count, true),
-                Children::Cut => (0, 0, true),
-            };
-            nodes.push(NodeRecord {
-                corners: node.corners.map(|v| v.0),
-                radius: Radius16::round_up(f64::from(node.radius)),
-                first,
-                count: u8::try_from(count).ok()?,
-                leaf,
-            });
         }
         let radii = h.base_triangles as usize + h.rings as usize + 2 * h.splits as usize;
         Some(Tables {
@@ -181,10 +153,13 @@ impl Tables {
                 .map(|t| hull.radius(t).map(|r| Radius8::round_up(f64::from(r))))
                 .collect::<Option<_>>()?,
             splits_with: (0..h.vertices).map(|v| hull.split_of(VertIdx(v)).map(|s| s.0)).collect(),
-            nodes,
-            surface: (0..h.surface_triangles)
-                .map(|t| hull.surface_triangle(TriIdx(t)).map(|c| c.map(|v| v.0)))
-                .collect::<Option<_>>()?,
+            source_starts: if hull.is_cut() {
+                Vec::new()
+            } else {
+                (0..h.splits.div_ceil(START_GROUP))
+                    .map(|index| hull.source_start(index))
+                    .collect::<Option<_>>()?
+            },
             source: (0..h.surface_triangles)
                 .map(|t| hull.source(TriIdx(t)))
                 .collect::<Option<_>>()?,

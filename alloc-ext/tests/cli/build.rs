@@ -42,10 +42,10 @@ fn build_reports_mesh_sections_memory_and_levels() {
     for part in [
         "1948 triangles read",
         "serves closest, within, nearest, field, signed, segment, overlap, hull --level, refine, cut",
-        "cover tree",
+        "source starts",
         "tree fans",
         "total",
-        "queue",
+        "scratch: ",
         "void %",
         "surface error 0 ",
         "1948 triangles in ",
@@ -184,7 +184,7 @@ fn json_parses_and_its_sections_fill_the_blob() {
 fn info_for_people_names_every_section() {
     let directory = scratch("info_for_people");
     let text = ok(["info", arg(&hull_blob(&directory, "groove.obj", &[]))]);
-    for section in ["vertices", "splits", "cover tree", "levels", "source numbers"] {
+    for section in ["vertices", "splits", "source starts", "levels", "source numbers"] {
         assert!(text.contains(section), "{section} in {text}");
     }
     let text = ok(["info", arg(&blob(&directory, "groove.obj", &[]))]);

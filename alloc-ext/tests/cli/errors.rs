@@ -47,7 +47,7 @@ fn wrong_usage_is_status_2() {
         &["closest", "a.msw", "1,2,3", "--threads", "0"],
         &["closest", "a.msw", "1,2,3", "--engine", "fast"],
         &["segment", "a.msw", "1,2,3"],
-        &["segment", "a.msw", "s.csv", "--engine", "cover", "--facing", "back"],
+        &["segment", "a.msw", "s.csv", "--engine", "hull", "--facing", "back"],
         &["segment", "a.msw", "s.csv", "--facing", "left"],
     ] {
         assert_eq!(run(args).status.code(), Some(2), "{args:?}");
@@ -187,9 +187,9 @@ fn what_a_blob_was_not_built_for_is_refused_with_what_to_build() {
     let field = directory.join("f.npy");
     for (args, wanted) in [
         (&["segment", arg(&tree), arg(&segments)][..], "--for segment"),
-        (&["segment", arg(&tree), arg(&segments), "--engine", "cover"], "--for hull"),
-        (&["closest", arg(&tree), arg(&points), "--engine", "cover"], "or use --engine tree"),
-        (&["closest", arg(&hull), arg(&points), "--engine", "tree"], "or use --engine cover"),
+        (&["segment", arg(&tree), arg(&segments), "--engine", "hull"], "--for hull"),
+        (&["closest", arg(&tree), arg(&points), "--engine", "hull"], "or use --engine tree"),
+        (&["closest", arg(&hull), arg(&points), "--engine", "tree"], "or use --engine hull"),
         (&["segment", arg(&hull), arg(&segments), "--engine", "tree"], "--for segment"),
         (&["within", arg(&hull), arg(&points), "-d", "1"], "--for closest"),
         (&["nearest", arg(&hull), arg(&points), "-n", "1"], "--for closest"),
@@ -318,7 +318,7 @@ fn answers_before_a_query_that_is_refused_are_printed_but_make_no_file() {
 fn a_segment_that_is_too_long_is_told_a_limit_that_holds() {
     let directory = scratch("too_far");
     let path = blob(&directory, "torus.ply", &["--for", "segment,hull"]);
-    for engine in ["tree", "cover"] {
+    for engine in ["tree", "hull"] {
         let line = refused(
             &run(["segment", arg(&path), "0,0,0,1e38,0,0", "--engine", engine]),
             1,

@@ -43,7 +43,7 @@ fn the_interval_contains_the_distance_to_the_file() {
         let rows = random_queries::<3>(&mesh, 60);
         write_csv(&points, &rows);
         let path = blob(&directory, name, options);
-        let engines = if options[1].contains("hull") { &["tree", "cover"][..] } else { &["tree"] };
+        let engines = if options[1].contains("hull") { &["tree", "hull"][..] } else { &["tree"] };
         for engine in engines {
             for (answer, point) in closest(&path, &points, &["--engine", engine]).iter().zip(&rows)
             {
@@ -66,7 +66,7 @@ fn the_box_tree_answers_unless_told_otherwise() {
     write_csv(&points, &random_queries::<3>(&triangles(&fixture("bracket.stl")), 20));
     let by = |options: &[&str]| closest(&path, &points, options);
     assert_eq!(by(&[]), by(&["--engine", "tree"]));
-    assert_ne!(by(&[]), by(&["--engine", "cover"]));
+    assert_ne!(by(&[]), by(&["--engine", "hull"]));
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn queries_that_stop_early_still_contain_the_distance_and_say_so() {
     let points = directory.join("points.csv");
     write_csv(&points, &rows);
     let path = blob(&directory, "bracket.stl", &["--for", "closest,hull"]);
-    for engine in ["tree", "cover"] {
+    for engine in ["tree", "hull"] {
         for (options, reason) in [
             (["--steps", "3"], "out of steps"),
             (["--rel", "0.5"], "within tolerance"),
@@ -164,7 +164,7 @@ fn first_hits_are_those_of_brute_force_for_all_engines() {
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
     let path = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
-    for engine in ["tree", "cover"] {
+    for engine in ["tree", "hull"] {
         let answers =
             parse_csv(&ok(["segment", arg(&path), arg(&segments), "--engine", engine]), SEGMENT);
         assert_eq!(answers.len(), rows.len());
@@ -271,7 +271,7 @@ fn all_hits_begin_with_the_first_and_number_their_query() {
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
     let path = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
-    for engine in ["tree", "cover"] {
+    for engine in ["tree", "hull"] {
         let ask = ["segment", arg(&path), arg(&segments), "--engine", engine];
         let first = parse_csv(&ok(ask), SEGMENT);
         let all = parse_csv(&ok([&ask[..], &["--all"]].concat()), &format!("query,{SEGMENT}"));
@@ -291,7 +291,7 @@ fn a_segment_with_more_hits_than_the_buffer_gets_them_all() {
     let segments = directory.join("s.csv");
     // Through a vertex in which some hundred triangles meet.
     fs::write(&segments, "10,10,10,-10,-10,-10\n").unwrap();
-    for engine in ["tree", "cover"] {
+    for engine in ["tree", "hull"] {
         let text = ok(["segment", arg(&path), arg(&segments), "--all", "--engine", engine]);
         let all = parse_csv(&text, &format!("query,{SEGMENT}"));
         assert!(all.len() > 64, "{engine} {}", all.len());
@@ -306,7 +306,7 @@ fn a_segment_query_that_ends_early_is_undecided_and_clear_before_its_parameter()
     let segments = directory.join("s.csv");
     write_csv(&segments, &rows);
     let path = blob(&directory, "bracket.stl", &["--for", "segment,hull"]);
-    for engine in ["tree", "cover"] {
+    for engine in ["tree", "hull"] {
         let ask = ["segment", arg(&path), arg(&segments), "--engine", engine, "--steps", "1"];
         let answers = parse_csv(&ok(ask), SEGMENT);
         let all = parse_csv(&ok([&ask[..], &["--all"]].concat()), &format!("query,{SEGMENT}"));

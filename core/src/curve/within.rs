@@ -35,8 +35,8 @@ impl Curve<'_> {
     /// undecided. `scratch` as for [`closest_point`](Curve::closest_point). A shorter one may leave
     /// the question undecided; it never makes the answer wrong. Of the budget only `steps` matters.
     ///
-    /// Cost: less than that of the closest point. If all of the curve is far away, one node. Source:
-    /// Guéziec 2000, 3.
+    /// Cost: less than that of the closest point. If all of the curve is far away, one node.
+    /// Source: Guéziec 2000, 3.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Curve, Scratch};

@@ -36,8 +36,6 @@ pub struct Header {
     pub splits: u32,
     /// Ring entries of all splits.
     pub rings: u32,
-    /// Nodes of the cover tree; node 0 is the root.
-    pub nodes: u32,
     /// Triangles of the surface; 0 in a cut blob.
     pub surface_triangles: u32,
     /// Records of the level table.
@@ -51,7 +49,7 @@ pub struct Header {
     pub hull_box: [[f32; 3]; 2],
     /// Box of the surface.
     pub surface_box: [[f32; 3]; 2],
-    /// Scratch entries with which no query on the cover tree can overflow.
+    /// Queue entries with which no sweep runs out of them.
     pub queue_capacity: u32,
     /// Longest chain of splits in which each split needs the one before it.
     pub dependency_depth: u32,
@@ -100,7 +98,6 @@ impl Header {
             base_triangles: word(field::BASE_TRIANGLES)?,
             splits: word(field::SPLITS)?,
             rings: word(field::RINGS)?,
-            nodes: word(field::NODES)?,
             surface_triangles: word(field::SURFACE_TRIANGLES)?,
             levels: word(field::LEVELS)?,
             input_triangles: word(field::INPUT_TRIANGLES)?,
@@ -119,6 +116,7 @@ impl Header {
         let zero =
             |at: usize, len: usize| bytes.slice(at, len).is_some_and(|b| b.iter().all(|&b| b == 0));
         if !zero(field::RESERVED_BESIDE_FORMAT, 3)
+            || !zero(field::RESERVED_BESIDE_RINGS, 4)
             || !zero(field::RESERVED, 8)
             || header.flags & !FLAG_CUT != 0
         {
@@ -152,7 +150,6 @@ impl Header {
             (field::BASE_TRIANGLES, self.base_triangles),
             (field::SPLITS, self.splits),
             (field::RINGS, self.rings),
-            (field::NODES, self.nodes),
             (field::SURFACE_TRIANGLES, self.surface_triangles),
             (field::LEVELS, self.levels),
             (field::INPUT_TRIANGLES, self.input_triangles),
@@ -192,9 +189,9 @@ impl Header {
         index_bytes(self.rings as usize)
     }
 
-    /// Bytes of an index of a cover node or of a surface triangle (they share a field).
-    pub fn child_index_bytes(&self) -> usize {
-        index_bytes(self.nodes.max(self.surface_triangles) as usize)
+    /// Bytes of a position in the source numbers.
+    pub fn start_index_bytes(&self) -> usize {
+        index_bytes(self.surface_triangles as usize)
     }
 
     /// Bytes of a triangle number of the input file.
@@ -210,10 +207,5 @@ impl Header {
     /// Bytes of one base group.
     pub fn group_bytes(&self) -> usize {
         3 * self.vertex_index_bytes() + 2
-    }
-
-    /// Bytes of one cover node.
-    pub fn node_bytes(&self) -> usize {
-        3 * self.vertex_index_bytes() + 2 + self.child_index_bytes() + 1
     }
 }

@@ -38,15 +38,14 @@ pub enum SectionKind {
     Radii = 5,
     /// For each vertex the split that replaces it.
     SplitsWith = 6,
-    /// Nodes of the cover tree.
-    Cover = 7,
-    /// Corners of the surface's triangles, in the order of the cover tree.
-    Surface = 8,
+    /// For each eighth split the triangles of the surface that come before its own.
+    SourceStarts = 7,
     /// For each triangle of the surface its number in the input file.
     Source = 9,
     /// Level table, coarse to fine.
     Levels = 10,
-    /// One swept triangle for each group of triangles of the base hull. It contains them.
+    /// One swept triangle for each group of triangles of the base hull. It contains them and their
+    /// parts of the surface.
     BaseGroups = 11,
     /// The box tree's header: counts, grid and error bound.
     Bvh = 12,
@@ -74,7 +73,7 @@ pub enum SectionKind {
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 21] = [
+    pub const ALL: [SectionKind; 20] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -83,8 +82,7 @@ impl SectionKind {
         SectionKind::Rings,
         SectionKind::SplitsWith,
         SectionKind::Radii,
-        SectionKind::Cover,
-        SectionKind::Surface,
+        SectionKind::SourceStarts,
         SectionKind::Source,
         SectionKind::Bvh,
         SectionKind::TreeLinks,
@@ -130,8 +128,7 @@ impl SectionKind {
             SectionKind::Rings => "rings (split before)",
             SectionKind::Radii => "radii",
             SectionKind::SplitsWith => "splits with",
-            SectionKind::Cover => "cover tree",
-            SectionKind::Surface => "surface triangles",
+            SectionKind::SourceStarts => "source starts",
             SectionKind::Source => "source numbers",
             SectionKind::Levels => "levels",
             SectionKind::BaseGroups => "base groups",
@@ -283,8 +280,8 @@ pub mod field {
     pub const SPLITS: usize = 64;
     /// u32.
     pub const RINGS: usize = 68;
-    /// u32.
-    pub const NODES: usize = 72;
+    /// Four zeros.
+    pub const RESERVED_BESIDE_RINGS: usize = 72;
     /// u32.
     pub const SURFACE_TRIANGLES: usize = 76;
     /// u32.

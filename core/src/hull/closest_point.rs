@@ -1,19 +1,19 @@
-//! Closest point by the sweeping process (Guéziec 2000, 3.2 and 4.3) on the cover tree.
+//! Closest point by the sweeping process (Guéziec 2000, 3.2 and 4.3) on the split tables.
 //!
-//! Any cut of the forest of swept triangles covers the surface, so a node may be opened without the
-//! splits that a consistent mesh would need first (`core/DESIGN.md`, "Cut"). Nodes are bounded in
-//! f32, rounded down with a proved margin; The few triangles that may hold the answer are evaluated
-//! in f64, so that the interval is as wide as one rounding of f32.
+//! Triangles are bounded in f32, rounded down with a proved margin. The few triangles of the
+//! surface that may hold the answer are evaluated in f64, so that the interval is as wide as one
+//! rounding of f32.
 
-use crate::geom::{Aabb, LANES, Lanes, Support, SweptPoint, point_triangle};
-use crate::hull::format::{Children, Hull, NodeIdx, TriIdx};
+use super::sweep::{Candidate, Fate, Front, Visit};
+use crate::geom::{Aabb, LANES, Lanes, SweptPoint, point_triangle};
+use crate::hull::format::{Hull, Instance, Named, SplitIdx};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{
     Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Taken,
     Work, before,
 };
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 impl Hull<'_> {
     /// Closest point of the surface to `point` (input units), with an interval that contains the
@@ -70,320 +70,316 @@ fn closest_point(
     if scratch.is_empty() {
         return Err(QueryError::NoScratch);
     }
-    let mut sweep = Sweep::new(hull, p);
-    let ended = if p.abs().max_element() > HULL_FAR {
-        sweep.far()?;
-        if hull.is_cut() { Ended::Resolution } else { Ended::Exact }
+    let mut nearest = Nearest::new(hull, p).ok_or(QueryError::Unchecked)?;
+    let (mut work, mut ended) = (Work::NONE, Ended::Exact);
+    if p.abs().max_element() > HULL_FAR {
+        nearest.settle_by_box(hull).ok_or(QueryError::Unchecked)?;
+        if hull.is_cut() {
+            ended = Ended::Resolution;
+        }
     } else {
-        let queue = SweepQueue::new(scratch, hull.scratch_entries());
-        let tolerant = relative > 0.0 || absolute > 0.0;
-        let (relative, absolute) = (f64::from(relative), frame.length(absolute));
-        sweep.run(queue, tolerant, [relative, absolute], steps).ok_or(QueryError::Unchecked)?
-    };
-    if sweep.best.is_none() {
-        // Stopped before any triangle was reached: only the box is known.
-        let lower = sweep.lower;
-        sweep.far()?;
-        sweep.lower = sweep.lower.max(lower.min(sweep.upper));
+        let tolerance = (relative > 0.0 || absolute > 0.0)
+            .then(|| [f64::from(relative), frame.length(absolute)]);
+        let mut sweep = Fresh { front: Front::new(hull, scratch, steps), nearest };
+        ended = sweep.run(tolerance).ok_or(QueryError::Unchecked)?;
+        work = sweep.nearest.work(sweep.front.work);
+        nearest = sweep.nearest;
     }
-    Ok(sweep.answer(&frame, ended))
-}
-
-/// `first .. first + count` in runs of at most [`LANES`]: where each begins and how long it is.
-#[inline(always)]
-fn chunks(first: u32, count: u32) -> impl Iterator<Item = (u32, usize)> {
-    let run = LANES as u32;
-    (0..count.div_ceil(run))
-        .map(move |i| (first.wrapping_add(i * run), (count - i * run).min(run) as usize))
+    if nearest.best.is_none() {
+        // Stopped before any triangle was reached: only the box is known.
+        let lower = nearest.lower;
+        nearest.settle_by_box(hull).ok_or(QueryError::Unchecked)?;
+        nearest.lower = nearest.lower.max(lower.min(nearest.upper));
+    }
+    Ok(nearest.answer(hull, &frame, work, ended))
 }
 
 /// The best triangle so far.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Best {
     distance_sq: f64,
-    triangle: u32,
+    /// Of the surface or, of a cut blob, of a hull.
+    instance: Instance,
     point: DVec3,
 }
 
-/// State of one query.
-struct Sweep<'a> {
-    model: &'a Hull<'a>,
+/// A point, and what the triangles that were looked at say of its distance.
+#[derive(Debug)]
+pub(super) struct Nearest {
     p: DVec3,
     swept: SweptPoint,
-    /// Not below the distance; f64 for the answer, f32 rounded up for pruning.
-    upper: f64,
-    upper_f32: f32,
-    /// Least lower bound of all evaluated triangles and of all unopened nodes.
-    lower: f64,
-    best: Option<Best>,
-    cut: bool,
     /// Beyond [`F32_BOUNDS`]: bounds in f64.
     distant: bool,
-    work: Work,
+    /// No point of a cut hull's triangles is farther than this from the surface.
+    hull_to_surface: f64,
+    /// Not below the distance.
+    upper: f64,
+    /// Bounds above this are infinite: `upper`, unless [`set_limit`](Self::set_limit) raised it. In
+    /// f32 rounded up, for pruning.
+    limit: f64,
+    limit_f32: f32,
+    /// Least lower bound of all triangles that are not refined further.
+    lower: f64,
+    best: Option<Best>,
+    exact: u32,
+    /// The nearest triangle of those that were just found. It waits outside the queue.
+    next: Option<ScratchEntry>,
 }
 
-impl<'a> Sweep<'a> {
-    fn new(model: &'a Hull<'a>, p: DVec3) -> Self {
+impl Nearest {
+    pub(super) fn new(model: &Hull<'_>, p: DVec3) -> Option<Self> {
         // In f32's normal range the conversion is exact; below, it costs less than
         // `tolerance::UNDERFLOW`.
         let swept = SweptPoint::new(p.as_vec3(), &model.hull_box());
-        Sweep {
-            model,
+        let last = model.level(model.header().levels.checked_sub(1)?)?;
+        Some(Nearest {
             p,
             swept,
+            distant: p.abs().max_element() > F32_BOUNDS,
+            hull_to_surface: f64::from(last.hull_to_surface),
             upper: f64::INFINITY,
-            upper_f32: f32::INFINITY,
+            limit: f64::INFINITY,
+            limit_f32: f32::INFINITY,
             lower: f64::INFINITY,
             best: None,
-            cut: false,
-            distant: p.abs().max_element() > F32_BOUNDS,
-            work: Work::default(),
-        }
-    }
-
-    fn run(
-        &mut self,
-        mut queue: SweepQueue<'_>,
-        tolerant: bool,
-        [relative, absolute]: [f64; 2],
-        steps: u32,
-    ) -> Option<Ended> {
-        let surface_error = f64::from(self.model.header().surface_error);
-        let mut met_tolerance = false;
-        let mut next = Some(ScratchEntry::new(0.0, 0));
-        while let Some(Taken { entry, least }) = queue.take(next, self.best.is_none()) {
-            let key = f64::from(entry.key());
-            let beaten = entry.key() > self.upper_f32;
-            let tolerated = tolerant && {
-                // The reported interval: with the stored surface's error, and rounded to f32
-                // outward.
-                let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
-                let high = (self.upper + surface_error) * (1.0 + REPORTED);
-                high <= low * (1.0 + relative) || high - low <= absolute
-            };
-            if beaten || tolerated {
-                if !beaten {
-                    self.lower = self.lower.min(key);
-                    met_tolerance = true;
-                }
-                if least {
-                    break;
-                }
-                next = None;
-                continue;
-            }
-            if self.work.splits >= steps {
-                self.lower = self.lower.min(key).min(f64::from(queue.lower()));
-                return Some(Ended::Steps);
-            }
-            next = self.open(NodeIdx(entry.node()), key, &mut queue)?;
-        }
-        let dropped = f64::from(queue.dropped());
-        if dropped < self.upper {
-            self.lower = self.lower.min(dropped);
-            return Some(Ended::Scratch);
-        }
-        Some(if met_tolerance {
-            Ended::Tolerance
-        } else if self.cut {
-            Ended::Resolution
-        } else {
-            Ended::Exact
+            exact: 0,
+            next: None,
         })
     }
 
-    /// Replaces a node by its children, and returns the nearest child node instead of queueing it.
-    /// `None`: the model is unchecked.
-    #[inline]
-    fn open(
-        &mut self,
-        node: NodeIdx,
-        key: f64,
-        queue: &mut SweepQueue<'_>,
-    ) -> Option<Option<ScratchEntry>> {
-        self.work.splits += 1;
-        let node = self.model.node(node)?;
-        match node.children {
-            Children::Nodes { first, count } => {
-                queue.begin_children(count);
-                let mut nearest: Option<ScratchEntry> = None;
-                for (from, lanes) in chunks(first, count) {
-                    if self.distant {
-                        self.visit_distant(from, lanes, queue)?;
-                        continue;
-                    }
-                    let (supports, radii) = self.bounds(from, lanes)?;
-                    for (node, (support, radius)) in
-                        (from..).zip(supports.into_iter().zip(radii)).take(lanes)
-                    {
-                        let Some(key) = self.swept.bound(support, radius, self.upper_f32) else {
-                            continue;
-                        };
-                        let entry = ScratchEntry::new(key, node);
-                        match &mut nearest {
-                            Some(near) if !before(&entry, near) => queue.push(entry),
-                            Some(near) => queue.push(core::mem::replace(near, entry)),
-                            None => nearest = Some(entry),
-                        }
-                    }
-                }
-                return Some(nearest);
-            }
-            Children::Triangles { first, count } => {
-                for (from, lanes) in chunks(first, count) {
-                    self.triangles(from, lanes)?;
-                }
-            }
-            Children::Cut => self.cut_node(node.corners, key)?,
-        }
-        Some(None)
-    }
-
-    /// Queues nodes by bounds in f64, for a query so far away that f32 gives all parts of the model
-    /// the same bound.
-    #[cold]
-    fn visit_distant(
-        &mut self,
-        first: u32,
-        count: usize,
-        queue: &mut SweepQueue<'_>,
-    ) -> Option<()> {
-        self.work.nodes += count as u32;
-        for (node, _) in (first..).zip(0..count) {
-            let (corners, radius) = self.model.bound(NodeIdx(node))?;
-            let [a, b, c] = self.model.positions(corners)?.map(|v| v.as_dvec3());
-            let lower = point_triangle(self.p, a, b, c).lower - f64::from(radius) * (1.0 + U64);
-            if lower <= self.upper {
-                queue.push(ScratchEntry::new(down_to_f32(lower.max(0.0)), node));
-            }
-        }
-        Some(())
-    }
-
-    /// Supporting planes and radii of up to four nodes.
+    /// Bounds of up to four triangles, infinite above the limit.
     #[inline(always)]
-    fn bounds(&mut self, first: u32, count: usize) -> Option<([Support; LANES], [f32; LANES])> {
-        self.work.nodes += count as u32;
-        let mut lanes = Lanes::EMPTY;
-        let mut radii = [0f32; LANES];
-        for ((lane, radius), node) in radii.iter_mut().enumerate().zip(first..).take(count) {
-            let (corners, stored) = self.model.bound(NodeIdx(node))?;
-            self.swept.load(&mut lanes, lane, self.model.positions(corners)?);
-            *radius = stored;
-        }
-        Some((lanes.supports(count), radii))
-    }
-
-    /// Up to four triangles of the surface: a bound in f32, and the interval in f64 of those whose
-    /// bound is not above the limit.
-    #[inline(always)]
-    fn triangles(&mut self, first: u32, count: usize) -> Option<()> {
-        self.work.triangles += count as u32;
-        let mut lanes = Lanes::EMPTY;
-        for (lane, triangle) in (0..LANES).zip(first..).take(count) {
-            self.swept.load(&mut lanes, lane, self.corners(TriIdx(triangle))?);
-        }
-        if self.distant {
-            for triangle in (first..).take(count) {
-                self.evaluate(TriIdx(triangle), self.corners(TriIdx(triangle))?);
-            }
-            return Some(());
-        }
+    pub(super) fn bounds(&self, found: &[Candidate]) -> [f32; LANES] {
         let mut bounds = [f32::INFINITY; LANES];
-        for (bound, support) in bounds.iter_mut().zip(lanes.supports(count)).take(count) {
-            *bound = self.swept.bound(support, 0.0, self.upper_f32).unwrap_or(f32::INFINITY);
+        if self.distant {
+            self.distant_bounds(found, &mut bounds);
+            return bounds;
         }
-        // Nearest first: each evaluation may spare others, and on a Cortex-M f64 runs in software.
-        for _ in 0..count {
-            let mut nearest = (f32::INFINITY, 0);
-            for (bound, triangle) in bounds.iter().zip(first..) {
-                if *bound < nearest.0 {
-                    nearest = (*bound, triangle);
-                }
-            }
-            let (bound, triangle) = nearest;
-            if bound > self.upper_f32 || bound == f32::INFINITY {
-                break;
-            }
-            if let Some(done) = bounds.get_mut(triangle.wrapping_sub(first) as usize) {
-                *done = f32::INFINITY;
-            }
-            self.evaluate(TriIdx(triangle), self.corners(TriIdx(triangle))?);
+        let mut lanes = Lanes::EMPTY;
+        for (lane, candidate) in found.iter().enumerate() {
+            self.swept.load(&mut lanes, lane, candidate.corners);
         }
-        Some(())
+        let supports = lanes.supports(found.len());
+        for ((bound, support), candidate) in bounds.iter_mut().zip(supports).zip(found) {
+            if let Some(lower) = self.swept.bound(support, candidate.radius, self.limit_f32) {
+                *bound = lower;
+            }
+        }
+        bounds
     }
 
-    #[inline(always)]
-    fn corners(&self, triangle: TriIdx) -> Option<[Vec3; 3]> {
-        self.model.positions(self.model.surface_triangle(triangle)?)
+    /// Bounds in f64, for a query so far away that f32 gives all parts of the model the same one.
+    #[cold]
+    fn distant_bounds(&self, found: &[Candidate], bounds: &mut [f32; LANES]) {
+        for (bound, candidate) in bounds.iter_mut().zip(found) {
+            let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
+            let radius = f64::from(candidate.radius) * (1.0 + U64);
+            let lower = point_triangle(self.p, a, b, c).lower - radius;
+            if lower <= self.limit {
+                *bound = down_to_f32(lower.max(0.0));
+            }
+        }
     }
 
-    fn evaluate(&mut self, triangle: TriIdx, corners: [Vec3; 3]) {
-        self.work.exact += 1;
-        let [a, b, c] = corners.map(|v| v.as_dvec3());
+    /// Evaluates a triangle that is not refined, and returns a lower bound of its distance.
+    pub(super) fn evaluate(&mut self, candidate: &Candidate) -> f64 {
+        self.exact += 1;
+        let [a, b, c] = candidate.corners.map(|v| v.as_dvec3());
         let d = point_triangle(self.p, a, b, c);
-        self.lower = self.lower.min(d.lower);
-        self.improve(d.upper);
+        // The triangle swept by its radius contains a part of the surface.
+        let radius = f64::from(candidate.radius);
+        let lower = d.lower - radius * (1.0 + U64);
+        self.lower = self.lower.min(lower);
+        let upper = match candidate.fate {
+            Fate::Surface => d.upper,
+            Fate::Cut | Fate::Splits => d.upper + self.hull_to_surface,
+        };
+        if upper < self.upper {
+            self.upper = upper;
+            self.set_limit(upper);
+        }
+        let instance = candidate.instance;
         let nearer = self.best.is_none_or(|best| {
             d.distance_sq < best.distance_sq
-                || (d.distance_sq == best.distance_sq && triangle.0 < best.triangle)
+                || (d.distance_sq == best.distance_sq && instance < best.instance)
         });
         if nearer {
             let point = a + (b - a) * d.u + (c - a) * d.v;
-            self.best = Some(Best { distance_sq: d.distance_sq, triangle: triangle.0, point });
+            self.best = Some(Best { distance_sq: d.distance_sq, instance, point });
         }
+        lower
     }
 
-    fn improve(&mut self, upper: f64) {
-        if upper < self.upper {
-            self.upper = upper;
-            self.upper_f32 = up_to_f32(upper);
-        }
+    pub(super) fn upper(&self) -> f64 {
+        self.upper
     }
 
-    /// A node whose children were cut off: the surface is within the level's certified distance of
-    /// its triangle.
-    fn cut_node(&mut self, corners: [crate::hull::format::VertIdx; 3], key: f64) -> Option<()> {
-        self.work.exact += 1;
-        self.cut = true;
-        let [a, b, c] = self.model.positions(corners)?.map(|v| v.as_dvec3());
-        let d = point_triangle(self.p, a, b, c);
-        let error = self.model.level(self.model.header().levels.checked_sub(1)?)?.hull_to_surface;
-        self.lower = self.lower.min(key);
-        self.improve(d.upper + f64::from(error));
-        if self.best.is_none_or(|best| d.distance_sq < best.distance_sq) {
-            let point = a + (b - a) * d.u + (c - a) * d.v;
-            self.best = Some(Best { distance_sq: d.distance_sq, triangle: u32::MAX, point });
-        }
-        Some(())
+    /// The nearest triangle so far.
+    pub(super) fn instance(&self) -> Option<Instance> {
+        self.best.map(|best| best.instance)
+    }
+
+    /// Triangles that were not looked at may be as near as this.
+    pub(super) fn lower_to(&mut self, bound: f64) {
+        self.lower = self.lower.min(bound);
+    }
+
+    /// Nothing is nearer than this.
+    pub(super) fn raise_to(&mut self, bound: f64) {
+        self.lower = self.lower.max(bound);
+    }
+
+    /// Whether the interval meets a tolerance, relative or absolute, if nothing is nearer than
+    /// `bound`: as it is reported, with the stored surface's error, and rounded to f32 outward.
+    pub(super) fn is_within(
+        &self,
+        [relative, absolute]: [f64; 2],
+        bound: f64,
+        surface_error: f64,
+    ) -> bool {
+        let low = (bound.min(self.lower) - surface_error) * (1.0 - REPORTED);
+        let high = (self.upper + surface_error) * (1.0 + REPORTED);
+        high <= low * (1.0 + relative) || high - low <= absolute
+    }
+
+    /// Bounds above this are infinite.
+    pub(super) fn limit(&self) -> f32 {
+        self.limit_f32
+    }
+
+    pub(super) fn set_limit(&mut self, limit: f64) {
+        self.limit = limit;
+        self.limit_f32 = up_to_f32(limit);
+    }
+
+    /// The work of a front, and of the triangles evaluated here.
+    pub(super) fn work(&self, front: Work) -> Work {
+        Work { exact: self.exact, ..front }
     }
 
     /// The interval that the surface's box gives, with any point of the surface. From far enough
     /// away every point is the closest, within a rounding of f32.
-    fn far(&mut self) -> Result<(), QueryError> {
-        let (near, far) = Aabb::of(self.model.header().surface_box).distance_range(self.p);
-        self.lower = near;
-        self.upper = far;
-        let corner = match self.model.surface_triangle(TriIdx(0)) {
-            Some([corner, ..]) => corner,
-            None => self.model.base_triangle(0).ok_or(QueryError::Unchecked)?[0],
+    pub(super) fn settle_by_box(&mut self, model: &Hull<'_>) -> Option<()> {
+        let header = model.header();
+        (self.lower, self.upper) = Aabb::of(header.surface_box).distance_range(self.p);
+        // No split removes a triangle of the last one.
+        let last = header.splits.checked_sub(1).map(SplitIdx);
+        let named = match last {
+            Some(split) => Named::Fine(split, 0),
+            None => Named::Base(0),
         };
-        let point = self.model.position(corner).ok_or(QueryError::Unchecked)?.as_dvec3();
-        let triangle = if self.model.is_cut() { u32::MAX } else { 0 };
-        self.best = Some(Best { distance_sq: 0.0, triangle, point });
-        Ok(())
+        let [corner, ..] = model.corners(model.instance(named))?;
+        let point = model.position(corner)?.as_dvec3();
+        self.best = Some(Best { distance_sq: 0.0, instance: model.instance(named), point });
+        Some(())
     }
 
-    fn answer(&self, frame: &Frame, ended: Ended) -> ClosestPoint {
-        let triangle = self.best.and_then(|best| self.model.source(TriIdx(best.triangle)));
+    pub(super) fn answer(
+        &self,
+        model: &Hull<'_>,
+        frame: &Frame,
+        work: Work,
+        ended: Ended,
+    ) -> ClosestPoint {
+        let triangle = self.best.and_then(|best| model.number(best.instance));
         let upper = self.upper;
         let point = self.best.map_or(DVec3::ZERO, |best| best.point);
         ClosestPoint {
             distance: Interval::new(frame.lower(self.lower.min(upper)), frame.upper(upper)),
             point: frame.point(point),
             triangle,
-            work: self.work,
+            work,
             ended,
         }
+    }
+}
+
+impl Visit for Nearest {
+    #[inline(always)]
+    fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
+        let mut bounds = self.bounds(found);
+        for (bound, candidate) in bounds.iter_mut().zip(found) {
+            if candidate.fate != Fate::Splits || *bound == f32::INFINITY {
+                continue;
+            }
+            let entry = ScratchEntry::new(*bound, candidate.instance.0);
+            *bound = f32::INFINITY;
+            match &mut self.next {
+                Some(near) if !before(&entry, near) => queue.push(entry),
+                Some(near) => queue.push(core::mem::replace(near, entry)),
+                None => self.next = Some(entry),
+            }
+        }
+        // Nearest first: each evaluation may spare others, and on a Cortex-M f64 runs in software.
+        for _ in 0..found.len() {
+            let mut nearest = (f32::INFINITY, 0);
+            for (lane, bound) in bounds.iter().enumerate() {
+                if *bound < nearest.0 {
+                    nearest = (*bound, lane);
+                }
+            }
+            let (bound, lane) = nearest;
+            if bound > self.limit_f32 || bound == f32::INFINITY {
+                break;
+            }
+            bounds[lane % LANES] = f32::INFINITY;
+            if let Some(candidate) = found.get(lane) {
+                self.evaluate(candidate);
+            }
+        }
+    }
+}
+
+/// State of one query.
+struct Fresh<'a, 'm> {
+    front: Front<'a, 'm>,
+    nearest: Nearest,
+}
+
+impl Fresh<'_, '_> {
+    fn run(&mut self, tolerance: Option<[f64; 2]>) -> Option<Ended> {
+        let Fresh { front, nearest } = self;
+        let error = f64::from(front.model.header().surface_error);
+        // Least key of the triangles that the tolerance spared.
+        let mut spared = f64::INFINITY;
+        front.begin(nearest)?;
+        while let Some(Taken { entry, least }) =
+            front.queue.take(nearest.next.take(), nearest.best.is_none())
+        {
+            let key = f64::from(entry.key());
+            let instance = Instance(entry.node());
+            let beaten = entry.key() > nearest.limit_f32;
+            let tolerated =
+                tolerance.is_some_and(|within| nearest.is_within(within, key.min(spared), error));
+            if beaten || tolerated {
+                if !beaten {
+                    spared = spared.min(key);
+                }
+                if least {
+                    break;
+                }
+                continue;
+            }
+            if front.is_spent() {
+                let waiting = f64::from(front.queue.lower());
+                nearest.lower = nearest.lower.min(spared).min(key).min(waiting);
+                return Some(Ended::Steps);
+            }
+            front.open(instance, nearest)?;
+        }
+        let dropped = f64::from(front.queue.dropped());
+        nearest.lower = nearest.lower.min(spared).min(dropped);
+        // Beyond a cut, a triangle that was evaluated later may have widened the interval again.
+        let is_met = spared < nearest.upper
+            && tolerance.is_some_and(|within| nearest.is_within(within, spared, error));
+        Some(if dropped < nearest.upper {
+            Ended::Scratch
+        } else if is_met {
+            Ended::Tolerance
+        } else if front.model.is_cut() {
+            Ended::Resolution
+        } else {
+            Ended::Exact
+        })
     }
 }

@@ -1,4 +1,4 @@
-//! The hull hierarchy: nested outer hulls under split tables, and the cover tree over the surface.
+//! The hull hierarchy: nested outer hulls under split tables.
 //!
 //! | where | what lies there |
 //! | --- | --- |
@@ -8,23 +8,28 @@
 //! | `focus` | where a scene needs it |
 //! | `refine` | how it follows a focus |
 //! | `hull_faces` | the triangles of hulls |
-//! | `closest_point` | closest point on the cover tree |
-//! | `segment_hits` | first hit and all hits on the cover tree |
+//! | `sweep` | the front of the sweeping process |
+//! | `closest_point` | closest point by a sweep |
+//! | `kept_sweep` | a sweep that is interrupted, moved, or gives triangle after triangle |
+//! | `segment_hits` | first hit and all hits by a sweep |
 //! | `outer_hits` | hits from outside on the refined hull |
 
 mod closest_point;
 mod focus;
 pub mod format;
 mod hull_faces;
+mod kept_sweep;
 mod outer_hits;
 mod refine;
 mod refined_hull;
 mod segment_hits;
 mod split_set;
+mod sweep;
 
 pub use focus::Focus;
 pub use format::{Hull, Level};
 pub use hull_faces::HullFace;
+pub use kept_sweep::Sweep;
 pub use outer_hits::{OuterHits, Search};
 pub use refine::{Change, Refinement};
 pub use refined_hull::RefinedHull;

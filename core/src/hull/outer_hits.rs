@@ -8,9 +8,9 @@
 //! triangle. Later hits may lie below an unbroken hull face. [`Hull::all_hits`] finds those.
 
 use super::refined_hull::{Refined, RefinedHull, erased, split_of_face};
-use crate::geom::{SweptPoint, SweptSegment, segment_triangle};
+use crate::geom::{SweptSegment, segment_triangle};
 use crate::hull::format::layout::BASE_GROUP;
-use crate::hull::format::{Children, Hull, NodeIdx, SplitIdx, TriIdx, VertIdx};
+use crate::hull::format::{Hull, Named, SplitIdx, VertIdx};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{
     Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry, Work,
@@ -41,7 +41,7 @@ pub struct OuterHits {
     /// was searched for.
     pub starts_inside: bool,
     /// The work of the search. `triangles`: faces tested. `splits`: vertex splits performed.
-    /// `nodes`: boxes and cover nodes.
+    /// `nodes`: boxes and bounds of several faces.
     pub work: Work,
     /// Why the search ended.
     pub ended: Ended,
@@ -240,7 +240,8 @@ impl Sweep<'_> {
                 continue;
             }
             for slot in group * BASE_GROUP..count.min((group + 1) * BASE_GROUP) {
-                self.test(self.model.base_triangle(slot)?, record_hits)?;
+                let corners = self.model.base_triangle(slot)?;
+                self.test(Named::Base(slot), corners, record_hits)?;
             }
         }
         Some(())
@@ -257,12 +258,13 @@ impl Sweep<'_> {
     /// Tests the live faces of the performed splits from a position of the list on.
     fn test_splits(&mut self, from: usize, record_hits: bool) -> Option<()> {
         for position in from..self.refined.splits.len() {
-            let split = self.model.split(self.refined.splits.get(position)?)?;
+            let index = self.refined.splits.get(position)?;
+            let split = self.model.split(index)?;
             if !self.may_meet([split.vertex; 3], split.reach)? {
                 continue;
             }
             for slot in 0..split.fine_len() {
-                self.test(split.fine(slot)?, record_hits)?;
+                self.test(Named::Fine(index, slot as u32), split.fine(slot)?, record_hits)?;
             }
         }
         Some(())
@@ -275,7 +277,7 @@ impl Sweep<'_> {
 
     /// Tests a face if it is live. If the segment may cross it, it is a hit if it is a face of the
     /// surface, else a candidate.
-    fn test(&mut self, corners: [VertIdx; 3], record_hits: bool) -> Option<()> {
+    fn test(&mut self, face: Named, corners: [VertIdx; 3], record_hits: bool) -> Option<()> {
         let split = split_of_face(self.model, corners);
         if split.is_some_and(|split| self.refined.splits.contains(split)) {
             return Some(());
@@ -309,64 +311,10 @@ impl Sweep<'_> {
             self.out.t.lower = self.out.t.lower.min(down_to_f32(meet.t_lower));
             self.out.t.upper = self.out.t.upper.min(up_to_f32(meet.t_upper));
             let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
-            let triangle = self.number(corners, (p + q + r) / 3.0)?;
+            let triangle = self.model.number(self.model.instance(face));
             let hit = Hit { t: meet.t as f32, point, triangle };
             self.hits.insert(hit);
         }
         Some(())
     }
-
-    /// Number of a surface triangle in the input file. A search of the cover tree at the triangle's
-    /// centre finds it. This costs a few dozen nodes per hit and needs no table in the blob.
-    fn number(&mut self, corners: [VertIdx; 3], centre: DVec3) -> Option<Option<u32>> {
-        let segment = SweptPoint::new(centre.as_vec3(), &self.model.hull_box());
-        let wanted = sorted(corners);
-        // (next node, siblings left): one entry for each level of the tree.
-        let mut stack = heapless::Vec::<(u32, u32), DEPTH>::new();
-        let mut complete = stack.push((0, 1)).is_ok();
-        while let Some((first, count)) = stack.pop() {
-            if count > 1 {
-                complete &= stack.push((first + 1, count - 1)).is_ok();
-            }
-            self.out.work.nodes += 1;
-            let node = self.model.node(NodeIdx(first))?;
-            if segment.lower(self.model.positions(node.corners)?, node.radius, 0.0).is_none() {
-                continue;
-            }
-            match node.children {
-                Children::Nodes { first, count } => complete &= stack.push((first, count)).is_ok(),
-                Children::Triangles { first, count } => {
-                    if let Some(found) = self.find(wanted, first..first.checked_add(count)?)? {
-                        return Some(Some(found));
-                    }
-                }
-                Children::Cut => {}
-            }
-        }
-        // The tree is deeper than the stack. That is rare, and a scan of the surface always finds
-        // it.
-        if complete {
-            Some(None)
-        } else {
-            self.find(wanted, 0..self.model.header().surface_triangles)
-        }
-    }
-
-    fn find(&self, wanted: [u32; 3], range: core::ops::Range<u32>) -> Option<Option<u32>> {
-        for triangle in range {
-            if sorted(self.model.surface_triangle(TriIdx(triangle))?) == wanted {
-                return Some(self.model.source(TriIdx(triangle)));
-            }
-        }
-        Some(None)
-    }
-}
-
-/// Levels of the cover tree that the search for a triangle's number descends without a scan.
-const DEPTH: usize = 96;
-
-fn sorted([a, b, c]: [VertIdx; 3]) -> [u32; 3] {
-    let (low, high) = (a.0.min(b.0).min(c.0), a.0.max(b.0).max(c.0));
-    // The third one: xor of all three with the two known.
-    [low, a.0 ^ b.0 ^ c.0 ^ low ^ high, high]
 }

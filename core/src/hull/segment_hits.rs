@@ -1,11 +1,12 @@
-//! First hit and all hits of a segment, on the cover tree.
+//! First hit and all hits of a segment, on the split tables.
 //!
-//! A node is opened if the segment may meet the swept triangle that covers its part of the surface,
-//! whether or not it crosses a hull face. So hits below an unbroken hull (Platis & Theoharis 2003,
-//! Figure 5) are found, wherever the segment starts.
+//! A triangle is refined if the segment may meet the swept triangle that contains its part of the
+//! surface, whether or not it crosses a hull face. So hits below an unbroken hull (Platis &
+//! Theoharis 2003, Figure 5) are found, wherever the segment starts.
 
+use super::sweep::{Candidate, Fate, Front, Visit};
 use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
-use crate::hull::format::{Children, Hull, NodeIdx, TriIdx};
+use crate::hull::format::{Hull, Instance};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{
     AllHits, Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry,
@@ -50,7 +51,7 @@ impl Hull<'_> {
         let hit = first.best.map(|best| Hit {
             t: best.meet.t as f32,
             point: best.point,
-            triangle: self.source(TriIdx(best.triangle)),
+            triangle: self.number(best.instance),
         });
         let lower = first.least_lower.min(open);
         let lower = if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY };
@@ -96,7 +97,7 @@ impl Hull<'_> {
 #[derive(Clone, Copy)]
 struct Met {
     meet: SegmentTriangle,
-    triangle: u32,
+    instance: Instance,
     point: [f32; 3],
 }
 
@@ -116,7 +117,7 @@ impl Collect for First {
     fn add(&mut self, met: Met) {
         self.least_lower = self.least_lower.min(met.meet.t_lower);
         let earlier = self.best.is_none_or(|best| {
-            met.meet.t < best.meet.t || (met.meet.t == best.meet.t && met.triangle < best.triangle)
+            met.meet.t < best.meet.t || (met.meet.t == best.meet.t && met.instance < best.instance)
         });
         if earlier {
             self.best = Some(met);
@@ -135,7 +136,7 @@ struct All<'a> {
 
 impl Collect for All<'_> {
     fn add(&mut self, met: Met) {
-        let triangle = self.model.source(TriIdx(met.triangle));
+        let triangle = self.model.number(met.instance);
         let hit = Hit { t: met.meet.t as f32, point: met.point, triangle };
         self.hits.insert(hit);
     }
@@ -148,7 +149,7 @@ impl Collect for All<'_> {
 struct Traced {
     work: Work,
     ended: Ended,
-    /// Least parameter of a hit in unopened nodes.
+    /// Least parameter of a hit in unopened triangles.
     unopened: f32,
 }
 
@@ -157,7 +158,7 @@ fn trace(
     [a, b]: [[f32; 3]; 2],
     budget: &Budget,
     scratch: &mut [ScratchEntry],
-    collect: &mut dyn Collect,
+    collect: &mut impl Collect,
 ) -> Result<Traced, QueryError> {
     budget.check()?;
     if !model.has_hull() {
@@ -168,23 +169,20 @@ fn trace(
     if scratch.is_empty() {
         return Err(QueryError::NoScratch);
     }
-    let mut traced = Traced {
-        work: Work { nodes: 1, ..Work::default() },
-        ended: Ended::Exact,
-        unopened: f32::INFINITY,
-    };
     let surface_error = model.header().surface_error;
     let mut bounds = Aabb::of(model.header().surface_box);
     if surface_error > 0.0 {
         bounds.min = (bounds.min - surface_error).map(f32::next_down);
         bounds.max = (bounds.max + surface_error).map(f32::next_up);
     }
-    let Some(clipped) = bounds.clip(start, end) else { return Ok(traced) };
+    let Some(clipped) = bounds.clip(start, end) else {
+        let work = Work { nodes: 1, ..Work::NONE };
+        return Ok(Traced { work, ended: Ended::Exact, unopened: f32::INFINITY });
+    };
     let mut hull = model.hull_box();
     hull.min = hull.min.min(bounds.min);
     hull.max = hull.max.max(bounds.max);
-    let mut walk = Walk {
-        model,
+    let mut along = Along {
         frame,
         start,
         end,
@@ -192,14 +190,37 @@ fn trace(
         clipped,
         surface_error,
         doubtful: false,
+        exact: 0,
+        collect,
     };
-    let queue = SweepQueue::new(scratch, model.scratch_entries());
-    walk.run(queue, budget, collect, &mut traced).ok_or(QueryError::Unchecked)?;
-    Ok(traced)
+    let mut front = Front::new(model, scratch, budget.steps);
+    let (ended, unopened) = run(&mut front, &mut along).ok_or(QueryError::Unchecked)?;
+    let work = Work { exact: along.exact, ..front.work };
+    Ok(Traced { work, ended, unopened })
 }
 
-struct Walk<'a> {
-    model: &'a Hull<'a>,
+/// Why the search ended, and the least parameter of a hit in triangles that it did not refine.
+fn run<C: Collect>(front: &mut Front<'_, '_>, along: &mut Along<'_, C>) -> Option<(Ended, f32)> {
+    front.begin(along)?;
+    while let Some(Taken { entry, .. }) = front.queue.pop() {
+        let instance = Instance(entry.node());
+        if entry.key() > along.collect.limit() {
+            continue;
+        }
+        if front.is_spent() {
+            return Some((Ended::Steps, entry.key().min(front.queue.lower())));
+        }
+        front.open(instance, along)?;
+    }
+    let unopened = front.queue.dropped();
+    if unopened <= along.collect.limit() && unopened.is_finite() {
+        return Some((Ended::Scratch, unopened));
+    }
+    Some((if along.doubtful { Ended::Resolution } else { Ended::Exact }, f32::INFINITY))
+}
+
+/// A segment, and who wants its hits.
+struct Along<'c, C: Collect> {
     frame: Frame,
     start: DVec3,
     end: DVec3,
@@ -208,98 +229,33 @@ struct Walk<'a> {
     surface_error: f32,
     /// A reported hit is one that the stored surface cannot decide.
     doubtful: bool,
+    exact: u32,
+    collect: &'c mut C,
 }
 
-impl Walk<'_> {
-    fn run(
-        &mut self,
-        mut queue: SweepQueue<'_>,
-        budget: &Budget,
-        collect: &mut dyn Collect,
-        traced: &mut Traced,
-    ) -> Option<()> {
-        queue.begin_children(1);
-        self.visit(0, &mut queue, collect, &mut traced.work)?;
-        while let Some(Taken { entry, .. }) = queue.pop() {
-            if entry.key() > collect.limit() {
+impl<C: Collect> Visit for Along<'_, C> {
+    #[inline(always)]
+    fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
+        for candidate in found {
+            let reach = candidate.radius + self.surface_error;
+            let Some(key) = self.segment.enter(candidate.corners, reach) else { continue };
+            if key > self.collect.limit() {
                 continue;
             }
-            if traced.work.splits >= budget.steps {
-                traced.unopened = entry.key().min(queue.lower());
-                traced.ended = Ended::Steps;
-                return Some(());
+            match candidate.fate {
+                Fate::Splits => queue.push(ScratchEntry::new(key, candidate.instance.0)),
+                Fate::Surface => self.meet(candidate, key),
+                Fate::Cut => self.may_meet(candidate.instance, key),
             }
-            self.open(entry, &mut queue, collect, traced)?;
         }
-        if queue.dropped() <= collect.limit() && queue.dropped().is_finite() {
-            traced.unopened = traced.unopened.min(queue.dropped());
-            traced.ended = Ended::Scratch;
-        } else if self.doubtful {
-            traced.ended = Ended::Resolution;
-        }
-        Some(())
     }
+}
 
-    fn open(
-        &mut self,
-        entry: ScratchEntry,
-        queue: &mut SweepQueue<'_>,
-        collect: &mut dyn Collect,
-        traced: &mut Traced,
-    ) -> Option<()> {
-        traced.work.splits += 1;
-        let node = self.model.node(NodeIdx(entry.node()))?;
-        match node.children {
-            Children::Nodes { first, count } => {
-                queue.begin_children(count);
-                for child in first..first.checked_add(count)? {
-                    self.visit(child, queue, collect, &mut traced.work)?;
-                }
-            }
-            Children::Triangles { first, count } => {
-                for triangle in first..first.checked_add(count)? {
-                    self.triangle(TriIdx(triangle), collect, &mut traced.work)?;
-                }
-            }
-            Children::Cut => self.cut_node(entry, collect),
-        }
-        Some(())
-    }
-
-    #[inline]
-    fn visit(
-        &self,
-        node: u32,
-        queue: &mut SweepQueue<'_>,
-        collect: &dyn Collect,
-        work: &mut Work,
-    ) -> Option<()> {
-        work.nodes += 1;
-        let (corners, radius) = self.model.bound(NodeIdx(node))?;
-        let corners = self.model.positions(corners)?;
-        if let Some(key) = self.segment.enter(corners, radius + self.surface_error)
-            && key <= collect.limit()
-        {
-            queue.push(ScratchEntry::new(key, node));
-        }
-        Some(())
-    }
-
-    #[inline]
-    fn triangle(
-        &mut self,
-        triangle: TriIdx,
-        collect: &mut dyn Collect,
-        work: &mut Work,
-    ) -> Option<()> {
-        work.triangles += 1;
-        let corners = self.model.positions(self.model.surface_triangle(triangle)?)?;
-        let Some(key) = self.segment.enter(corners, self.surface_error) else { return Some(()) };
-        if key > collect.limit() {
-            return Some(());
-        }
-        work.exact += 1;
-        let corners = corners.map(|v| v.as_dvec3());
+impl<C: Collect> Along<'_, C> {
+    /// Evaluates a triangle of the surface.
+    fn meet(&mut self, candidate: &Candidate, key: f32) {
+        self.exact += 1;
+        let corners = candidate.corners.map(|v| v.as_dvec3());
         let mut met = segment_triangle(self.start, self.end, corners);
         if self.surface_error > 0.0 {
             // The input surface may lie up to `surface_error` from the stored one. So a hit may be
@@ -307,7 +263,7 @@ impl Walk<'_> {
             if met.is_none()
                 && !comes_within(self.start, self.end, corners, f64::from(self.surface_error))
             {
-                return Some(());
+                return;
             }
             self.doubtful = true;
             let enter = f64::from(key.max(0.0));
@@ -315,19 +271,20 @@ impl Walk<'_> {
             met = Some(SegmentTriangle { t, t_lower: enter.min(t), t_upper: 1.0 });
         }
         if let Some(meet) = met {
-            let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
-            collect.add(Met { meet, triangle: triangle.0, point });
+            self.add(meet, candidate.instance);
         }
-        Some(())
     }
 
-    /// Below a cut the surface may be hit from here on.
-    fn cut_node(&mut self, entry: ScratchEntry, collect: &mut dyn Collect) {
+    /// Beyond a cut the surface may be hit from here on.
+    fn may_meet(&mut self, instance: Instance, key: f32) {
         self.doubtful = true;
-        let t = f64::from(entry.key()).max(self.clipped.t_start.min(1.0)).max(0.0);
-        let point = self.frame.point(self.start + (self.end - self.start) * t);
-        let t_lower = f64::from(entry.key().max(0.0));
-        let meet = SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 };
-        collect.add(Met { meet, triangle: u32::MAX, point });
+        let t = f64::from(key).max(self.clipped.t_start.min(1.0)).max(0.0);
+        let t_lower = f64::from(key.max(0.0));
+        self.add(SegmentTriangle { t, t_lower: t_lower.min(t), t_upper: 1.0 }, instance);
+    }
+
+    fn add(&mut self, meet: SegmentTriangle, instance: Instance) {
+        let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
+        self.collect.add(Met { meet, instance, point });
     }
 }

@@ -24,6 +24,7 @@ pub(crate) struct Taken {
     pub(crate) least: bool,
 }
 
+#[derive(Debug)]
 pub(crate) struct SweepQueue<'a> {
     slots: &'a mut [ScratchEntry],
     heap: usize,
@@ -33,6 +34,8 @@ pub(crate) struct SweepQueue<'a> {
     /// Least key of the entries that did not fit.
     dropped: f32,
     depth_first: bool,
+    /// Never goes depth first. The right end holds entries that were set aside.
+    best_first: bool,
     /// Children pushed on the stack since `begin_children`.
     siblings: usize,
 }
@@ -46,16 +49,22 @@ impl<'a> SweepQueue<'a> {
             reserve,
             dropped: f32::INFINITY,
             depth_first: false,
+            best_first: false,
             siblings: 0,
         }
+    }
+
+    /// A queue that never goes depth first: an entry that does not fit is dropped.
+    pub(crate) fn best_first(slots: &'a mut [ScratchEntry]) -> Self {
+        SweepQueue { best_first: true, ..SweepQueue::new(slots, 0) }
     }
 
     /// Decides where the children of a popped node go. Call it before they are pushed.
     pub(crate) fn begin_children(&mut self, count: u32) {
         self.siblings = 0;
         let free_slots = self.slots.len() - self.heap.min(self.slots.len());
-        self.depth_first =
-            self.stack > 0 || free_slots < (count as usize).saturating_add(self.reserve);
+        self.depth_first = !self.best_first
+            && (self.stack > 0 || free_slots < (count as usize).saturating_add(self.reserve));
     }
 
     pub(crate) fn push(&mut self, entry: ScratchEntry) {
@@ -111,6 +120,38 @@ impl<'a> SweepQueue<'a> {
         self.dropped
     }
 
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self) {
+        (self.heap, self.stack, self.dropped) = (0, 0, f32::INFINITY);
+        self.depth_first = false;
+    }
+
+    /// Keeps an entry where neither `push` nor `pop_heap` sees it.
+    pub(crate) fn set_aside(&mut self, entry: ScratchEntry) {
+        if self.heap + self.stack >= self.slots.len() {
+            self.dropped = self.dropped.min(entry.key());
+        } else {
+            self.stack += 1;
+            self.set(self.slots.len() - self.stack, entry);
+        }
+    }
+
+    /// The entries that were set aside.
+    pub(crate) fn aside(&self) -> impl Iterator<Item = &ScratchEntry> {
+        self.slots.iter().rev().take(self.stack)
+    }
+
+    /// Pushes the entries that were set aside.
+    pub(crate) fn take_back(&mut self) {
+        while self.stack > 0 {
+            let top = self.slots.get(self.slots.len() - self.stack).copied();
+            self.stack -= 1;
+            if let Some(entry) = top {
+                self.push_heap(entry);
+            }
+        }
+    }
+
     /// Pushes among the siblings since `begin_children`, nearest on top. Entries below them must
     /// not move, or a descent could need more entries than the builder counted.
     fn push_stack(&mut self, entry: ScratchEntry) {
@@ -150,7 +191,8 @@ impl<'a> SweepQueue<'a> {
         self.set(at, entry);
     }
 
-    fn pop_heap(&mut self) -> Option<ScratchEntry> {
+    /// The entry of the heap with the least key.
+    pub(crate) fn pop_heap(&mut self) -> Option<ScratchEntry> {
         if self.heap == 0 {
             return None;
         }

@@ -1,14 +1,14 @@
-//! Whether what claims to contain something does: boxes, groups, reaches, radii, errors, cover,
-//! capacities.
+//! Whether what claims to contain something does: boxes, groups, reaches, errors, source numbers,
+//! depth.
 
-use super::CheckReport;
+use super::forest::Forest;
 use super::mesh::canonical;
 use super::parse::{Blob, Split, small_radius};
 use glam::DVec3;
 use std::collections::HashMap;
 
 /// A stored radius is a bound of real numbers; these distances are rounded.
-const ROUNDING: f64 = 1.0 + 1e-12;
+pub(super) const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// Least distance of a point and a triangle, up to some 1e-14 of the lengths: the foot on the plane
 /// if it lies inside three half-planes, else the nearest edge.
@@ -31,12 +31,12 @@ pub(super) fn distance(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     edges
 }
 
-fn at(blob: &Blob, triangle: [u32; 3]) -> [DVec3; 3] {
+pub(super) fn at(blob: &Blob, triangle: [u32; 3]) -> [DVec3; 3] {
     blob.corners(triangle).map(DVec3::from)
 }
 
 /// What a distance in the local frame may be off.
-const ABSOLUTE: f64 = 1e-14;
+pub(super) const ABSOLUTE: f64 = 1e-14;
 
 /// Boxes are those of their vertices, to the last bit.
 pub(super) fn boxes(blob: &Blob) -> Result<(), String> {
@@ -62,11 +62,14 @@ pub(super) fn boxes(blob: &Blob) -> Result<(), String> {
     Ok(())
 }
 
-/// Every group contains the corners, and so the whole, of its base triangles.
-pub(super) fn groups(blob: &Blob) -> Result<(), String> {
+/// Every group contains the corners, and so the whole, of its base triangles, and the part of the
+/// surface that they stand for.
+pub(super) fn groups(blob: &Blob, forest: &Forest) -> Result<(), String> {
     for (index, faces) in blob.base.chunks(16).enumerate() {
         let (corners, radius) = blob.groups[index];
-        for &v in faces.iter().flatten() {
+        let first = 16 * index;
+        let below = forest.below[first..first + faces.len()].iter().flatten();
+        for &v in faces.iter().flatten().chain(below) {
             let d = distance(DVec3::from(blob.vertices[v as usize]), at(blob, corners));
             if d > radius * ROUNDING + ABSOLUTE {
                 return Err(format!(
@@ -95,18 +98,26 @@ pub(super) fn reaches(blob: &Blob) -> Result<(), String> {
     Ok(())
 }
 
-/// The surface's own triangles have radius 0; all other radii are numbers that are not negative.
-pub(super) fn radii(blob: &Blob) -> Result<(), String> {
-    let is_final = |t: [u32; 3]| t.iter().all(|&v| blob.splits_with[v as usize].is_none());
-    let fine = (0..blob.splits.len()).flat_map(|index| blob.fine(index));
-    for (index, triangle) in blob.base.iter().copied().chain(fine).enumerate() {
-        let radius = small_radius(blob.radii[index]);
-        if !blob.is_cut && is_final(triangle) && radius != 0.0 {
-            return Err(format!("triangle {index} is the surface's and has radius {radius:e}"));
+/// The numbers of the surface's triangles are as many as the triangles, and each eighth split
+/// starts where its triangles stand.
+pub(super) fn sources(blob: &Blob) -> Result<(), String> {
+    if blob.is_cut {
+        return Ok(());
+    }
+    if blob.source.len() != blob.surface.len() {
+        return Err(format!(
+            "source: {} numbers for {} triangles",
+            blob.source.len(),
+            blob.surface.len()
+        ));
+    }
+    let is_final = |t: &[u32; 3]| t.iter().all(|&v| blob.splits_with[v as usize].is_none());
+    let mut before = blob.base.iter().filter(|t| is_final(t)).count();
+    for index in 0..blob.splits.len() {
+        if index % 8 == 0 && blob.source_starts[index / 8] as usize != before {
+            return Err(format!("split {index} does not start at triangle {before}"));
         }
-        if radius < 0.0 || radius.is_nan() {
-            return Err(format!("triangle {index} has radius {radius:e}"));
-        }
+        before += blob.fine(index).iter().filter(|t| is_final(t)).count();
     }
     Ok(())
 }
@@ -139,91 +150,8 @@ pub(super) fn errors(blob: &Blob) -> Result<(), String> {
     Ok(())
 }
 
-/// Every node's swept triangle contains the vertices below it; every node but the root has one
-/// parent, every triangle one leaf.
-pub(super) fn cover(blob: &Blob, report: &mut CheckReport) -> Result<(), String> {
-    let mut parent = vec![None; blob.nodes.len()];
-    let mut next_triangle = 0;
-    for (index, node) in blob.nodes.iter().enumerate() {
-        if node.radius < 0.0
-            || node.radius.is_nan()
-            || node.corners.iter().any(|&v| v as usize >= blob.vertices.len())
-        {
-            return Err(format!(
-                "cover node {index} has radius {:e}, corners {:?}",
-                node.radius, node.corners
-            ));
-        }
-        let children = node.first..node.first + node.count;
-        if node.count == 0 {
-            if !blob.is_cut {
-                return Err(format!("cover node {index} has no children"));
-            }
-        } else if node.leaf {
-            if node.first != next_triangle {
-                return Err(format!(
-                    "cover node {index}: its triangles do not follow those before"
-                ));
-            }
-            next_triangle = children.end;
-        } else {
-            for child in children {
-                if child as usize <= index || parent[child as usize].replace(index).is_some() {
-                    return Err(format!("cover node {child} has no single parent before it"));
-                }
-            }
-        }
-    }
-    if parent.iter().skip(1).any(Option::is_none) || next_triangle as usize != blob.surface.len() {
-        return Err("a cover node or a triangle has no parent".into());
-    }
-    for (index, leaf) in
-        blob.nodes.iter().enumerate().filter(|(_, node)| node.leaf && node.count > 0)
-    {
-        let mut below: Vec<u32> =
-            (leaf.first..leaf.first + leaf.count).flat_map(|t| blob.surface[t as usize]).collect();
-        below.sort_unstable();
-        below.dedup();
-        let mut ancestor = Some(index);
-        while let Some(above) = ancestor {
-            let node = blob.nodes[above];
-            let corners = at(blob, node.corners);
-            for &v in &below {
-                let d = distance(DVec3::from(blob.vertices[v as usize]), corners);
-                if d > node.radius * ROUNDING
-                    && !node.corners.contains(&v)
-                    && d > node.radius + ABSOLUTE
-                {
-                    return Err(format!(
-                        "cover node {above} leaves out vertex {v}: {d:e} > {:e}",
-                        node.radius
-                    ));
-                }
-            }
-            report.covered += below.len();
-            ancestor = parent[above];
-        }
-    }
-    Ok(())
-}
-
-/// Queue and dependency depth are what a walk over the tables finds.
-pub(super) fn capacities(blob: &Blob) -> Result<(), String> {
-    let mut waiting = vec![1u32; blob.nodes.len()];
-    for (index, node) in blob.nodes.iter().enumerate() {
-        if !node.leaf {
-            for child in node.first..node.first + node.count {
-                waiting[child as usize] = waiting[index] + node.count - 1;
-            }
-        }
-    }
-    let most = waiting.iter().copied().max().unwrap_or(0);
-    if most > blob.queue_capacity {
-        return Err(format!(
-            "a descent needs {most} queue entries, the header says {}",
-            blob.queue_capacity
-        ));
-    }
+/// The dependency depth is what a walk over the tables finds.
+pub(super) fn dependencies(blob: &Blob) -> Result<(), String> {
     let mut depth: Vec<u32> = Vec::with_capacity(blob.splits.len());
     for split in &blob.splits {
         let needs = split

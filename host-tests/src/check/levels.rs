@@ -2,7 +2,9 @@
 
 use super::CheckReport;
 use super::bounds::distance;
-use super::parse::Blob;
+use super::forest::Forest;
+use super::mesh::canonical;
+use super::parse::{Blob, small_radius};
 use glam::DVec3;
 
 /// Pairs of a sample and a triangle that may be looked at.
@@ -44,9 +46,14 @@ pub(super) fn volumes(blob: &Blob, hulls: &[Vec<[u32; 3]>]) -> Result<(), String
     Ok(())
 }
 
-/// The cover of each level is as near the surface as the table says, at sampled points, and its
+/// The hull of each level is as near the surface as the table says, at sampled points, and its
 /// radii are below the table's.
-pub(super) fn distances(blob: &Blob, report: &mut CheckReport) -> Result<(), String> {
+pub(super) fn distances(
+    blob: &Blob,
+    hulls: &[Vec<[u32; 3]>],
+    forest: &Forest,
+    report: &mut CheckReport,
+) -> Result<(), String> {
     let Some((last, coarser)) = blob.levels.split_last() else { return Err("no levels".into()) };
     if !blob.is_cut && (last.hull_to_surface != 0.0 || last.surface_to_hull != 0.0) {
         return Err("the finest level is the surface, and the table says that it is not".into());
@@ -57,21 +64,19 @@ pub(super) fn distances(blob: &Blob, report: &mut CheckReport) -> Result<(), Str
     let surface: Vec<[DVec3; 3]> =
         blob.surface.iter().map(|&t| blob.corners(t).map(DVec3::from)).collect();
     let budget = (BUDGET / surface.len().max(1) / coarser.len().max(1)).max(8);
-    for (index, level) in coarser.iter().enumerate() {
-        let ends: Vec<_> = blob.nodes[..level.nodes as usize]
-            .iter()
-            .filter(|node| node.leaf || node.first + node.count > level.nodes)
-            .collect();
-        if let Some(node) = ends.iter().find(|node| node.radius > f64::from(level.surface_to_hull))
-        {
-            return Err(format!(
-                "level {index}: a radius of {:e} exceeds {:e}",
-                node.radius, level.surface_to_hull
-            ));
+    for (index, (level, hull)) in coarser.iter().zip(hulls).enumerate() {
+        for &triangle in hull {
+            let radius = small_radius(blob.radii[forest.number[&canonical(triangle)]]);
+            if radius > f64::from(level.surface_to_hull) {
+                return Err(format!(
+                    "level {index}: a radius of {radius:e} exceeds {:e}",
+                    level.surface_to_hull
+                ));
+            }
         }
-        let stride = (ends.len() * 4).div_ceil(budget).max(1);
-        for node in ends.iter().step_by(stride) {
-            let [a, b, c] = blob.corners(node.corners).map(DVec3::from);
+        let stride = (hull.len() * 4).div_ceil(budget).max(1);
+        for &triangle in hull.iter().step_by(stride) {
+            let [a, b, c] = blob.corners(triangle).map(DVec3::from);
             for p in [a, b, c, (a + b + c) / 3.0] {
                 let nearest = surface.iter().map(|&t| distance(p, t)).fold(f64::INFINITY, f64::min);
                 report.samples += 1;

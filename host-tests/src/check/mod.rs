@@ -10,6 +10,7 @@
 mod bounds;
 mod enclosure;
 mod exact;
+mod forest;
 mod levels;
 mod mesh;
 mod parse;
@@ -23,7 +24,7 @@ pub use enclosure::{
 };
 pub use exact::side;
 pub use mesh::{Mesh, canonical};
-pub use parse::{Blob, Node};
+pub use parse::Blob;
 pub use tree::{TreeProof, check_tree};
 
 /// What was proved, in numbers.
@@ -37,9 +38,9 @@ pub struct CheckReport {
     pub exact_planes: usize,
     /// Triangles of the finest mesh.
     pub triangles: usize,
-    /// Pairs of a cover node and a surface vertex below it.
+    /// Pairs of a triangle of any level and a vertex of the surface that it stands for.
     pub covered: usize,
-    /// Points of the levels' covers whose distance to the surface was measured.
+    /// Points of the levels' hulls whose distance to the surface was measured.
     pub samples: usize,
 }
 
@@ -52,13 +53,15 @@ pub fn check_blob(bytes: &[u8]) -> Result<CheckReport, String> {
     let mut report = CheckReport::default();
     let meshes = replay::replay(&blob, &mut report)?;
     bounds::boxes(&blob)?;
-    bounds::groups(&blob)?;
     bounds::reaches(&blob)?;
-    bounds::radii(&blob)?;
     bounds::errors(&blob)?;
-    bounds::cover(&blob, &mut report)?;
-    bounds::capacities(&blob)?;
+    bounds::sources(&blob)?;
+    bounds::dependencies(&blob)?;
+    let forest = forest::Forest::of(&blob)?;
+    forest.covers(&blob, &mut report)?;
+    forest.capacity(&blob)?;
+    bounds::groups(&blob, &forest)?;
     levels::volumes(&blob, &meshes)?;
-    levels::distances(&blob, &mut report)?;
+    levels::distances(&blob, &meshes, &forest, &mut report)?;
     Ok(report)
 }

@@ -3,21 +3,6 @@
 use super::sections::{self, check_header, header_word};
 use crate::corrupt::word;
 
-/// A node of the cover tree.
-#[derive(Clone, Copy, Debug)]
-pub struct Node {
-    /// Corners.
-    pub corners: [u32; 3],
-    /// Radius, a bfloat16.
-    pub radius: f64,
-    /// First child.
-    pub first: u32,
-    /// Children; 0 where they were cut off.
-    pub count: u32,
-    /// Whether the children are triangles.
-    pub leaf: bool,
-}
-
 /// A vertex split.
 #[derive(Clone, Debug)]
 pub struct Split {
@@ -27,6 +12,9 @@ pub struct Split {
     pub ring: Vec<u32>,
     /// Position of the right wing.
     pub right: usize,
+    /// Whether the triangles at the right and at the left wing are children of the coarse triangle
+    /// before the wing, not of the one after it.
+    pub before: [bool; 2],
     /// Claimed greatest distance of the ring and the new vertices from it.
     pub reach: f64,
     pub error: f64,
@@ -39,11 +27,9 @@ pub struct Level {
     pub faces: u32,
     /// Splits that make it.
     pub splits: u32,
-    /// Cover nodes that belong to it.
-    pub nodes: u32,
-    /// Claimed greatest distance from the cover to the surface.
+    /// Claimed greatest distance from the hull to the surface.
     pub hull_to_surface: f32,
-    /// And from the surface to what covers it.
+    /// And from the surface to the triangles that stand for it.
     pub surface_to_hull: f32,
     /// Void over the surface's volume.
     pub void_ratio: f32,
@@ -68,9 +54,11 @@ pub struct Blob {
     pub splits_with: Vec<Option<u32>>,
     /// Radius codes, one byte each.
     pub radii: Vec<u8>,
-    /// Cover tree.
-    pub nodes: Vec<Node>,
-    /// Triangles of the surface.
+    /// Triangles of the surface that come before the splits 0, 8, 16 and so on.
+    pub source_starts: Vec<u32>,
+    /// Numbers of the surface's triangles in the input file.
+    pub source: Vec<u32>,
+    /// Triangles of the surface, those that no split removes, in the order of their numbers.
     pub surface: Vec<[u32; 3]>,
     /// Levels.
     pub levels: Vec<Level>,
@@ -78,7 +66,7 @@ pub struct Blob {
     pub hull_box: [[f64; 3]; 2],
     /// Box of the surface.
     pub surface_box: [[f64; 3]; 2],
-    /// Queue entries that a descent may need, as claimed.
+    /// Queue entries that a sweep may need, as claimed.
     pub queue_capacity: u32,
     /// Longest chain of splits, as claimed.
     pub dependency_depth: u32,
@@ -148,13 +136,20 @@ impl Blob {
             }
             Ok(p)
         };
-        let counts = [at(52)?, at(56)?, at(60)?, at(64)?, at(68)?, at(72)?, at(76)?, at(80)?];
-        let [vertices, base_vertices, base, splits, rings, nodes, surface, levels] = counts;
+        let counts = [at(52)?, at(56)?, at(60)?, at(64)?, at(68)?, at(76)?, at(80)?];
+        let [vertices, base_vertices, base, splits, rings, surface, levels] = counts;
         if vertices != base_vertices + 2 * splits {
             return Err("vertices are not those of the base and two for each split".into());
         }
-        let (wv, ws, wr, wc) =
-            (width(vertices), width(splits), width(rings), width(nodes.max(surface)));
+        let (wv, ws, wr, wt) = (width(vertices), width(splits), width(rings), width(surface));
+        let is_cut = at(24)? & 1 != 0;
+        let numbers =
+            |kind: u32, name: &'static str, count: u32, width: usize| -> Result<Vec<u32>, String> {
+                let mut cursor = section(kind, name)?;
+                let read = (0..count).map(|_| cursor.uint(width)).collect::<Result<_, _>>()?;
+                cursor.end()?;
+                Ok(read)
+            };
         let triples =
             |kind: u32, name: &'static str, count: u32| -> Result<Vec<[u32; 3]>, String> {
                 let mut cursor = section(kind, name)?;
@@ -162,19 +157,6 @@ impl Blob {
                 cursor.end()?;
                 Ok(read)
             };
-
-        let mut cursor = section(7, "cover")?;
-        let mut read_nodes = Vec::new();
-        for _ in 0..nodes {
-            let (corners, radius) = (cursor.triple(wv)?, bfloat(cursor.uint(2)?));
-            let (first, tag) = (cursor.uint(wc)?, cursor.uint(1)?);
-            let (mut count, leaf) = (tag & 0x7F, tag & 0x80 != 0);
-            if u64::from(first) + u64::from(count) > u64::from(if leaf { surface } else { nodes }) {
-                count = 0;
-            }
-            read_nodes.push(Node { corners, radius, first, count, leaf });
-        }
-        cursor.end()?;
 
         let mut cursor = section(11, "base groups")?;
         let mut groups = Vec::new();
@@ -197,7 +179,6 @@ impl Blob {
             read_levels.push(Level {
                 faces: cursor.uint(4)?,
                 splits: cursor.uint(4)?,
-                nodes: cursor.uint(4)?,
                 hull_to_surface: cursor.float()?,
                 surface_to_hull: cursor.float()?,
                 void_ratio: cursor.float()?,
@@ -209,8 +190,9 @@ impl Blob {
         if radii.len() as u64 != u64::from(base) + u64::from(rings) + 2 * u64::from(splits) {
             return Err("radii: not one for each triangle".into());
         }
-        Ok(Blob {
-            is_cut: at(24)? & 1 != 0,
+        let starts = if is_cut { 0 } else { splits.div_ceil(8) };
+        let mut blob = Blob {
+            is_cut,
             base_vertices,
             vertices: read_vertices(bytes, section(1, "vertices")?, vertices)?,
             base: triples(2, "base triangles", base)?,
@@ -223,14 +205,29 @@ impl Blob {
             )?,
             splits_with,
             radii,
-            nodes: read_nodes,
-            surface: triples(8, "surface", surface)?,
+            source_starts: numbers(7, "source starts", starts, wt)?,
+            source: numbers(9, "source", surface, width(at(84)?))?,
+            surface: Vec::new(),
             levels: read_levels,
             hull_box: [corner(92)?, corner(104)?],
             surface_box: [corner(116)?, corner(128)?],
             queue_capacity: at(140)?,
             dependency_depth: at(144)?,
-        })
+        };
+        if !is_cut {
+            let named = blob.triangles();
+            let is_final = |t: &[u32; 3]| {
+                t.iter().all(|&v| blob.splits_with.get(v as usize).is_none_or(Option::is_none))
+            };
+            blob.surface = named.into_iter().filter(is_final).collect();
+        }
+        Ok(blob)
+    }
+
+    /// The triangles of all levels, in the order of their radii.
+    pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
+        let fine = (0..self.splits.len()).flat_map(|index| self.fine(index));
+        self.base.iter().copied().chain(fine).collect()
     }
 
     /// Coordinates of three vertices.
@@ -295,20 +292,21 @@ fn read_splits(
     let mut heads = Vec::new();
     for _ in 0..splits {
         let (vertex, start) = (records.uint(wv)?, records.uint(wr)?);
-        let (right, reach) = (records.uint(1)? as usize, small_radius(records.uint(1)? as u8));
-        heads.push((vertex, start, right, [reach, small_radius(records.uint(1)? as u8)]));
+        let (wings, reach) = (records.uint(1)? as usize, small_radius(records.uint(1)? as u8));
+        heads.push((vertex, start, wings, [reach, small_radius(records.uint(1)? as u8)]));
     }
     records.end()?;
     let mut read = Vec::new();
-    for (i, &(vertex, start, right, [reach, error])) in heads.iter().enumerate() {
+    for (i, &(vertex, start, wings, [reach, error])) in heads.iter().enumerate() {
         let end = heads.get(i + 1).map_or(ring_entries, |next| next.1);
         let length =
             end.checked_sub(start).ok_or(format!("split {i}: its ring ends before it begins"))?;
         let ring: Vec<u32> = (0..length).map(|_| rings.uint(wv)).collect::<Result<_, _>>()?;
+        let (right, before) = (wings % 64, [wings & 64 != 0, wings & 128 != 0]);
         if right == 0 || right >= ring.len() {
             return Err(format!("split {i}: its right wing is not in its ring"));
         }
-        read.push(Split { vertex, ring, right, reach, error });
+        read.push(Split { vertex, ring, right, before, reach, error });
     }
     rings.end()?;
     Ok(read)

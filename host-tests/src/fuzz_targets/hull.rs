@@ -67,7 +67,7 @@ fn queue(input: &mut Input<'_>) -> Vec<ScratchEntry> {
 /// Every record of the tables looked at so many times is more than any query needs.
 fn bound(model: &Hull<'_>) -> u32 {
     let h = model.header();
-    4 * (h.nodes + h.surface_triangles + h.splits + h.rings + h.base_triangles) + 64
+    4 * (h.surface_triangles + h.splits + h.rings + h.base_triangles) + 64
 }
 
 /// Closest point on an edited blob.

@@ -28,7 +28,7 @@ fn edited(edit: impl FnOnce(&mut Vec<u8>)) -> Result<(), OpenError> {
 /// Asks an opened model everything; all of it ends, within work that its tables bound.
 fn ask_everything(model: &Hull<'_>) {
     let h = model.header();
-    let most = 4 * (h.nodes + h.surface_triangles) + 64;
+    let most = 4 * (h.rings + 2 * h.splits + 2 * h.base_triangles) + 64;
     let mut queue = [ScratchEntry::EMPTY; 24];
     let mut hits = [Hit::EMPTY; 4];
     for p in [[0.1, 0.2, 0.3], [5.0, -3.0, 1.0]] {
@@ -137,7 +137,7 @@ fn nan_in_the_header_is_named() {
 
 #[test]
 fn reserved_bytes_must_be_zero() {
-    for at in 148..156 {
+    for at in (72..76).chain(148..156) {
         assert_eq!(edited(|b| b[at] = 1), Err(OpenError::Reserved));
     }
 }
@@ -195,10 +195,10 @@ fn overlapping_duplicate_misaligned_and_disordered_sections_are_named() {
 
 #[test]
 fn contradictory_and_huge_counts_are_refused() {
-    for at in [12, 20, 52, 56, 60, 64, 68, 72, 76, 80, 140] {
+    for at in [12, 20, 52, 56, 60, 64, 68, 76, 80, 140] {
         for value in [0, 1, 0xFF, 0xFFFF, 0x0FFF_FFFF, 0x1000_0000, 0x7FFF_FFFF, u32::MAX] {
             let mut bytes = small();
-            if word(&bytes, at) == Some(value) || (at == 140 && value == 1) {
+            if word(&bytes, at) == Some(value) || (at == 140 && value <= 0xFF) {
                 continue;
             }
             put_u32(&mut bytes, at, value);
@@ -237,9 +237,8 @@ fn indices_out_of_range_are_named_by_section() {
         SectionKind::BaseGroups,
         SectionKind::Splits,
         SectionKind::Rings,
-        SectionKind::Surface,
+        SectionKind::SourceStarts,
         SectionKind::Source,
-        SectionKind::Cover,
     ] {
         bad_index(kind, 0, 0xFE);
     }
@@ -257,29 +256,6 @@ fn a_vertex_outside_the_box_or_not_a_number_is_named() {
         let error = OpenError::Record { section: SectionKind::Vertices, index: 0 };
         assert_eq!(Hull::open(&bytes).map(|_| ()), Err(error));
     }
-}
-
-#[test]
-fn a_cycle_in_the_cover_tree_is_refused() {
-    let bytes = small();
-    let h = *Hull::open(&bytes).expect("opens").header();
-    let (node_bytes, child_at) = (h.node_bytes(), 3 * h.vertex_index_bytes() + 2);
-    let mut refused = 0;
-    for node in 0..h.nodes as usize {
-        let at =
-            entry(&bytes, SectionKind::Cover as u32).offset as usize + node * node_bytes + child_at;
-        for first in [0, node as u8, node.saturating_sub(1) as u8] {
-            let mut looped = bytes.clone();
-            if looped[at] == first {
-                continue;
-            }
-            looped[at] = first;
-            seal(&mut looped);
-            assert!(Hull::open(&looped).is_err(), "node {node} with first child {first}");
-            refused += 1;
-        }
-    }
-    assert!(refused > 10);
 }
 
 #[test]
@@ -311,10 +287,9 @@ fn a_level_table_that_falls_or_ends_early_is_refused() {
         Err(OpenError::Record { section: SectionKind::Levels, index: 0 })
     ));
     assert!(matches!(
-        levels(3, f32::NAN.to_bits()),
+        levels(2, f32::NAN.to_bits()),
         Err(OpenError::Record { section: SectionKind::Levels, .. })
     ));
-    assert!(levels(2, 1 << 20).is_err());
 }
 
 #[test]

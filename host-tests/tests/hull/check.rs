@@ -18,8 +18,8 @@ use meshsweep_host_tests::scene::Scene;
 const VERTICES: u32 = 1;
 const SPLITS: u32 = 3;
 const RINGS: u32 = 4;
-const COVER: u32 = 7;
-const SURFACE: u32 = 8;
+const RADII: u32 = 5;
+const STARTS: u32 = 7;
 const LEVELS: u32 = 10;
 const GROUPS: u32 = 11;
 
@@ -153,19 +153,39 @@ fn a_moved_right_wing_is_caught() {
     let bytes = edited(|b| {
         // Record: vertex and ring start of two bytes each, right wing, reach.
         let at = entry(b, SPLITS).offset as usize + 4;
-        b[at] = if b[at] == 1 { 2 } else { b[at] - 1 };
+        b[at] = if b[at] % 64 == 1 { b[at] + 1 } else { b[at] - 1 };
     });
     assert!(check_blob(&bytes).is_err());
 }
 
 #[test]
-fn a_shrunk_cover_radius_is_caught() {
-    let bytes = edited(|b| {
-        // Record: three corners of two bytes, radius of two.
-        let at = entry(b, COVER).offset as usize + 6;
-        b[at + 1] -= 1;
-    });
-    refused(&bytes, "leaves out vertex");
+fn a_shrunk_radius_is_caught_wherever_it_is() {
+    let blob = Blob::parse(&victim()).expect("a whole blob");
+    let covering = (0..blob.radii.len()).filter(|&index| blob.radii[index] > 2);
+    let mut shrunk = 0;
+    for index in covering.step_by(7) {
+        let bytes = edited(|b| b[entry(b, RADII).offset as usize + index] -= 2);
+        refused(&bytes, "leaves out vertex");
+        shrunk += 1;
+    }
+    assert!(shrunk > 20, "only {shrunk} radii were shrunk");
+}
+
+#[test]
+fn a_triangle_under_another_parent_is_caught() {
+    let mut caught = 0;
+    for split in 0..40 {
+        for bit in [64, 128] {
+            let bytes = edited(|b| b[entry(b, SPLITS).offset as usize + 6 * split + 4] ^= bit);
+            // The parent beside may contain it too.
+            if let Err(error) = check_blob(&bytes) {
+                let why = ["leaves out", "its own part", "queue entries"];
+                assert!(why.iter().any(|why| error.contains(why)), "{error}");
+                caught += 1;
+            }
+        }
+    }
+    assert!(caught > 20, "only {caught} were caught");
 }
 
 #[test]
@@ -187,20 +207,18 @@ fn a_shrunk_reach_is_caught() {
 }
 
 #[test]
-fn a_turned_surface_triangle_is_caught() {
+fn a_wrong_start_of_source_numbers_is_caught() {
     let bytes = edited(|b| {
-        let at = entry(b, SURFACE).offset as usize;
-        for k in 0..2 {
-            b.swap(at + k, at + 2 + k);
-        }
+        let at = entry(b, STARTS).offset as usize;
+        b[at + 2] ^= 1;
     });
-    refused(&bytes, "not the surface");
+    refused(&bytes, "does not start at");
 }
 
 #[test]
 fn a_prettified_level_table_is_caught() {
-    // Record: faces, splits, nodes, hull to surface, surface to hull, void.
-    for (field, because) in [(3, "from the surface"), (4, "exceeds"), (5, "its void is")] {
+    // Record: faces, splits, hull to surface, surface to hull, void.
+    for (field, because) in [(2, "from the surface"), (3, "exceeds"), (4, "its void is")] {
         let bytes = edited(|b| {
             let at = entry(b, LEVELS).offset as usize + 4 * field;
             let x = f32::from_bits(word(b, at).expect("in the section"));
@@ -219,7 +237,7 @@ fn a_queue_capacity_that_is_too_small_is_caught() {
 #[test]
 fn a_wrong_checksum_is_caught() {
     let mut bytes = victim();
-    let at = entry(&bytes, COVER).offset as usize;
+    let at = entry(&bytes, RADII).offset as usize;
     bytes[at] ^= 1;
     refused(&bytes, "CRC");
     let mut bytes = victim();
@@ -261,16 +279,11 @@ fn levels_rise_in_faces_and_fall_in_void() {
         let model = Hull::open(&scene.bytes).expect("opens");
         let levels: Vec<_> = model.levels().collect();
         assert!(
-            levels.is_sorted_by(|x, y| x.faces < y.faces && x.nodes <= y.nodes),
+            levels.is_sorted_by(|x, y| x.faces < y.faces && x.splits <= y.splits),
             "{}",
             scene.name
         );
         assert!(levels.is_sorted_by(|x, y| x.void_ratio >= y.void_ratio), "{}", scene.name);
-        assert!(
-            levels.is_sorted_by(|x, y| x.surface_to_hull >= y.surface_to_hull),
-            "{}",
-            scene.name
-        );
         assert_eq!(
             levels.last().map(|l| l.faces as usize),
             Some(scene.triangles.len()),

@@ -4,6 +4,7 @@ mod bytes;
 mod check;
 mod closest;
 mod edge_cases;
+mod kept_sweep;
 mod outer_hits;
 mod refined;
 mod scenes;

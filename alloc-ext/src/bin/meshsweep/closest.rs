@@ -44,7 +44,7 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     let points = Queries::read(points)?;
     let tree = match engine {
         Engine::Tree(tree) => tree,
-        Engine::Cover(hull) => {
+        Engine::Hull(hull) => {
             let asker = || {
                 let mut scratch = search.scratch(engine.scratch_entries());
                 move |point| Ok(answer(hull.closest_point(point, budget, &mut scratch)?))

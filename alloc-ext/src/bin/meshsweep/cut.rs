@@ -46,7 +46,7 @@ pub fn run(args: &CutArgs) -> Result<(), Failure> {
         match blob.bvh().ok().filter(|_| args.level.is_some()) {
             Some(_) => writeln!(
                 out,
-                "the box tree cannot be cut and is left out: closest and segment use the cover tree"
+                "the box tree cannot be cut and is left out: closest and segment sweep the hull"
             ),
             None => Ok(()),
         }

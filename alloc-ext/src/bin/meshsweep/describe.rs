@@ -135,11 +135,10 @@ pub fn write_header(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     if blob.hull().is_ok() {
         writeln!(
             out,
-            "  hull hierarchy of {}: {}, {}, {}",
+            "  hull hierarchy of {}: {}, {}",
             Counted(h.surface_triangles, "triangle"),
             Counted(h.vertices, "vertex"),
-            Counted(h.splits, "split"),
-            Counted(h.nodes, "cover node")
+            Counted(h.splits, "split")
         )?;
         writeln!(
             out,

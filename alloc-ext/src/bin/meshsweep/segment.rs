@@ -20,7 +20,7 @@ const HITS: usize = 64;
 pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     let SegmentArgs { blob: file, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], &args.segments))?;
-    if args.engine == Some(args::Engine::Cover) && args.facing.is_some() {
+    if args.engine == Some(args::Engine::Hull) && args.facing.is_some() {
         let what = "--facing is for the box tree; leave it out, or use --engine tree".to_owned();
         return Err(Failure::Usage { what });
     }
@@ -54,7 +54,7 @@ fn farthest(engine: &Engine<'_>) -> String {
                  {farthest:.1e}"
             )
         }
-        Engine::Cover(hull) => {
+        Engine::Hull(hull) => {
             let farthest = tolerance::HULL_FAR * hull.scale();
             format!("a coordinate may be about {farthest:.1e} at most")
         }
@@ -75,7 +75,7 @@ fn ask_first(
                 let [a, b] = ends(segment);
                 let found = match &engine {
                     Engine::Tree(tree) => tree.first_hit(a, b, facing, budget, &mut scratch)?,
-                    Engine::Cover(hull) => hull.first_hit(a, b, budget, &mut scratch)?,
+                    Engine::Hull(hull) => hull.first_hit(a, b, budget, &mut scratch)?,
                 };
                 Ok(Answer { found, ended: found.ended, work: found.work })
             }
@@ -109,7 +109,7 @@ fn ask_all(
                         Engine::Tree(tree) => {
                             tree.all_hits(a, b, facing, hits, budget, &mut scratch)
                         }
-                        Engine::Cover(hull) => hull.all_hits(a, b, hits, budget, &mut scratch),
+                        Engine::Hull(hull) => hull.all_hits(a, b, hits, budget, &mut scratch),
                     },
                     |all| (all.stored, all.dropped),
                 )?;

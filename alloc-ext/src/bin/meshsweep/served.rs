@@ -136,7 +136,7 @@ pub fn tight_hull<'a>(
 #[derive(Clone, Copy)]
 pub enum Engine<'a> {
     Tree(Bvh<'a>),
-    Cover(Hull<'a>),
+    Hull(Hull<'a>),
 }
 
 impl Engine<'_> {
@@ -144,12 +144,12 @@ impl Engine<'_> {
     pub fn scratch_entries(&self) -> usize {
         match self {
             Engine::Tree(tree) => tree.scratch_entries(),
-            Engine::Cover(hull) => hull.scratch_entries().max(COMFORTABLE_QUEUE),
+            Engine::Hull(hull) => hull.scratch_entries() + COMFORTABLE_QUEUE,
         }
     }
 }
 
-/// Least number of scratch entries of a cover tree unless `--queue` says otherwise: enough to
+/// Least number of scratch entries of a hull hierarchy unless `--queue` says otherwise: enough to
 /// search best first, and small beside a cache.
 const COMFORTABLE_QUEUE: usize = 4096;
 
@@ -163,9 +163,9 @@ pub fn choose<'a>(
     let refuse = |build_for, other| Err(not_served(file, blob, build_for, other));
     match (tree_chosen, tree(blob, build_for), blob.hull()) {
         (Some(true) | None, Some(tree), _) => Ok(Engine::Tree(tree)),
-        (Some(false) | None, _, Ok(hull)) => Ok(Engine::Cover(hull)),
+        (Some(false) | None, _, Ok(hull)) => Ok(Engine::Hull(hull)),
         (Some(false), tree, Err(_)) => refuse(BuildFor::Hull, tree.map(|_| "tree")),
-        (Some(true), None, hull) => refuse(build_for, hull.ok().map(|_| "cover")),
+        (Some(true), None, hull) => refuse(build_for, hull.ok().map(|_| "hull")),
         (None, None, Err(_)) => refuse(build_for, None),
     }
 }

@@ -1,8 +1,8 @@
 //! The check of the sections' contents in [`Hull::open`].
 
-use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING};
-use super::view::{Children, Hull, Vertices, Widths};
+use super::index::{SplitIdx, TriIdx, VertIdx};
+use super::layout::{BASE_GROUP, LEVEL_BYTES, MAX_RING, SLOTS, START_GROUP};
+use super::view::{Hull, Vertices, Widths};
 use crate::format::layout::{MAX_LEVELS, SectionKind, VertexFormat};
 use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
 use crate::geom::Aabb;
@@ -20,7 +20,7 @@ impl<'a> Hull<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Hull<'a>, OpenError> {
         let hull = Hull::place(bytes, true)?;
         if !hull.has_hull() {
-            return Err(OpenError::MissingSection { section: SectionKind::Cover });
+            return Err(OpenError::MissingSection { section: SectionKind::BaseTriangles });
         }
         hull.check()?;
         Ok(hull)
@@ -41,8 +41,7 @@ impl<'a> Hull<'a> {
             rings: Bytes(&[]),
             radii: Bytes(&[]),
             splits_with: Bytes(&[]),
-            cover: Bytes(&[]),
-            surface: Bytes(&[]),
+            source_starts: Bytes(&[]),
             source: Bytes(&[]),
             levels: Bytes(&[]),
         };
@@ -77,8 +76,7 @@ impl<'a> Hull<'a> {
             SectionKind::Rings => &mut self.rings,
             SectionKind::Radii => &mut self.radii,
             SectionKind::SplitsWith => &mut self.splits_with,
-            SectionKind::Cover => &mut self.cover,
-            SectionKind::Surface => &mut self.surface,
+            SectionKind::SourceStarts => &mut self.source_starts,
             SectionKind::Source => &mut self.source,
             SectionKind::Levels => &mut self.levels,
             _ => return,
@@ -104,8 +102,9 @@ impl Hull<'_> {
                 (fine.checked_add(h.base_triangles as usize)?, 1)
             }
             SectionKind::SplitsWith => (h.vertices as usize, self.widths.split),
-            SectionKind::Cover => (h.nodes as usize, h.node_bytes()),
-            SectionKind::Surface => (h.surface_triangles as usize, 3 * self.widths.vertex),
+            SectionKind::SourceStarts if !self.is_cut() => {
+                (h.splits.div_ceil(START_GROUP) as usize, self.widths.start)
+            }
             SectionKind::Source => (h.surface_triangles as usize, self.widths.source),
             SectionKind::Levels => (h.levels as usize, LEVEL_BYTES),
             _ => (0, 0),
@@ -119,25 +118,19 @@ impl Hull<'_> {
         self.check_vertices()?;
         self.check_corners()?;
         self.check_splits()?;
-        self.check_levels()?;
-        self.check_cover()
+        self.check_stars()?;
+        self.check_sources()?;
+        self.check_levels()
     }
 
     /// Without a hull hierarchy all header fields about it are 0.
     pub(crate) fn check_absent(&self) -> Result<(), OpenError> {
         let h = &self.header;
-        let counts = [
-            h.vertices,
-            h.base_vertices,
-            h.base_triangles,
-            h.splits,
-            h.rings,
-            h.surface_triangles,
-            h.levels,
-        ];
+        let counts =
+            [h.vertices, h.base_vertices, h.splits, h.rings, h.surface_triangles, h.levels];
         let rest = [h.flags, h.queue_capacity, h.dependency_depth];
         if counts.iter().chain(&rest).any(|&count| count != 0) {
-            return Err(OpenError::Counts { what: "parts of a hull hierarchy without its cover" });
+            return Err(OpenError::Counts { what: "parts of a hull hierarchy without its base" });
         }
         self.check_frame()
     }
@@ -151,17 +144,22 @@ impl Hull<'_> {
         if h.levels > MAX_LEVELS {
             return wrong("too many levels");
         }
-        if h.nodes == 0 || h.base_triangles == 0 || h.levels == 0 {
+        if h.base_triangles == 0 || h.levels == 0 {
             return wrong("an empty model");
         }
         if self.is_cut() != (h.surface_triangles == 0) {
             return wrong("a cut model has no surface triangles, any other has");
         }
-        if h.vertices.max(h.rings).max(h.nodes).max(h.surface_triangles) > u32::MAX / 16 {
+        let most = u32::MAX / 16;
+        let numbers = u64::from(SLOTS) * u64::from(h.splits) + 2 * u64::from(h.base_triangles);
+        if h.vertices.max(h.rings).max(h.surface_triangles) > most || numbers > u64::from(u32::MAX)
+        {
             return wrong("more records than a blob can address");
         }
         self.check_frame()?;
-        if h.queue_capacity == 0 || h.queue_capacity > h.nodes {
+        // No queue holds a triangle twice.
+        let triangles = u64::from(h.rings) + 2 * u64::from(h.base_triangles + h.splits);
+        if h.queue_capacity == 0 || u64::from(h.queue_capacity) > triangles {
             return wrong("queue capacity");
         }
         Ok(())
@@ -226,21 +224,6 @@ impl Hull<'_> {
                 return Err(OpenError::Record { section: SectionKind::BaseGroups, index });
             }
         }
-        let bounds = Aabb::of(self.header.surface_box);
-        for index in 0..self.header.surface_triangles {
-            let inside = self
-                .surface_triangle(TriIdx(index))
-                .and_then(|corners| self.positions(corners))
-                .is_some_and(|ps| {
-                    ps.iter().all(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all())
-                });
-            if !inside {
-                return Err(OpenError::Record { section: SectionKind::Surface, index });
-            }
-            if self.source(TriIdx(index)).is_none_or(|s| s >= self.header.input_triangles) {
-                return Err(OpenError::Record { section: SectionKind::Source, index });
-            }
-        }
         Ok(())
     }
 
@@ -280,76 +263,93 @@ impl Hull<'_> {
         Ok(())
     }
 
-    /// Children come after their parent and belong to it alone. So a descent ends in time linear in
-    /// the tree.
-    ///
-    /// There is no memory to mark visited nodes. But within each level the format orders child
-    /// groups as their parents, so that one pass for each level finds every group at the end of the
-    /// one before it.
-    fn check_cover(&self) -> Result<(), OpenError> {
-        let node = |index: u32| {
-            self.node(NodeIdx(index))
-                .ok_or(OpenError::Record { section: SectionKind::Cover, index })
-        };
-        let mut next_triangle = 0u32;
-        for index in 0..self.header.nodes {
-            let bad = OpenError::Record { section: SectionKind::Cover, index };
-            let node = node(index)?;
-            let in_range = node.corners.iter().all(|v| v.0 < self.header.vertices);
-            if !in_range || node.radius.is_nan() || node.radius.is_sign_negative() {
-                return Err(bad);
-            }
-            match node.children {
-                Children::Nodes { first, count } if first > index && count > 0 => {}
-                Children::Triangles { first, count } if first == next_triangle && count > 0 => {
-                    next_triangle += count
-                }
-                Children::Cut if self.is_cut() => {}
-                _ => return Err(bad),
+    /// Each triangle that a split removes lies in the split's star. So a sweep finds its children.
+    fn check_stars(&self) -> Result<(), OpenError> {
+        for index in 0..self.header.base_triangles {
+            let in_star = self.base_triangle(index).is_some_and(|t| self.is_in_star(t));
+            if !in_star {
+                return Err(OpenError::Record { section: SectionKind::BaseTriangles, index });
             }
         }
-        let mut begin = 1u32;
-        for level in self.levels() {
-            let mut next = begin;
-            for index in 0..level.nodes {
-                if let Children::Nodes { first, count } = node(index)?.children
-                    && first >= begin
-                    && first < level.nodes
-                {
-                    if first != next {
-                        return Err(OpenError::Record { section: SectionKind::Cover, index });
-                    }
-                    next += count;
-                }
+        for index in 0..self.header.splits {
+            let in_stars = self.split(SplitIdx(index)).is_some_and(|split| {
+                (0..split.fine_len())
+                    .all(|slot| split.fine(slot).is_some_and(|t| self.is_in_star(t)))
+            });
+            if !in_stars {
+                return Err(OpenError::Record { section: SectionKind::Rings, index });
             }
-            if next != level.nodes {
-                return Err(OpenError::Counts { what: "a cover node without a parent" });
-            }
-            begin = level.nodes;
-        }
-        if next_triangle != self.header.surface_triangles {
-            return Err(OpenError::Counts { what: "a surface triangle without a parent" });
         }
         Ok(())
     }
 
+    /// Whether the split that removes a triangle has it in its star, or there is no such split.
+    fn is_in_star(&self, [a, b, c]: [VertIdx; 3]) -> bool {
+        let Some(split) = self.removed_by([a, b, c]).and_then(|split| self.split(split)) else {
+            return true;
+        };
+        let v = split.vertex;
+        let (from, to) = if a == v {
+            (b, c)
+        } else if b == v {
+            (c, a)
+        } else {
+            (a, b)
+        };
+        from != v
+            && to != v
+            && split.find(from).is_some_and(|edge| split.ring(edge + 1) == Some(to))
+    }
+
+    /// The triangles that no split removes are as many as the source numbers, in the order that
+    /// the starts say, and lie in the surface's box.
+    fn check_sources(&self) -> Result<(), OpenError> {
+        if self.is_cut() {
+            return Ok(());
+        }
+        for index in 0..self.header.surface_triangles {
+            if self.source(TriIdx(index)).is_none_or(|s| s >= self.header.input_triangles) {
+                return Err(OpenError::Record { section: SectionKind::Source, index });
+            }
+        }
+        let bounds = Aabb::of(self.header.surface_box);
+        for index in 0..self.header.vertices {
+            let inside = self.split_of(VertIdx(index)).is_some()
+                || self
+                    .position(VertIdx(index))
+                    .is_some_and(|p| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all());
+            if !inside {
+                return Err(OpenError::Record { section: SectionKind::Vertices, index });
+            }
+        }
+        let wrong = OpenError::Counts { what: "source numbers are not those of the surface" };
+        let mut before = self.base_finals(self.header.base_triangles).ok_or(wrong)?;
+        for index in 0..self.header.splits {
+            if index % START_GROUP == 0 && self.source_start(index / START_GROUP) != Some(before) {
+                let index = index / START_GROUP;
+                return Err(OpenError::Record { section: SectionKind::SourceStarts, index });
+            }
+            let split = self.split(SplitIdx(index)).ok_or(wrong)?;
+            before += self.finals(&split, split.fine_len()).ok_or(wrong)?;
+        }
+        if before == self.header.surface_triangles { Ok(()) } else { Err(wrong) }
+    }
+
     fn check_levels(&self) -> Result<(), OpenError> {
-        let mut before = (0, 1);
+        let mut before = 0;
         for index in 0..self.header.levels {
             let bad = OpenError::Record { section: SectionKind::Levels, index };
             let level = self.level(index).ok_or(bad)?;
             let lengths = [level.hull_to_surface, level.surface_to_hull];
             if lengths.iter().any(|x| x.is_nan() || x.is_sign_negative())
                 || level.splits > self.header.splits
-                || level.nodes > self.header.nodes
-                || level.splits < before.0
-                || level.nodes < before.1
+                || level.splits < before
             {
                 return Err(bad);
             }
-            before = (level.splits, level.nodes);
+            before = level.splits;
         }
-        if before.0 != self.header.splits || before.1 != self.header.nodes {
+        if before != self.header.splits {
             return Err(OpenError::Counts { what: "the last level is not the whole model" });
         }
         Ok(())

@@ -25,10 +25,6 @@ index! {
     SplitIdx
 }
 index! {
-    /// A node of the cover tree.
-    NodeIdx
-}
-index! {
-    /// A triangle of the surface, in the blob's order.
+    /// A triangle of the surface: base triangles first, then those of each split.
     TriIdx
 }

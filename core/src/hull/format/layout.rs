@@ -1,16 +1,21 @@
 //! Sizes, limits and offsets in the sections of the hull hierarchy.
 
 /// Bytes of one record of the level table.
-pub const LEVEL_BYTES: usize = 24;
-/// Children of a cover node fit in seven bits; the eighth says that they are triangles of the
-/// surface.
-pub const MAX_CHILDREN: usize = 127;
-/// Flag of a cover node whose children are triangles.
-pub const LEAF_FLAG: u8 = 0x80;
+pub const LEVEL_BYTES: usize = 20;
 /// Triangles of the base hull that share a bound.
 pub const BASE_GROUP: u32 = 16;
-/// Most ring vertices of a split.
-pub const MAX_RING: usize = 255;
+/// Most ring vertices of a split, so that six bits hold the right wing.
+pub const MAX_RING: usize = 64;
+/// The right wing's position in the ring, in a split's byte of wings.
+pub const RIGHT_WING: u8 = 0x3F;
+/// Bit of the wings: the triangle at the right wing is a child of the triangle before the wing.
+pub const RIGHT_BEFORE: u8 = 0x40;
+/// Bit of the wings: the triangle at the left wing is a child of the triangle before the wing.
+pub const LEFT_BEFORE: u8 = 0x80;
+/// Splits that share a start in the source numbers.
+pub const START_GROUP: u32 = 8;
+/// A split's triangles take so many numbers of [`Instance`](super::Instance)s.
+pub const SLOTS: u32 = 128;
 
 /// Offsets in a record of the level table.
 pub mod level {
@@ -18,12 +23,10 @@ pub mod level {
     pub const FACES: usize = 0;
     /// u32.
     pub const SPLITS: usize = 4;
-    /// u32.
-    pub const NODES: usize = 8;
     /// f32.
-    pub const HULL_TO_SURFACE: usize = 12;
+    pub const HULL_TO_SURFACE: usize = 8;
     /// f32.
-    pub const SURFACE_TO_HULL: usize = 16;
+    pub const SURFACE_TO_HULL: usize = 12;
     /// f32.
-    pub const VOID_RATIO: usize = 20;
+    pub const VOID_RATIO: usize = 16;
 }

@@ -3,14 +3,17 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `layout` | sizes and limits of the sections |
+//! | `instance` | numbers of the triangles of all levels |
 //! | `index` | one type for each kind of index |
 //! | `view` | the tables where they lie |
 //! | `check` | the check of `Hull::open` |
 
 mod check;
 mod index;
+mod instance;
 pub mod layout;
 mod view;
 
-pub use index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-pub use view::{Children, Hull, Level, Node, Split};
+pub use index::{SplitIdx, TriIdx, VertIdx};
+pub use instance::{Instance, Named};
+pub use view::{Hull, Level, Split};

@@ -1,20 +1,20 @@
 //! Checked views of an opened blob.
 //!
 //! If [`Hull::open`] returned `Ok`, then every index that the blob stores is in range, every ring
-//! vertex exists before its split, every child of a cover node comes after it, and every coordinate
-//! is finite. Accessors return `Option` all the same. An index past the end gives `None` (or some
-//! record, where its byte offset wraps on a 32-bit target). No path can panic.
+//! vertex exists before its split, and every coordinate is finite. Accessors return `Option` all
+//! the same. An index past the end gives `None` (or some record, where its byte offset wraps on a
+//! 32-bit target). No path can panic.
 
-use super::index::{NodeIdx, SplitIdx, TriIdx, VertIdx};
-use super::layout::{LEAF_FLAG, LEVEL_BYTES, level};
+use super::index::{SplitIdx, TriIdx, VertIdx};
+use super::layout::{LEFT_BEFORE, LEVEL_BYTES, RIGHT_BEFORE, RIGHT_WING, level};
 use crate::format::layout::{FLAG_CUT, VertexFormat, none};
 use crate::format::{Bytes, Header};
 use crate::geom::Aabb;
 use crate::num::{Radius8, Radius16, exp2, up_to_f32};
 use glam::Vec3;
 
-/// The hull hierarchy of a blob: nested outer hulls under split tables, and the cover tree over the
-/// surface. Copies are cheap: it borrows the bytes and holds the header.
+/// The hull hierarchy of a blob: nested outer hulls under split tables. Copies are cheap: it
+/// borrows the bytes and holds the header.
 #[derive(Clone, Copy, Debug)]
 pub struct Hull<'a> {
     pub(crate) header: Header,
@@ -26,8 +26,7 @@ pub struct Hull<'a> {
     pub(crate) rings: Bytes<'a>,
     pub(crate) radii: Bytes<'a>,
     pub(crate) splits_with: Bytes<'a>,
-    pub(crate) cover: Bytes<'a>,
-    pub(crate) surface: Bytes<'a>,
+    pub(crate) source_starts: Bytes<'a>,
     pub(crate) source: Bytes<'a>,
     pub(crate) levels: Bytes<'a>,
 }
@@ -57,10 +56,8 @@ pub(crate) struct Widths {
     pub(crate) vertex: usize,
     pub(crate) split: usize,
     pub(crate) ring: usize,
-    pub(crate) child: usize,
+    pub(crate) start: usize,
     pub(crate) source: usize,
-    /// Bytes of a cover node.
-    pub(crate) node: usize,
     pub(crate) grid_step: f32,
 }
 
@@ -70,9 +67,8 @@ impl Widths {
             vertex: header.vertex_index_bytes(),
             split: header.split_index_bytes(),
             ring: header.ring_index_bytes(),
-            child: header.child_index_bytes(),
+            start: header.start_index_bytes(),
             source: header.source_index_bytes(),
-            node: header.node_bytes(),
             grid_step: exp2(header.grid_exponent) as f32,
         }
     }
@@ -92,6 +88,11 @@ pub struct Split<'a> {
     pub origin: VertIdx,
     /// Position of the right wing in the ring; the left wing is at 0.
     pub right: usize,
+    /// The triangle `(o, r[m], d)` at the right wing `m` stands for a part of what `(v, r[i],
+    /// r[i+1])` stands for, where `i` is this: `m` or `m − 1`.
+    pub right_parent: usize,
+    /// The same of `(o, d, r[0])`: 0 or the ring's last.
+    pub left_parent: usize,
     /// No point of the fine triangles is farther than this from `vertex`, local frame.
     pub reach: f32,
     /// The largest finite certified radius of the triangles that the split removes, local frame.
@@ -115,6 +116,16 @@ impl Split<'_> {
     pub fn ring(&self, i: usize) -> Option<VertIdx> {
         let i = if i == self.len { 0 } else { i };
         self.ring.index(i.wrapping_mul(self.width), self.width).map(VertIdx)
+    }
+
+    /// Where a vertex stands in the ring.
+    #[inline(always)]
+    pub fn find(&self, vertex: VertIdx) -> Option<usize> {
+        if self.width == 2 {
+            let wanted = u16::try_from(vertex.0).ok()?.to_le_bytes();
+            return self.ring.0.as_chunks().0.iter().position(|held| *held == wanted);
+        }
+        (0..self.len).find(|&i| self.ring(i) == Some(vertex))
     }
 
     /// Second of the two new vertices.
@@ -151,39 +162,6 @@ impl Split<'_> {
     }
 }
 
-/// A node of the cover tree: its triangle, swept by `radius`, contains every triangle of the
-/// surface below it.
-#[derive(Clone, Copy, Debug)]
-pub struct Node {
-    /// Corners of the triangle.
-    pub corners: [VertIdx; 3],
-    /// Radius of the sphere that sweeps it, local frame.
-    pub radius: f32,
-    /// Its children.
-    pub children: Children,
-}
-
-/// Children of a cover node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Children {
-    /// Nodes `first .. first + count`.
-    Nodes {
-        /// First node.
-        first: u32,
-        /// How many.
-        count: u32,
-    },
-    /// Triangles of the surface `first .. first + count`.
-    Triangles {
-        /// First triangle.
-        first: u32,
-        /// How many.
-        count: u32,
-    },
-    /// Cut off with the finer levels: only the swept triangle bounds the surface.
-    Cut,
-}
-
 /// One level of the hierarchy: the hull after the first `splits` splits. Lengths in the local
 /// frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -192,11 +170,9 @@ pub struct Level {
     pub faces: u32,
     /// Splits that make it from the base hull.
     pub splits: u32,
-    /// Cover nodes that a blob cut after this level keeps.
-    pub nodes: u32,
-    /// No point of a cut cover's triangles is farther than this from the surface.
+    /// No point of the hull is farther than this from the surface.
     pub hull_to_surface: f32,
-    /// No point of the surface is farther than this from the triangle that covers it.
+    /// No point of the surface is farther than this from a triangle that stands for it.
     pub surface_to_hull: f32,
     /// Volume between hull and surface over the surface's volume.
     pub void_ratio: f32,
@@ -213,7 +189,7 @@ fn single(&[a, b, c, d, e, f, g, h, i, j, k, l]: &[u8; 12]) -> Vec3 {
 }
 
 impl Hull<'_> {
-    /// With this many scratch entries no question on the cover tree ends for lack of memory.
+    /// With this many scratch entries no question ends for lack of memory.
     pub fn scratch_entries(&self) -> usize {
         self.header.queue_capacity as usize
     }
@@ -251,7 +227,6 @@ impl Hull<'_> {
         Some(Level {
             faces: self.levels.u32(at + level::FACES)?,
             splits: self.levels.u32(at + level::SPLITS)?,
-            nodes: self.levels.u32(at + level::NODES)?,
             hull_to_surface: self.levels.f32(at + level::HULL_TO_SURFACE)?,
             surface_to_hull: self.levels.f32(at + level::SURFACE_TO_HULL)?,
             void_ratio: self.levels.f32(at + level::VOID_RATIO)?,
@@ -323,8 +298,8 @@ impl<'a> Hull<'a> {
         self.base.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
     }
 
-    /// Swept triangle that contains base triangles `16·index .. 16·(index + 1)`: corners and
-    /// radius.
+    /// Swept triangle that contains base triangles `16·index .. 16·(index + 1)` and their parts of
+    /// the surface: corners and radius.
     #[inline]
     pub fn base_group(&self, index: u32) -> Option<([VertIdx; 3], f32)> {
         let width = self.widths.vertex;
@@ -333,11 +308,11 @@ impl<'a> Hull<'a> {
         Some((corners, Radius16(self.groups.u16(at + 3 * width)?).get()))
     }
 
-    /// Corners of a triangle of the surface.
-    #[inline(always)]
-    pub fn surface_triangle(&self, triangle: TriIdx) -> Option<[VertIdx; 3]> {
-        let at = triangle.usize().wrapping_mul(3 * self.widths.vertex);
-        self.surface.index3(at, self.widths.vertex).map(|corners| corners.map(VertIdx))
+    /// Triangles of the surface before those of split `8·index`.
+    #[inline]
+    pub fn source_start(&self, index: u32) -> Option<u32> {
+        let width = self.widths.start;
+        self.source_starts.index((index as usize).checked_mul(width)?, width)
     }
 
     /// Number of a surface triangle in the input file.
@@ -355,7 +330,8 @@ impl<'a> Hull<'a> {
         let at = i.wrapping_mul(bytes);
         let vertex = VertIdx(self.splits.index(at, wv)?);
         let start = self.splits.index(at + wv, wr)?;
-        let right = usize::from(self.splits.u8(at + wv + wr)?);
+        let wings = self.splits.u8(at + wv + wr)?;
+        let right = usize::from(wings & RIGHT_WING);
         let reach = Radius8(self.splits.u8(at + wv + wr + 1)?).get();
         let error = Radius8(self.splits.u8(at + wv + wr + 2)?).get();
         let end = if split.0.checked_add(1)? < self.header.splits {
@@ -369,6 +345,8 @@ impl<'a> Hull<'a> {
             vertex,
             origin: VertIdx(self.header.base_vertices.checked_add(split.0.checked_mul(2)?)?),
             right,
+            right_parent: right.wrapping_sub(usize::from(wings & RIGHT_BEFORE != 0)),
+            left_parent: if wings & LEFT_BEFORE != 0 { len.wrapping_sub(1) } else { 0 },
             reach,
             error,
             first_triangle: self
@@ -386,9 +364,20 @@ impl<'a> Hull<'a> {
     /// beyond a cut.
     #[inline(always)]
     pub fn split_of(&self, vertex: VertIdx) -> Option<SplitIdx> {
+        self.stored_split(self.stored_split_of(vertex)?)
+    }
+
+    /// "Splits with" as it is stored. "None" is greater than any split.
+    #[inline(always)]
+    pub(crate) fn stored_split_of(&self, vertex: VertIdx) -> Option<u32> {
         let width = self.widths.split;
-        let stored = self.splits_with.index(vertex.usize().wrapping_mul(width), width)?;
-        if stored == none(width) { None } else { Some(SplitIdx(stored)) }
+        self.splits_with.index(vertex.usize().wrapping_mul(width), width)
+    }
+
+    /// The split of a stored number.
+    #[inline(always)]
+    pub(crate) fn stored_split(&self, stored: u32) -> Option<SplitIdx> {
+        if stored == none(self.widths.split) { None } else { Some(SplitIdx(stored)) }
     }
 
     /// The split that brings a vertex ("split before", as a vertex of a ring), `None` for the base
@@ -428,48 +417,10 @@ impl<'a> Hull<'a> {
 
     /// Certified radius of a triangle of any level, local frame: base triangles first, then those
     /// of each split ([`Split::first_triangle`]). The triangle swept by it contains its part of the
-    /// surface. Infinite if it has no part.
+    /// surface.
     #[inline(always)]
     pub fn radius(&self, triangle: u32) -> Option<f32> {
         self.radii.u8(triangle as usize).map(|code| Radius8(code).get())
-    }
-
-    /// Swept triangle of a cover node: corners and radius.
-    #[inline(always)]
-    pub fn bound(&self, node: NodeIdx) -> Option<([VertIdx; 3], f32)> {
-        // No product of an index that the blob stores and a record's size overflows: `open` bounds
-        // the counts.
-        let at = node.usize().wrapping_mul(self.widths.node);
-        if self.widths.vertex == 2 {
-            // Three corners and the radius in one load: most parts have fewer than 65,536 vertices.
-            let word = u64::from_le_bytes(self.cover.array::<8>(at)?);
-            let corners = [word & 0xFFFF, word >> 16 & 0xFFFF, word >> 32 & 0xFFFF];
-            return Some((corners.map(|v| VertIdx(v as u32)), Radius16((word >> 48) as u16).get()));
-        }
-        let wv = self.widths.vertex;
-        let record = Bytes(self.cover.slice(at, 3 * wv + 2)?);
-        Some((record.index3(0, wv)?.map(VertIdx), Radius16(record.u16(3 * wv)?).get()))
-    }
-
-    /// A node of the cover tree.
-    #[inline(always)]
-    pub fn node(&self, node: NodeIdx) -> Option<Node> {
-        let Widths { vertex: wv, child: wc, .. } = self.widths;
-        let at = node.usize().wrapping_mul(self.widths.node);
-        let (corners, radius) = self.bound(node)?;
-        let first = self.cover.index(at + 3 * wv + 2, wc)?;
-        let tag = self.cover.u8(at + 3 * wv + 2 + wc)?;
-        let count = u32::from(tag & !LEAF_FLAG);
-        let limit =
-            if tag & LEAF_FLAG != 0 { self.header.surface_triangles } else { self.header.nodes };
-        let children = if first.checked_add(count)? > limit {
-            Children::Cut
-        } else if tag & LEAF_FLAG != 0 {
-            Children::Triangles { first, count }
-        } else {
-            Children::Nodes { first, count }
-        };
-        Some(Node { corners, radius, children })
     }
 
     /// Box of every vertex of every level, local frame.
@@ -479,7 +430,7 @@ impl<'a> Hull<'a> {
 
     /// Whether there is a hull hierarchy. Always, of a view that [`Hull::open`] returned.
     pub fn has_hull(&self) -> bool {
-        self.header.nodes != 0
+        self.header.base_triangles != 0
     }
 
     /// Input units of one unit of the local frame: a power of two.

@@ -155,7 +155,7 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
         "{COUNT} segments with ends on two different sides of a box twice the mesh's; {hit_count} hit{paper_hits}"
     ));
     table.note("outer: until every crossed face is the surface's, the paper's question; first: until the first hit is certain");
-    table.note("bounds: swept triangles tested instead of the faces below; disagree: first hits that differ from the cover tree's");
+    table.note("bounds: swept triangles tested instead of the faces below; disagree: first hits that differ from the sweep's");
     if unsettled > 0 {
         table.note(format!(
             "{unsettled} answers did not end exact or started inside the base hull's box"

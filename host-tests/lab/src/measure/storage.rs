@@ -24,10 +24,9 @@ pub fn sections(blob: &Blob<'_>) -> Table {
 
 /// Capacities and counts.
 pub fn limits(model: &Hull<'_>) -> Table {
-    let columns = ["nodes", "splits", "queue entries", "queue bytes", "longest chain"];
+    let columns = ["splits", "queue entries", "queue bytes", "longest chain"];
     let mut table = Table::new("capacities", "Memory that no query outgrows", &columns);
     table.push(row![
-        model.header().nodes,
         model.header().splits,
         model.scratch_entries(),
         model.scratch_entries() * size_of::<ScratchEntry>(),

@@ -47,7 +47,7 @@ pub struct ClosestArgs {
     /// Stop a query when upper − lower ≤ ABS, in the mesh's unit
     #[arg(long, value_name = "ABS", default_value_t = 0.0, value_parser = tolerance)]
     pub abs: f32,
-    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
+    /// tree, the box tree; or hull, a sweep on the hull hierarchy [default: tree if the blob has
     /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
@@ -149,7 +149,7 @@ pub struct SegmentArgs {
     /// run counter-clockwise [default: both]
     #[arg(long, value_enum)]
     pub facing: Option<FacingName>,
-    /// tree, the box tree; or cover, the hull hierarchy's cover tree [default: tree if the blob has
+    /// tree, the box tree; or hull, a sweep on the hull hierarchy [default: tree if the blob has
     /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
@@ -178,7 +178,7 @@ pub enum FacingName {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Engine {
     Tree,
-    Cover,
+    Hull,
 }
 
 #[derive(Debug, Args)]

@@ -5,7 +5,7 @@ pub const EXIT_STATUS: &str = "Exit status: 0 done, 1 a file or its content is n
 
 /// `--queue` of the commands with `--engine`.
 pub const QUEUE: &str = "Stack or queue entries to search with [default: what the blob needs; on \
-    the cover tree no less than 4096]";
+    the hull hierarchy no less than 4096]";
 
 /// `--queue` of pairs of nodes.
 pub const PAIRS: &str = "Stack entries to search with [default: 256, which always suffice]";
@@ -24,7 +24,7 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     triangle\n  \
     segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
-    hull      hull --level, refine, cut, and closest and segment with --engine cover: 36 to 51 \
+    hull      hull --level, refine, cut, and closest and segment with --engine hull: 25 to 40 \
     bytes a triangle more\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 \
     bytes a tribox\n  \

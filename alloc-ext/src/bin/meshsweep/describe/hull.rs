@@ -17,10 +17,11 @@ fn surface_error(header: &Header) -> f32 {
 /// Certified distances of a level to the mesh as it was read, in its unit.
 #[derive(Clone, Copy, Debug)]
 struct LevelDistances {
-    /// No point of the level's covering triangles is farther than this from the mesh.
-    cover_to_mesh: f32,
+    /// No point of the hull's triangles that stand for a part of the mesh is farther than this
+    /// from the mesh.
+    hull_to_mesh: f32,
     /// No point of the mesh is farther than this from them.
-    mesh_to_cover: f32,
+    mesh_to_hull: f32,
 }
 
 fn distances(header: &Header, level: &Level) -> LevelDistances {
@@ -30,13 +31,13 @@ fn distances(header: &Header, level: &Level) -> LevelDistances {
         up_to_f32(sum * exp2(header.scale_exponent))
     };
     LevelDistances {
-        cover_to_mesh: up(level.hull_to_surface),
-        mesh_to_cover: up(level.surface_to_hull),
+        hull_to_mesh: up(level.hull_to_surface),
+        mesh_to_hull: up(level.surface_to_hull),
     }
 }
 
-/// Bytes of a queue with which no query overflows.
-fn queue_bytes(hull: &Hull<'_>) -> usize {
+/// Bytes of scratch that no query overflows.
+fn scratch_bytes(hull: &Hull<'_>) -> usize {
     hull.scratch_entries() * size_of::<ScratchEntry>()
 }
 
@@ -66,9 +67,9 @@ pub(super) fn write(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
 fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     writeln!(
         out,
-        "  queue: {}, {} bytes of RAM: no query on the cover tree can overflow it",
+        "  scratch: {}, {} bytes of RAM: no query can overflow it",
         Counted(hull.scratch_entries(), "entry"),
-        queue_bytes(hull)
+        scratch_bytes(hull)
     )?;
     writeln!(
         out,
@@ -84,22 +85,18 @@ fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
 
 /// The level table.
 fn write_levels(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
-    writeln!(out, "  levels, with certified distances of their covering triangles")?;
-    writeln!(
-        out,
-        "  level      faces     splits      nodes     void %   cover to mesh   mesh to cover"
-    )?;
+    writeln!(out, "  levels, with certified distances")?;
+    writeln!(out, "  level      faces     splits     void %    hull to mesh    mesh to hull")?;
     for (index, level) in hull.levels().enumerate() {
-        let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(hull.header(), &level);
+        let LevelDistances { hull_to_mesh, mesh_to_hull } = distances(hull.header(), &level);
         writeln!(
             out,
-            "  {index:>5} {:>10} {:>10} {:>10} {:>10} {:>15} {:>15}",
+            "  {index:>5} {:>10} {:>10} {:>10} {:>15} {:>15}",
             level.faces,
             level.splits,
-            level.nodes,
             Percent(f64::from(level.void_ratio) * 100.0),
-            AtMost(cover_to_mesh),
-            AtMost(mesh_to_cover)
+            AtMost(hull_to_mesh),
+            AtMost(mesh_to_hull)
         )?;
     }
     Ok(())
@@ -110,14 +107,13 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
     let levels: Vec<Value> = hull
         .levels()
         .map(|level| {
-            let LevelDistances { cover_to_mesh, mesh_to_cover } = distances(h, &level);
+            let LevelDistances { hull_to_mesh, mesh_to_hull } = distances(h, &level);
             json!({
                 "faces": level.faces,
                 "splits": level.splits,
-                "nodes": level.nodes,
                 "void_ratio": level.void_ratio,
-                "cover_to_mesh": cover_to_mesh,
-                "mesh_to_cover": mesh_to_cover,
+                "hull_to_mesh": hull_to_mesh,
+                "mesh_to_hull": mesh_to_hull,
             })
         })
         .collect();
@@ -130,12 +126,11 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
         "base_triangles": h.base_triangles,
         "splits": h.splits,
         "ring_entries": h.rings,
-        "cover_nodes": h.nodes,
         "surface_triangles": h.surface_triangles,
         "hull_box": hull_box,
         "capacities": {
-            "queue": hull.scratch_entries(),
-            "queue_bytes": queue_bytes(hull),
+            "scratch": hull.scratch_entries(),
+            "scratch_bytes": scratch_bytes(hull),
             "dependency_depth": hull.header().dependency_depth,
         },
         "levels": levels,

@@ -1,0 +1,391 @@
+//! A sweep that is kept between questions: interrupted and continued, moved with its point
+//! (Guéziec 2000, 3.3, 5.1, 5.2), or asked for one triangle after another.
+//!
+//! A key in the queue is a bound of the distance plus the motion so far when it was computed. So
+//! the key less the motion so far is a bound at any later time, and no key is changed when the
+//! point moves. A triangle is bounded anew when it comes to the top.
+
+use super::closest_point::Nearest;
+use super::sweep::{Candidate, Fate, Front, Visit};
+use crate::hull::format::{Hull, Instance};
+use crate::num::down_to_f32;
+use crate::num::tolerance::HULL_FAR;
+use crate::query::{
+    Budget, ClosestPoint, Ended, Frame, QueryError, ScratchEntry, SweepQueue, Work,
+};
+use glam::DVec3;
+
+/// Part of the hulls' size by which triangles may be farther than the nearest and still be kept.
+const KEPT: f64 = 1.0 / 32.0;
+
+/// Motion, in the local frame, after which a sweep begins anew: keys in f32 lose too much.
+const FARTHEST_MOTION: f64 = 16.0;
+
+/// Motions are summed with less than four roundings each.
+const SUMMED: f64 = 1.0 + 1.0 / (1u64 << 48) as f64;
+
+/// A sweep about one point that may move. It lives in the caller's scratch.
+#[derive(Debug)]
+pub struct Sweep<'a, 'm> {
+    front: Front<'a, 'm>,
+    frame: Frame,
+    p: DVec3,
+    /// The motion so far, rounded up.
+    moved: f64,
+    /// Triangles that are not in the queue have no lesser key.
+    pruned: f32,
+    /// The nearest triangle of the last answer.
+    best: Option<Instance>,
+    /// Up to this motion it stays the nearest.
+    safe: f64,
+    holds: Holds,
+}
+
+/// The triangles that the queue holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Holds {
+    Nothing,
+    /// All that may be nearest, and some that are a little farther.
+    Near,
+    /// All but those that were given out.
+    Rest,
+}
+
+/// Puts triangles into the queue.
+struct Keep {
+    nearest: Nearest,
+    /// The bound of the triangle that was replaced. Its children are not nearer.
+    parent: f32,
+    moved: f64,
+    pruned: f32,
+    /// The nearest of those that were just found, while no triangle of the surface is known.
+    next: Option<ScratchEntry>,
+    dives: bool,
+}
+
+impl Visit for Keep {
+    fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>) {
+        for (bound, candidate) in self.nearest.bounds(found).into_iter().zip(found) {
+            if bound == f32::INFINITY {
+                self.pruned = self.pruned.min(stored(f64::from(self.nearest.limit()), self.moved));
+                continue;
+            }
+            let key = stored(f64::from(bound.max(self.parent)), self.moved);
+            let entry = ScratchEntry::new(key, candidate.instance.0);
+            match &mut self.next {
+                Some(near) if entry.key() < near.key() => {
+                    queue.push(core::mem::replace(near, entry));
+                }
+                None if self.dives => self.next = Some(entry),
+                _ => queue.push(entry),
+            }
+        }
+    }
+}
+
+/// A bound as a key.
+fn stored(bound: f64, moved: f64) -> f32 {
+    down_to_f32((bound + moved) * (2.0 - SUMMED))
+}
+
+/// A key as a bound.
+fn bound_of(key: f32, moved: f64) -> f64 {
+    (f64::from(key) - moved).max(0.0)
+}
+
+impl<'a> Hull<'a> {
+    /// A sweep about `point` (input units) that keeps its state in `scratch` from one question to
+    /// the next.
+    ///
+    /// `scratch`: a few hundred entries. With fewer an answer still holds, and says if memory ended
+    /// the search.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Ended, Hull, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bracket.msw"));
+    /// let (part, mut scratch) = (Hull::open(bytes)?, Scratch::<512>::new());
+    /// let mut sweep = part.sweep([300.0, 0.0, 0.0], &mut scratch)?;
+    /// let mut near = sweep.closest_point(Budget::EXACT.with_steps(20))?;
+    /// while near.ended == Ended::Steps {
+    ///     near = sweep.closest_point(Budget::EXACT.with_steps(20))?;
+    /// }
+    /// sweep.move_to([300.0, 0.1, 0.0])?;
+    /// assert!(sweep.closest_point(Budget::EXACT)?.distance.lower > 0.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`], [`QueryError::NoScratch`].
+    pub fn sweep<'m>(
+        &self,
+        point: [f32; 3],
+        scratch: &'m mut [ScratchEntry],
+    ) -> Result<Sweep<'a, 'm>, QueryError> {
+        if !self.has_hull() {
+            return Err(QueryError::NO_HULL);
+        }
+        let frame = Frame::of(self.header());
+        let p = frame.local(point)?;
+        if scratch.is_empty() {
+            return Err(QueryError::NoScratch);
+        }
+        Ok(Sweep {
+            front: Front::best_first(self, scratch),
+            frame,
+            p,
+            moved: 0.0,
+            pruned: f32::INFINITY,
+            best: None,
+            safe: -1.0,
+            holds: Holds::Nothing,
+        })
+    }
+}
+
+impl Sweep<'_, '_> {
+    /// Moves the point (input units). Cost: constant.
+    ///
+    /// For a part that moves, carry the point into the part's frame.
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`].
+    pub fn move_to(&mut self, point: [f32; 3]) -> Result<(), QueryError> {
+        let p = self.frame.local(point)?;
+        self.moved = (self.moved + p.distance(self.p)) * SUMMED;
+        self.p = p;
+        if self.holds == Holds::Rest || self.moved.is_nan() || self.moved > FARTHEST_MOTION {
+            self.holds = Holds::Nothing;
+        }
+        Ok(())
+    }
+
+    /// Closest point of the surface: the same triangle as [`Hull::closest_point`] names.
+    ///
+    /// After [`Ended::Steps`] or [`Ended::Tolerance`] another call goes on where this one stopped.
+    /// While the point has moved less than half the gap between the nearest two triangles, the
+    /// answer takes one triangle. `work.splits` is 0 then.
+    ///
+    /// # Errors
+    /// [`QueryError::Tolerance`].
+    pub fn closest_point(&mut self, budget: Budget) -> Result<ClosestPoint, QueryError> {
+        budget.check()?;
+        self.nearest(&budget).ok_or(QueryError::Unchecked)
+    }
+
+    /// The next triangle of the surface by rising distance, with its own interval. `None` after the
+    /// last one. [`move_to`](Self::move_to) and [`closest_point`](Self::closest_point) begin anew.
+    ///
+    /// If the search ends early, `triangle` is `None` and no triangle that is left is nearer than
+    /// `distance.lower`. Of the budget only `steps` matters. On a cut blob the triangles are those
+    /// of the hull.
+    ///
+    /// # Errors
+    /// [`QueryError::Tolerance`].
+    pub fn next_triangle(&mut self, budget: Budget) -> Result<Option<ClosestPoint>, QueryError> {
+        budget.check()?;
+        self.next(&budget).ok_or(QueryError::Unchecked)
+    }
+
+    fn nearest(&mut self, budget: &Budget) -> Option<ClosestPoint> {
+        self.front.allow(budget.steps);
+        if self.p.abs().max_element() > HULL_FAR {
+            let mut far = self.point()?;
+            far.settle_by_box(&self.front.model)?;
+            let ended = if self.front.model.is_cut() { Ended::Resolution } else { Ended::Exact };
+            return Some(far.answer(&self.front.model, &self.frame, Work::NONE, ended));
+        }
+        let mut is_new = self.holds != Holds::Near;
+        loop {
+            let mut keep = self.keep(0.0)?;
+            if let Some(best) = self.best {
+                keep.nearest.evaluate(&self.front.look(best)?);
+            }
+            keep.dives = self.best.is_none();
+            let ended = if !is_new && self.moved <= self.safe {
+                self.ended()
+            } else {
+                if is_new {
+                    self.restart();
+                    keep.moved = 0.0;
+                    keep.limit_to(self.margin());
+                    self.front.begin(&mut keep)?;
+                }
+                self.run(&mut keep, budget)?
+            };
+            let lost = bound_of(keep.pruned.min(self.pruned), self.moved)
+                .min(bound_of(self.front.queue.dropped(), self.moved));
+            self.pruned = self.pruned.min(keep.pruned);
+            self.best = keep.nearest.instance();
+            if lost < keep.nearest.upper() && !is_new {
+                is_new = true;
+                continue;
+            }
+            let ended = if lost < keep.nearest.upper() { Ended::Scratch } else { ended };
+            keep.nearest.lower_to(lost);
+            let work = keep.nearest.work(self.front.work);
+            if self.best.is_none() {
+                let mut known = self.point()?;
+                known.settle_by_box(&self.front.model)?;
+                return Some(known.answer(&self.front.model, &self.frame, work, ended));
+            }
+            return Some(keep.nearest.answer(&self.front.model, &self.frame, work, ended));
+        }
+    }
+
+    /// Refines until no triangle that waits may be nearer than the best one.
+    fn run(&mut self, keep: &mut Keep, budget: &Budget) -> Option<Ended> {
+        let error = f64::from(self.front.model.header().surface_error);
+        let (relative, absolute) = (f64::from(budget.relative), self.frame.length(budget.absolute));
+        let margin = self.margin();
+        let mut ended = self.ended();
+        let mut others = f64::INFINITY;
+        self.safe = -1.0;
+        while let Some(entry) = keep.next.take().or_else(|| self.front.queue.pop_heap()) {
+            let bound = bound_of(entry.key(), self.moved);
+            if bound > keep.nearest.upper() {
+                others = bound;
+                self.front.queue.push(entry);
+                break;
+            }
+            let is_near_enough = (relative > 0.0 || absolute > 0.0)
+                && keep.nearest.is_within([relative, absolute], bound, error);
+            if is_near_enough || self.front.is_spent() {
+                ended = if is_near_enough { Ended::Tolerance } else { Ended::Steps };
+                let waiting = bound_of(self.front.queue.lower(), self.moved);
+                keep.nearest.lower_to(bound.min(waiting));
+                self.front.queue.push(entry);
+                break;
+            }
+            let instance = Instance(entry.node());
+            let candidate = self.front.look(instance)?;
+            if candidate.fate != Fate::Splits {
+                let lower = keep.nearest.evaluate(&candidate);
+                keep.dives = false;
+                let key = stored(lower.max(bound), self.moved);
+                self.front.queue.set_aside(ScratchEntry::new(key, instance.0));
+                continue;
+            }
+            keep.limit_to(margin);
+            if self.moved > 0.0 {
+                let [now, ..] = keep.nearest.bounds(&[candidate]);
+                let now = now.min(keep.nearest.limit());
+                if f64::from(now) > keep.nearest.upper() {
+                    let key = stored(f64::from(now), self.moved);
+                    self.front.queue.push(ScratchEntry::new(key.max(entry.key()), instance.0));
+                    continue;
+                }
+            }
+            keep.parent = down_to_f32(bound);
+            self.front.open(instance, keep)?;
+        }
+        if let Some(entry) = keep.next.take() {
+            self.front.queue.push(entry);
+        }
+        let best = keep.nearest.instance();
+        let beside = self.front.queue.aside().filter(|e| Some(Instance(e.node())) != best);
+        others = beside.map(|e| bound_of(e.key(), self.moved)).fold(others, f64::min);
+        let lost = keep.pruned.min(self.pruned).min(self.front.queue.dropped());
+        others = others.min(bound_of(lost, self.moved));
+        self.front.queue.take_back();
+        if ended == self.ended() {
+            // The gap is a difference of numbers with a rounding each.
+            let gap = others * (2.0 - SUMMED) - keep.nearest.upper() * SUMMED;
+            self.safe = if gap > 0.0 { self.moved + 0.5 * gap * (2.0 - SUMMED) } else { -1.0 };
+        }
+        Some(ended)
+    }
+
+    fn next(&mut self, budget: &Budget) -> Option<Option<ClosestPoint>> {
+        self.front.allow(budget.steps);
+        let begins = self.holds != Holds::Rest;
+        if begins {
+            self.restart();
+            self.holds = Holds::Rest;
+            self.best = None;
+        }
+        let mut keep = self.keep(0.0)?;
+        if begins {
+            self.front.begin(&mut keep)?;
+        }
+        let model = self.front.model;
+        let mut exact = 0;
+        while let Some(entry) = self.front.queue.pop_heap() {
+            let least = self.front.queue.dropped();
+            if least < entry.key() || self.front.is_spent() {
+                self.front.queue.push(entry);
+                let ended = if least < entry.key() { Ended::Scratch } else { Ended::Steps };
+                let mut known = self.point()?;
+                known.lower_to(f64::from(least.min(entry.key())));
+                let answer = known.answer(&model, &self.frame, self.front.work, ended);
+                return Some(Some(ClosestPoint { triangle: None, ..answer }));
+            }
+            let candidate = self.front.look(Instance(entry.node()))?;
+            if candidate.fate == Fate::Splits {
+                keep.parent = entry.key();
+                self.front.open(candidate.instance, &mut keep)?;
+                continue;
+            }
+            let mut alone = self.point()?;
+            exact += 1;
+            let lower = alone.evaluate(&candidate).max(f64::from(entry.key()));
+            let key = down_to_f32(lower);
+            if key > entry.key() && key > self.front.queue.lower() {
+                self.front.queue.push(ScratchEntry::new(key, entry.node()));
+                continue;
+            }
+            // In f32, as the keys, so that distances rise.
+            alone.raise_to(f64::from(entry.key()));
+            alone.lower_to(f64::from(key));
+            let work = Work { exact, ..self.front.work };
+            return Some(Some(alone.answer(&model, &self.frame, work, self.ended())));
+        }
+        if self.front.queue.dropped().is_finite() {
+            let mut known = self.point()?;
+            known.lower_to(f64::from(self.front.queue.dropped()));
+            let answer = known.answer(&model, &self.frame, self.front.work, Ended::Scratch);
+            return Some(Some(ClosestPoint { triangle: None, ..answer }));
+        }
+        Some(None)
+    }
+
+    fn point(&self) -> Option<Nearest> {
+        Nearest::new(&self.front.model, self.p)
+    }
+
+    fn keep(&self, parent: f32) -> Option<Keep> {
+        Some(Keep {
+            nearest: self.point()?,
+            parent,
+            moved: self.moved,
+            pruned: f32::INFINITY,
+            next: None,
+            dives: false,
+        })
+    }
+
+    /// An empty queue.
+    fn restart(&mut self) {
+        self.front.queue.clear();
+        self.moved = 0.0;
+        self.pruned = f32::INFINITY;
+        self.safe = -1.0;
+        self.holds = Holds::Near;
+    }
+
+    fn margin(&self) -> f64 {
+        let hull = self.front.model.hull_box();
+        KEPT * f64::from((hull.max - hull.min).length())
+    }
+
+    /// How a complete search ends.
+    fn ended(&self) -> Ended {
+        if self.front.model.is_cut() { Ended::Resolution } else { Ended::Exact }
+    }
+}
+
+impl Keep {
+    /// Triangles farther than the nearest by more than this are not kept.
+    fn limit_to(&mut self, margin: f64) {
+        self.nearest.set_limit(self.nearest.upper() + margin);
+    }
+}

@@ -1,0 +1,297 @@
+//! The front of a sweep (Guéziec 2000, 3.2): triangles of any levels that stand for the surface.
+//!
+//! Each triangle of a level stands for a part of the surface, which the triangle swept by its
+//! radius contains. In the builder's order a triangle is removed by the first split of its corners.
+//! Of the triangles that this split brings, one to three are its children: their parts make up its
+//! part. So a triangle can be replaced by its children alone, and no split has to be performed
+//! first: the front is a set of bounds and not a mesh. No triangle is reached twice, so nothing has
+//! to be remembered but the triangles that wait. Proof: `core/docs/rounding.md` §3.
+
+use crate::geom::LANES;
+use crate::hull::format::layout::BASE_GROUP;
+use crate::hull::format::{Hull, Instance, Named, SplitIdx, VertIdx};
+use crate::query::{ScratchEntry, SweepQueue, Work};
+use glam::Vec3;
+
+/// What becomes of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fate {
+    /// A split refines it.
+    Splits,
+    /// It is one of the surface.
+    Surface,
+    /// The split that refines it is not in the blob.
+    Cut,
+}
+
+/// A triangle that the front came to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidate {
+    pub(crate) corners: [Vec3; 3],
+    pub(crate) radius: f32,
+    pub(crate) instance: Instance,
+    pub(crate) fate: Fate,
+}
+
+impl Candidate {
+    const EMPTY: Candidate =
+        Candidate { corners: [Vec3::ZERO; 3], radius: 0.0, instance: Instance(0), fate: Fate::Cut };
+}
+
+/// What a question does with triangles: bounds them, and puts those into the queue that may matter.
+pub(crate) trait Visit {
+    /// At most [`LANES`] triangles.
+    fn visit(&mut self, found: &[Candidate], queue: &mut SweepQueue<'_>);
+}
+
+/// A vertex, and its split as it is stored.
+#[derive(Clone, Copy)]
+struct End {
+    vertex: VertIdx,
+    split: u32,
+}
+
+/// A triangle of a level.
+#[derive(Clone, Copy)]
+struct Triangle {
+    instance: Instance,
+    ends: [End; 3],
+    /// Its number among the radii.
+    radius: u32,
+}
+
+impl Triangle {
+    /// The split that removes it, as it is stored.
+    #[inline(always)]
+    fn split(&self) -> u32 {
+        let [a, b, c] = self.ends;
+        a.split.min(b.split).min(c.split)
+    }
+}
+
+/// Up to [`LANES`] triangles on their way to a visitor.
+struct Batch {
+    found: [Candidate; LANES],
+    len: usize,
+}
+
+impl Batch {
+    const EMPTY: Batch = Batch { found: [Candidate::EMPTY; LANES], len: 0 };
+
+    #[inline(always)]
+    fn push(&mut self, candidate: Candidate, visitor: &mut impl Visit, queue: &mut SweepQueue<'_>) {
+        self.found[self.len % LANES] = candidate;
+        self.len += 1;
+        if self.len == LANES {
+            self.flush(visitor, queue);
+        }
+    }
+
+    #[inline(always)]
+    fn flush(&mut self, visitor: &mut impl Visit, queue: &mut SweepQueue<'_>) {
+        if let Some(found) = self.found.get(..self.len) {
+            visitor.visit(found, queue);
+        }
+        self.len = 0;
+    }
+}
+
+/// Children of a triangle.
+const CHILDREN: usize = 3;
+
+/// Triangles and groups of all levels.
+fn triangles(model: &Hull<'_>) -> u32 {
+    let h = model.header();
+    let triangles = h.rings.saturating_add(h.base_triangles).saturating_add(2 * h.splits);
+    triangles.saturating_add(model.base_groups())
+}
+
+/// The triangles that wait.
+#[derive(Debug)]
+pub(crate) struct Front<'a, 'm> {
+    pub(crate) model: Hull<'a>,
+    pub(crate) queue: SweepQueue<'m>,
+    pub(crate) work: Work,
+    /// Triangles that may be replaced.
+    steps: u32,
+}
+
+impl<'a, 'm> Front<'a, 'm> {
+    /// An empty front that may replace `steps` triangles. There are fewer than the tables hold. So
+    /// a search also ends on tables that open and yet name a triangle more than once.
+    pub(crate) fn new(model: &Hull<'a>, scratch: &'m mut [ScratchEntry], steps: u32) -> Self {
+        Front {
+            steps: steps.min(triangles(model)),
+            model: *model,
+            queue: SweepQueue::new(scratch, model.scratch_entries()),
+            work: Work::NONE,
+        }
+    }
+
+    /// Shows the groups of the base hull to the visitor.
+    pub(crate) fn begin(&mut self, visitor: &mut impl Visit) -> Option<()> {
+        let groups = self.model.base_groups();
+        self.queue.begin_children(groups);
+        let mut batch = Batch::EMPTY;
+        for index in 0..groups {
+            let (corners, radius) = self.model.base_group(index)?;
+            self.work.nodes += 1;
+            let corners = self.model.positions(corners)?;
+            let instance = self.model.instance(Named::Group(index));
+            let candidate = Candidate { corners, radius, instance, fate: Fate::Splits };
+            batch.push(candidate, visitor, &mut self.queue);
+        }
+        batch.flush(visitor, &mut self.queue);
+        Some(())
+    }
+
+    /// A front whose queue never goes depth first, and that may replace no triangle yet.
+    pub(crate) fn best_first(model: &Hull<'a>, scratch: &'m mut [ScratchEntry]) -> Self {
+        Front { queue: SweepQueue::best_first(scratch), work: Work::NONE, model: *model, steps: 0 }
+    }
+
+    /// From now on, `steps` triangles may be replaced.
+    pub(crate) fn allow(&mut self, steps: u32) {
+        self.work = Work::NONE;
+        self.steps = steps.min(triangles(&self.model));
+    }
+
+    /// The triangle or group of a number. It is not counted as work.
+    pub(crate) fn look(&self, instance: Instance) -> Option<Candidate> {
+        let (corners, radius) = match self.model.named(instance) {
+            Named::Group(index) => {
+                let (corners, radius) = self.model.base_group(index)?;
+                let corners = self.model.positions(corners)?;
+                return Some(Candidate { corners, radius, instance, fate: Fate::Splits });
+            }
+            Named::Base(index) => (self.model.base_triangle(index)?, index),
+            Named::Fine(split, slot) => {
+                let split = self.model.split(split)?;
+                (split.fine(slot as usize)?, split.first_triangle.checked_add(slot)?)
+            }
+        };
+        let fate = self.fate(self.model.removed_by(corners));
+        let radius = self.model.radius(radius)?;
+        Some(Candidate { corners: self.model.positions(corners)?, radius, instance, fate })
+    }
+
+    fn fate(&self, split: Option<SplitIdx>) -> Fate {
+        match split {
+            Some(_) => Fate::Splits,
+            None if self.model.is_cut() => Fate::Cut,
+            None => Fate::Surface,
+        }
+    }
+
+    /// Whether no triangle may be replaced any more.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.work.splits >= self.steps
+    }
+
+    /// Replaces a triangle or a group by finer triangles. `None`: the model is unchecked.
+    #[inline]
+    pub(crate) fn open(&mut self, instance: Instance, visitor: &mut impl Visit) -> Option<()> {
+        self.work.splits += 1;
+        if let Named::Group(index) = self.model.named(instance) {
+            return self.open_group(index, visitor);
+        }
+        let [a, b, c] = self.model.corners(instance)?;
+        let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
+        let triangle = Triangle { instance, ends, radius: 0 };
+        let (mut children, mut count) =
+            self.children(&triangle, self.model.stored_split(triangle.split())?)?;
+        // An only child has the same part of the surface. Its bound is hardly better, so it is
+        // replaced at once.
+        while count == 1
+            && let Some(split) = self.model.stored_split(children[0].split())
+            && !self.is_spent()
+        {
+            self.work.splits += 1;
+            (children, count) = self.children(&children[0], split)?;
+        }
+        self.queue.begin_children(count as u32);
+        let mut found = [Candidate::EMPTY; CHILDREN];
+        for (child, slot) in children.iter().zip(&mut found).take(count) {
+            *slot = self.candidate(child)?;
+        }
+        visitor.visit(found.get(..count)?, &mut self.queue);
+        Some(())
+    }
+
+    fn open_group(&mut self, index: u32, visitor: &mut impl Visit) -> Option<()> {
+        let first = index.checked_mul(BASE_GROUP)?;
+        let end = self.model.header().base_triangles.min(first.checked_add(BASE_GROUP)?);
+        self.queue.begin_children(end.saturating_sub(first));
+        let mut batch = Batch::EMPTY;
+        for radius in first..end {
+            let [a, b, c] = self.model.base_triangle(radius)?;
+            let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
+            let instance = self.model.instance(Named::Base(radius));
+            let candidate = self.candidate(&Triangle { instance, ends, radius })?;
+            batch.push(candidate, visitor, &mut self.queue);
+        }
+        batch.flush(visitor, &mut self.queue);
+        Some(())
+    }
+
+    #[inline(always)]
+    fn end(&self, vertex: VertIdx) -> Option<End> {
+        Some(End { vertex, split: self.model.stored_split_of(vertex)? })
+    }
+
+    /// The triangles that a split makes out of a triangle.
+    #[inline(always)]
+    fn children(
+        &self,
+        triangle: &Triangle,
+        index: SplitIdx,
+    ) -> Option<([Triangle; CHILDREN], usize)> {
+        let split = self.model.split(index)?;
+        // The corner that is split is the only one with this split.
+        let [a, b, c] = triangle.ends;
+        let (from, to) = if a.split == index.0 {
+            (b, c)
+        } else if b.split == index.0 {
+            (c, a)
+        } else {
+            (a, b)
+        };
+        let edge = split.find(from.vertex)?;
+        let ring_len = split.ring_len();
+        let Instance(first) = self.model.instance(Named::Fine(index, 0));
+        let child = |slot: usize, ends: [End; 3]| Triangle {
+            instance: Instance(first.wrapping_add(slot as u32)),
+            ends,
+            radius: split.first_triangle.wrapping_add(slot as u32),
+        };
+        let apex = if edge < split.right { split.origin } else { split.destination() };
+        let mut children = [child(edge, [self.end(apex)?, from, to]); CHILDREN];
+        let mut count = 1;
+        if edge != split.right_parent && edge != split.left_parent {
+            return Some((children, count));
+        }
+        let (origin, destination) = (self.end(split.origin)?, self.end(split.destination())?);
+        if edge == split.right_parent {
+            let wing = if edge == split.right { from } else { to };
+            children[1] = child(ring_len, [origin, wing, destination]);
+            count = 2;
+        }
+        if edge == split.left_parent {
+            let wing = if edge == 0 { from } else { to };
+            children[count % CHILDREN] = child(ring_len + 1, [origin, destination, wing]);
+            count += 1;
+        }
+        Some((children, count))
+    }
+
+    #[inline(always)]
+    fn candidate(&mut self, triangle: &Triangle) -> Option<Candidate> {
+        let Triangle { instance, ends, radius } = *triangle;
+        let fate = self.fate(self.model.stored_split(triangle.split()));
+        let counter =
+            if fate == Fate::Surface { &mut self.work.triangles } else { &mut self.work.nodes };
+        *counter += 1;
+        let corners = self.model.positions(ends.map(|end| end.vertex))?;
+        Some(Candidate { corners, radius: self.model.radius(radius)?, instance, fate })
+    }
+}

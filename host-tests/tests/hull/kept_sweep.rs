@@ -1,0 +1,200 @@
+//! A sweep that is kept: interrupted, moved, or asked for triangle after triangle, it answers like a
+//! fresh one.
+
+use super::scenes::{all, options};
+use meshsweep::cut::cut;
+use meshsweep_core::{Budget, ClosestPoint, Ended, Hull, QueryError, ScratchEntry};
+use meshsweep_host_tests::generate::{Rng, rough_sphere};
+use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
+use meshsweep_host_tests::scene::Scene;
+
+fn fresh(model: &Hull<'_>, p: [f32; 3]) -> ClosestPoint {
+    let mut scratch = vec![ScratchEntry::EMPTY; 4096];
+    model.closest_point(p, Budget::EXACT, &mut scratch).expect("finite")
+}
+
+fn contains_truth(scene: &Scene, p: [f32; 3], answer: &ClosestPoint) {
+    let truth = distance_to_mesh(p, &scene.positions, &scene.triangles);
+    let holds = f64::from(answer.distance.lower) <= truth.upper
+        && truth.lower <= f64::from(answer.distance.upper);
+    assert!(holds, "{}: {p:?}: {answer:?} does not contain {truth:?}", scene.name);
+}
+
+/// A path of small and large steps.
+fn path(scene: &Scene, count: usize, rng: &mut Rng) -> Vec<[f32; 3]> {
+    let mut p = scene.around(1.5, rng);
+    (0..count)
+        .map(|i| {
+            let step = scene.size() * [1e-5, 1e-4, 1e-3, 1e-2, 0.1][i / 7 % 5];
+            p = std::array::from_fn(|k| p[k] + step * rng.range(-1.0, 1.0));
+            if i % 50 == 49 {
+                p = scene.around(1.5, rng);
+            }
+            p
+        })
+        .collect()
+}
+
+#[test]
+fn a_moved_sweep_names_the_triangle_of_a_fresh_one() {
+    let mut spared = 0;
+    for scene in all() {
+        let model = scene.model();
+        let mut scratch = vec![ScratchEntry::EMPTY; 8192];
+        let mut rng = Rng::new(51);
+        let path = path(scene, 150, &mut rng);
+        let mut sweep = model.sweep(path[0], &mut scratch).expect("finite");
+        for p in path {
+            sweep.move_to(p).expect("finite");
+            let (kept, new) =
+                (sweep.closest_point(Budget::EXACT).expect("answers"), fresh(&model, p));
+            assert_eq!(
+                (kept.triangle, kept.point, kept.ended),
+                (new.triangle, new.point, new.ended),
+                "{}: {p:?}: {kept:?} {new:?}",
+                scene.name
+            );
+            contains_truth(scene, p, &kept);
+            spared += usize::from(kept.work.splits < new.work.splits);
+        }
+    }
+    assert!(spared > 1000, "only {spared} answers took fewer splits");
+}
+
+#[test]
+fn any_memory_and_any_budget_give_an_interval_that_holds() {
+    let mut short = 0;
+    for scene in all() {
+        let model = scene.model();
+        for (entries, steps) in [(1, u32::MAX), (2, 9), (16, 5), (48, u32::MAX), (200, 1)] {
+            let mut scratch = vec![ScratchEntry::EMPTY; entries];
+            let mut rng = Rng::new(52);
+            let path = path(scene, 60, &mut rng);
+            let mut sweep = model.sweep(path[0], &mut scratch).expect("finite");
+            for p in path {
+                sweep.move_to(p).expect("finite");
+                let stop = Budget::EXACT.with_steps(steps).with_relative(0.01);
+                let answer = sweep.closest_point(stop).expect("answers");
+                contains_truth(scene, p, &answer);
+                short += usize::from(answer.ended == Ended::Scratch);
+            }
+        }
+    }
+    assert!(short > 100, "only {short} answers lacked memory");
+}
+
+#[test]
+fn a_sweep_in_small_steps_ends_like_one_that_is_not_interrupted() {
+    for scene in all() {
+        let model = scene.model();
+        let mut scratch = vec![ScratchEntry::EMPTY; 8192];
+        let mut rng = Rng::new(53);
+        for p in scene.points(12, &mut rng) {
+            let mut sweep = model.sweep(p, &mut scratch).expect("finite");
+            let mut lower = 0f32;
+            let mut calls = 0;
+            let answer = loop {
+                let answer = sweep.closest_point(Budget::EXACT.with_steps(7)).expect("answers");
+                contains_truth(scene, p, &answer);
+                calls += 1;
+                if answer.ended != Ended::Steps {
+                    break answer;
+                }
+                lower = lower.max(answer.distance.lower);
+                assert!(calls < 100_000, "{}: {p:?} does not end", scene.name);
+            };
+            let whole = fresh(&model, p);
+            assert_eq!((answer.triangle, answer.ended), (whole.triangle, whole.ended));
+            assert!(lower <= whole.distance.upper, "{}: {p:?}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn triangles_come_by_rising_distance_and_each_comes_once() {
+    for scene in all() {
+        let model = scene.model();
+        let mut scratch = vec![ScratchEntry::EMPTY; 60_000];
+        let mut rng = Rng::new(54);
+        for p in scene.points(3, &mut rng) {
+            let mut sweep = model.sweep(p, &mut scratch).expect("finite");
+            let mut seen = vec![false; scene.triangles.len()];
+            let mut last = 0f32;
+            while let Some(found) = sweep.next_triangle(Budget::EXACT).expect("answers") {
+                assert_eq!(found.ended, Ended::Exact, "{}: {found:?}", scene.name);
+                let number = found.triangle.expect("a whole blob");
+                assert!(!std::mem::replace(&mut seen[number as usize], true));
+                assert!(found.distance.lower >= last, "{}: {found:?} after {last}", scene.name);
+                last = found.distance.lower;
+                let truth = distance_to_triangle(p, scene.corners(number));
+                let holds = f64::from(found.distance.lower) <= truth.upper
+                    && truth.lower <= f64::from(found.distance.upper);
+                assert!(holds, "{}: {p:?}: {found:?} {truth:?}", scene.name);
+            }
+            assert!(seen.into_iter().all(|seen| seen), "{}: {p:?}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn a_list_that_ends_early_says_how_near_the_rest_may_be() {
+    let scene = Scene::hull("rough sphere", rough_sphere(3, 0.2, 7), &options(40));
+    let model = scene.model();
+    let p = [1.7, 0.3, -0.4];
+    let mut all: Vec<f64> = (0..scene.triangles.len() as u32)
+        .map(|t| distance_to_triangle(p, scene.corners(t)).upper)
+        .collect();
+    all.sort_by(f64::total_cmp);
+    for (entries, steps) in [(20, u32::MAX), (4096, 30), (4096, 0)] {
+        let mut scratch = vec![ScratchEntry::EMPTY; entries];
+        let mut sweep = model.sweep(p, &mut scratch).expect("finite");
+        let mut given = 0;
+        loop {
+            let stop = Budget::EXACT.with_steps(steps);
+            let found = sweep.next_triangle(stop).expect("answers").expect("more are left");
+            if found.ended != Ended::Exact {
+                assert!(found.triangle.is_none(), "{found:?}");
+                assert!(f64::from(found.distance.lower) <= all[given], "{found:?}");
+                break;
+            }
+            given += 1;
+        }
+    }
+}
+
+#[test]
+fn a_moved_sweep_on_a_cut_blob_contains_the_truth() {
+    let scene = Scene::hull("rough sphere", rough_sphere(3, 0.2, 7), &options(40));
+    let bytes = cut(&scene.model(), 2).expect("three levels").to_bytes();
+    let model = Hull::open(&bytes).expect("opens");
+    let mut scratch = vec![ScratchEntry::EMPTY; 2048];
+    let mut rng = Rng::new(55);
+    let path = path(&scene, 200, &mut rng);
+    let mut sweep = model.sweep(path[0], &mut scratch).expect("finite");
+    for p in path {
+        sweep.move_to(p).expect("finite");
+        let answer = sweep.closest_point(Budget::EXACT).expect("answers");
+        contains_truth(&scene, p, &answer);
+        assert_eq!((answer.ended, answer.triangle), (Ended::Resolution, None));
+    }
+}
+
+#[test]
+fn bad_questions_are_typed_errors_and_leave_the_sweep_whole() {
+    let scene = Scene::hull("rough sphere", rough_sphere(2, 0.2, 7), &options(40));
+    let model = scene.model();
+    let mut scratch = vec![ScratchEntry::EMPTY; 512];
+    assert_eq!(model.sweep([0.0; 3], &mut []).err(), Some(QueryError::NoScratch));
+    let bad = [f32::NAN, 0.0, 0.0];
+    assert_eq!(model.sweep(bad, &mut scratch).err(), Some(QueryError::NotFinite));
+    let mut sweep = model.sweep([3.0, 0.0, 0.0], &mut scratch).expect("finite");
+    assert_eq!(sweep.move_to(bad), Err(QueryError::NotFinite));
+    let stop = Budget::EXACT.with_absolute(-1.0);
+    assert_eq!(sweep.closest_point(stop), Err(QueryError::Tolerance));
+    let far = [f32::MAX, 0.0, 1e30];
+    sweep.move_to(far).expect("finite");
+    contains_truth(&scene, far, &sweep.closest_point(Budget::EXACT).expect("answers"));
+    sweep.move_to([3.0, 0.0, 0.0]).expect("finite");
+    let answer = sweep.closest_point(Budget::EXACT).expect("answers");
+    assert_eq!(answer.triangle, fresh(&model, [3.0, 0.0, 0.0]).triangle);
+}
