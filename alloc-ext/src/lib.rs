@@ -4,7 +4,8 @@
 //! mesh file ─ mesh ─ surface ─┬─ bvh      boxes over triangle fans      ─┐
 //!                             ├─ hull     edge collapses, split tables   │
 //!                             ├─ tight    hulls shrunk onto the mesh     ├─ emit ─ blob
-//!                             └─ tribox   bounds of 18 planes           ─┘
+//!                             └─ tribox   bounds of 18 planes            │
+//! CSV of points ─────────────── curve     runs of points in capsules     ─┘
 //! ```
 //!
 //! Each stage takes a value and returns a value with one invariant more. Kernels are those of
@@ -17,17 +18,18 @@
 //! | [`surface`] | the triangle surface that all builders share |
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | `hausdorff` | certified distances between two meshes |
-//! | [`bvh`], [`hull`], [`tight`], [`tribox`] | one structure each, as in core |
+//! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`cut`] | a coarser blob out of a finer one |
 //!
 //! A room uses those to its left in this line, and no other: `{emit, lp, mesh}` ← `surface` ←
-//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox}` ← `cut` ← the program. A test keeps that
-//! (`host-tests/tests/house.rs`).
+//! `{collapse, bvh, hausdorff}` ← `{hull, tight, tribox, curve}` ← `cut` ← the program. A test
+//! keeps that (`host-tests/tests/house.rs`).
 
 pub mod bvh;
 pub mod collapse;
 pub mod counted;
+pub mod curve;
 pub mod cut;
 pub mod emit;
 mod error;

@@ -1,6 +1,7 @@
 //! [`Blob`]: checked once by `open`. Its views of structures then cost no check.
 
 use crate::bvh::format::Bvh;
+use crate::curve::format::Curve;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, Header, OpenError, Section, read_header, section};
 use crate::hull::format::Hull;
@@ -36,7 +37,7 @@ impl<'a> Blob<'a> {
     /// order that the queries rely on. Any bytes are safe to open. Their alignment does not matter.
     ///
     /// Firmware with one structure links less code with the structure's own `open`:
-    /// [`Bvh::open`], [`Hull::open`], [`TightHulls::open`], [`Triboxes::open`].
+    /// [`Bvh::open`], [`Hull::open`], [`TightHulls::open`], [`Triboxes::open`], [`Curve::open`].
     ///
     /// Cost: linear in the blob, no allocation; once per start.
     ///
@@ -50,6 +51,7 @@ impl<'a> Blob<'a> {
         let has_bvh = kinds().any(|kind| kind.is_bvh() && blob.has(kind));
         let has_triboxes = blob.has(SectionKind::Triboxes);
         let has_tight_hulls = blob.has(SectionKind::TightHulls);
+        let has_curves = blob.has(SectionKind::Curves);
         if has_bvh {
             Bvh::open(bytes)?;
         }
@@ -59,7 +61,10 @@ impl<'a> Blob<'a> {
         if has_tight_hulls {
             TightHulls::open(bytes)?;
         }
-        if !hull.has_hull() && (has_bvh || has_triboxes || has_tight_hulls) {
+        if has_curves {
+            Curve::open(bytes)?;
+        }
+        if !hull.has_hull() && (has_bvh || has_triboxes || has_tight_hulls || has_curves) {
             hull.check_absent()?;
         } else {
             hull.check()?;
@@ -98,6 +103,14 @@ impl<'a> Blob<'a> {
     /// [`QueryError::NotServed`] if the blob was built without them.
     pub fn triboxes(&self) -> Result<Triboxes<'a>, QueryError> {
         Triboxes::view(self.bytes).map_err(|_| QueryError::NO_TRIBOXES)
+    }
+
+    /// The curves: fences, tool paths.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was built without them.
+    pub fn curve(&self) -> Result<Curve<'a>, QueryError> {
+        Curve::view(self.bytes).map_err(|_| QueryError::NO_CURVES)
     }
 
     /// Sections of the blob, in file order, without those of a kind that this version does not

@@ -29,23 +29,25 @@
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | the same, bounded by a tight hull of few faces | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart; bounds without triangles | [`Triboxes::separation`], [`Triboxes::distance`], [`Triboxes::clip`] |
+//! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
-//! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`} ← `tight` ← `blob`.
+//! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`, `curve`} ← `tight` ← `blob`.
 //!
 //! | folder | owns |
 //! | --- | --- |
 //! | `num` | scalars with known rounding, stored radii, every tolerance with its derivation |
-//! | `geom` | closed-form kernels: point–triangle, segment–triangle, triangle pair, box, fan, swept triangle; they know no bytes |
+//! | `geom` | closed-form kernels: point–triangle, segment–triangle, triangle pair, box, fan, swept triangle, point–segment; they know no bytes |
 //! | `format` | bytes that all structures share: header, section table, CRC, reading numbers |
 //! | `query` | types that all questions share: [`Budget`], [`Scratch`], intervals, work counters, errors |
 //! | `bvh` | the box tree over fans, one file per question |
 //! | `hull` | split tables: levels, the refined hull, the sweep |
 //! | `tribox` | bounds of eighteen planes, and their hierarchy |
+//! | `curve` | polygonal curves in 2-D and 3-D |
 //! | `tight` | tight hulls, each stored as a box tree |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
 //!
@@ -63,6 +65,7 @@
 
 mod blob;
 mod bvh;
+mod curve;
 mod format;
 mod geom;
 mod hull;
@@ -76,6 +79,7 @@ pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentQuery, Eye, Facing, FrontFacing, Hint,
     KNearest, Neighbor, Overlap, Overlaps, SignedDistance, TrianglePair, Within,
 };
+pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};
 pub use format::{OpenError, Section};
 pub use geom::Pose;
@@ -114,6 +118,9 @@ pub mod internal {
     }
     pub mod tribox {
         pub use crate::tribox::*;
+    }
+    pub mod curve {
+        pub use crate::curve::*;
     }
     pub mod tight {
         pub use crate::tight::*;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 /// Images without a runtime: linked by `bare.x`, never started.
-const BARE: [&str; 13] = [
+const BARE: [&str; 14] = [
     "proof",
     "size_empty",
     "size_open",
@@ -18,10 +18,12 @@ const BARE: [&str; 13] = [
     "size_tree_coherent",
     "size_triboxes",
     "size_tight",
+    "size_curve",
 ];
 
 /// Images that run.
-const SUITES: [&str; 4] = ["suite_hull", "suite_tree", "suite_triboxes", "suite_tight"];
+const SUITES: [&str; 5] =
+    ["suite_hull", "suite_tree", "suite_triboxes", "suite_tight", "suite_curve"];
 
 /// RAM is kept at what such parts have, not at what the emulated board has, so that an image that
 /// needs more fails.

@@ -1,5 +1,5 @@
 //! The blobs that the firmware images are asked about: split hierarchies in every coordinate
-//! format, whole and cut, box trees, triboxes and tight hulls.
+//! format, whole and cut, box trees, triboxes, tight hulls and curves.
 
 use std::fs;
 use std::path::Path;
@@ -10,12 +10,12 @@ use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
-use meshsweep_suite::ask::{Refused, hull, tight, tree, triboxes};
+use meshsweep_suite::ask::{Refused, curve, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
 use crate::generate::{Triangles, bracket, torus};
-use crate::golden::{bracket_hulls, torus_triboxes};
+use crate::golden::{bracket_hulls, fence_curves, tool_path_curve, torus_triboxes};
 
 /// A blob of the images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,11 +43,15 @@ pub enum Blob {
     Triboxes,
     /// Tight hulls of the bracket.
     Tight,
+    /// The fence of the fixtures.
+    Fence,
+    /// A tool path of 2,000 segments.
+    ToolPath,
 }
 
 impl Blob {
     /// All blobs.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Torus,
         Self::Bracket,
         Self::Grid16,
@@ -59,6 +63,8 @@ impl Blob {
         Self::SoupTree,
         Self::Triboxes,
         Self::Tight,
+        Self::Fence,
+        Self::ToolPath,
     ];
 
     /// The file's name without its extension.
@@ -76,6 +82,8 @@ impl Blob {
             Self::SoupTree => "soup_tree",
             Self::Triboxes => "triboxes",
             Self::Tight => "tight",
+            Self::Fence => "fence",
+            Self::ToolPath => "tool_path",
         }
     }
 
@@ -100,6 +108,8 @@ impl Blob {
             Self::SingleTree => Ok(box_tree(torus(2.0, 0.75, 16, 10), &default.with_f32(true))),
             Self::Triboxes => Ok(torus_triboxes()),
             Self::Tight => Ok(bracket_hulls()),
+            Self::Fence => Ok(fence_curves()),
+            Self::ToolPath => Ok(tool_path_curve()),
             Self::SoupTree => Ok(box_tree(soup(), &default.with_cull(true))),
         }
     }
@@ -158,7 +168,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
 }
 
 /// What an image should print of a blob: the suite's answers on this machine. The suite asks the
-/// blob's box tree if there is one, else its triboxes, its tight hulls or its split hierarchy.
+/// blob's box tree if there is one, else its triboxes, its tight hulls, its curves or its split
+/// hierarchy.
 ///
 /// # Errors
 /// The core's refusal.
@@ -171,6 +182,9 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
     }
     if ran == Err(Refused::NO_SECTION) {
         ran = run::<tight::Hulls<'_>>(blob, plan, &mut tight::Scratch::new(), &mut lines);
+    }
+    if ran == Err(Refused::NO_SECTION) {
+        ran = run::<curve::Curve<'_>>(blob, plan, &mut curve::Scratch::new(), &mut lines);
     }
     if ran == Err(Refused::NO_SECTION) {
         ran = run::<hull::Model<'_>>(blob, plan, &mut hull::Scratch::new(), &mut lines);
@@ -186,6 +200,7 @@ fn scratch_entries(blob: &Opened<'_>) -> usize {
         blob.bvh().map(|bvh| bvh.scratch_entries()),
         blob.hull().map(|hull| hull.scratch_entries()),
         blob.triboxes().map(|triboxes| triboxes.scratch_entries()),
+        blob.curve().map(|curve| curve.scratch_entries()),
         blob.tight_hulls().map(|hulls| hulls.finest().map_or(0, |hull| hull.scratch_entries())),
     ];
     all.into_iter().flatten().max().unwrap_or(0)
@@ -205,7 +220,7 @@ impl Recorder for Lines {
 mod tests {
     use super::Blob;
     use meshsweep_core::internal::format::layout::VertexFormat;
-    use meshsweep_core::{Bvh, Hull, Triboxes};
+    use meshsweep_core::{Bvh, Curve, Hull, Triboxes};
     use meshsweep_suite::Subject;
     use meshsweep_suite::ask::hull;
     use meshsweep_suite::ask::tight::Hulls;
@@ -228,6 +243,10 @@ mod tests {
         assert!(Triboxes::open(&bytes).expect("opens").memory_suffices());
         let bytes = Blob::Tight.bytes().expect("a blob");
         assert!(Hulls::open(&bytes).expect("opens").memory_suffices());
+        for blob in [Blob::Fence, Blob::ToolPath] {
+            let bytes = blob.bytes().expect("a blob");
+            assert!(Curve::open(&bytes).expect("opens").memory_suffices(), "{blob:?}");
+        }
     }
 
     #[test]

@@ -5,14 +5,16 @@ use std::fs;
 use std::path::Path;
 
 use meshsweep::bvh::{TreeOptions, build};
+use meshsweep::curve;
 use meshsweep::hull::BuildOptions;
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
-use meshsweep_suite::ask::{Refused, Subject, hull, tight, tree, triboxes};
+use meshsweep_suite::ask::{self, Refused, Subject, hull, tight, tree, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
+use crate::generate::curves::{fence, tool_path};
 use crate::generate::fixtures::write_fixtures;
 use crate::generate::{bracket, groove_block, torus};
 use crate::workload;
@@ -31,7 +33,14 @@ pub fn write(folder: &Path) -> Result<(), String> {
         .map_err(|error| format!("cannot write {}: {error}", folder.display()))?;
     let hull = bracket_model(folder)?;
     let (tree, triboxes, tight) = (groove_tree(), torus_triboxes(), bracket_hulls());
-    let blobs = [("bracket", &hull), ("groove", &tree), ("torus", &triboxes), ("hulls", &tight)];
+    let fence = fence_curves();
+    let blobs = [
+        ("bracket", &hull),
+        ("groove", &tree),
+        ("torus", &triboxes),
+        ("hulls", &tight),
+        ("fence", &fence),
+    ];
     for (name, blob) in blobs {
         put(&format!("{name}.msw"), blob)?;
         put(&format!("../core/fixtures/{name}.msw"), blob)?;
@@ -40,7 +49,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
     let answers = hull_answers("bracket.msw", &hull).map_err(refused)?
         + &tree_answers("groove.msw", &tree).map_err(refused)?
         + &tribox_answers("torus.msw", &triboxes).map_err(refused)?
-        + &tight_answers("hulls.msw", &tight).map_err(refused)?;
+        + &tight_answers("hulls.msw", &tight).map_err(refused)?
+        + &curve_answers("fence.msw", &fence).map_err(refused)?;
     put("answers.txt", answers.as_bytes())
 }
 
@@ -89,6 +99,24 @@ pub fn bracket_hulls() -> Vec<u8> {
     tables.to_bytes()
 }
 
+/// The fence of the fixtures, on a grid.
+///
+/// # Panics
+/// Never: its coordinates are finite.
+#[must_use]
+pub fn fence_curves() -> Vec<u8> {
+    curve::store(&fence(), false).expect("finite").0.to_bytes()
+}
+
+/// A tool path of 2,000 segments, on a grid.
+///
+/// # Panics
+/// Never: its coordinates are finite.
+#[must_use]
+pub fn tool_path_curve() -> Vec<u8> {
+    curve::store(&[tool_path(2000)], false).expect("finite").0.to_bytes()
+}
+
 /// A line for each kind of query to a blob's split hierarchy: the blob's name, the kind, and a hash
 /// of all answers' bits.
 ///
@@ -120,6 +148,14 @@ pub fn tribox_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
 /// The core's refusal of the blob.
 pub fn tight_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
     answers::<tight::Hulls<'_>>(name, blob, &mut tight::Scratch::new())
+}
+
+/// The same for a blob's curves.
+///
+/// # Errors
+/// The core's refusal of the blob.
+pub fn curve_answers(name: &str, blob: &[u8]) -> Result<String, Refused> {
+    answers::<ask::curve::Curve<'_>>(name, blob, &mut ask::curve::Scratch::new())
 }
 
 fn answers<'t, S: Subject<'t>>(

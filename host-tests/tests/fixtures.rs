@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use meshsweep_core::{Bvh, Hull, TightHulls, Triboxes};
+use meshsweep::curve::{read_csv, store};
+use meshsweep_core::{Bvh, Curve, Hull, TightHulls, Triboxes};
 use meshsweep_host_tests::golden::{
-    bracket_hulls, bracket_model, groove_tree, hull_answers, tight_answers, torus_triboxes,
-    tree_answers, tribox_answers,
+    bracket_hulls, bracket_model, curve_answers, fence_curves, groove_tree, hull_answers,
+    tight_answers, torus_triboxes, tree_answers, tribox_answers,
 };
 use meshsweep_host_tests::picture;
 
@@ -66,8 +67,21 @@ fn committed_hulls_are_what_the_builder_makes() {
 }
 
 #[test]
+fn committed_fence_is_what_the_builder_makes_of_its_file() {
+    let bytes = read("fence.msw");
+    assert!(
+        bytes == fence_curves(),
+        "fixtures/fence.msw is out of date: run `cargo xtask fixtures`"
+    );
+    let polylines = read_csv(&read("fence.csv"), true).expect("CSV");
+    assert!(bytes == store(&polylines, false).expect("finite").0.to_bytes());
+    let curve = Curve::open(&bytes).expect("opens");
+    assert_eq!((curve.segment_count(), curve.is_closed(1)), (72, Some(true)));
+}
+
+#[test]
 fn the_core_packs_the_same_blobs() {
-    for name in ["bracket.msw", "groove.msw", "hulls.msw", "torus.msw"] {
+    for name in ["bracket.msw", "fence.msw", "groove.msw", "hulls.msw", "torus.msw"] {
         let packed = read(&format!("../core/fixtures/{name}"));
         assert!(
             packed == read(name),
@@ -81,7 +95,8 @@ fn answers_have_the_committed_bits() {
     let here = hull_answers("bracket.msw", &read("bracket.msw")).expect("opens")
         + &tree_answers("groove.msw", &read("groove.msw")).expect("opens")
         + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens")
-        + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens");
+        + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens")
+        + &curve_answers("fence.msw", &read("fence.msw")).expect("opens");
     let committed = String::from_utf8(read("answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
         assert_eq!(

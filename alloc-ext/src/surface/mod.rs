@@ -18,6 +18,6 @@ pub(crate) use components::{components, least_connected};
 pub(crate) use enclosures::Enclosures;
 pub(crate) use order::spatial_order;
 pub use precision::{Grid, Stored, VertexBits, snap, store};
-pub(crate) use precision::{scale_exponent, split_exponent};
+pub(crate) use precision::{fitting_grid, scale_exponent, split_exponent};
 pub(crate) use tree::{Frontier, StaticTree};
 pub(crate) use valid::require_valid;

@@ -148,7 +148,7 @@ pub fn store(mesh: &Mesh, bits: VertexBits) -> Stored {
 
 /// The finest power-of-two grid of a format on which the box of `local` takes at most [`FILL`] of
 /// the range, if its coordinates can be summed in f32 exactly.
-fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
+pub(crate) fn fitting_grid(local: &[DVec3], format: VertexFormat) -> Option<Grid> {
     let (low, high) = local
         .iter()
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));

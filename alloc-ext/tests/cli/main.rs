@@ -3,6 +3,7 @@
 mod arguments;
 mod build;
 mod cull;
+mod curve;
 mod distances;
 mod errors;
 mod hull;

@@ -67,11 +67,13 @@ pub enum SectionKind {
     /// Tight hulls of the mesh: each a blob with a box tree of its own, and the distances of its
     /// faces from the mesh.
     TightHulls = 20,
+    /// Polygonal curves, and a hierarchy of capsules over their points.
+    Curves = 21,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 19] = [
+    pub const ALL: [SectionKind; 20] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -91,6 +93,7 @@ impl SectionKind {
         SectionKind::TreeCones,
         SectionKind::Triboxes,
         SectionKind::TightHulls,
+        SectionKind::Curves,
     ];
 
     /// Whether the section belongs to the hull hierarchy.
@@ -110,6 +113,7 @@ impl SectionKind {
             SectionKind::TreeCones => BuildFor::Cull,
             SectionKind::Triboxes => BuildFor::Triboxes,
             SectionKind::TightHulls => BuildFor::Tight,
+            SectionKind::Curves => BuildFor::Curve,
             _ if self.is_hull() => BuildFor::Hull,
             _ => BuildFor::Closest,
         }
@@ -137,6 +141,7 @@ impl SectionKind {
             SectionKind::TreeCones => "tree normal cones",
             SectionKind::Triboxes => "triboxes",
             SectionKind::TightHulls => "tight hulls",
+            SectionKind::Curves => "curves",
         }
     }
 }
@@ -157,6 +162,8 @@ pub enum BuildFor {
     Triboxes,
     /// Tight hulls.
     Tight,
+    /// Polygonal curves.
+    Curve,
 }
 
 impl core::fmt::Display for BuildFor {
@@ -168,6 +175,7 @@ impl core::fmt::Display for BuildFor {
             BuildFor::Cull => "cull",
             BuildFor::Triboxes => "triboxes",
             BuildFor::Tight => "tight",
+            BuildFor::Curve => "curve",
         })
     }
 }

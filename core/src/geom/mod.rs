@@ -3,6 +3,7 @@
 mod boxes;
 pub mod fan;
 mod lanes;
+mod point_segment;
 mod point_triangle;
 mod pose;
 mod segment_triangle;
@@ -12,6 +13,7 @@ mod triangle_pair;
 
 pub use boxes::{Aabb, Clipped};
 pub use lanes::{LANES, Lanes};
+pub use point_segment::{CapsulePoint, PointSegment, point_segment};
 pub use point_triangle::{PointTriangle, point_triangle};
 pub use pose::Pose;
 pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};

@@ -5,12 +5,14 @@
 //! rounding of f32.
 
 use super::sweep::{Candidate, Fate, Front, Visit};
-use super::sweep_queue::{SweepQueue, Taken, before};
 use crate::geom::{Aabb, LANES, Lanes, SweptPoint, point_triangle};
 use crate::hull::format::{Hull, Instance, Named, SplitIdx};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
 use crate::num::{down_to_f32, up_to_f32};
-use crate::query::{Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, Work};
+use crate::query::{
+    Budget, ClosestPoint, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Taken,
+    Work, before,
+};
 use glam::DVec3;
 
 impl Hull<'_> {

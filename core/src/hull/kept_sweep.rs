@@ -7,11 +7,12 @@
 
 use super::closest_point::Nearest;
 use super::sweep::{Candidate, Fate, Front, Visit};
-use super::sweep_queue::SweepQueue;
 use crate::hull::format::{Hull, Instance};
 use crate::num::down_to_f32;
 use crate::num::tolerance::{HULL_FAR, SUMMED, SWEEP_KEPT, SWEEP_MOTION};
-use crate::query::{Budget, ClosestPoint, Ended, Frame, QueryError, ScratchEntry, Work};
+use crate::query::{
+    Budget, ClosestPoint, Ended, Frame, QueryError, ScratchEntry, SweepQueue, Work,
+};
 use glam::DVec3;
 
 /// A sweep about one point that may move. It lives in the caller's scratch.

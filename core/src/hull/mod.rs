@@ -9,7 +9,6 @@
 //! | `refine` | how it follows a focus |
 //! | `hull_faces` | the triangles of hulls |
 //! | `sweep` | the front of the sweeping process |
-//! | `sweep_queue` | its triangles that wait |
 //! | `closest_point` | closest point by a sweep |
 //! | `kept_sweep` | a sweep that is interrupted, moved, or gives triangle after triangle |
 //! | `segment_hits` | first hit and all hits by a sweep |
@@ -26,7 +25,6 @@ mod refined_hull;
 mod segment_hits;
 mod split_set;
 mod sweep;
-mod sweep_queue;
 
 pub use focus::Focus;
 pub use format::{Hull, Level};

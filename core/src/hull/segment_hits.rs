@@ -5,12 +5,12 @@
 //! Theoharis 2003, Figure 5) are found, wherever the segment starts.
 
 use super::sweep::{Candidate, Fate, Front, Visit};
-use super::sweep_queue::{SweepQueue, Taken};
 use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
 use crate::hull::format::{Hull, Instance};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{
-    AllHits, Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry, Work,
+    AllHits, Budget, Ended, FirstHit, Frame, Hit, Hits, Interval, QueryError, ScratchEntry,
+    SweepQueue, Taken, Work,
 };
 use glam::DVec3;
 

@@ -7,11 +7,10 @@
 //! first: the front is a set of bounds and not a mesh. No triangle is reached twice, so nothing has
 //! to be remembered but the triangles that wait. Proof: `core/docs/rounding.md` §3.
 
-use super::sweep_queue::SweepQueue;
 use crate::geom::LANES;
 use crate::hull::format::layout::BASE_GROUP;
 use crate::hull::format::{Hull, Instance, Named, SplitIdx, VertIdx};
-use crate::query::{ScratchEntry, Work};
+use crate::query::{ScratchEntry, SweepQueue, Work};
 use glam::Vec3;
 
 /// What becomes of a triangle.

@@ -213,6 +213,21 @@ pub const PATH_SUM: f32 = 1.0 / 4_194_304.0;
 /// zero again. Keys are as long as the path, and their rounding stays below that of the bound.
 pub const LONG_PATH: f32 = 2_097_152.0;
 
+// Curves, in the local frame
+
+/// Rounding of a point–segment distance, in unit roundoffs times the 1-norms of `ap` and `ab`.
+/// Proved: 19 (§14). In f64 it is the interval, in f32 the margin of a capsule. A smaller value
+/// loses the guarantee.
+pub const SEGMENT_DISTANCE: f32 = 24.0;
+
+/// Loss of a capsule's bound on a segment that is too short to have a direction in f32, and by
+/// underflow: 2^-48 (§14).
+pub const CAPSULE_UNDERFLOW: f32 = 1.0 / (1u64 << 48) as f32;
+
+/// Largest query coordinate for which distances to a curve are computed: 2^24. From farther away
+/// the interval of the curve's box is narrower than four units of f32.
+pub const CURVE_FAR: f64 = (1u32 << 24) as f64;
+
 // Triboxes
 
 /// Rounding of the gap between two moved triboxes along a direction, in units of [`U32`] times the

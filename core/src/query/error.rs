@@ -56,6 +56,7 @@ impl QueryError {
         QueryError::NotServed { build_for: BuildFor::Triboxes };
     pub(crate) const NO_TIGHT_HULLS: QueryError =
         QueryError::NotServed { build_for: BuildFor::Tight };
+    pub(crate) const NO_CURVES: QueryError = QueryError::NotServed { build_for: BuildFor::Curve };
 }
 
 impl core::fmt::Display for QueryError {

@@ -58,6 +58,16 @@ impl Frame {
         up_to_f32(bound + 2.0 * U64 * bound.abs())
     }
 
+    /// Bound of the distance of stored and input surface, local frame.
+    pub(crate) fn surface_error(&self) -> f64 {
+        self.surface_error
+    }
+
+    /// A length in input units. Exact but below f64's normal range.
+    pub(crate) fn input_length(&self, local: f64) -> f64 {
+        local * self.scale
+    }
+
     /// A length in the local frame.
     pub(crate) fn length(&self, input: f32) -> f64 {
         f64::from(input) * self.inverse

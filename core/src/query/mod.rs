@@ -9,6 +9,7 @@
 //! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
 //! | `work` | [`Work`]: counters |
 //! | `error` | [`QueryError`]: why a query was refused |
+//! | `sweep_queue` | the priority queue of the sweeping process |
 //! | `frame` | conversion between input units and the local frame, in f64 |
 
 mod answer;
@@ -17,6 +18,7 @@ mod error;
 mod frame;
 mod hits;
 mod scratch;
+mod sweep_queue;
 mod verdict;
 mod work;
 
@@ -27,5 +29,6 @@ pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit};
 pub use scratch::{Scratch, ScratchEntry};
+pub(crate) use sweep_queue::{SweepQueue, Taken, before};
 pub use verdict::{Side, Undecided, Verdict};
 pub use work::Work;

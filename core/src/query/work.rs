@@ -5,11 +5,12 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Work {
-    /// Boxes tested: children of [`Bvh`](crate::Bvh) nodes, triboxes, or nodes of a hull's cover.
+    /// Bounds tested: boxes of [`Bvh`](crate::Bvh) children, triboxes, nodes of a hull's cover,
+    /// capsules of a curve.
     pub nodes: u32,
     /// Triangles of surface or hull tested in f32.
     pub triangles: u32,
-    /// Triangles evaluated in f64.
+    /// Triangles, or segments of a curve, evaluated in f64.
     pub exact: u32,
     /// Nodes opened, or vertex splits performed.
     pub splits: u32,

@@ -4,6 +4,7 @@
 //! queries' floats. A blob that opens must be safe to ask anything: no panic, and no more work than
 //! its tables have records.
 
+mod curves;
 mod hull;
 mod input;
 mod tight;
@@ -11,6 +12,7 @@ mod tree;
 mod tribox;
 mod triboxes;
 
+pub use curves::{ask_curve, curve_seeds, curves};
 pub use hull::{closest, open, outer, refine, seeds, segment};
 pub use input::random_input;
 pub use tight::{ask_tight, tight, tight_seeds};

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use super::curves::{csv, fence};
 use super::evil::{Outcome, evil};
 use super::writers::{binary_ply, binary_stl, obj};
 use super::{bracket, groove_block, torus};
@@ -27,10 +28,15 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
             binary_ply(&torus(2.0, 0.75, 48, 24)),
             "`torus(2.0, 0.75, 48, 24)`: closed, genus 1",
         ),
+        (
+            "fence.csv",
+            csv(&fence()).into_bytes(),
+            "`fence()`: a boundary with round corners and a post in it",
+        ),
     ];
     let mut readme = String::from(
         "# Fixtures\n\n\
-         Small meshes from the generators in `host-tests/src/generate`. This command\n\
+         Small meshes and a curve from the generators in `host-tests/src/generate`. This command\n\
          writes all of them, and this page:\n\n\
          ```\ncargo xtask fixtures\n```\n\n\
          A test compares the committed files with the generators' bytes.\n\n\
@@ -45,6 +51,7 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
          | `bracket.msw` | the hull hierarchy of `bracket.stl` |\n\
          | `torus.msw` | triboxes of `torus.ply` |\n\
          | `hulls.msw` | tight hulls of `bracket.stl` |\n\
+         | `fence.msw` | the curves of `fence.csv`, by `meshsweep build fence.csv -o fence.msw --closed` |\n\
          | `answers.txt` | a hash of the answers to each kind of query: other bits are noticed |\n\
          | `part.svg` | the picture of `README.md`, by `cargo xtask picture` |\n\
          \n## evil/\n\n\

@@ -7,6 +7,7 @@
 mod bracket;
 mod builder;
 pub mod corpus;
+pub mod curves;
 pub mod evil;
 mod extrude;
 pub mod fixtures;

@@ -17,7 +17,7 @@ pub struct Bounded {
 
 /// Relative to the lengths in play, more than 106 bits lose on a triangle whose height is above
 /// 1e-10 of its length.
-const DOUBLE_ERROR: f64 = 1e-26;
+pub(super) const DOUBLE_ERROR: f64 = 1e-26;
 
 /// Relative to the lengths in play, more than the estimate in `f64` is off, degenerate triangles
 /// included: the three edges alone are good to 1e-14, and the plane is only trusted where its
@@ -53,7 +53,7 @@ pub fn distance_to_triangle(p: [f32; 3], corners: [[f32; 3]; 3]) -> Bounded {
     }
 }
 
-fn squared_to_segment(p: &Vector, from: &Vector, to: &Vector) -> Double {
+pub(super) fn squared_to_segment(p: &Vector, from: &Vector, to: &Vector) -> Double {
     let (d, s) = (to.minus(from), p.minus(from));
     let length = d.dot(&d);
     let t = if length.is_positive() { (d.dot(&s) / length).clamp_unit() } else { Double::ZERO };

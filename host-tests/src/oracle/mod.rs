@@ -5,6 +5,7 @@ mod double;
 pub(crate) mod dyadic;
 pub mod lp;
 pub mod moved;
+mod polyline;
 pub mod polytope;
 mod segment;
 pub(crate) mod vector;
@@ -12,5 +13,6 @@ mod winding;
 
 pub use distance::{Bounded, distance_to_mesh, distance_to_triangle, rough_distance_sq};
 pub use double::{Double, Vector};
+pub use polyline::distance_to_segments;
 pub use segment::{Contact, contacts, gap_to_triangle, meets};
 pub use winding::winding_number;

@@ -1,8 +1,8 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, open, outer, random_input, refine, segment, tight, tree_closest, tree_coherent,
-    tree_open, tree_overlap, tree_segment, tribox, triboxes,
+    closest, curves, open, outer, random_input, refine, segment, tight, tree_closest,
+    tree_coherent, tree_open, tree_overlap, tree_segment, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
 
@@ -82,4 +82,9 @@ fn triboxes_survive_seeded_edits() {
 #[test]
 fn tight_hulls_survive_seeded_edits() {
     drive(12, tight);
+}
+
+#[test]
+fn curves_survive_seeded_edits() {
+    drive(13, curves);
 }

@@ -25,17 +25,23 @@ const fn tree(name: &'static str) -> Blob {
     Blob { name, image: "suite_tree" }
 }
 
+const fn curve(name: &'static str) -> Blob {
+    Blob { name, image: "suite_curve" }
+}
+
 const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
 impl Blob {
     /// The blobs whose costs are reported for a part with so much flash: split hierarchy and box
-    /// tree of one mesh, triboxes, and tight hulls.
+    /// tree of one mesh, triboxes, tight hulls, and a curve.
     #[must_use]
-    pub const fn standard(flash: Flash) -> [Self; 4] {
+    pub const fn standard(flash: Flash) -> [Self; 5] {
         match flash {
-            Flash::Small => [hull("torus"), tree("torus_tree"), TRIBOXES, TIGHT],
-            Flash::Large => [hull("bracket"), tree("bracket_tree"), TRIBOXES, TIGHT],
+            Flash::Small => [hull("torus"), tree("torus_tree"), TRIBOXES, TIGHT, curve("fence")],
+            Flash::Large => {
+                [hull("bracket"), tree("bracket_tree"), TRIBOXES, TIGHT, curve("tool_path")]
+            }
         }
     }
 

@@ -145,7 +145,7 @@ fn asked(qemu: &Qemu, board: &Board, image: &Path, expected: &Reading) -> Result
 }
 
 /// Questions whose code is measured, each by an image of its own.
-const QUESTIONS: [&str; 11] = [
+const QUESTIONS: [&str; 12] = [
     "open",
     "closest",
     "segment",
@@ -157,6 +157,7 @@ const QUESTIONS: [&str; 11] = [
     "tree_coherent",
     "triboxes",
     "tight",
+    "curve",
 ];
 
 /// The image that asks nothing, then one for each question.

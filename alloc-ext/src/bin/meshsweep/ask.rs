@@ -152,6 +152,15 @@ pub fn ended(verdict: Verdict) -> Ended {
     }
 }
 
+/// A verdict as a column says it.
+pub fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Yes => "yes",
+        Verdict::No => "no",
+        _ => "undecided",
+    }
+}
+
 /// Asks a question whose answers go into `buffer`: hits, pairs, triangles. If some did not fit, it
 /// makes the buffer longer and asks once more. `counts` gives the numbers of stored and of dropped
 /// answers. Returns the result of the question and the stored answers.

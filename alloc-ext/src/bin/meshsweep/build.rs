@@ -1,7 +1,6 @@
 //! `meshsweep build`: a mesh file in, a blob and a report out.
 
 use crate::args::{BuildArgs, FACES, HullServes, StoredBits, slack_within_margin};
-use crate::describe;
 use crate::failure::Failure;
 use crate::hull_report::{
     require_met, why_stuck, write_margin, write_no_void, write_start, write_wires,
@@ -11,6 +10,7 @@ use crate::number::{About, AtMost};
 use crate::output::{Output, refuse_same_file};
 use crate::progress::{Bar, StageBars};
 use crate::unmet::Tightness;
+use crate::{curve, describe};
 use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
 use meshsweep::counted::Counted;
@@ -35,6 +35,9 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     refuse_options(args).map_or(Ok(()), |what| Err(Failure::Usage { what }))?;
     refuse_same_file(Some(&args.output), &[&args.mesh])?;
     Output::probe(&args.output)?;
+    if args.is_curve() {
+        return curve::build(args);
+    }
     let loaded = if wanted.hull {
         mesh_file::load_solid(&args.mesh, args.vertex_bits.format(), Some(INSTEAD))?
     } else {
@@ -80,6 +83,12 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
 /// Why the options do not go together, if they do not.
 fn refuse_options(args: &BuildArgs) -> Option<String> {
     let wanted = args.wanted();
+    if args.asks_mesh_of_curve() {
+        return Some("a curve serves --for curve only; name a mesh for anything else".to_owned());
+    }
+    if args.closed && !args.is_curve() {
+        return Some("--closed is for curves; add --for curve".to_owned());
+    }
     if let Some(option) = args.hull_option().filter(|_| !wanted.hull) {
         return Some(format!("{option} is for a hull; add hull to --for"));
     }

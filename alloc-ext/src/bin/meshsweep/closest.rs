@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::served::Engine;
-use crate::{blob_file, served};
+use crate::{blob_file, curve, served};
 use meshsweep_core::{BuildFor, ClosestPoint, Hint, Interval, QueryError};
 use std::io::{self, Write};
 
@@ -19,6 +19,12 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
     let budget = search.budget().with_relative(args.rel).with_absolute(args.abs);
+    if let Ok(curve) = blob.curve()
+        && args.engine.is_none()
+        && args.tight.is_none()
+    {
+        return curve::closest(curve, args, Queries::read(points)?, budget);
+    }
     let header = "x,y,z,lower,upper,px,py,pz,triangle,work";
     let question = |points| Question::new(header, points, search);
     let tree_chosen = args.engine.map(|engine| engine == EngineName::Tree);

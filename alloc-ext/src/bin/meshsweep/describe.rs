@@ -1,6 +1,7 @@
 //! The cost and the guarantees of a blob, as tables for people and as JSON. Lengths are in the
 //! mesh's unit.
 
+mod curve;
 pub mod hull;
 mod shape;
 pub mod tight;
@@ -26,6 +27,12 @@ fn triangles(blob: &Blob<'_>) -> u32 {
         .into_iter()
         .find(|&n| n > 0)
         .unwrap_or(1)
+}
+
+/// What a blob is of, and the noun.
+fn pieces(blob: &Blob<'_>) -> (u32, &'static str) {
+    let curve = blob.curve().map(|curve| (curve.segment_count(), "segment"));
+    curve.unwrap_or_else(|_| (triangles(blob), "triangle"))
 }
 
 /// A box of the local frame in the mesh's unit: low and high corner.
@@ -69,14 +76,14 @@ fn hierarchy_key(kind: SectionKind) -> &'static str {
 
 /// Sections with their bytes, structure by structure.
 fn write_sections(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
-    let triangles = f64::from(triangles(blob));
+    let triangles = f64::from(pieces(blob).0);
     let mut line = |name: &str, bytes: usize| {
         writeln!(out, "  {name:<30} {bytes:>10} {:>12.2}", bytes as f64 / triangles)
     };
     let header = blob.header().header_bytes as usize;
     line("header", header)?;
     let mut all = 0;
-    for title in ["hull hierarchy", "box tree", "triboxes", "tight hulls"] {
+    for title in ["hull hierarchy", "box tree", "triboxes", "tight hulls", "curves"] {
         let of_kind = || blob.sections().filter(|section| hierarchy(section.kind) == title);
         let bytes: usize = of_kind().map(|section| section.bytes as usize).sum();
         if bytes == 0 {
@@ -95,7 +102,7 @@ fn write_sections(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
 /// The tables that both `build` and `info` print.
 pub fn write_blob(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     writeln!(out, "  serves {}", served::listed(blob))?;
-    writeln!(out, "section                               bytes per triangle")?;
+    writeln!(out, "section                               bytes per {}", pieces(blob).1)?;
     write_sections(out, blob)?;
     if let Ok(hull) = blob.hull() {
         hull::write(out, &hull)?;
@@ -105,6 +112,9 @@ pub fn write_blob(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     }
     if let Ok(triboxes) = blob.triboxes() {
         triboxes::write(out, &triboxes)?;
+    }
+    if let Ok(curve) = blob.curve() {
+        curve::write(out, &curve)?;
     }
     blob.tight_hulls().map_or(Ok(()), |hulls| tight::write(out, &hulls))
 }
@@ -119,7 +129,9 @@ pub fn write_header(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     let input =
         Counted(blob.bvh().map_or(h.input_triangles, |tree| tree.input_triangles()), "triangle");
     writeln!(out, "  format {VERSION_MAJOR}, {} bytes{cut}", h.total_bytes)?;
-    writeln!(out, "  {input} in the input file; box {} to {}", low.join(", "), high.join(", "))?;
+    let of =
+        if blob.curve().is_ok() { String::new() } else { format!("{input} in the input file; ") };
+    writeln!(out, "  {of}box {} to {}", low.join(", "), high.join(", "))?;
     if blob.hull().is_ok() {
         writeln!(
             out,
@@ -167,6 +179,7 @@ pub fn as_json(blob: &Blob<'_>) -> Value {
         "hull": blob.hull().ok().map(|hull| hull::as_json(&hull, in_input_units(blob, h.hull_box))),
         "tree": blob.bvh().ok().map(|tree| tree::as_json(&tree, diagonal(blob))),
         "triboxes": blob.triboxes().ok().map(|triboxes| triboxes::as_json(&triboxes)),
+        "curve": blob.curve().ok().map(|curve| curve::as_json(&curve)),
         "tight_hulls": blob.tight_hulls().ok().map(|hulls| tight::as_json(&hulls)),
     })
 }

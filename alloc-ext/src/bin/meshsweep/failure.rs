@@ -3,6 +3,7 @@
 use crate::unmet::Unmet;
 use meshsweep::BuildError;
 use meshsweep::counted::Counted;
+use meshsweep::curve::CurveError;
 use meshsweep::mesh::MeshError;
 use meshsweep_core::{OpenError, QueryError};
 use std::fmt;
@@ -34,6 +35,8 @@ pub enum Failure {
     BlobForMesh { file: PathBuf },
     /// The blob cannot be built or cut.
     Build { file: PathBuf, error: BuildError },
+    /// The curve is refused.
+    Curve { file: PathBuf, error: CurveError },
     /// No hull is as tight as asked for.
     Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
@@ -197,6 +200,8 @@ impl fmt::Display for Failure {
                     file.display()
                 )
             }
+            // The error begins with a line of the file, or with what all of the file lacks.
+            Failure::Curve { file, error } => write!(f, "{}, {error}", file.display()),
             Failure::Unmet { file, unmet } => {
                 write!(f, "{}: {unmet}; nothing is written", file.display())
             }

@@ -13,6 +13,7 @@
 //! | `describe` | tables and JSON of sections, levels and memory |
 //! | `hull_report`, `unmet` | sentences about hulls that were made, or are too loose |
 //! | `progress` | progress bars |
+//! | `curve` | what commands do with curves |
 //! | all others | one command each |
 //!
 //! A new question:
@@ -27,6 +28,7 @@ mod blob_file;
 mod build;
 mod closest;
 mod cull;
+mod curve;
 mod cut;
 mod demo;
 mod describe;

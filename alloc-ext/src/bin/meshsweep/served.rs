@@ -9,8 +9,8 @@ type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
 const QUESTIONS: [(&str, Serves); 13] = [
-    ("closest", |blob| knows_triangles(blob) || blob.hull().is_ok() || has_tight_distances(blob)),
-    ("within", |blob| knows_triangles(blob) || has_tight_distances(blob)),
+    ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
+    ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
     ("nearest", knows_triangles),
     ("field", knows_triangles),
     ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| tree.is_closed())),
@@ -35,9 +35,9 @@ fn knows_triangles(blob: &Blob<'_>) -> bool {
     tree(blob, BuildFor::Closest).is_some()
 }
 
-/// Whether the blob knows distances by a tight hull.
-fn has_tight_distances(blob: &Blob<'_>) -> bool {
-    finest_tight(blob).is_some_and(|hull| hull.bvh().serves_distances())
+/// Whether the blob knows distances, of the mesh's own triangles or by a tight hull.
+fn has_distances(blob: &Blob<'_>) -> bool {
+    knows_triangles(blob) || finest_tight(blob).is_some_and(|hull| hull.bvh().serves_distances())
 }
 
 /// The same for people. A question that is served without all of its options is marked.
@@ -77,6 +77,7 @@ fn not_served(
         BuildFor::Hull => "hull hierarchy",
         BuildFor::Triboxes => "triboxes",
         BuildFor::Tight => "tight hulls",
+        BuildFor::Curve => "curves",
         _ => "such structure",
     };
     let (file, build_for) = (file.to_owned(), build_for.to_string());

@@ -1,12 +1,12 @@
 //! `meshsweep within`: whether points are within a distance of the surface, or of which triangles.
 
 use crate::args::{PointArgs, WithinArgs, files};
-use crate::ask::{self, Answer, Question, write_end, write_neighbor, write_numbers};
+use crate::ask::{self, Answer, Question, verdict_name, write_end, write_neighbor, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
-use crate::{blob_file, served};
-use meshsweep_core::{BuildFor, Bvh, Ended, Neighbor, TightHull, Verdict};
+use crate::{blob_file, curve, served};
+use meshsweep_core::{BuildFor, Bvh, Ended, Neighbor, TightHull};
 
 /// Room for triangles at first.
 const TRIANGLES: usize = 64;
@@ -15,6 +15,12 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let WithinArgs { input: PointArgs { blob: file, points }, search, .. } = args;
     refuse_same_file(search.output.as_deref(), &files(&[file], points))?;
     let blob = blob_file::open(file)?;
+    if let Ok(curve) = blob.curve()
+        && !args.all
+        && args.tight.is_none()
+    {
+        return curve::within(curve, args, Queries::read(points)?);
+    }
     let hull = if args.all { None } else { served::tight_hull(file, &blob, args.tight)? };
     let tree = match &hull {
         Some(hull) => *hull.bvh(),
@@ -45,13 +51,8 @@ fn ask_any(
             }
         },
         |out, _, point, Answer { found, work, .. }| {
-            let verdict = match found.verdict {
-                Verdict::Yes => "yes",
-                Verdict::No => "no",
-                _ => "undecided",
-            };
             write_numbers(out, point)?;
-            write!(out, "{verdict},")?;
+            write!(out, "{},", verdict_name(found.verdict))?;
             write_end(out, found.triangle, *work)
         },
     )

@@ -9,7 +9,7 @@ mod bare;
 
 use bare::Input;
 use meshsweep_suite::ask::hull::Focus;
-use meshsweep_suite::ask::{Asked, hull, tight, tree, tribox, triboxes};
+use meshsweep_suite::ask::{Asked, curve, hull, tight, tree, tribox, triboxes};
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Motion, Point};
 
@@ -33,6 +33,7 @@ open! {
     ask_tree_open: tree;
     ask_triboxes_open: triboxes;
     ask_tight_open: tight;
+    ask_curve_open: curve;
 }
 
 ask! {
@@ -132,6 +133,15 @@ ask! {
     };
     ask_tight_is_within: tight::Hulls<'t>, |hulls, input, scratch, fold| {
         tight::is_within(hulls, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_curve_closest: curve::Curve<'t>, |curves, input, scratch, fold| {
+        curve::closest(curves, input.a, scratch, &mut Asked::new((), fold))
+    };
+    ask_curve_stopped: curve::Curve<'t>, |curves, input, scratch, fold| {
+        curve::stopped(curves, input.a, input.b[0], scratch, &mut Asked::new((), fold))
+    };
+    ask_curve_is_within: curve::Curve<'t>, |curves, input, scratch, fold| {
+        curve::is_within(curves, input.a, input.b[0], scratch, &mut Asked::new((), fold))
     };
 }
 

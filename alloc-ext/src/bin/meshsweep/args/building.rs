@@ -12,7 +12,7 @@ pub const FACES: u32 = 200;
 
 #[derive(Debug, Args)]
 pub struct BuildArgs {
-    /// Mesh file: .stl, .ply or .obj
+    /// Mesh file: .stl, .ply or .obj; or points of curves: .csv
     pub mesh: PathBuf,
     /// Blob to write
     #[arg(short, long, value_name = "BLOB")]
@@ -75,6 +75,9 @@ pub struct BuildArgs {
         hide_possible_values = true
     )]
     pub tight_for: Vec<HullServes>,
+    /// Join the last point of each polyline with its first, with --for curve
+    #[arg(long)]
+    pub closed: bool,
     #[command(flatten)]
     pub collapse: CollapseArgs,
 }
@@ -102,6 +105,7 @@ pub enum Serves {
     Cull,
     Triboxes,
     Tight,
+    Curve,
 }
 
 /// The questions that a blob must serve.
@@ -133,6 +137,18 @@ impl BuildArgs {
             triboxes: has(Serves::Triboxes),
             tight: has(Serves::Tight),
         }
+    }
+
+    /// Whether a curve is to be built: the file is CSV, or `--for` says so.
+    pub fn is_curve(&self) -> bool {
+        let is_csv = self.mesh.extension().is_some_and(|csv| csv.eq_ignore_ascii_case("csv"));
+        is_csv || self.serves.contains(&Serves::Curve)
+    }
+
+    /// Whether `--for` asks of a curve what only meshes have. Its default does not count.
+    pub fn asks_mesh_of_curve(&self) -> bool {
+        let default = [Serves::Closest, Serves::Segment];
+        self.is_curve() && self.serves != default && self.serves != [Serves::Curve]
     }
 
     /// The first given option that applies to tight hulls only.

@@ -29,7 +29,9 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 \
     bytes a tribox\n  \
     tight     closest and within, by an interval, and hull --tight: hulls of few faces, 16 to 23 \
-    bytes a face\n\
+    bytes a face\n  \
+    curve     closest and within, of a curve: 6 bytes a point in 2-D, 2 more in 3-D, and 4 to 10 \
+    for its node\n\
     closest, segment and cull share a box tree. Any mesh will do for it, open or not, manifold or \
     not. It takes a second for a hundred thousand triangles. hull is the progressive hull with \
     its split tables. It needs a closed manifold mesh and takes far longer. triboxes take any \
@@ -40,6 +42,10 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     is, nothing is written. With --margin hulls keep a distance from the mesh. Their answers are \
     still about the mesh, with wider intervals. --tight-for closest leaves out the boxes for \
     segments and for overlap, about 2 bytes a face, which only the library asks.\n\n\
+    curve reads CSV: x,y or x,y,z on a line, and at most one header line. It is the only value \
+    for a file named *.csv. A blank line begins a new polyline; so does another value in a column \
+    named polyline. Other columns are skipped. A bad line is named. Repeated points are kept. \
+    Segments count from 0 in each polyline.\n\n\
     Values of --vertex-bits:\n  \
     auto   hull: the fewest bits that store the mesh exactly; box tree: 16\n  \
     16     vertices move to a grid of 16 bits an axis; with tight only those of the hulls, \
@@ -56,7 +62,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     meshsweep build part.stl -o part.msw --for closest,segment,hull --base 500\n  \
     meshsweep build part.stl -o proxy.msw --for triboxes --triboxes 16\n  \
     meshsweep build part.stl -o hulls.msw --for tight --tight 50,200,1000\n  \
-    meshsweep build part.stl -o hull.msw --for tight --slack 0.5";
+    meshsweep build part.stl -o hull.msw --for tight --slack 0.5\n  \
+    meshsweep build fence.csv -o fence.msw --closed";
 
 pub const INFO: &str = "Examples:\n  \
     meshsweep info part.msw\n  \
@@ -71,6 +78,8 @@ pub fn closest() -> String {
          a neighbour ended.\n\n\
          A tight hull gives an interval as wide as its distance from the mesh. px, py, pz is then \
          the closest point of the hull, and no triangle is named.\n\n\
+         A curve names the polyline and its segment, counted from 0. While a query moves by less \
+         than safe_motion, the segment remains the closest one; 0 if that is not known.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep closest part.msw 10,4.5,7 -1,2,3\n  \

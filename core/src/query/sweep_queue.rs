@@ -4,11 +4,11 @@
 //! could leave too few entries for a depth-first descent, the search goes depth first, on a stack
 //! that grows from the right. When the stack is empty, the search returns to the heap.
 //!
-//! The builder counts the depth-first worst case, which is `Hull::scratch_entries`. So this number
-//! of entries is enough for an exact answer. More entries give tighter intervals to a query that
-//! stops early.
+//! The builder counts the depth-first worst case, `scratch_entries` of the view. So this number of
+//! entries is enough for an exact answer. More entries give tighter intervals to a query that stops
+//! early.
 
-use crate::query::ScratchEntry;
+use super::scratch::ScratchEntry;
 
 /// Total order by key, then node, so that the order of visits does not depend on the heap's
 /// history.

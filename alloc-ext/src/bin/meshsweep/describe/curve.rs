@@ -1,0 +1,48 @@
+//! Curves: what they hold, memory, error.
+
+use crate::number::AtMost;
+use meshsweep::counted::Counted;
+use meshsweep_core::{Curve, ScratchEntry};
+use serde_json::{Value, json};
+use std::io::{self, Write};
+
+/// Closed polylines.
+fn closed(curve: &Curve<'_>) -> usize {
+    let is_closed = |&polyline: &u32| curve.is_closed(polyline) == Some(true);
+    (0..curve.polyline_count()).filter(is_closed).count()
+}
+
+fn entries_bytes(curve: &Curve<'_>) -> usize {
+    curve.scratch_entries() * size_of::<ScratchEntry>()
+}
+
+pub(super) fn write(out: &mut dyn Write, curve: &Curve<'_>) -> io::Result<()> {
+    let plane = if curve.is_planar() { ", z = 0" } else { "" };
+    writeln!(out, "curves")?;
+    writeln!(
+        out,
+        "  {} of {}, {} closed{plane}",
+        Counted(curve.segment_count(), "segment"),
+        Counted(curve.polyline_count(), "polyline"),
+        closed(curve)
+    )?;
+    writeln!(
+        out,
+        "  stack: {}, {} bytes: no query needs more",
+        Counted(curve.scratch_entries(), "scratch entry"),
+        entries_bytes(curve)
+    )?;
+    writeln!(out, "  curve error: {}", AtMost(curve.surface_error()))
+}
+
+pub(super) fn as_json(curve: &Curve<'_>) -> Value {
+    json!({
+        "polylines": curve.polyline_count(),
+        "closed": closed(curve),
+        "segments": curve.segment_count(),
+        "is_planar": curve.is_planar(),
+        "box": curve.bounds(),
+        "scratch_entries": curve.scratch_entries(),
+        "surface_error": curve.surface_error(),
+    })
+}

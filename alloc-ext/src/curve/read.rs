@@ -1,0 +1,158 @@
+//! Curves from CSV: x,y or x,y,z on a line.
+
+use super::error::CurveError;
+use csv::{ByteRecord, ReaderBuilder, Trim};
+
+/// Points that are joined in their order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polyline {
+    /// Points, input units. z is 0 in 2-D.
+    pub points: Vec<[f64; 3]>,
+    /// Whether the last point is joined with the first.
+    pub is_closed: bool,
+}
+
+/// Where a point's fields stand in a record.
+struct Columns {
+    places: Vec<usize>,
+    polyline: Option<usize>,
+    fields: usize,
+}
+
+impl Columns {
+    /// Of a header line.
+    fn named(record: &ByteRecord) -> Option<Columns> {
+        let place = |name: &str| {
+            record.iter().position(|field| field.eq_ignore_ascii_case(name.as_bytes()))
+        };
+        let places = [Some(place("x")?), Some(place("y")?), place("z")];
+        let places = places.into_iter().flatten().collect();
+        Some(Columns { places, polyline: place("polyline"), fields: record.len() })
+    }
+
+    /// Of a file without a header line, by its first record.
+    fn of(record: &ByteRecord) -> Columns {
+        let fields = record.len().clamp(2, 3);
+        Columns { places: (0..fields).collect(), polyline: None, fields }
+    }
+
+    fn point(&self, record: &ByteRecord, line: u64) -> Result<[f64; 3], CurveError> {
+        if record.len() != self.fields {
+            return Err(CurveError::Fields { line, wanted: self.fields, found: record.len() });
+        }
+        let mut point = [0.0; 3];
+        for (slot, &place) in point.iter_mut().zip(&self.places) {
+            let text = String::from_utf8_lossy(&record[place]).into_owned();
+            match text.parse::<f64>() {
+                Ok(x) if (x as f32).is_finite() => *slot = x,
+                _ => return Err(CurveError::Number { line, field: place + 1, text }),
+            }
+        }
+        Ok(point)
+    }
+}
+
+/// Whether a record is a header: its fields are words.
+fn is_header(record: &ByteRecord) -> bool {
+    let is_name = |field: &[u8]| {
+        let text = String::from_utf8_lossy(field);
+        text.starts_with(|c: char| c.is_alphabetic() || c == '_') && text.parse::<f64>().is_err()
+    };
+    record.iter().all(is_name)
+}
+
+/// Reads polylines from CSV: x,y or x,y,z on a line, and at most one header line before. A blank
+/// line begins a new polyline. So does another value in a column `polyline` of the header. Columns
+/// of other names are skipped. With `close` each polyline's last point is joined with its first.
+///
+/// # Errors
+/// [`CurveError`] names the line.
+pub fn read_csv(bytes: &[u8], close: bool) -> Result<Vec<Polyline>, CurveError> {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    // The end of a line counts lines, so the last one has an end too.
+    let bytes = [bytes, b"\n"].concat();
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(Trim::All)
+        .from_reader(bytes.as_slice());
+    let mut polylines: Vec<Polyline> = Vec::new();
+    let mut columns: Option<Columns> = None;
+    let (mut name, mut last_line) = (None, 0);
+    let mut begins = true;
+    let mut record = ByteRecord::new();
+    // Bytes in memory and records of any length: the reader has nothing to refuse.
+    while reader.read_byte_record(&mut record).unwrap_or(false) {
+        // The reader skips blank lines before a record.
+        let line = reader.position().line() - 1;
+        let has_blank = record.position().is_some_and(|before| before.line() < line);
+        begins |= has_blank || record.iter().all(<[u8]>::is_empty);
+        if record.iter().all(<[u8]>::is_empty) {
+            continue;
+        }
+        let columns = match &columns {
+            Some(columns) => columns,
+            None if is_header(&record) => {
+                columns = Some(Columns::named(&record).ok_or(CurveError::Header { line })?);
+                continue;
+            }
+            None => columns.insert(Columns::of(&record)),
+        };
+        let point = columns.point(&record, line)?;
+        let named = columns.polyline.map(|place| record[place].to_vec());
+        if begins || named != name {
+            one_point(polylines.last(), last_line)?;
+            polylines.push(Polyline { points: Vec::new(), is_closed: close });
+        }
+        (name, begins, last_line) = (named, false, line);
+        polylines.last_mut().expect("one was begun").points.push(point);
+    }
+    one_point(polylines.last(), last_line)?;
+    if polylines.is_empty() { Err(CurveError::NoPoints) } else { Ok(polylines) }
+}
+
+/// Refuses a polyline whose only point is on `line`.
+fn one_point(polyline: Option<&Polyline>, line: u64) -> Result<(), CurveError> {
+    match polyline {
+        Some(polyline) if polyline.points.len() < 2 => Err(CurveError::OnePoint { line }),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Vec<Vec<[f64; 3]>>, CurveError> {
+        let lines = read_csv(text.as_bytes(), false)?;
+        Ok(lines.into_iter().map(|line| line.points).collect())
+    }
+
+    #[test]
+    fn blank_lines_and_the_polyline_column_begin_polylines() {
+        let [a, b, c, d] = [[1.0, 2.0, 0.0], [3.0, 4.0, 0.0], [5.0, 6.0, 0.0], [7.0, 8.0, 0.0]];
+        let two = Ok(vec![vec![a, b], vec![c, d]]);
+        assert_eq!(read("1,2\n3,4\n\n5,6\n7,8"), two);
+        assert_eq!(read("\u{feff}x,y\r\n\r\n1,2\r\n3,4\r\n \r\n\r\n 5 , 6\r\n7,8\r\n"), two);
+        assert_eq!(read("polyline,Y,note,X\na,2,?,1\na,4,,3\nb,6,,5\nb,8,,7\n"), two);
+        let deep = Ok(vec![vec![[1.0, 2.0, 3.0], [-4.0, 5e-1, 6.0]]]);
+        assert_eq!(read("x,y,z\n1,2,3\n-4,5e-1,6\n"), deep);
+    }
+
+    #[test]
+    fn bad_lines_are_refused_by_their_number() {
+        let number = |line, field, text: &str| {
+            Err(CurveError::Number { line, field, text: text.to_owned() })
+        };
+        assert_eq!(read("x,y\n1,2\n\n3,four\n"), number(4, 2, "four"));
+        assert_eq!(read("1,nan\n"), number(1, 2, "nan"));
+        assert_eq!(read("1,2\ninf,2"), number(2, 1, "inf"));
+        assert_eq!(read("1,2\n\n\n3,1e39"), number(4, 2, "1e39"));
+        assert_eq!(read("1,2\n3,4,5\n"), Err(CurveError::Fields { line: 2, wanted: 2, found: 3 }));
+        assert_eq!(read("1\n"), Err(CurveError::Fields { line: 1, wanted: 2, found: 1 }));
+        assert_eq!(read("1,2\n3,4\n\n5,6\n\n7,8\n9,9"), Err(CurveError::OnePoint { line: 4 }));
+        assert_eq!(read("1,2"), Err(CurveError::OnePoint { line: 1 }));
+        assert_eq!(read("a,b\n1,2\n"), Err(CurveError::Header { line: 1 }));
+        assert_eq!(read("\n \n"), Err(CurveError::NoPoints));
+    }
+}

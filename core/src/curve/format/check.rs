@@ -1,0 +1,176 @@
+//! Opening the curves of a blob, and the check.
+
+use super::layout::{
+    CURVES_BYTES, CURVES_F32, CURVES_PLANAR, MAX_CURVE_DEPTH, MAX_POINTS, POLYLINE_BYTES,
+    POLYLINE_CLOSED,
+};
+use super::view::{Curve, CurvesHeader, Run};
+use crate::format::layout::SectionKind;
+use crate::format::{Bytes, Header, OpenError, place_sections, read_header};
+use crate::geom::Aabb;
+use crate::num::exp2;
+use crate::query::Frame;
+
+/// Largest coordinate of the grid, so that it is exact in f32.
+const MAX_GRID: i32 = 1 << 24;
+
+impl<'a> Curve<'a> {
+    /// Opens the curves of a blob where they lie, and checks all of them: CRC, every point, every
+    /// node. Any bytes are safe to open. It reads no other sections, so that the code that checks
+    /// them is not linked.
+    ///
+    /// Cost: linear in the points; no allocation; once per start. Alignment of `bytes` does not
+    /// matter.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without curves.
+    pub fn open(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
+        let curve = Curve::place(bytes, true)?;
+        curve.check()?;
+        Ok(curve)
+    }
+
+    /// The curves of bytes that were checked before.
+    pub(crate) fn view(bytes: &'a [u8]) -> Result<Curve<'a>, OpenError> {
+        Curve::place(bytes, false)
+    }
+
+    fn place(bytes: &'a [u8], check: bool) -> Result<Curve<'a>, OpenError> {
+        let blob = if check { read_header(bytes)? } else { Header::read(Bytes(bytes))? };
+        let mut section: Option<(u32, &[u8])> = None;
+        let wants = |kind: SectionKind| kind == SectionKind::Curves;
+        place_sections(&blob, Bytes(bytes), check, wants, |index, _, data| {
+            section = Some((index, data));
+            Ok(())
+        })?;
+        let missing = OpenError::MissingSection { section: SectionKind::Curves };
+        let (index, data) = section.ok_or(missing)?;
+        let malformed = OpenError::Section { index };
+        let (head, rest) = data.split_at_checked(CURVES_BYTES).ok_or(malformed)?;
+        let header = CurvesHeader::read(Bytes(head))?;
+        if header.flags & !(CURVES_PLANAR | CURVES_F32) != 0 {
+            return Err(OpenError::Reserved);
+        }
+        let wrong = |what: &'static str| Err(OpenError::Counts { what });
+        let CurvesHeader { points, polylines, .. } = header;
+        if points >= MAX_POINTS || polylines == 0 || polylines > points / 2 {
+            return wrong("points and polylines of a curve");
+        }
+        if header.depth as usize > MAX_CURVE_DEPTH {
+            return wrong("nodes of a curve too deep");
+        }
+        let least = |origin: i32| (-MAX_GRID..=MAX_GRID - 0xFFFF).contains(&origin);
+        let fits =
+            (-60..=0).contains(&header.grid_exponent) && header.grid_origin.into_iter().all(least);
+        if !(header.is_f32() || fits) {
+            return wrong("grid of a curve out of range");
+        }
+        // The queries rely on the scale and on lengths of the local frame.
+        let length = |x: f32| x.abs() <= 16.0;
+        let sound = (-200..=200).contains(&blob.scale_exponent)
+            && blob.surface_error >= 0.0
+            && length(blob.surface_error)
+            && blob.surface_box.iter().flatten().all(|&x| length(x));
+        if !sound {
+            return wrong("scale, error or box of a curve out of range");
+        }
+        let slices = || {
+            let (table, rest) =
+                rest.split_at_checked((polylines as usize).checked_mul(POLYLINE_BYTES)?)?;
+            let (places, nodes) =
+                rest.split_at_checked((points as usize).checked_mul(header.point_bytes())?)?;
+            let whole = (header.nodes() as usize).checked_mul(header.node_bytes())?;
+            (nodes.len() == whole).then_some((table, places, nodes))
+        };
+        let (table, places, nodes) = slices().ok_or(malformed)?;
+        Ok(Curve {
+            header,
+            frame: Frame::of(&blob),
+            bounds: Aabb::of(blob.surface_box),
+            unit: exp2(header.grid_exponent.clamp(-60, 0)) as f32,
+            polylines: table.as_chunks().0,
+            points: Bytes(places),
+            nodes: Bytes(nodes),
+        })
+    }
+
+    fn check(&self) -> Result<(), OpenError> {
+        let bad = |index: u32| OpenError::Record { section: SectionKind::Curves, index };
+        for index in 0..self.header.points {
+            let point = self.point(index).ok_or(bad(index))?;
+            let Aabb { min, max } = self.bounds;
+            // NaN is in no box.
+            if !(point.cmpge(min).all() && point.cmple(max).all()) {
+                return Err(bad(index));
+            }
+        }
+        self.check_polylines()?;
+        self.check_nodes()
+    }
+
+    /// Polylines follow each other, each has two points at least, and closed ones end where they
+    /// began.
+    fn check_polylines(&self) -> Result<(), OpenError> {
+        let bad = |index: u32| OpenError::Record { section: SectionKind::Curves, index };
+        let words = || self.polylines.iter().map(|record| u32::from_le_bytes(*record));
+        let starts = words().map(|word| word & !POLYLINE_CLOSED);
+        let ends = starts.clone().skip(1).chain([self.header.points]);
+        let mut before = 0;
+        for (index, (word, (start, end))) in (0..).zip(words().zip(starts.zip(ends))) {
+            let last = end.wrapping_sub(1);
+            let closed = word & POLYLINE_CLOSED != 0;
+            if start != before
+                || start >= last
+                || last >= self.header.points
+                || (closed && self.point(start) != self.point(last))
+            {
+                return Err(bad(index));
+            }
+            before = end;
+        }
+        Ok(())
+    }
+
+    /// Node 0 covers all points. Every other node is what its parent makes of the run of its own,
+    /// and nodes follow in the order of a descent, left before right.
+    fn check_nodes(&self) -> Result<(), OpenError> {
+        let bad = |index: u32| OpenError::Record { section: SectionKind::Curves, index };
+        // Last points of the nodes above, and of the node itself.
+        let mut path = [0u32; MAX_CURVE_DEPTH];
+        let mut depth = 0usize;
+        let mut deepest = 0;
+        for index in 0..self.header.nodes() {
+            let node = self.node(index).ok_or(bad(index))?;
+            let is_root = index == 0;
+            if is_root && (node.first, node.last) != (0, self.header.points.wrapping_sub(1)) {
+                return Err(bad(index));
+            }
+            while let Some(&above) = depth.checked_sub(1).and_then(|top| path.get(top))
+                && above <= node.first
+            {
+                depth -= 1;
+            }
+            *path.get_mut(depth).ok_or(bad(index))? = node.last;
+            depth += 1;
+            deepest = deepest.max(depth);
+            let runs = self.children(index).ok_or(bad(index))?;
+            let sound = |run: &Run| {
+                // The record of a run that has a node.
+                let stored = |node: super::view::Node| {
+                    (node.first, node.last) == (run.first, run.last) && node.radius == run.radius
+                };
+                run.first < run.last
+                    && (run.last - run.first == 1 || self.node(run.item).is_some_and(stored))
+            };
+            let finite = node.radius >= 0.0 && node.radius <= 64.0;
+            if !(finite && runs.iter().all(sound)) {
+                return Err(bad(index));
+            }
+        }
+        if deepest == self.header.depth as usize {
+            Ok(())
+        } else {
+            Err(OpenError::Counts { what: "depth of the nodes of a curve" })
+        }
+    }
+}

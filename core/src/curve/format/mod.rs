@@ -1,0 +1,14 @@
+//! The bytes of the curves.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `layout` | sizes and limits of the section |
+//! | `view` | the curves where they lie |
+//! | `check` | the check of `Curve::open` |
+
+mod check;
+pub mod layout;
+mod view;
+
+pub(crate) use view::Run;
+pub use view::{Curve, CurveSegment, CurvesHeader};

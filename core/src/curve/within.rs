@@ -1,0 +1,134 @@
+//! Whether a curve is within a distance.
+
+use super::capsules::{Capsules, Item};
+use crate::curve::format::{Curve, CurveSegment};
+use crate::num::tolerance::{CURVE_FAR, U64};
+use crate::num::up_to_f32;
+use crate::query::{Budget, QueryError, ScratchEntry, SweepQueue, Taken, Undecided, Verdict, Work};
+
+/// Whether a curve is within a distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct CurveWithin {
+    /// `Yes`: a point of the curve is not farther. `No`: the whole curve is farther. Undecided for
+    /// [`Resolution`](Undecided::Resolution): the difference from the distance asked about is
+    /// within the surface error and rounding.
+    pub verdict: Verdict,
+    /// With `Yes` a segment that is not farther. It is not always the closest one.
+    pub segment: Option<CurveSegment>,
+    /// The work of the search.
+    pub work: Work,
+}
+
+impl CurveWithin {
+    /// Whether it is proved that nothing of the curve is within the distance.
+    pub fn is_clear(&self) -> bool {
+        self.verdict == Verdict::No
+    }
+}
+
+impl Curve<'_> {
+    /// Whether the input curve is at most `distance` from `point`, both in input units.
+    ///
+    /// It ends as soon as one segment is certainly near enough. A distance of 0 asks whether the
+    /// point touches the curve: the answer is `No` or, as rounding cannot prove a contact,
+    /// undecided. `scratch` as for [`closest_point`](Curve::closest_point). A shorter one may leave
+    /// the question undecided; it never makes the answer wrong. Of the budget only `steps` matters.
+    ///
+    /// Cost: less than that of the closest point. If all of the curve is far away, one node.
+    /// Source: Guéziec 2000, 3.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Curve, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/fence.msw"));
+    /// let (fence, mut scratch) = (Curve::open(bytes)?, Scratch::<64>::new());
+    /// let near = fence.within([50.0, -900.0, 0.0], 5.0, Budget::EXACT, &mut scratch)?;
+    /// assert!(near.is_clear());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::Tolerance`] also for a distance that is negative,
+    /// NaN or infinite; [`QueryError::NoScratch`].
+    pub fn within(
+        &self,
+        point: [f32; 3],
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<CurveWithin, QueryError> {
+        // A distance is refused as an absolute tolerance is.
+        budget.with_absolute(distance).check_with(scratch)?;
+        let p = self.frame.local(point)?;
+        let mut work = Work::default();
+        let (verdict, segment) = if p.abs().max_element() > CURVE_FAR {
+            let (near, far) = self.bounds.distance_range(p);
+            let verdict = if self.frame.upper(far) <= distance {
+                Verdict::Yes
+            } else if self.frame.lower(near) > distance {
+                Verdict::No
+            } else {
+                Verdict::Undecided(Undecided::Resolution)
+            };
+            let first = self.segment_at(0).filter(|_| verdict == Verdict::Yes);
+            (verdict, first)
+        } else {
+            let queue = SweepQueue::new(scratch, self.scratch_entries());
+            let capsules = Capsules::new(self, p);
+            within(&capsules, queue, distance, budget.steps, &mut work)
+                .ok_or(QueryError::Unchecked)?
+        };
+        Ok(CurveWithin { verdict, segment, work })
+    }
+}
+
+/// `None`: the curve is unchecked.
+fn within(
+    capsules: &Capsules<'_>,
+    mut queue: SweepQueue<'_>,
+    distance: f32,
+    steps: u32,
+    work: &mut Work,
+) -> Option<(Verdict, Option<CurveSegment>)> {
+    let Capsules { curve, .. } = capsules;
+    let undecided = |why| Some((Verdict::Undecided(why), None));
+    // Whatever has a greater bound is certainly farther.
+    let limit = (curve.frame.length(distance) + curve.frame.surface_error()) * (1.0 + 4.0 * U64);
+    let limit = up_to_f32(limit);
+    let mut may_be_within = false;
+    let mut next = Some(Capsules::ROOT);
+    while let Some(Taken { entry, least }) = queue.take(next.take(), false) {
+        if entry.key() > limit {
+            if least {
+                break;
+            }
+            continue;
+        }
+        match capsules.item(entry) {
+            Item::Segment(number) => {
+                let Some(segment) = curve.segment_at(number) else { continue };
+                let (near, _) = capsules.distance(number, work)?;
+                if curve.frame.upper(near.upper) <= distance {
+                    return Some((Verdict::Yes, Some(segment)));
+                }
+                may_be_within |= curve.frame.lower(near.lower) <= distance;
+            }
+            Item::Node(_) if work.splits >= steps => return undecided(Undecided::Steps),
+            Item::Node(node) => {
+                let [near, far] = capsules.open(node, work)?;
+                queue.begin_children(2);
+                if far.key() <= limit {
+                    queue.push(far);
+                }
+                next = Some(near);
+            }
+        }
+    }
+    if queue.dropped() <= limit {
+        undecided(Undecided::Scratch)
+    } else if may_be_within {
+        undecided(Undecided::Resolution)
+    } else {
+        Some((Verdict::No, None))
+    }
+}

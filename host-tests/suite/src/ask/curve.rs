@@ -1,0 +1,178 @@
+//! Questions to the curves of a blob.
+
+pub use meshsweep_core::Curve;
+use meshsweep_core::{Budget, CurveClosest, CurveSegment, ScratchEntry};
+
+use super::{Asked, Refused, Subject, how, verdict};
+use crate::fold::Fold;
+use crate::place::{Bounds, Placer, Point};
+use crate::{Clock, Kind};
+
+/// Entries of the queue: enough for the suite's blobs, and some to go best first.
+const ENTRIES: usize = 64;
+
+/// What the queries need beside the curve.
+#[derive(Debug)]
+pub struct Scratch([ScratchEntry; ENTRIES]);
+
+impl Scratch {
+    /// Scratch that no query has used.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self([ScratchEntry::EMPTY; ENTRIES])
+    }
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'t> Subject<'t> for Curve<'t> {
+    type Scratch = Scratch;
+
+    fn open(bytes: &'t [u8]) -> Result<Self, Refused> {
+        open(bytes)
+    }
+
+    fn bounds(&self) -> Bounds {
+        bounds(self)
+    }
+
+    fn memory_suffices(&self) -> bool {
+        self.scratch_entries() <= ENTRIES
+    }
+
+    fn memory(&self) -> usize {
+        size_of::<Curve<'_>>() + self.scratch_entries().saturating_mul(size_of::<ScratchEntry>())
+    }
+
+    fn suits(kind: Kind) -> bool {
+        matches!(
+            kind,
+            Kind::Arith
+                | Kind::Contents
+                | Kind::ClosestFar
+                | Kind::ClosestNear
+                | Kind::ClosestPath
+                | Kind::Stopped
+                | Kind::Within
+        )
+    }
+
+    fn ask(
+        &self,
+        kind: Kind,
+        place: &mut Placer,
+        scratch: &mut Scratch,
+        clock: &mut impl Clock,
+        fold: &mut Fold,
+    ) {
+        let to = &mut Asked::new(clock, fold);
+        match kind {
+            Kind::Contents => contents(self, to.fold),
+            Kind::ClosestFar => {
+                closest(self, place.far(), scratch, to);
+            }
+            Kind::ClosestNear => {
+                let base = closest(self, place.far(), scratch, &mut Asked::new((), to.fold));
+                closest(self, place.near(base), scratch, to);
+            }
+            Kind::ClosestPath => {
+                closest(self, place.step(), scratch, to);
+            }
+            Kind::Stopped => stopped(self, place.far(), place.distance(), scratch, to),
+            Kind::Within => is_within(self, place.far(), place.distance(), scratch, to),
+            _ => {}
+        }
+    }
+}
+
+/// Opens the curves of a blob.
+///
+/// # Errors
+/// The core's refusal.
+pub fn open(bytes: &[u8]) -> Result<Curve<'_>, Refused> {
+    Curve::open(bytes).map_err(Refused::of)
+}
+
+/// The box of all points.
+#[must_use]
+pub fn bounds(curve: &Curve<'_>) -> Bounds {
+    curve.bounds()
+}
+
+/// Polylines, error and memory.
+pub fn contents(curve: &Curve<'_>, fold: &mut Fold) {
+    fold.word(curve.segment_count());
+    fold.word(curve.scratch_entries() as u32);
+    fold.word(u32::from(curve.is_planar()));
+    for polyline in 0..curve.polyline_count() {
+        fold.word(u32::from(curve.is_closed(polyline) == Some(true)));
+    }
+    fold.f32(curve.surface_error());
+}
+
+fn closest_point(fold: &mut Fold, answer: &CurveClosest) {
+    fold.f32(answer.distance.lower);
+    fold.f32(answer.distance.upper);
+    fold.point(answer.point);
+    segment(fold, Some(answer.segment));
+    fold.f32(answer.t);
+    fold.f32(answer.safe_motion);
+    how(fold, answer.work, answer.ended);
+}
+
+fn segment(fold: &mut Fold, segment: Option<CurveSegment>) {
+    let (polyline, segment) = segment.map_or((u32::MAX, u32::MAX), |at| (at.polyline, at.segment));
+    fold.word(polyline);
+    fold.word(segment);
+}
+
+/// The closest point; returns it.
+#[inline(never)]
+pub fn closest(
+    curve: &Curve<'_>,
+    p: Point,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) -> Point {
+    let call = || curve.closest_point(p, Budget::EXACT, &mut scratch.0);
+    to.answer(call, closest_point).map_or(p, |answer| answer.point)
+}
+
+/// The closest point with a tolerance, and in too few steps with one entry.
+#[inline(never)]
+pub fn stopped(
+    curve: &Curve<'_>,
+    p: Point,
+    absolute: f32,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    let tolerant = Budget::EXACT.with_relative(0.1).with_absolute(absolute);
+    let brief = Budget::EXACT.with_steps(9);
+    for (budget, entries) in [(tolerant, ENTRIES), (brief, 1)] {
+        let queue = scratch.0.get_mut(..entries).unwrap_or_default();
+        to.answer(|| curve.closest_point(p, budget, queue), closest_point);
+    }
+}
+
+/// Whether the curve is within a distance.
+#[inline(never)]
+pub fn is_within(
+    curve: &Curve<'_>,
+    p: Point,
+    distance: f32,
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Clock>,
+) {
+    to.answer(
+        || curve.within(p, distance, Budget::EXACT, &mut scratch.0),
+        |fold, answer| {
+            segment(fold, answer.segment);
+            verdict(fold, answer.work, answer.verdict);
+        },
+    );
+}

@@ -1,0 +1,138 @@
+//! Every fault of the bytes is a typed error. Bytes that open are safe to query.
+
+use meshsweep::curve::{CurveError, Polyline, store};
+use meshsweep_core::{Blob, Curve, OpenError, SectionKind};
+use meshsweep_host_tests::corrupt::{
+    assert_only_the_whole_opens, entry, flip_bits, put_u32, replace_bytes, seal,
+};
+use meshsweep_host_tests::fuzz_targets::{ask_curve, curve_seeds};
+use meshsweep_host_tests::generate::Rng;
+use meshsweep_host_tests::generate::curves::{circle, open as line, walk};
+
+/// A walk of nine segments and a closed ring of seven: eighteen points in f32.
+fn small() -> Vec<u8> {
+    store(&[walk(9, 1), circle(7)], true).expect("finite").0.to_bytes()
+}
+
+fn open(bytes: &[u8]) -> Result<(), OpenError> {
+    Curve::open(bytes).map(|_| ())
+}
+
+fn ask(bytes: &[u8]) -> Result<(), OpenError> {
+    Curve::open(bytes).map(|curve| ask_curve(&curve))
+}
+
+/// Opens after an edit of the section, the CRCs right.
+fn edited(edit: impl FnOnce(&mut [u8])) -> Result<(), OpenError> {
+    let mut bytes = small();
+    let at = entry(&bytes, SectionKind::Curves as u32);
+    edit(&mut bytes[at.offset as usize..][..at.bytes as usize]);
+    seal(&mut bytes);
+    let result = open(&bytes);
+    assert_eq!(Blob::open(&bytes).map(|_| ()), result, "the whole blob is as strict");
+    result
+}
+
+// Where things stand in the section.
+const POLYLINES: usize = 32;
+const POINTS: usize = POLYLINES + 2 * 4;
+const NODES: usize = POINTS + 18 * 12;
+const NODE: usize = 4;
+
+fn record(index: u32) -> Result<(), OpenError> {
+    Err(OpenError::Record { section: SectionKind::Curves, index })
+}
+
+#[test]
+fn the_section_stands_as_the_format_says() {
+    let at = entry(&small(), SectionKind::Curves as u32);
+    assert_eq!(at.bytes as usize, NODES + 16 * NODE);
+    assert_eq!(edited(|_| ()), Ok(()));
+}
+
+#[test]
+fn open_rejects_truncation_and_every_flipped_bit() {
+    assert_only_the_whole_opens(&small(), open);
+}
+
+#[test]
+fn every_flipped_bit_with_right_checksums_is_refused_or_safe_to_ask() {
+    let mut opened = 0;
+    for bytes in curve_seeds() {
+        let section = entry(bytes, SectionKind::Curves as u32);
+        let end = section.offset as usize + (section.bytes as usize).min(1500);
+        let bits = (0..8 * 200).chain(8 * section.offset as usize..8 * end);
+        let outcome = flip_bits(bytes, bits, ask);
+        assert!(outcome.reasons.len() >= 6, "{outcome:?}");
+        opened += outcome.opened;
+    }
+    assert!(opened > 1000, "{opened}");
+}
+
+#[test]
+fn random_edits_with_right_checksums_are_refused_or_safe_to_ask() {
+    let rng = &mut Rng::new(5);
+    for bytes in curve_seeds() {
+        let section = entry(bytes, SectionKind::Curves as u32);
+        replace_bytes(bytes, (2000, 30), rng, |_, _| section, ask);
+    }
+}
+
+#[test]
+fn headers_out_of_range_are_named() {
+    let counts = |result: Result<(), OpenError>| matches!(result, Err(OpenError::Counts { .. }));
+    assert_eq!(edited(|bytes| bytes[0] |= 4), Err(OpenError::Reserved));
+    for (at, value) in [(20, 1 << 28), (24, 0), (24, 10), (28, 65), (28, 0), (28, 9)] {
+        assert!(counts(edited(|bytes| put_u32(bytes, at, value))), "{value} at {at}");
+    }
+    let malformed = Err(OpenError::Section { index: 0 });
+    assert_eq!(edited(|bytes| put_u32(bytes, 20, 17)), malformed);
+    assert_eq!(edited(|bytes| put_u32(bytes, 24, 3)), malformed);
+    // Not f32: the grid matters, and points are shorter.
+    assert_eq!(edited(|bytes| bytes[0] &= !2), malformed);
+    for (at, value) in [(4, 1), (4, -61i32 as u32), (8, 1 << 24), (16, -(1 << 25) as u32)] {
+        let grid = |bytes: &mut [u8]| {
+            bytes[0] &= !2;
+            put_u32(bytes, at, value);
+        };
+        assert!(counts(edited(grid)), "{value} at {at}");
+    }
+}
+
+#[test]
+fn polylines_points_and_nodes_that_do_not_fit_are_named() {
+    assert_eq!(edited(|bytes| put_u32(bytes, POLYLINES, 1)), record(0), "not from the start");
+    assert_eq!(edited(|bytes| put_u32(bytes, POLYLINES + 4, 1)), record(0), "one point");
+    assert_eq!(edited(|bytes| put_u32(bytes, POLYLINES + 4, 17)), record(1), "one point");
+    assert_eq!(edited(|bytes| bytes[POLYLINES + 3] |= 0x80), record(0), "not closed");
+    for x in [f32::NAN, f32::INFINITY, 5.0] {
+        let point = |bytes: &mut [u8]| put_u32(bytes, POINTS + 3 * 12, x.to_bits());
+        assert_eq!(edited(point), record(3), "{x} is not in the box");
+    }
+    assert_eq!(edited(|bytes| bytes[NODES + 1] = 16), record(0), "the root does not hold all");
+    for index in 1..16 {
+        for byte in [0, 1] {
+            let node = |bytes: &mut [u8]| bytes[NODES + index * NODE + byte] ^= 1;
+            assert!(matches!(edited(node), Err(OpenError::Record { .. })), "{index} {byte}");
+        }
+    }
+    for radius in [0x7FC0u16, 0x7F80, 0x8001, 0xBF80] {
+        let node = |bytes: &mut [u8]| {
+            bytes[NODES + 2 * NODE + 2..][..2].copy_from_slice(&radius.to_le_bytes());
+        };
+        assert!(matches!(edited(node), Err(OpenError::Record { .. })), "{radius:x}");
+    }
+}
+
+#[test]
+fn curves_that_cannot_be_stored_are_refused() {
+    let refused = |polylines: &[Polyline]| store(polylines, true).map(|_| ()).unwrap_err();
+    assert_eq!(refused(&[]), CurveError::NoPoints);
+    let bad = CurveError::Polyline { polyline: 1 };
+    for points in [vec![], vec![[0.0; 3]], vec![[0.0; 3], [0.0, f64::NAN, 0.0]], vec![[1e39; 3]; 2]]
+    {
+        assert_eq!(refused(&[circle(3), line(points)]), bad);
+    }
+    let largest = 1e-39;
+    assert_eq!(refused(&[line(vec![[0.0; 3], [largest; 3]])]), CurveError::TooSmall { largest });
+}
