@@ -50,7 +50,6 @@ fn build_reports_mesh_sections_memory_and_levels() {
         "surface error 0 ",
         "1948 triangles in ",
         "scratch: ",
-        "no query on the cover tree can overflow it",
         "closed: signed distance is that of the nearest surface",
         "half-width of an exact answer: about ",
         " fans of one triangle",

@@ -5,7 +5,7 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Work {
-    /// Bounds tested: boxes of [`Bvh`](crate::Bvh) children, triboxes, nodes of a hull's cover,
+    /// Bounds tested: boxes of [`Bvh`](crate::Bvh) children, triboxes, swept triangles,
     /// capsules of a curve.
     pub nodes: u32,
     /// Triangles of surface or hull tested in f32.

@@ -60,11 +60,11 @@ impl Blob {
         all.find(|blob| blob.name == name).ok_or_else(|| format!("no blob `{name}`"))
     }
 
-    /// How the image is optimised for a part with so much flash. All questions to a box tree,
-    /// compiled for speed, are more than 256 KiB.
+    /// How the image is optimised for a part with so much flash. All questions to a box tree or to
+    /// a hull hierarchy, compiled for speed, are more than 256 KiB.
     #[must_use]
     pub fn profile(self, flash: Flash) -> Profile {
-        if self.image == "suite_tree" && flash == Flash::Small {
+        if matches!(self.image, "suite_tree" | "suite_hull") && flash == Flash::Small {
             Profile::Small
         } else {
             Profile::Release
