@@ -122,6 +122,7 @@ fn every_command_s_help_has_examples_that_run() {
     write_raw(&directory.join("points.f32"), &points);
     write_csv(&directory.join("segments.csv"), &segments);
     write_csv(&directory.join("path.csv"), &[[30f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]; 3]);
+    fs::copy(fixture("fence.csv"), directory.join("fence.csv")).unwrap();
     let everything = ["--for", "closest,segment,cull,hull,triboxes", "--triboxes", "8"];
     let part = blob(&directory, "bracket.stl", &everything);
     let commands = ok(["help"]);

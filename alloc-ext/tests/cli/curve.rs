@@ -56,6 +56,7 @@ fn info_and_build_tell_what_the_blob_holds() {
     assert!(report.contains("1 point repeated: kept"), "{report}");
     assert!(report.contains("serves closest, within without --all\n"), "{report}");
     assert!(report.contains("3 segments of 2 polylines, 0 closed\n"), "{report}");
+    assert!(report.contains("open: nothing joins the last point with the first"), "{report}");
     let text = ok(["info", arg(&output)]);
     assert!(text.contains("bytes per segment") && !text.contains("triangle"), "{text}");
     let json: Value = serde_json::from_str(&ok(["info", arg(&output), "--json"])).expect("JSON");

@@ -75,7 +75,7 @@ pub struct BuildArgs {
         hide_possible_values = true
     )]
     pub tight_for: Vec<HullServes>,
-    /// Join the last point of each polyline with its first, with --for curve
+    /// With --for curve: join the last point of each polyline with its first
     #[arg(long)]
     pub closed: bool,
     #[command(flatten)]

@@ -26,9 +26,12 @@ pub(super) fn write(out: &mut dyn Write, curve: &Curve<'_>) -> io::Result<()> {
         Counted(curve.polyline_count(), "polyline"),
         closed(curve)
     )?;
+    if closed(curve) < curve.polyline_count() as usize {
+        writeln!(out, "  open: nothing joins the last point with the first; build --closed does")?;
+    }
     writeln!(
         out,
-        "  stack: {}, {} bytes: no query needs more",
+        "  scratch: {}, {} bytes: no query needs more",
         Counted(curve.scratch_entries(), "scratch entry"),
         entries_bytes(curve)
     )?;
