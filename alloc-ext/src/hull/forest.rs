@@ -29,8 +29,8 @@ pub fn cover_radius(positions: &[DVec3], vertices: &[u32], [a, b, c]: [DVec3; 3]
 }
 
 /// Replays the collapses fine to coarse. A fine triangle at a ring edge is a child of the coarse
-/// one at the same edge. Each of the two at the wings is a child of one of the coarse two beside it: of
-/// the one that covers it more tightly.
+/// one at the same edge. Each of the two at the wings is a child of one of the coarse two beside
+/// it: of the one that covers it more tightly.
 ///
 /// Cost: linear in the vertices below each fragment.
 pub fn grow(history: &History) -> Forest {

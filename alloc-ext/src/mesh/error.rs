@@ -21,7 +21,8 @@ pub struct EdgePlace {
 #[non_exhaustive]
 #[allow(
     missing_docs,
-    reason = "a variant's sentence says what its fields are; their names are the terms of that sentence"
+    reason = "a variant's sentence says what its fields are; their names are the terms of that \
+        sentence"
 )]
 pub enum MeshError {
     /// The file could not be opened or read.
@@ -118,13 +119,15 @@ impl fmt::Display for MeshError {
             ),
             Self::NotFinite { file, line, vertex, at } => write!(
                 f,
-                "{}{}: vertex {vertex} is at {at:?}; remove the vertex or give it finite coordinates",
+                "{}{}: vertex {vertex} is at {at:?}; remove the vertex or give it finite \
+                    coordinates",
                 file.display(),
                 Line(*line)
             ),
             Self::IndexOutOfRange { file, line, face, index, vertex_count } => write!(
                 f,
-                "{}{}: face {face} names vertex {index}, but there {} {}; remove or renumber the face",
+                "{}{}: face {face} names vertex {index}, but there {} {}; remove or renumber the \
+                    face",
                 file.display(),
                 Line(*line),
                 if *vertex_count == 1 { "is" } else { "are" },
@@ -139,22 +142,26 @@ impl fmt::Display for MeshError {
             }
             Self::TooMany { file, what, count } => write!(
                 f,
-                "{}: {count} {what} are more than 32-bit numbers can name; simplify or divide the mesh",
+                "{}: {count} {what} are more than 32-bit numbers can name; simplify or divide \
+                    the mesh",
                 file.display()
             ),
             Self::TooLarge { file, vertex, at } => write!(
                 f,
-                "{}: vertex {vertex} at {at:?} is beyond the range of f32 (3.4e38); choose a larger unit",
+                "{}: vertex {vertex} at {at:?} is beyond the range of f32 (3.4e38); choose a \
+                    larger unit",
                 file.display()
             ),
             Self::TooSmall { file, largest } => write!(
                 f,
-                "{}: the largest coordinate, {largest:e}, is below f32's normal range (1.2e-38); choose a smaller unit",
+                "{}: the largest coordinate, {largest:e}, is below f32's normal range (1.2e-38); \
+                    choose a smaller unit",
                 file.display()
             ),
             Self::NoArea { count } => write!(
                 f,
-                "no triangle has an area, all are segments or points ({}); export with more digits or in a smaller unit",
+                "no triangle has an area, all are segments or points ({}); export with more \
+                    digits or in a smaller unit",
                 Counted(*count, "triangle")
             ),
             Self::Open {
@@ -220,7 +227,8 @@ impl fmt::Display for MeshError {
             }
             Self::ZeroVolume { triangle, at, volume, bound } => write!(
                 f,
-                "the closed component with triangle {triangle} at {at:?} has no volume ({volume:e} ± {bound:e}); remove or thicken it"
+                "the closed component with triangle {triangle} at {at:?} has no volume \
+                    ({volume:e} ± {bound:e}); remove or thicken it"
             ),
             Self::Invalid { reason } => write!(f, "not a valid mesh: {reason}; run repair"),
         }

@@ -17,9 +17,9 @@ use super::{EdgePlace, Mesh, MeshError};
 ///
 /// # Errors
 /// In this order: an array that breaks [`Mesh`]'s promise, no triangle with an area, boundary edges
-/// (as holes), non-manifold edges, non-manifold vertices, one-sided components, inconsistent winding, a
-/// component without volume, inside-out ones. The last four kinds but one-sided ones and zero volume
-/// cannot occur after [`repair`](super::repair()).
+/// (as holes), non-manifold edges, non-manifold vertices, one-sided components, inconsistent
+/// winding, a component without volume, inside-out ones. The last four kinds but one-sided ones and
+/// zero volume cannot occur after [`repair`](super::repair()).
 pub fn require_closed_manifold(mesh: &Mesh) -> Result<(), MeshError> {
     check_arrays(mesh)?;
     let triangles = &mesh.triangles;

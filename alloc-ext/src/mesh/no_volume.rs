@@ -153,8 +153,8 @@ impl fmt::Display for NoVolume {
             NoVolume::Flat { triangle, at } => {
                 write!(
                     f,
-                    "a component of the mesh, that of triangle {triangle}, has a volume that cannot be \
-                     told from 0, {}",
+                    "a component of the mesh, that of triangle {triangle}, has a volume that \
+                     cannot be told from 0, {}",
                     Point(at)
                 )
             }

@@ -94,8 +94,8 @@ pub struct RepairReport {
     pub turned_components: Finding,
     /// Closed components that lie inside another and face inwards: cavities, left as they are.
     pub cavities: Finding,
-    /// One-sided components; left as they are, refused for a hull. The place is a triangle at which the
-    /// winding fails.
+    /// One-sided components; left as they are, refused for a hull. The place is a triangle at which
+    /// the winding fails.
     pub non_orientable: Finding,
     /// The corners of the first zero-area triangles that were taken out, for
     /// [`explain`](Self::explain).

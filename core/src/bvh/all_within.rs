@@ -32,9 +32,9 @@ impl Bvh<'_> {
     /// in input units), into `out`, by rising distance.
     ///
     /// Order, ties, triangles without area and far points as for [`nearest`](Bvh::nearest). With
-    /// an empty `out`, [`AllWithin::dropped`] is the number of triangles. After an error the contents
-    /// of `out` are undefined. `scratch` as for
-    /// [`closest_point`](Bvh::closest_point). Of the budget only `steps` matters.
+    /// an empty `out`, [`AllWithin::dropped`] is the number of triangles. After an error the
+    /// contents of `out` are undefined. `scratch` as for [`closest_point`](Bvh::closest_point). Of
+    /// the budget only `steps` matters.
     ///
     /// Cost: linear in everything within the distance, dropped triangles too; log n for each
     /// triangle stored.

@@ -110,7 +110,8 @@ impl<'p> Candidates<'p> {
     }
 }
 
-/// The side by the feature that all candidates share, if that proves one. `corners` are those of any candidate.
+/// The side by the feature that all candidates share, if that proves one. `corners` are those of
+/// any candidate.
 pub(crate) fn side_of_shared_feature(
     search: &mut Search<'_, '_>,
     candidates: &Candidates<'_>,

@@ -46,7 +46,8 @@ pub(crate) struct HitPlace {
 pub(crate) trait CrossingCollector {
     /// A triangle that is met later than this cannot change the answer.
     fn limit(&self) -> f32;
-    /// A triangle of the wanted facing that the segment crosses. `None` says that the tree is unchecked.
+    /// A triangle of the wanted facing that the segment crosses. `None` says that the tree is
+    /// unchecked.
     fn meet(&mut self, crossing: &Crossing, node: u32, child: u32, lane: u32) -> Option<()>;
     /// The input's surface is met, not later than this.
     fn certain(&mut self, upper: f32);

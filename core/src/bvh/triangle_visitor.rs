@@ -49,7 +49,8 @@ pub(crate) trait TriangleCollector {
     /// Takes a triangle whose squared lower bound is not beyond `limit`. May lower the limit.
     fn take(&mut self, triangle: LeafTriangle, leaf: &FanLeaf<'_>, limit: &mut f32);
 
-    /// Looks at the nearest triangle of a leaf, before [`take`](Self::take). `None` says that the tree is unchecked.
+    /// Looks at the nearest triangle of a leaf, before [`take`](Self::take). `None` says that the
+    /// tree is unchecked.
     #[inline(always)]
     fn nearest(&mut self, _: &LeafVisit<'_>, _distance_sq: f32, _limit: f32) -> Option<Next> {
         Some(Next::Triangles)

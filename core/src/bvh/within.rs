@@ -16,8 +16,8 @@ use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Undecided, Ve
 #[non_exhaustive]
 pub struct Within {
     /// `Yes`: a point of the mesh is not farther. `No`: the whole mesh is farther. Undecided for
-    /// [`Resolution`](Undecided::Resolution): the difference from the distance asked about is within
-    /// the surface error and rounding.
+    /// [`Resolution`](Undecided::Resolution): the difference from the distance asked about is
+    /// within the surface error and rounding.
     pub verdict: Verdict,
     /// With `Yes` a triangle that is not farther, by its number in the input file. It is not always
     /// the closest one. `None` of a structure that knows no triangles.

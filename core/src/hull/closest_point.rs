@@ -47,7 +47,7 @@ impl Hull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        budget.check()?;
+        budget.check_with(scratch)?;
         let Budget { relative, absolute, steps } = budget;
         closest_point(self, point, [relative, absolute], steps, scratch)
     }
@@ -67,9 +67,6 @@ fn closest_point(
     }
     let frame = Frame::of(hull.header());
     let p = frame.local(point)?;
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
     let mut nearest = Nearest::new(hull, p).ok_or(QueryError::Unchecked)?;
     let (mut work, mut ended) = (Work::NONE, Ended::Exact);
     if p.abs().max_element() > HULL_FAR {

@@ -6,8 +6,8 @@ use crate::num::{sum_up, up_to_f32};
 use crate::query::{Frame, QueryError};
 use glam::Vec3;
 
-/// Where [`RefinedHull::update`](crate::RefinedHull::update) refines. Lengths and coordinates are in
-/// input units.
+/// Where [`RefinedHull::update`](crate::RefinedHull::update) refines. Lengths and coordinates are
+/// in input units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Focus {
@@ -181,8 +181,8 @@ impl FocusQuery {
                 let aside = from - axis * along;
                 let across = libm::sqrtf(aside.dot(aside));
                 let reach = reach + FOCUS_DISTANCE * U32 * centre_distance;
-                // In the plane of axis and vertex: how far the vertex is outside of the cone's side,
-                // and how far along the side the nearest point is.
+                // In the plane of axis and vertex: how far the vertex is outside of the cone's
+                // side, and how far along the side the nearest point is.
                 let beside = across * cosine - along * sine;
                 let forward = along * cosine + across * sine;
                 let is_seen = centre_distance <= reach

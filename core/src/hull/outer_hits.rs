@@ -51,15 +51,15 @@ impl<'t> Hull<'t> {
     /// Hits of the closed segment `a b`, whose start must lie outside the box of the hulls.
     ///
     /// The search starts from `refined` as it stands and leaves it finer, so that segments that lie
-    /// together share splits. [`reset`](RefinedHull::reset) it when the segments lie elsewhere: each
-    /// search tests the faces that are there. If its memory gets full, the answer says
+    /// together share splits. [`reset`](RefinedHull::reset) it when the segments lie elsewhere:
+    /// each search tests the faces that are there. If its memory gets full, the answer says
     /// [`Ended::Scratch`]. `scratch` may have any length. With few entries faces are tested again,
     /// which changes no answer. `hits` gets the hits by rising parameter.
     ///
     /// If `starts_inside` is set in the answer, ask [`first_hit`](Hull::first_hit) instead: the
     /// segment may start between hull and surface. The surface must be stored exactly (no grid
-    /// rounding, no cut), or the answer is [`Ended::Resolution`] without any bound. The surface must
-    /// not wind around any point negatively. A solid that is turned inside out where it passes
+    /// rounding, no cut), or the answer is [`Ended::Resolution`] without any bound. The surface
+    /// must not wind around any point negatively. A solid that is turned inside out where it passes
     /// through itself does, and the hulls of that mesh do not enclose it there.
     /// [`first_hit`](Hull::first_hit) has no such conditions.
     ///

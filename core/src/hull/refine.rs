@@ -171,7 +171,7 @@ struct Update<'a, 't> {
 enum Pass {
     /// The memory is too short for a split of this need.
     Full(f32),
-    /// All needs above the floor are met. What is left of the others.
+    /// All needs above the floor are met. The error and the need of the splits left out.
     Done(Left),
 }
 

@@ -160,15 +160,12 @@ fn trace(
     scratch: &mut [ScratchEntry],
     collect: &mut impl Collect,
 ) -> Result<Traced, QueryError> {
-    budget.check()?;
+    budget.check_with(scratch)?;
     if !model.has_hull() {
         return Err(QueryError::NO_HULL);
     }
     let frame = Frame::of(model.header());
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
-    if scratch.is_empty() {
-        return Err(QueryError::NoScratch);
-    }
     let surface_error = model.header().surface_error;
     let mut bounds = Aabb::of(model.header().surface_box);
     if surface_error > 0.0 {

@@ -83,8 +83,8 @@ pub const SUMMED: f64 = 1.0 + 1.0 / (1u64 << 48) as f64;
 pub const REPORTED: f64 = 8.0 * U32 as f64;
 
 /// Rounding of the distance of a vertex from a focus, in units of [`U32`] times the 1-norms of the
-/// coordinates that it is computed from. Measured, not proved: with the worst cones, 15 units in 1.5
-/// million vertices. A larger value refines a little more; no interval depends on it.
+/// coordinates that it is computed from. Measured, not proved: with the worst cones, 15 units in
+/// 1.5 million vertices. A larger value refines a little more; no interval depends on it.
 pub const FOCUS_DISTANCE: f32 = 16.0;
 
 /// Squared distances and limits of a focus carry less than eight roundings each. This factor keeps

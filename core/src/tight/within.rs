@@ -11,8 +11,8 @@ impl TightHull<'_> {
     ///
     /// The answer is `No` only outside the hull, so that it holds for a solid part with its inside.
     /// Within the hull, and nearer to it than its slack, the answer is `Yes` or undecided. If it is
-    /// undecided for [`Resolution`](Undecided::Resolution), a tighter hull may decide. For collision
-    /// avoidance, treat undecided as `Yes`. There is no triangle. `budget` and `scratch`
+    /// undecided for [`Resolution`](Undecided::Resolution), a tighter hull may decide. For
+    /// collision avoidance, treat undecided as `Yes`. There is no triangle. `budget` and `scratch`
     /// as for [`Bvh::within`](crate::Bvh::within).
     ///
     /// Cost: if the hull is farther, that of its tree's `within`, and inside the hull's box also of

@@ -26,8 +26,8 @@ struct Flash<T: ?Sized>(T);
 #[unsafe(link_section = ".rodata.meshsweep_blob")]
 static BLOB: &Flash<[u8]> = &Flash(*include_bytes!(env!("MESHSWEEP_BLOB")));
 
-/// The image's entry: runs the suite on a subject. The caller's memory lies outside of the stack, so
-/// that the two are measured apart.
+/// The image's entry: runs the suite on a subject. The caller's memory lies outside of the stack,
+/// so that the two are measured apart.
 macro_rules! image {
     ($subject:ty, $scratch:ty) => {
         static SCRATCH: suite::Shared<$scratch> = suite::Shared::new(<$scratch>::new());

@@ -102,8 +102,8 @@ impl Asker {
         }
     }
 
-    /// A coherent query of `N` entries along a path; its answers are those of the plain query unless that
-    /// was cut short.
+    /// A coherent query of `N` entries along a path; its answers are those of the plain query
+    /// unless that was cut short.
     ///
     /// # Panics
     /// If an answer is out of range or took too long.

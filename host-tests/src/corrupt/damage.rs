@@ -113,7 +113,8 @@ pub fn edited(
 }
 
 /// Holds that damage to header, table and one section of each seed, checksums made right, is
-/// refused or safe to ask: every bit of the section's first `bytes` flipped, then `runs` times up to
+/// refused or safe to ask: every bit of the section's first `bytes` flipped, then `runs` times up
+/// to
 /// `most` bytes replaced.
 ///
 /// # Panics

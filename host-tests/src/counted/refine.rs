@@ -40,7 +40,8 @@ pub fn ask(fixtures: &Path, question: &str, updates: usize) -> Result<String, St
                 let mean = |sum: u64| sum as f64 / asked.max(1) as f64;
                 let memory = size_of::<RefinedHull<'_, SPLITS>>();
                 return Ok(format!(
-                    "0 0 1 {:.0} faces, {:.1} splits changed, {:.2} of the updates short, {memory} bytes",
+                    "0 0 1 {:.0} faces, {:.1} splits changed, {:.2} of the updates short, \
+                        {memory} bytes",
                     mean(faces),
                     mean(changed),
                     mean(short)

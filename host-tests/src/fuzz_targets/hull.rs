@@ -142,8 +142,8 @@ pub fn outer(data: &[u8]) {
     }
 }
 
-/// Refinement of an edited blob for any focus, twice on the same state: it ends, keeps to its memory
-/// and gives out corners in range.
+/// Refinement of an edited blob for any focus, twice on the same state: it ends, keeps to its
+/// memory and gives out corners in range.
 pub fn refine(data: &[u8]) {
     let mut input = Input(data);
     let blob = input.blob(seeds());

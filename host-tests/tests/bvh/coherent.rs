@@ -1,5 +1,5 @@
-//! A coherent query answers with the bits of the plain query, wherever the query goes, and its safe radius
-//! is safe.
+//! A coherent query answers with the bits of the plain query, wherever the query goes, and its safe
+//! radius is safe.
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;

@@ -1,5 +1,5 @@
-//! A sweep that is kept: interrupted, moved, or asked for triangle after triangle, it answers like a
-//! fresh one.
+//! A sweep that is kept: interrupted, moved, or asked for triangle after triangle, it answers like
+//! a fresh one.
 
 use super::scenes::{all, options};
 use meshsweep::cut::cut;

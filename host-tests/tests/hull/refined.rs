@@ -231,8 +231,8 @@ fn is_needed(
     gap < reach * (1.0 - SURE) && error > least_error * (1.0 + SURE)
 }
 
-/// Whatever an update says holds: its changes are legal, one after the other; its faces are those of
-/// the splits; what is needed and not there is told.
+/// Whatever an update says holds: its changes are legal, one after the other; its faces are those
+/// of the splits; what is needed and not there is told.
 fn assert_update<const SPLITS: usize>(
     name: &str,
     state: &mut Replayed<'_>,

@@ -41,8 +41,8 @@ pub enum Failure {
     Unmet { file: PathBuf, unmet: Unmet },
     /// The blob is refused.
     Open { file: PathBuf, error: OpenError },
-    /// The blob was built without the structure that the question needs. `other` names an engine that
-    /// has it; `served` lists the questions that the blob serves.
+    /// The blob was built without the structure that the question needs. `other` names an engine
+    /// that has it; `served` lists the questions that the blob serves.
     NotServed {
         file: PathBuf,
         structure: &'static str,

@@ -44,15 +44,15 @@ pub fn write_start(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.crosses {
         writeln!(
             out,
-            "  the mesh crosses or touches itself: its volume may count places more than once, so that \
-             the true void may be larger"
+            "  the mesh crosses or touches itself: its volume may count places more than once, \
+             so that the true void may be larger"
         )?;
     }
     if let Start::VoxelClosure { edge, .. } = report.start {
         writeln!(
             out,
-            "  the hull began as a voxel closure: the outside of the voxels of edge {} that the mesh \
-             meets",
+            "  the hull began as a voxel closure: the outside of the voxels of edge {} that the \
+             mesh meets",
             About(edge)
         )?;
     }

@@ -54,7 +54,8 @@ impl Output {
         if is_device { Ok(()) } else { Self::file(path).map(drop) }
     }
 
-    /// Checks that the file system allows files of so many bytes. It may still lack the space for one.
+    /// Checks that the file system allows files of so many bytes. It may still lack the space for
+    /// one.
     pub fn require_size(&self, bytes: u64) -> Result<(), Failure> {
         let Target::File { out, .. } = &self.target else { return Ok(()) };
         let file = out.get_ref();

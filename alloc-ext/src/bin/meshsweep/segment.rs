@@ -1,7 +1,7 @@
 //! `meshsweep segment`: segments in, first hits or all hits out.
 //!
-//! `undecided` means of a first hit: the segment is proved clear before `t`, and no more is certain.
-//! Of all hits it means: the stored surface is hit there, and the mesh's may be.
+//! `undecided` means of a first hit: the segment is proved clear before `t`, and no more is
+//! certain. Of all hits it means: the stored surface is hit there, and the mesh's may be.
 
 use crate::args::{self, SegmentArgs, files};
 use crate::ask::{self, Answer, Question, write_end, write_numbers};

@@ -5,8 +5,8 @@ use super::sah::binary_tree;
 use glam::DVec3;
 
 // These values were chosen by counting the nodes and leaves that closest-point searches visit on
-// scanned and CAD meshes. Visits change by about 2 % from `EDGE` 0.005 to 0.1 and from `NODE_WEIGHT`
-// 0 to 0.4.
+// scanned and CAD meshes. Visits change by about 2 % from `EDGE` 0.005 to 0.1 and from
+// `NODE_WEIGHT` 0 to 0.4.
 
 /// Weight of a box's summed extents beside its half surface, relative to the diagonal of all items.
 const EDGE: f32 = 0.02;

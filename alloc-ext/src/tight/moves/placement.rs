@@ -29,7 +29,8 @@ pub(crate) struct PlacementObjective {
     pub centre_weight: f64,
     /// Added to the direction of least volume, as a fraction of its length.
     pub tilt: DVec3,
-    /// Least fraction of a face's area that its new face keeps, seen along the old normal; `None`: any.
+    /// Least fraction of a face's area that its new face keeps, seen along the old normal; `None`:
+    /// any.
     pub upright: Option<f64>,
 }
 

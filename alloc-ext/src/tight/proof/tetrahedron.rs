@@ -14,8 +14,8 @@ pub(crate) struct Tetrahedron {
     bounds: Bounds,
 }
 
-/// Triangles with less double area than this fraction of the sum of two squared edges have no plane:
-/// their corners are nearly on a line.
+/// Triangles with less double area than this fraction of the sum of two squared edges have no
+/// plane: their corners are nearly on a line.
 const FLAT: f64 = 1e-10;
 
 /// Corners of a triangle that was cut by four planes. Each plane adds at most one corner.

@@ -1,8 +1,8 @@
 //! The fewest faces for a void.
 //!
 //! The search begins with a hull of many faces. It removes faces in stages as long as the void
-//! stays within the goal. After the first stage that fails, it bisects between the fewest faces that are
-//! enough and the most that are too few.
+//! stays within the goal. After the first stage that fails, it bisects between the fewest faces
+//! that are enough and the most that are too few.
 
 use super::candidate::CandidateHull;
 use super::descent::STAGE;

@@ -16,8 +16,8 @@ pub struct Distances {
     pub depth: Farthest,
 }
 
-/// Accuracy of the slacks as a fraction of the largest: finer than the steps of two bytes at the large
-/// slacks.
+/// Accuracy of the slacks as a fraction of the largest: finer than the steps of two bytes at the
+/// large slacks.
 const FINE: f64 = 1.0 / 512.0;
 
 /// Distances between `hull` and `mesh`, which may be any triangles and wires.

@@ -10,7 +10,8 @@ use crate::geom::fan::WIDTH;
 use crate::num::greater;
 
 /// Keys of a node's children: squared distances from the point, grid units. No key is below the
-/// parent's, and the low three bits hold the number of the child. Keys from `count` on are [`NO_CHILD`].
+/// parent's, and the low three bits hold the number of the child. Keys from `count` on are
+/// [`NO_CHILD`].
 ///
 /// The distance is a lower bound up to the rounding of `core/docs/rounding.md` §8.
 #[inline(always)]

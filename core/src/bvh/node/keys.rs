@@ -22,8 +22,8 @@ pub fn least_key(keys: &[f32; WIDTH]) -> f32 {
     of_eight(*keys, lesser)
 }
 
-/// The same numbers, forced into memory. Otherwise the compiler undoes the vectorisation: it computes
-/// values one by one if they are used one by one.
+/// The same numbers, forced into memory. Otherwise the compiler undoes the vectorisation: it
+/// computes values one by one if they are used one by one.
 #[inline(always)]
 pub fn in_memory<T>(numbers: T) -> T {
     core::hint::black_box(numbers)

@@ -57,7 +57,10 @@ pub fn table(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
             disjoint(&far, &exact_far) + disjoint(&near, &exact_near),
         ]);
     }
-    table.note("width: mean of (upper - lower) / upper, and of upper - lower over the diagonal; outside: intervals that miss the exact one, must be 0");
+    table.note(
+        "width: mean of (upper - lower) / upper, and of upper - lower over the diagonal; \
+        outside: intervals that miss the exact one, must be 0",
+    );
     Ok(table)
 }
 

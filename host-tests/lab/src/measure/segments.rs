@@ -152,10 +152,17 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
     let paper_hits =
         paper.map_or_else(String::new, |paper| format!("; the paper's: {}", paper.hits));
     table.note(format!(
-        "{COUNT} segments with ends on two different sides of a box twice the mesh's; {hit_count} hit{paper_hits}"
+        "{COUNT} segments with ends on two different sides of a box twice the mesh's; \
+            {hit_count} hit{paper_hits}"
     ));
-    table.note("outer: until every crossed face is the surface's, the paper's question; first: until the first hit is certain");
-    table.note("bounds: swept triangles tested instead of the faces below; disagree: first hits that differ from the sweep's");
+    table.note(
+        "outer: until every crossed face is the surface's, the paper's question; first: \
+        until the first hit is certain",
+    );
+    table.note(
+        "bounds: swept triangles tested instead of the faces below; disagree: first hits \
+        that differ from the sweep's",
+    );
     if unsettled > 0 {
         table.note(format!(
             "{unsettled} answers did not end exact or started inside the base hull's box"
@@ -229,7 +236,10 @@ pub fn engines(subject: &Subject, model: &Hull<'_>) -> Result<Table, String> {
         empty(),
         their_disagreements,
     ]);
-    table.note("disagree: first hits that differ from first_hit's; for parry3d, in f32, only hit or no hit is compared");
+    table.note(
+        "disagree: first hits that differ from first_hit's; for parry3d, in f32, only hit \
+        or no hit is compared",
+    );
     table.note(against_brute(subject, model, &segments[..BRUTE])?);
     Ok(table)
 }
@@ -257,7 +267,8 @@ fn against_brute(
         outside += usize::from(clear && !inside);
     }
     Ok(format!(
-        "f64 brute force on {} segments: {outside} outside of the interval, {grazing} too near an edge to compare",
+        "f64 brute force on {} segments: {outside} outside of the interval, {grazing} too near \
+            an edge to compare",
         segments.len()
     ))
 }

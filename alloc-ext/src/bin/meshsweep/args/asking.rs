@@ -51,8 +51,8 @@ pub struct ClosestArgs {
     /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
-    /// Ask the finest tight hull of at most FACES faces; the interval is that of the distance to the
-    /// mesh inside the hull [default: the finest hull, if the blob has no other structure for
+    /// Ask the finest tight hull of at most FACES faces; the interval is that of the distance to
+    /// the mesh inside the hull [default: the finest hull, if the blob has no other structure for
     /// distances]
     #[arg(
         long,

@@ -123,9 +123,9 @@ pub fn signed() -> String {
         "The column 'side' says outside or inside, both proved; or undecided, and then 'reason' \
          says why: open mesh, the mesh bounds no solid; at the surface, the interval of the \
          distance begins at 0; rounding, single precision leaves the side undecided; out of \
-         steps, out of scratch memory, the query ended early. lower and upper are the bounds of the signed \
-         distance, negative inside. If the side is undecided, they are -upper and upper of the \
-         distance; {TRIANGLES}.\n\n\
+         steps, out of scratch memory, the query ended early. lower and upper are the bounds of \
+         the signed distance, negative inside. If the side is undecided, they are -upper and \
+         upper of the distance; {TRIANGLES}.\n\n\
          The side is that of the nearest surface. Parts that overlap are not united: a point in \
          one part is outside if the front of another part is nearer. Unite them first.\n\n\
          {QUERIES}\n\n\
@@ -152,8 +152,8 @@ pub fn segment() -> String {
         "The column 'hit' says yes, with the first hit; no, which is proved; or undecided, if the \
          query ended early, the blob is cut, or rounding and the blob's surface error leave it \
          undecided. The segment is then proved clear before t, and px, py, pz is its point at t. \
-         With --all an undecided hit is a place where the stored triangle is met and the mesh's may be. \
-         t runs from 0 to 1 along the segment, rounded to f32; {TRIANGLES}.\n\n\
+         With --all an undecided hit is a place where the stored triangle is met and the mesh's \
+         may be. t runs from 0 to 1 along the segment, rounded to f32; {TRIANGLES}.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep segment part.msw 20,10,90,20,10,-90\n  \
@@ -168,12 +168,13 @@ pub fn overlap() -> String {
          quaternion (qw, qx, qy, qz), which need not have length 1 and may not be 0. It is \
          rounded to a matrix of f32, and the answer is about that matrix. --matrix takes any \
          matrix with entries up to 2 as it is.\n\n\
-         The column 'contact' says apart or meets, both proved; or undecided, if the surfaces touch or \
-         come nearer than rounding and the blobs' surface errors, or if the query ended early. \
-         Only surfaces count: a mesh inside of another one is apart from it. first and second are \
-         triangles that meet, counted from 0 in the order of their mesh files. With --all each \
-         line has one pair, undecided pairs included; an undecided line without triangles says that pairs \
-         may be missing. Poses count from 0. Options with poses stand after the blobs.\n\n\
+         The column 'contact' says apart or meets, both proved; or undecided, if the surfaces \
+         touch or come nearer than rounding and the blobs' surface errors, or if the query ended \
+         early. Only surfaces count: a mesh inside of another one is apart from it. first and \
+         second are triangles that meet, counted from 0 in the order of their mesh files. With \
+         --all each line has one pair, undecided pairs included; an undecided line without \
+         triangles says that pairs may be missing. Poses count from 0. Options with poses stand \
+         after the blobs.\n\n\
          {QUERIES}\n\n\
          Examples:\n  \
          meshsweep overlap part.msw part.msw --pose 30,0,0,1,0,0,0\n  \
@@ -217,10 +218,11 @@ pub const HULL: &str = "The hull of a mesh is closed, does not cross itself, and
     meshsweep hull part.msw --level 0 -o coarsest.ply\n  \
     meshsweep hull hulls.msw --tight 200 -o hull.ply";
 
-pub const REFINE: &str = "The hull is closed and encloses the mesh. Where it meets the focus, no \
-    face is farther than --error from the part of the mesh that it stands for, unless the output \
-    says what is left. Without a focus that is everywhere. With --eye the error may be larger: as \
-    long as one of --pixels at the distance of the face. The blob is built --for hull.\n\n\
+pub const REFINE: &str = "The hull is closed and encloses the mesh. A face that meets \
+    the focus is no farther than --error from the part of the mesh that it stands for. If memory \
+    is too short for that, the output prints the error that is left. Without a focus the whole \
+    hull is refined. With --eye a face may have the error of one of --pixels at its distance. The \
+    blob must be built --for hull.\n\n\
     Examples:\n  \
     meshsweep refine part.msw --error 0.1 -o hull.ply\n  \
     meshsweep refine part.msw --near 10,0,5 --within 4 --error 0.01 -o hull.ply\n  \
@@ -243,9 +245,9 @@ pub const TRIBOX: &str = "A tribox is the intersection of nine slabs, along the 
     their planes.\n\n\
     'faces' counts the faces of all triboxes. 'compression' is the mesh's triangles divided by \
     them. 'void %' is the volume beside the solid. 'hull error' is how far a tribox reaches \
-    beyond the convex hull of the triangles in it. 'largest distance' is from the union's boundary to the \
-    mesh, between two proved bounds. Lengths are in the mesh's unit. The written vertices are \
-    exact, and the triboxes enclose the mesh.\n\n\
+    beyond the convex hull of the triangles in it. 'largest distance' is from the union's \
+    boundary to the mesh, between two proved bounds. Lengths are in the mesh's unit. The written \
+    vertices are exact, and the triboxes enclose the mesh.\n\n\
     Examples:\n  \
     meshsweep tribox part.stl\n  \
     meshsweep tribox part.stl --levels 5 --simplify 0.5 -o proxy.ply\n  \

@@ -6,7 +6,8 @@ use meshsweep_core::{Ended, Work};
 const RESOLUTION: &str =
     "left undecided by rounding or the blob (cut, or vertices moved to a grid), or for touching";
 
-/// The same where the blob knows the mesh by a tight hull alone, which leaves most queries undecided.
+/// The same where the blob knows the mesh by a tight hull alone, which leaves most queries
+/// undecided.
 const BY_HULL: &str =
     "answered as far as the hull tells: it stands off from the mesh; a finer hull tells more";
 

@@ -17,7 +17,8 @@ fn bytes(hull: &TightHull<'_>) -> usize {
     hull.bytes().len() + 2 * hull.record().faces as usize
 }
 
-/// Void as a fraction of the mesh's volume, if the mesh bounds one. The void of such a mesh is not 0.
+/// Void as a fraction of the mesh's volume, if the mesh bounds one. The void of such a mesh is not
+/// 0.
 pub fn void(record: &TightRecord) -> Option<f32> {
     (record.void_ratio != 0.0).then_some(record.void_ratio)
 }

@@ -52,7 +52,13 @@ pub(super) fn table(contenders: &[Contender<'_>], tallies: &[Tally], costs: &[Co
     table.note(
         "counted by callgrind; update: every vertex of the hull in turn, no search on its edges",
     );
-    table.note("slabs end a test at the first that parts; convex hull: parry3d's GJK, each support from all vertices, nothing kept between poses");
-    table.note("then the hull's: both, and the hull's test of the pairs that are reported; mean of pairs of meshes that do not meet");
+    table.note(
+        "slabs end a test at the first that parts; convex hull: parry3d's GJK, each \
+        support from all vertices, nothing kept between poses",
+    );
+    table.note(
+        "then the hull's: both, and the hull's test of the pairs that are reported; mean \
+        of pairs of meshes that do not meet",
+    );
     table
 }

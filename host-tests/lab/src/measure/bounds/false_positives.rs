@@ -30,8 +30,8 @@ impl Cases {
     pub(super) fn new(subject: &Subject, bounds: &Bounds) -> Self {
         let surface = Surface::new(subject);
         let poses = poses(bounds);
-        // The surfaces even where the hulls are apart: hulls are a bound like others, to be caught if they
-        // are wrong.
+        // The surfaces even where the hulls are apart: hulls are a bound like others, to be caught
+        // if they are wrong.
         let meshes_meet = poses.iter().map(|pose| surface.meets_moved(pose)).collect();
         Self { poses, meshes_meet }
     }
@@ -96,10 +96,21 @@ pub(super) fn table(cases: &Cases, contenders: &[Contender<'_>], tallies: &[Tall
         ]);
     }
     table.note(format!("{POSES} poses, seeded; {} pairs of meshes meet", cases.meet()));
-    table
-        .note("meshes: surface against surface, by exact predicates; a part inside another does not meet it");
-    table.note("bounded about: moved vertices of the hull, or of the resting slabs, or a copy that is turned; volumes: mean over the poses");
-    table.note("rounded outward: this library's tribox, which holds what it bounds in real arithmetic; the others are rounded to nearest");
-    table.note("differ: verdicts in f32 that are not those in f64; an oriented box's errs to meeting where axes are parallel");
+    table.note(
+        "meshes: surface against surface, by exact predicates; a part inside another does \
+            not meet it",
+    );
+    table.note(
+        "bounded about: moved vertices of the hull, or of the resting slabs, or a copy \
+        that is turned; volumes: mean over the poses",
+    );
+    table.note(
+        "rounded outward: this library's tribox, which holds what it bounds in real \
+        arithmetic; the others are rounded to nearest",
+    );
+    table.note(
+        "differ: verdicts in f32 that are not those in f64; an oriented box's errs to \
+        meeting where axes are parallel",
+    );
     table
 }

@@ -1,5 +1,5 @@
-//! Triangle fans: those of the paper (Galin & Akkouche 2005, 5.2 and 5.3), and those that the tree's
-//! leaves hold.
+//! Triangle fans: those of the paper (Galin & Akkouche 2005, 5.2 and 5.3), and those that the
+//! tree's leaves hold.
 
 use super::Built;
 use meshsweep_core::internal::geom::fan::WIDTH;
@@ -53,8 +53,14 @@ pub(super) fn table(subject: &Subject, built: &Built) -> Result<Table, String> {
             share,
         ]);
     }
-    table.note("the paper's figures: Victory 49,078 triangles in 9,747 fans, 5.04 a fan; on all models \"the average number is 5\"; it bounds no fan");
-    table.note("and its gains over separate triangles: 25 to 40 % of the time of distances, almost 40 % of segments'");
+    table.note(
+        "the paper's figures: Victory 49,078 triangles in 9,747 fans, 5.04 a fan; on all \
+        models \"the average number is 5\"; it bounds no fan",
+    );
+    table.note(
+        "and its gains over separate triangles: 25 to 40 % of the time of distances, \
+        almost 40 % of segments'",
+    );
     Ok(table)
 }
 
