@@ -1,6 +1,7 @@
 //! Questions to fixtures that a simulator counts: the first so many of a seeded list.
 
 mod refine;
+mod sweep;
 mod tree;
 mod triboxes;
 
@@ -31,9 +32,10 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<String, St
     if let Some(question) = question.strip_prefix("refine ") {
         return refine::ask(fixtures, question, queries);
     }
-    match question.strip_prefix("triboxes ") {
-        Some(question) => triboxes::ask(fixtures, question, queries),
-        None => hull(fixtures, question, queries),
+    match question.split_once(' ') {
+        Some(("triboxes", question)) => triboxes::ask(fixtures, question, queries),
+        Some(("sweep", question)) => sweep::ask(fixtures, question, queries),
+        _ => hull(fixtures, question, queries),
     }
     .map(|()| "0 0 1".to_owned())
 }

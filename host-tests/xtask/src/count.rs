@@ -14,7 +14,7 @@ use crate::tables;
 use crate::valgrind::Valgrind;
 
 /// Questions by their words on the host program's command line.
-const QUESTIONS: [&str; 17] = [
+const QUESTIONS: [&str; 19] = [
     "far",
     "near",
     "path",
@@ -22,6 +22,8 @@ const QUESTIONS: [&str; 17] = [
     "outer_first",
     "outer_all",
     "refine bracket.msw 0.06 0.0005",
+    "sweep bracket.msw 0 0.05",
+    "sweep bracket.msw 0.0001 0",
     "tree bracket.stl far",
     "tree bracket.stl near",
     "tree bracket.stl path",
@@ -61,20 +63,26 @@ pub struct Each {
 }
 
 /// Counted questions by their words.
-pub type Counts = BTreeMap<&'static str, Each>;
+pub type Counts<'a> = BTreeMap<&'a str, Each>;
 
-/// Counts all questions and prints the table.
-pub fn run(steps: &mut Steps) {
+/// Counts questions and prints the table: those of `asked`, or all that are listed here. A question
+/// of `asked` may name any file, with its whole path.
+pub fn run<'a>(steps: &mut Steps, asked: &[&'a str]) {
     let limited = LIMITS.iter().map(|(question, _)| *question);
-    let all: Vec<&'static str> = QUESTIONS.into_iter().chain(limited).collect();
+    let questions: &[&'a str] = if asked.is_empty() { &QUESTIONS } else { asked };
+    let all: Vec<&'a str> = if asked.is_empty() {
+        questions.iter().copied().chain(limited).collect()
+    } else {
+        questions.to_vec()
+    };
     let Some(counts) = counted(steps, &all) else { return };
     let columns = ["question", "instructions"];
     let mut table = Table::new(
         "instructions",
-        "Instructions a query, fixtures/bracket, this machine",
+        "Instructions a query on this machine, bracket where no file is named",
         &columns,
     );
-    for question in QUESTIONS {
+    for &question in questions {
         let cell = counts.get(question).map_or(Cell::Empty, |each| fixed(each.instructions, 0));
         table.push(vec![Cell::from(question), cell]);
     }
@@ -83,20 +91,25 @@ pub fn run(steps: &mut Steps) {
     );
     table.note("tree: to the box tree, triboxes: to 64 of them, the others to the hull hierarchy");
     table.note(
+        "sweep BLOB STEP RELATIVE: far points; a step of 0: fresh queries, else one kept sweep that moves",
+    );
+    table.note(
         "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",
     );
     say!("{}", table.text());
-    check_lanes(steps, &counts);
+    if asked.is_empty() {
+        check_lanes(steps, &counts);
+    }
 }
 
 /// What a test counts: the questions of lanes and of tables.
-pub fn for_test(steps: &mut Steps) -> Option<Counts> {
+pub fn for_test(steps: &mut Steps) -> Option<Counts<'static>> {
     let limited = LIMITS.iter().map(|(question, _)| *question);
     counted(steps, &limited.chain(tables::QUESTIONS).collect::<Vec<_>>())
 }
 
 /// Counts questions, on all cores. `None`, with a line that says so, where nothing can be counted.
-fn counted(steps: &mut Steps, questions: &[&'static str]) -> Option<Counts> {
+fn counted<'a>(steps: &mut Steps, questions: &[&'a str]) -> Option<Counts<'a>> {
     let valgrind = Valgrind::find()?;
     let program = steps.run("the host's program, optimised", host::optimised)?;
     let mut questions = questions.to_vec();
@@ -110,7 +123,7 @@ fn counted(steps: &mut Steps, questions: &[&'static str]) -> Option<Counts> {
 }
 
 /// That node and leaf take few enough instructions to be vector code.
-pub fn check_lanes(steps: &mut Steps, counts: &Counts) {
+pub fn check_lanes(steps: &mut Steps, counts: &Counts<'_>) {
     if cfg!(not(target_arch = "x86_64")) {
         say!("── lanes are vectors\n   skipped: the limits are those of x86-64");
         return;

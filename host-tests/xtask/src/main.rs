@@ -14,7 +14,7 @@ cargo xtask firmware                only the firmware: bits, panics, sizes, inst
 cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
-cargo xtask count                   instructions a query, by callgrind, and whether eight lanes are vectors
+cargo xtask count [QUESTION...]     instructions a query, by callgrind; are eight lanes vectors?
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
 environment:
@@ -60,7 +60,7 @@ fn main() -> ExitCode {
             let facts = Facts { counts: counts.as_ref(), rows: &rows };
             steps.run("tables of the documents", || tables::write(&facts));
         }
-        ["count"] => count::run(&mut steps),
+        ["count", questions @ ..] => count::run(&mut steps, questions),
         ["measure" | "race" | "rival", ..] => return checks::lab(&words),
         _ => return usage(),
     }

@@ -39,7 +39,7 @@ const TOLERANCE: f64 = 0.02;
 /// Everything that tables are made of.
 pub struct Facts<'a> {
     /// Instructions on this machine.
-    pub counts: Option<&'a Counts>,
+    pub counts: Option<&'a Counts<'static>>,
     /// The boards' rows; none if there are no boards.
     pub rows: &'a [Row],
 }
