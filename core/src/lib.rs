@@ -23,6 +23,7 @@
 //! | closest point, distance interval | [`Bvh::closest_point`], [`Bvh::closest_points`] |
 //! | closest point of a query that moves little | [`CoherentQuery::closest_point`] |
 //! | is the mesh within a distance; the nearest triangles | [`Bvh::within`], [`Bvh::all_within`], [`Bvh::nearest`] |
+//! | any of these about a model that moves | [`Pose::to_model`] |
 //! | inside or outside | [`Bvh::signed_distance`] |
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::overlaps`] |
@@ -88,7 +89,7 @@ pub use hull::{
     Change, Focus, Hull, HullFace, Level, OuterHits, RefinedHull, Refinement, Search, Sweep,
 };
 pub use query::{
-    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, QueryError, Scratch,
+    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, PosedPoint, QueryError, Scratch,
     ScratchEntry, Side, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};

@@ -27,10 +27,32 @@ pub struct Sweep<'a, 'm> {
     pruned: f32,
     /// The nearest triangle of the last answer.
     best: Option<Instance>,
-    /// Up to this motion it stays the nearest.
-    safe: f64,
+    /// The last motion.
+    step: f64,
+    safe: Safe,
     holds: Holds,
 }
+
+/// Up to a motion, the nearest triangle is one of a few (Guéziec 2000, 3.3). The paper keeps one.
+/// Two triangles that share the closest vertex leave no gap, so one would seldom serve.
+#[derive(Debug)]
+struct Safe {
+    motion: f64,
+    near: heapless::Vec<Instance, SAFE_TRIANGLES>,
+    /// Answers that do not search for a safe motion, because an earlier search failed.
+    pause: u8,
+}
+
+impl Safe {
+    const NONE: Safe = Safe { motion: -1.0, near: heapless::Vec::new(), pause: 0 };
+}
+
+/// Triangles that may be nearest within the safe motion: about the star of a vertex.
+const SAFE_TRIANGLES: usize = 12;
+/// A search goes on until the safe motion is this many of the last step, while the triangles fit.
+const SAFE_STEPS: f64 = 4.0;
+/// After a search that found too many triangles, so many answers search no farther than they must.
+const SAFE_PAUSE: u8 = 8;
 
 /// The triangles that the queue holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,7 +149,8 @@ impl<'a> Hull<'a> {
             moved: 0.0,
             pruned: f32::INFINITY,
             best: None,
-            safe: -1.0,
+            step: 0.0,
+            safe: Safe::NONE,
             holds: Holds::Nothing,
         })
     }
@@ -142,7 +165,8 @@ impl Sweep<'_, '_> {
     /// [`QueryError::NotFinite`].
     pub fn move_to(&mut self, point: [f32; 3]) -> Result<(), QueryError> {
         let p = self.frame.local(point)?;
-        self.moved = (self.moved + p.distance(self.p)) * SUMMED;
+        self.step = p.distance(self.p);
+        self.moved = (self.moved + self.step) * SUMMED;
         self.p = p;
         if self.holds == Holds::Rest || self.moved.is_nan() || self.moved > SWEEP_MOTION {
             self.holds = Holds::Nothing;
@@ -153,8 +177,8 @@ impl Sweep<'_, '_> {
     /// Closest point of the surface: the same triangle as [`Hull::closest_point`] names.
     ///
     /// After [`Ended::Steps`] or [`Ended::Tolerance`] another call goes on where this one stopped.
-    /// While the point has moved less than half the gap between the nearest two triangles, the
-    /// answer takes one triangle. `work.splits` is 0 then.
+    /// While the point has moved less than half the gap between the nearest few triangles and the
+    /// others, the answer takes constant time: these few triangles. `work.splits` is 0 then.
     ///
     /// # Errors
     /// [`QueryError::Tolerance`].
@@ -188,11 +212,13 @@ impl Sweep<'_, '_> {
         let mut is_new = self.holds != Holds::Near;
         loop {
             let mut keep = self.keep(0.0)?;
-            if let Some(best) = self.best {
-                keep.nearest.evaluate(&self.front.look(best)?);
+            let is_safe = !is_new && self.moved <= self.safe.motion;
+            let known = if is_safe { self.safe.near.as_slice() } else { self.best.as_slice() };
+            for &instance in known {
+                keep.nearest.evaluate(&self.front.look(instance)?);
             }
             keep.dives = self.best.is_none();
-            let ended = if !is_new && self.moved <= self.safe {
+            let ended = if is_safe {
                 self.ended()
             } else {
                 if is_new {
@@ -230,15 +256,27 @@ impl Sweep<'_, '_> {
         let margin = self.margin();
         let mut ended = self.ended();
         let mut others = f64::INFINITY;
-        self.safe = -1.0;
+        // Twice the motion, for the nearest triangle may go away and another one come nearer.
+        let mut wider = (2.0 * SAFE_STEPS * self.step).min(margin);
+        if self.safe.pause > 0 {
+            self.safe.pause -= 1;
+            wider = 0.0;
+        }
+        self.safe.motion = -1.0;
         while let Some(entry) = keep.next.take().or_else(|| self.front.queue.pop_heap()) {
             let bound = bound_of(entry.key(), self.moved);
-            if bound > keep.nearest.upper() {
+            if self.front.queue.aside().len() > SAFE_TRIANGLES && wider > 0.0 {
+                wider = 0.0;
+                self.safe.pause = SAFE_PAUSE;
+            }
+            let is_beaten = bound > keep.nearest.upper();
+            if bound > keep.nearest.upper() + wider || (is_beaten && self.front.is_spent()) {
                 others = bound;
                 self.front.queue.push(entry);
                 break;
             }
-            let is_near_enough = (relative > 0.0 || absolute > 0.0)
+            let is_near_enough = !is_beaten
+                && (relative > 0.0 || absolute > 0.0)
                 && keep.nearest.is_within([relative, absolute], bound, error);
             if is_near_enough || self.front.is_spent() {
                 ended = if is_near_enough { Ended::Tolerance } else { Ended::Steps };
@@ -260,8 +298,10 @@ impl Sweep<'_, '_> {
             if self.moved > 0.0 {
                 let [now, ..] = keep.nearest.bounds(&[candidate]);
                 let now = now.min(keep.nearest.limit());
-                if f64::from(now) > keep.nearest.upper() {
-                    let key = stored(f64::from(now), self.moved);
+                let key = stored(f64::from(now), self.moved);
+                // The key's bound, which rounding made less: else the entry could come back at
+                // once, without end.
+                if bound_of(key, self.moved) > keep.nearest.upper() + wider {
                     self.front.queue.push(ScratchEntry::new(key.max(entry.key()), instance.0));
                     continue;
                 }
@@ -272,18 +312,32 @@ impl Sweep<'_, '_> {
         if let Some(entry) = keep.next.take() {
             self.front.queue.push(entry);
         }
-        let best = keep.nearest.instance();
-        let beside = self.front.queue.aside().filter(|e| Some(Instance(e.node())) != best);
-        others = beside.map(|e| bound_of(e.key(), self.moved)).fold(others, f64::min);
         let lost = keep.pruned.min(self.pruned).min(self.front.queue.dropped());
         others = others.min(bound_of(lost, self.moved));
-        self.front.queue.take_back();
         if ended == self.ended() {
-            // The gap is a difference of numbers with a rounding each.
-            let gap = others * (2.0 - SUMMED) - keep.nearest.upper() * SUMMED;
-            self.safe = if gap > 0.0 { self.moved + 0.5 * gap * (2.0 - SUMMED) } else { -1.0 };
+            self.find_safe_motion(keep.nearest.upper(), others);
         }
+        self.front.queue.take_back();
         Some(ended)
+    }
+
+    /// The motion up to which one of the triangles that were set aside stays the nearest. Nothing
+    /// else is nearer than `others`.
+    fn find_safe_motion(&mut self, upper: f64, mut others: f64) {
+        self.safe.near.clear();
+        let bound = |entry: &ScratchEntry| bound_of(entry.key(), self.moved);
+        // Triangles that another one's bound does not part from the nearest one.
+        let part = upper + 0.5 * (others - upper);
+        for entry in self.front.queue.aside() {
+            if bound(entry) > part || self.safe.near.push(Instance(entry.node())).is_err() {
+                others = others.min(bound(entry));
+            }
+        }
+        // The gap is a difference of numbers with a rounding each.
+        let gap = others * (2.0 - SUMMED) - upper * SUMMED;
+        if gap > 0.0 {
+            self.safe.motion = self.moved + 0.5 * gap * (2.0 - SUMMED);
+        }
     }
 
     fn next(&mut self, budget: &Budget) -> Option<Option<ClosestPoint>> {
@@ -359,7 +413,7 @@ impl Sweep<'_, '_> {
         self.front.queue.clear();
         self.moved = 0.0;
         self.pruned = f32::INFINITY;
-        self.safe = -1.0;
+        self.safe.motion = -1.0;
         self.holds = Holds::Near;
     }
 

@@ -20,6 +20,20 @@ pub const PRODUCT_UNDERFLOW: f32 = f32::MIN_POSITIVE;
 /// 1-norms. Proved: 10 (§11).
 pub const DETERMINANT: f32 = 16.0;
 
+// Poses
+
+/// Rounding of what is left of a carried point, in units of [`U64`] times the sum of its terms.
+/// Proved: 4.1 (§15).
+pub const POSED_POINT: f64 = 8.0;
+
+/// Rounding of a matrix's distance from a rotation, and of the products with it, in units of
+/// [`U64`]. Proved: 16 (§15).
+pub const POSED_STRETCH: f64 = 64.0;
+
+/// The Frobenius norm of `RᵀR − 1` above which a matrix is refused as a rotation. Intervals hold
+/// with any value below 1.
+pub const POSE_DEFECT: f64 = 0.25;
+
 // Hull, in the local frame
 
 /// Rounding of the f32 lower bound of a point–triangle distance, in units of [`U32`] times

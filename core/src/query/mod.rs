@@ -7,6 +7,7 @@
 //! | `answer` | [`Interval`], [`ClosestPoint`], [`Ended`]: why a search ended |
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
+//! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
 //! | `work` | [`Work`]: counters |
 //! | `error` | [`QueryError`]: why a query was refused |
 //! | `sweep_queue` | the priority queue of the sweeping process |
@@ -17,6 +18,7 @@ mod budget;
 mod error;
 mod frame;
 mod hits;
+mod posed_point;
 mod scratch;
 mod sweep_queue;
 mod verdict;
@@ -28,6 +30,7 @@ pub use error::QueryError;
 pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit};
+pub use posed_point::PosedPoint;
 pub use scratch::{Scratch, ScratchEntry};
 pub(crate) use sweep_queue::{SweepQueue, Taken, before};
 pub use verdict::{Side, Undecided, Verdict};

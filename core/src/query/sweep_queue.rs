@@ -137,7 +137,7 @@ impl<'a> SweepQueue<'a> {
     }
 
     /// The entries that were set aside.
-    pub(crate) fn aside(&self) -> impl Iterator<Item = &ScratchEntry> {
+    pub(crate) fn aside(&self) -> impl ExactSizeIterator<Item = &ScratchEntry> {
         self.slots.iter().rev().take(self.stack)
     }
 

@@ -35,7 +35,7 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<(), String
     let places = points(&corners, Points::Far, PLACED);
     let failed = |error: meshsweep_core::QueryError| error.to_string();
     if step == 0.0 {
-        let mut queue = vec![ScratchEntry::EMPTY; hull.scratch_entries()];
+        let mut queue = vec![ScratchEntry::EMPTY; ENTRIES];
         for place in places.into_iter().take(queries) {
             black_box(hull.closest_point(place, budget, &mut queue).map_err(failed)?);
         }

@@ -27,20 +27,44 @@ const ROUGH_ERROR: f64 = 1e-7;
 /// Distance of `p` and the triangle, to some 26 digits of the lengths involved.
 #[must_use]
 pub fn distance_to_triangle(p: [f32; 3], corners: [[f32; 3]; 3]) -> Bounded {
-    let p = Vector::new(p);
-    let [a, b, c] = corners.map(Vector::new);
-    let size = p.minus(&a).norm_1() + b.minus(&a).norm_1() + c.minus(&a).norm_1();
-    let normal = b.minus(&a).cross(&c.minus(&a));
+    distance_between(&Vector::new(p), &corners.map(Vector::new))
+}
+
+/// Distance of `p` and the nearest of the triangles after `rotation`·v + `translation`. Cost: 106
+/// bits for every triangle.
+#[must_use]
+pub fn distance_to_moved_mesh(
+    p: [f32; 3],
+    [positions, rotation]: [&[[f32; 3]]; 2],
+    triangles: &[[u32; 3]],
+    translation: [f32; 3],
+) -> Bounded {
+    let (p, shift) = (Vector::new(p), Vector::new(translation));
+    let rows: Vec<Vector> = rotation.iter().map(|&row| Vector::new(row)).collect();
+    let moved = |v: u32| {
+        let at = Vector::new(positions[v as usize]);
+        Vector(std::array::from_fn(|k| rows[k].dot(&at))).plus(&shift)
+    };
+    let nothing = Bounded { lower: f64::INFINITY, upper: f64::INFINITY };
+    triangles.iter().map(|t| distance_between(&p, &t.map(moved))).fold(nothing, |best, d| Bounded {
+        lower: best.lower.min(d.lower),
+        upper: best.upper.min(d.upper),
+    })
+}
+
+fn distance_between(p: &Vector, [a, b, c]: &[Vector; 3]) -> Bounded {
+    let size = p.minus(a).norm_1() + b.minus(a).norm_1() + c.minus(a).norm_1();
+    let normal = b.minus(a).cross(&c.minus(a));
     let squared = normal.dot(&normal);
     let within = |from: &Vector, to: &Vector| {
         !to.minus(from).cross(&normal).dot(&p.minus(from)).is_positive()
     };
-    let distance = if squared.is_positive() && within(&a, &b) && within(&b, &c) && within(&c, &a) {
-        let height = normal.dot(&p.minus(&a)) / squared.sqrt();
+    let distance = if squared.is_positive() && within(a, b) && within(b, c) && within(c, a) {
+        let height = normal.dot(&p.minus(a)) / squared.sqrt();
         if height.is_positive() { height } else { -height }
     } else {
-        [(&a, &b), (&b, &c), (&c, &a)]
-            .map(|(from, to)| squared_to_segment(&p, from, to))
+        [(a, b), (b, c), (c, a)]
+            .map(|(from, to)| squared_to_segment(p, from, to))
             .into_iter()
             .reduce(|x, y| if (x - y).is_positive() { y } else { x })
             .unwrap_or(Double::ZERO)

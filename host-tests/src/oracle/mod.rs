@@ -11,7 +11,9 @@ mod segment;
 pub(crate) mod vector;
 mod winding;
 
-pub use distance::{Bounded, distance_to_mesh, distance_to_triangle, rough_distance_sq};
+pub use distance::{
+    Bounded, distance_to_mesh, distance_to_moved_mesh, distance_to_triangle, rough_distance_sq,
+};
 pub use double::{Double, Vector};
 pub use polyline::distance_to_segments;
 pub use segment::{Contact, contacts, gap_to_triangle, meets};

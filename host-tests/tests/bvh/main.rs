@@ -8,5 +8,6 @@ mod cull;
 mod distance;
 mod kernels;
 mod overlap;
+mod posed;
 mod refusals;
 mod segments;

@@ -11,6 +11,9 @@ use super::layout::{
 use super::leaf::{FanLeaf, LeafShape};
 use super::units::Units;
 use crate::format::Bytes;
+use crate::num::sum_up;
+use crate::num::tolerance::U32;
+use crate::query::QueryError;
 use glam::Vec3;
 
 /// The box tree of a blob: a static 8-wide tree over triangle fans. Copies are cheap: it borrows
@@ -178,6 +181,28 @@ impl Bvh<'_> {
         } else {
             error
         }
+    }
+
+    /// The same tree for queries whose place is known up to `error` (input units): a point or a
+    /// point of a segment may be anywhere within this distance of the place asked about. Every
+    /// answer holds for all of these places.
+    ///
+    /// The error is added to [`surface_error`](Self::surface_error). Of noise larger than the
+    /// model's details many answers are [`Ended::Resolution`](crate::Ended::Resolution).
+    ///
+    /// # Errors
+    /// [`QueryError::Tolerance`] if it is negative, NaN or infinite, or beyond f32 in grid units.
+    pub fn with_error(mut self, error: f32) -> Result<Self, QueryError> {
+        let mut more = self.units.inward(error);
+        if error > 0.0 && more < f32::MIN_POSITIVE {
+            more = f32::MIN_POSITIVE;
+        }
+        let sum = sum_up(self.units.surface_error, more) * (1.0 + 32.0 * U32);
+        if error.is_nan() || error < 0.0 || !sum.is_finite() {
+            return Err(QueryError::Tolerance);
+        }
+        self.units.surface_error = sum;
+        Ok(self)
     }
 
     /// Whether every edge belongs to two triangles that run through it in opposite directions, so

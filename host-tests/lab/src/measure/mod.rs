@@ -21,6 +21,7 @@ pub(crate) mod brute;
 mod closest;
 mod cuts;
 mod hulls;
+mod kept;
 mod overlap;
 mod paper;
 pub mod plot;
@@ -121,6 +122,7 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     tables.push(segments::work(&subject)?);
     tables.push(segments::engines(&subject, &model)?);
     tables.extend(closest::tables(&subject, &model)?);
+    tables.push(kept::table(&subject, &model)?);
     tables.push(cuts::table(&subject, &model)?);
     tables.push(storage::proofs(&built.bytes)?);
     tables.extend(tree::tables(&subject)?);

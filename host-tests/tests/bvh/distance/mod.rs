@@ -3,6 +3,6 @@
 mod all_within;
 mod closest;
 mod nearest;
-mod scenes;
+pub mod scenes;
 mod side;
 mod within;

@@ -2,7 +2,7 @@
 
 mod extremes;
 mod limits;
-mod motions;
+pub mod motions;
 mod pairs;
 mod touching;
 mod truth;

@@ -2,7 +2,7 @@
 
 mod aimed;
 mod all_hits;
-mod scenes;
+pub mod scenes;
 mod settled;
 mod truth;
 mod watertight;

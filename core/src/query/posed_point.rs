@@ -1,0 +1,136 @@
+//! A point in the frame of a model that a pose moved. Derivation: `core/docs/rounding.md` §15.
+
+use super::answer::Interval;
+use super::error::QueryError;
+use crate::geom::Pose;
+use crate::num::tolerance::{POSE_DEFECT, POSED_POINT, POSED_STRETCH, U64};
+use crate::num::{down_to_f32, up_to_f32};
+
+/// A point that a [`Pose`] carried into a model's frame, and what distances there say of distances
+/// in the world.
+///
+/// It serves every question about points: [`Bvh::closest_point`](crate::Bvh::closest_point),
+/// [`CoherentQuery`](crate::CoherentQuery), [`Sweep::move_to`](crate::Sweep::move_to) and the
+/// others. Point and model may both move between two questions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PosedPoint {
+    /// The point to ask about, in the model's frame.
+    pub point: [f32; 3],
+    /// The place that the pose carries exactly onto the point of the world is no farther than this
+    /// from [`point`](Self::point), model's frame.
+    pub error: f32,
+    /// The pose changes lengths by a factor within `1 ± stretch`.
+    stretch: f64,
+}
+
+impl PosedPoint {
+    /// The interval of the distance in the world, from that in the model's frame.
+    ///
+    /// If the lower bound is above 0, the side that the model tells of
+    /// [`point`](Self::point) is the side of the point in the world.
+    pub fn distance(&self, in_model: Interval) -> Interval {
+        let error = f64::from(self.error);
+        let lower = (f64::from(in_model.lower) - error) * (1.0 - self.stretch);
+        let upper = (f64::from(in_model.upper) + error) * (1.0 + self.stretch);
+        Interval { lower: down_to_f32(lower.max(0.0)), upper: up_to_f32(upper) }
+    }
+
+    /// The distance to ask [`Bvh::within`](crate::Bvh::within) about. If the model is not within
+    /// this distance of [`point`](Self::point), the moved model is not within `distance` of the
+    /// point in the world. If it is, [`distance`](Self::distance) of the closest point decides.
+    pub fn model_distance(&self, distance: f32) -> f32 {
+        let in_model = f64::from(distance) / (1.0 - self.stretch) + f64::from(self.error);
+        up_to_f32(in_model * (1.0 + 4.0 * U64))
+    }
+}
+
+impl Pose {
+    /// Carries a point of the world into the frame of the model that this pose moves.
+    ///
+    /// The pose's numbers are taken as exact, and the matrix need not be a perfect rotation: what it
+    /// stretches lengths by is in every [`PosedPoint::distance`].
+    ///
+    /// For a segment carry both ends. The common points with the moved model are then those of the
+    /// carried segment with [`Bvh::with_error`](crate::Bvh::with_error) of the larger `error`, at
+    /// the same parameters.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, Bvh, Pose, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/groove.msw"));
+    /// let (part, mut scratch) = (Bvh::open(bytes)?, Scratch::<64>::new());
+    /// let turned = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let pose = Pose { rotation: turned, translation: [300.0, 0.0, 0.0] };
+    /// let here = pose.to_model([310.0, 5.0, 40.0])?;
+    /// let near = part.closest_point(here.point, Budget::EXACT, &mut scratch)?;
+    /// let (distance, place) = (here.distance(near.distance), pose.to_world(near.point));
+    /// assert!(distance.lower > 0.0 && place[0] > 200.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// Cost: some hundred operations in f64.
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::PoseOutOfDomain`] if the matrix is no rotation, even
+    /// nearly; [`QueryError::OutOfDomain`] if the carried point is beyond f32's range.
+    pub fn to_model(&self, world: [f32; 3]) -> Result<PosedPoint, QueryError> {
+        let rows = self.rotation.map(|row| row.map(f64::from));
+        let shift = self.translation.map(f64::from);
+        let world = world.map(f64::from);
+        if !rows.iter().flatten().chain(&shift).chain(&world).all(|x| x.is_finite()) {
+            return Err(QueryError::NotFinite);
+        }
+        let [r0, r1, r2] = rows;
+        let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
+        let stretch = defect(&columns) + POSED_STRETCH * U64;
+        if stretch.is_nan() || stretch > POSE_DEFECT {
+            return Err(QueryError::PoseOutOfDomain);
+        }
+        let ([wx, wy, wz], [tx, ty, tz]) = (world, shift);
+        let residual = |at: [f64; 3]| {
+            let rest = |row, world: f64, shift: f64| world - shift - dot(row, at);
+            [rest(r0, wx, tx), rest(r1, wy, ty), rest(r2, wz, tz)]
+        };
+        // The transposed matrix is nearly the inverse. The second step makes good most of the rest.
+        let mut at = [0.0; 3];
+        for _ in 0..2 {
+            let left = residual(at);
+            let [x, y, z] = columns.map(|column| dot(column, left));
+            at = [at[0] + x, at[1] + y, at[2] + z];
+        }
+        let point = at.map(|x| x as f32);
+        if !point.iter().all(|x| x.is_finite()) {
+            return Err(QueryError::OutOfDomain);
+        }
+        let at = point.map(f64::from);
+        let [x, y, z] = residual(at);
+        let size = |row: [f64; 3], left: f64, world: f64, shift: f64| {
+            let terms = dot(row.map(f64::abs), at.map(f64::abs)) + world.abs() + shift.abs();
+            left.abs() + POSED_POINT * U64 * terms
+        };
+        let sizes = [size(r0, x, wx, tx), size(r1, y, wy, ty), size(r2, z, wz, tz)];
+        // What is left, carried back by the inverse: no factor of it is above 1 / (1 − stretch).
+        let error = libm::sqrt(dot(sizes, sizes)) / (1.0 - stretch) * (1.0 + POSED_POINT * U64);
+        Ok(PosedPoint { point, error: up_to_f32(error), stretch })
+    }
+
+    /// Where the pose takes a point of the model, rounded to f32 and kept finite.
+    pub fn to_world(&self, model: [f32; 3]) -> [f32; 3] {
+        let at = model.map(f64::from);
+        let [x, y, z] = self.rotation.map(|row| dot(row.map(f64::from), at));
+        let [a, b, c] = self.translation.map(f64::from);
+        [x + a, y + b, z + c].map(|x| (x as f32).clamp(-f32::MAX, f32::MAX))
+    }
+}
+
+fn dot([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
+    (a * x + b * y) + c * z
+}
+
+/// How far the columns are from orthonormal: the Frobenius norm of `RᵀR − 1`.
+fn defect(columns: &[[f64; 3]; 3]) -> f64 {
+    let &[a, b, c] = columns;
+    let lengths = [dot(a, a) - 1.0, dot(b, b) - 1.0, dot(c, c) - 1.0];
+    let angles = [dot(a, b), dot(b, c), dot(c, a)];
+    libm::sqrt(dot(lengths, lengths) + 2.0 * dot(angles, angles))
+}
