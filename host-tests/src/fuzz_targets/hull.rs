@@ -6,8 +6,8 @@ use meshsweep::hull::{BuildOptions, build};
 use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
-    Blob, Budget, Change, ClosestPoint, Focus, Hit, Hull, QueryError, RefinedHull, ScratchEntry,
-    Search,
+    Blob, Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, QueryError, RefinedHull,
+    ScratchEntry, Search,
 };
 use std::sync::OnceLock;
 
@@ -85,6 +85,25 @@ pub fn closest(data: &[u8]) {
             sound(&answer);
             assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
         }
+    }
+    let most = bound(&model) as usize;
+    let Ok(mut sweep) = model.sweep(input.point(), &mut queue) else { return };
+    for stop in [stop, Budget::EXACT, stop, Budget::EXACT] {
+        if sweep.move_to(input.point()).is_ok()
+            && let Ok(answer) = sweep.closest_point(stop)
+        {
+            sound(&answer);
+            assert!(answer.work.splits as usize <= 2 * most, "{:?}", answer.work);
+        }
+    }
+    let mut given = 0;
+    while let Ok(Some(answer)) = sweep.next_triangle(Budget::EXACT) {
+        sound(&answer);
+        if answer.ended != Ended::Exact {
+            break;
+        }
+        given += 1;
+        assert!(given <= most, "more triangles than there are");
     }
 }
 

@@ -68,11 +68,15 @@ pub enum Kind {
     TriboxesClip,
     /// The hull refined for a focus that moves.
     Refine,
+    /// A sweep that is moved, interrupted, and asked for more triangles.
+    Sweep,
+    /// Closest point and first hit of the model under a pose.
+    Posed,
 }
 
 impl Kind {
     /// All kinds in the order in which they are run.
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 32] = [
         Self::Arith,
         Self::Contents,
         Self::ClosestFar,
@@ -82,6 +86,8 @@ impl Kind {
         Self::AllHits,
         Self::OuterHits,
         Self::Refine,
+        Self::Sweep,
+        Self::Posed,
         Self::Stopped,
         Self::Within,
         Self::Nearest,
@@ -139,6 +145,8 @@ impl Kind {
             Self::TriboxesDistance => "triboxes_distance",
             Self::TriboxesClip => "triboxes_clip",
             Self::Refine => "refine",
+            Self::Sweep => "sweep",
+            Self::Posed => "posed",
         }
     }
 

@@ -16,7 +16,7 @@ use crate::{Clock, Kind};
 pub use distance::{
     all_within, batch, closest, coherent, follow, is_within, nearest, signed, stopped,
 };
-pub use meeting::{all_overlaps, overlap, pose};
+pub use meeting::{all_overlaps, overlap, pose, posed};
 pub use sight::{all_hits, any_hit, cull, facing, first_hit};
 
 /// Entries of the stack.
@@ -80,7 +80,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
     }
 
     fn suits(kind: Kind) -> bool {
-        !matches!(kind, Kind::OuterHits | Kind::Refine) && !kind.is_triboxes()
+        !matches!(kind, Kind::OuterHits | Kind::Refine | Kind::Sweep) && !kind.is_triboxes()
     }
 
     fn ask(
@@ -116,6 +116,10 @@ impl<'t> Subject<'t> for Bvh<'t> {
             Kind::AllHits => all_hits(self, place.segment(), scratch, to),
             Kind::Batch => batch(self, &core::array::from_fn(|_| place.far()), scratch, to),
             Kind::Cull => cull(self, place.far(), scratch, to),
+            Kind::Posed => {
+                let by = pose(place.motion());
+                posed(self, by, [place.far(), place.far()], scratch, to);
+            }
             Kind::Overlap => overlap(self, pose(place.motion()), scratch, to),
             Kind::AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, to),
             _ => {}
