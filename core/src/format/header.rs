@@ -4,7 +4,8 @@
 use super::bytes::Bytes;
 use super::error::OpenError;
 use super::layout::{
-    FLAG_CUT, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat, field, index_bytes,
+    FLAG_CUT, FLAG_SWEEP_ONLY, HEADER_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, VertexFormat,
+    field, index_bytes,
 };
 
 /// The fixed header. Lengths are in the local frame: input units divided by `2^scale_exponent`.
@@ -16,7 +17,8 @@ pub struct Header {
     pub total_bytes: u32,
     /// Entries of the section table.
     pub section_count: u32,
-    /// See [`FLAG_CUT`](super::layout::FLAG_CUT).
+    /// See [`FLAG_CUT`](super::layout::FLAG_CUT) and
+    /// [`FLAG_SWEEP_ONLY`](super::layout::FLAG_SWEEP_ONLY).
     pub flags: u32,
     /// Input coordinate = local coordinate × 2^this.
     pub scale_exponent: i32,
@@ -118,7 +120,7 @@ impl Header {
         if !zero(field::RESERVED_BESIDE_FORMAT, 3)
             || !zero(field::RESERVED_BESIDE_RINGS, 4)
             || !zero(field::RESERVED, 8)
-            || header.flags & !FLAG_CUT != 0
+            || header.flags & !(FLAG_CUT | FLAG_SWEEP_ONLY) != 0
         {
             return Err(OpenError::Reserved);
         }

@@ -19,6 +19,9 @@ pub const MAX_LEVELS: u32 = 32;
 pub const MAX_SECTIONS: usize = 32;
 /// Header flag: finer levels were cut off. The triangles of the surface are not in the blob.
 pub const FLAG_CUT: u32 = 1;
+/// Header flag: the levels of the hull hierarchy enclose nothing. Triangles with an infinite radius
+/// stand for no part of the surface.
+pub const FLAG_SWEEP_ONLY: u32 = 2;
 
 /// The contents of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

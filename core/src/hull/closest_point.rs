@@ -6,7 +6,7 @@
 
 use super::sweep::{Candidate, Fate, Front, Visit};
 use crate::geom::{Aabb, LANES, Lanes, SweptPoint, point_triangle};
-use crate::hull::format::{Hull, Instance, Named, SplitIdx};
+use crate::hull::format::{Hull, Instance};
 use crate::num::tolerance::{F32_BOUNDS, HULL_FAR, REPORTED, U64};
 use crate::num::{down_to_f32, up_to_f32};
 use crate::query::{
@@ -259,15 +259,10 @@ impl Nearest {
     pub(super) fn settle_by_box(&mut self, model: &Hull<'_>) -> Option<()> {
         let header = model.header();
         (self.lower, self.upper) = Aabb::of(header.surface_box).distance_range(self.p);
-        // No split removes a triangle of the last one.
-        let last = header.splits.checked_sub(1).map(SplitIdx);
-        let named = match last {
-            Some(split) => Named::Fine(split, 0),
-            None => Named::Base(0),
-        };
-        let [corner, ..] = model.corners(model.instance(named))?;
+        let instance = model.last_part()?;
+        let [corner, ..] = model.corners(instance)?;
         let point = model.position(corner)?.as_dvec3();
-        self.best = Some(Best { distance_sq: 0.0, instance: model.instance(named), point });
+        self.best = Some(Best { distance_sq: 0.0, instance, point });
         Some(())
     }
 

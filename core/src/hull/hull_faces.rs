@@ -7,8 +7,7 @@ use crate::hull::format::{Hull, Level, SplitIdx, VertIdx};
 pub struct HullFace {
     /// Corners, counter-clockwise seen from outside.
     pub corners: [VertIdx; 3],
-    /// Certified radius, local frame. Infinite if no part of the surface is assigned to the
-    /// triangle.
+    /// Certified radius, local frame.
     pub radius: f32,
 }
 
@@ -22,7 +21,8 @@ impl<'a> Hull<'a> {
     /// linear in the splits. [`vertex`](Hull::vertex) gives the corners' coordinates.
     ///
     /// A triangle exists exactly while its three corners exist. It appears with the last of them.
-    /// The first split of a corner removes it, with the whole star of the split vertex.
+    /// The first split of a corner removes it, with the whole star of the split vertex. Triangles
+    /// that close the holes of an open mesh are left out.
     pub fn faces(&self, level: &Level) -> impl Iterator<Item = HullFace> + '_ {
         let splits = level.splits;
         let alive =
@@ -34,7 +34,8 @@ impl<'a> Hull<'a> {
     /// Triangles of the base hull.
     pub(crate) fn base_faces(&self) -> impl Iterator<Item = HullFace> + use<'a> {
         let hull = *self;
-        (0..hull.header().base_triangles).filter_map(move |index| {
+        let standing = (0..hull.header().base_triangles).filter(move |&index| hull.has_part(index));
+        standing.filter_map(move |index| {
             Some(HullFace { corners: hull.base_triangle(index)?, radius: hull.radius(index)? })
         })
     }
@@ -45,6 +46,9 @@ impl<'a> Hull<'a> {
         (0..split.map_or(0, |s| s.fine_len())).filter_map(move |slot| {
             let corners = split?.fine(slot)?;
             let number = split?.first_triangle.checked_add(u32::try_from(slot).ok()?)?;
+            if !hull.has_part(number) {
+                return None;
+            }
             Some(HullFace { corners, radius: hull.radius(number)? })
         })
     }

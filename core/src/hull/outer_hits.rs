@@ -79,7 +79,8 @@ impl<'t> Hull<'t> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`].
+    /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`]; [`QueryError::NoHulls`] unless the
+    /// hierarchy [`encloses`](Hull::encloses) the surface.
     #[expect(
         clippy::too_many_arguments,
         reason = "a segment, and four kinds of the caller's memory"
@@ -110,6 +111,9 @@ fn outer_hits(
 ) -> Result<OuterHits, QueryError> {
     if !model.has_hull() {
         return Err(QueryError::NO_HULL);
+    }
+    if !model.encloses() {
+        return Err(QueryError::NoHulls);
     }
     let frame = Frame::of(model.header());
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);

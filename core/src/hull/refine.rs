@@ -11,7 +11,7 @@
 //! falls again when there is room.
 
 use super::focus::{Focus, FocusQuery};
-use super::refined_hull::{Refined, RefinedHull, erased};
+use super::refined_hull::{Refined, RefinedHull, erased, live_faces};
 use crate::hull::format::{Hull, SplitIdx, VertIdx};
 use crate::num::up_to_f32;
 use crate::query::QueryError;
@@ -146,7 +146,11 @@ fn update(
     let Update { stored, dropped, performed, undone, .. } = update;
     let splits = state.splits.len() as u32;
     Ok(Refinement {
-        faces: hull.header().base_triangles.saturating_add(splits.saturating_mul(2)),
+        faces: if hull.encloses() {
+            hull.header().base_triangles.saturating_add(splits.saturating_mul(2))
+        } else {
+            live_faces(*hull, Some(&state.splits)).fold(0, |count, _| count.saturating_add(1))
+        },
         performed,
         undone,
         error_left: up_to_f32(f64::from(left) * hull.scale()),

@@ -17,7 +17,8 @@ use core::marker::PhantomData;
 ///
 /// [`update`](Self::update) refines and coarsens it around a [`Focus`](crate::Focus).
 /// [`Hull::outer_hits`] refines it along a segment. Every state is a closed mesh that encloses the
-/// surface, under the conditions that [`Hull::outer_hits`] names. A hull of *f* faces needs (*f* −
+/// surface, under the conditions that [`Hull::outer_hits`] names. Where the hierarchy does not
+/// [enclose](Hull::encloses) the surface, every state is a mesh near it, open where the surface is. A hull of *f* faces needs (*f* −
 /// base faces) / 2 splits. RAM: 16 bytes a split and 24 more, whatever the size of the hierarchy.
 ///
 /// The state belongs to one hull at a time. With another hull it starts from that one's base. It
@@ -62,16 +63,8 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
     ///
     /// Cost: linear in the base hull and the performed splits.
     pub fn faces(&self, hull: &Hull<'t>) -> impl Iterator<Item = HullFace> {
-        let (hull, state) = (*hull, &self.state);
-        let is_live = move |&HullFace { corners, .. }: &HullFace| {
-            !state.is_of(&hull)
-                || split_of_face(&hull, corners).is_none_or(|split| !state.splits().contains(split))
-        };
-        let splits = if state.is_of(&hull) { state.splits().len() } else { 0 };
-        let fine = (0..splits)
-            .filter_map(move |position| state.splits().get(position))
-            .flat_map(move |split| hull.fine_faces(split));
-        hull.base_faces().chain(fine).filter(is_live)
+        let splits = self.state.is_of(hull).then(|| self.state.splits());
+        live_faces(*hull, splits)
     }
 
     /// Writes the [`faces`](Self::faces) to a slice: how many were written, and how many did not
@@ -89,6 +82,22 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
         }
         (stored, dropped)
     }
+}
+
+/// Triangles of a hull after the splits of a set, or of the base hull.
+pub(crate) fn live_faces(
+    hull: Hull<'_>,
+    splits: Option<&SplitSet>,
+) -> impl Iterator<Item = HullFace> {
+    let is_live = move |&HullFace { corners, .. }: &HullFace| {
+        splits.is_none_or(|splits| {
+            split_of_face(&hull, corners).is_none_or(|split| !splits.contains(split))
+        })
+    };
+    let fine = (0..splits.map_or(0, SplitSet::len))
+        .filter_map(move |position| splits?.get(position))
+        .flat_map(move |split| hull.fine_faces(split));
+    hull.base_faces().chain(fine).filter(is_live)
 }
 
 /// The state, its memory's length erased, so that code is not repeated for each length.

@@ -135,6 +135,9 @@ impl<'a, 'm> Front<'a, 'm> {
         let mut batch = Batch::EMPTY;
         for index in 0..groups {
             let (corners, radius) = self.model.base_group(index)?;
+            if self.is_partless(radius) {
+                continue;
+            }
             self.work.nodes += 1;
             let corners = self.model.positions(corners)?;
             let instance = self.model.instance(Named::Group(index));
@@ -211,8 +214,13 @@ impl<'a, 'm> Front<'a, 'm> {
         }
         self.queue.begin_children(count as u32);
         let mut found = [Candidate::EMPTY; CHILDREN];
+        let mut greatest = 0.0;
         for (child, slot) in children.iter().zip(&mut found).take(count) {
             *slot = self.candidate(child)?;
+            greatest = slot.radius.max(greatest);
+        }
+        if self.is_partless(greatest) {
+            count = self.leave_out(&mut found, count);
         }
         visitor.visit(found.get(..count)?, &mut self.queue);
         Some(())
@@ -228,10 +236,35 @@ impl<'a, 'm> Front<'a, 'm> {
             let ends = [self.end(a)?, self.end(b)?, self.end(c)?];
             let instance = self.model.instance(Named::Base(radius));
             let candidate = self.candidate(&Triangle { instance, ends, radius })?;
+            if self.is_partless(candidate.radius) {
+                continue;
+            }
             batch.push(candidate, visitor, &mut self.queue);
         }
         batch.flush(visitor, &mut self.queue);
         Some(())
+    }
+
+    /// Whether a radius says that its triangle stands for no part of the surface.
+    #[inline(always)]
+    fn is_partless(&self, radius: f32) -> bool {
+        radius == f32::INFINITY && !self.model.encloses()
+    }
+
+    /// Moves the triangles that stand for a part of the surface to the front, and counts them.
+    #[cold]
+    fn leave_out(&self, found: &mut [Candidate; CHILDREN], count: usize) -> usize {
+        let mut kept = 0;
+        for at in 0..count {
+            let Some(&candidate) = found.get(at) else { break };
+            if !self.is_partless(candidate.radius)
+                && let Some(slot) = found.get_mut(kept)
+            {
+                *slot = candidate;
+                kept += 1;
+            }
+        }
+        kept
     }
 
     #[inline(always)]

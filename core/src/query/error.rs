@@ -41,6 +41,9 @@ pub enum QueryError {
         /// The value of `meshsweep build --for` that writes them.
         build_for: BuildFor,
     },
+    /// The levels of the hierarchy enclose nothing: it was built with `--for sweep`. Hulls need a
+    /// closed mesh and `--for hull`.
+    NoHulls,
     /// The view does not fit its bytes. No view that an `open` of this crate returned does that.
     Unchecked,
 }
@@ -84,6 +87,10 @@ impl core::fmt::Display for QueryError {
                     "the blob was built without the sections that this question needs: build it \
                      with --for {build_for}"
                 );
+            }
+            QueryError::NoHulls => {
+                "the hierarchy encloses nothing, and this question needs hulls: build it with \
+                 --for hull from a closed mesh"
             }
             QueryError::Unchecked => "the model was not opened",
         })

@@ -119,6 +119,10 @@ impl Hull<'_> {
         self.check_corners()?;
         self.check_splits()?;
         self.check_stars()?;
+        if self.last_part().is_none() {
+            let what = "no triangle stands for a part of the surface";
+            return Err(OpenError::Counts { what });
+        }
         self.check_sources()?;
         self.check_levels()
     }

@@ -101,11 +101,25 @@ impl<'a> Hull<'a> {
         if is_surface { self.source(self.surface_index(instance)?) } else { None }
     }
 
+    /// A triangle that stands for a part of the surface and that no split removes: of the last
+    /// split, or of the base without splits. `open` made sure that there is one.
+    pub(crate) fn last_part(&self) -> Option<Instance> {
+        let Some(last) = self.header.splits.checked_sub(1).map(SplitIdx) else {
+            let index = (0..self.header.base_triangles).find(|&index| self.has_part(index))?;
+            return Some(self.instance(Named::Base(index)));
+        };
+        let split = self.split(last)?;
+        let count = u32::try_from(split.fine_len()).ok()?;
+        let has_part = |slot: &u32| self.has_part(split.first_triangle.wrapping_add(*slot));
+        Some(self.instance(Named::Fine(last, (0..count).find(has_part)?)))
+    }
+
     /// Triangles of the surface among the first base triangles.
     pub(super) fn base_finals(&self, count: u32) -> Option<u32> {
         let mut finals = 0;
         for index in 0..count {
-            finals += u32::from(self.removed_by(self.base_triangle(index)?).is_none());
+            let is_final = self.removed_by(self.base_triangle(index)?).is_none();
+            finals += u32::from(is_final && self.has_part(index));
         }
         Some(finals)
     }
@@ -114,7 +128,9 @@ impl<'a> Hull<'a> {
     pub(super) fn finals(&self, split: &Split<'a>, slots: usize) -> Option<u32> {
         let mut finals = 0;
         for slot in 0..slots {
-            finals += u32::from(self.removed_by(split.fine(slot)?).is_none());
+            let is_final = self.removed_by(split.fine(slot)?).is_none();
+            let radius = split.first_triangle.checked_add(u32::try_from(slot).ok()?)?;
+            finals += u32::from(is_final && self.has_part(radius));
         }
         Some(finals)
     }

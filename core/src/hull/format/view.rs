@@ -7,7 +7,7 @@
 
 use super::index::{SplitIdx, TriIdx, VertIdx};
 use super::layout::{LEFT_BEFORE, LEVEL_BYTES, RIGHT_BEFORE, RIGHT_WING, level};
-use crate::format::layout::{FLAG_CUT, VertexFormat, none};
+use crate::format::layout::{FLAG_CUT, FLAG_SWEEP_ONLY, VertexFormat, none};
 use crate::format::{Bytes, Header};
 use crate::geom::Aabb;
 use crate::num::{Radius8, Radius16, exp2, up_to_f32};
@@ -221,6 +221,13 @@ impl Hull<'_> {
         self.header.flags & FLAG_CUT != 0
     }
 
+    /// Whether every level encloses the surface. A blob that was built with `--for sweep` has levels
+    /// that lie near the surface, on both sides of it. Distances and hits are as true for it.
+    #[inline(always)]
+    pub fn encloses(&self) -> bool {
+        self.header.flags & FLAG_SWEEP_ONLY == 0
+    }
+
     /// A level, 0 being the base hull and the last the finest that the blob holds.
     pub fn level(&self, index: u32) -> Option<Level> {
         let at = (index as usize).checked_mul(LEVEL_BYTES)?;
@@ -421,6 +428,12 @@ impl<'a> Hull<'a> {
     #[inline(always)]
     pub fn radius(&self, triangle: u32) -> Option<f32> {
         self.radii.u8(triangle as usize).map(|code| Radius8(code).get())
+    }
+
+    /// Whether a triangle stands for a part of the surface. Its number is that of its radius.
+    #[inline(always)]
+    pub(crate) fn has_part(&self, triangle: u32) -> bool {
+        self.encloses() || self.radius(triangle).is_some_and(f32::is_finite)
     }
 
     /// Box of every vertex of every level, local frame.
