@@ -9,7 +9,7 @@
 use super::greedy::{self, Candidate, Collapsing, Schedule};
 use super::history::{Collapse, History};
 use super::placement::{Placement, Refusal};
-use super::star::Connectivity;
+use super::star::{Connectivity, MAX_STAR};
 use super::surface::Surface;
 use super::{Conditions, Priority};
 use crate::surface::Grid;
@@ -80,16 +80,41 @@ impl Engine {
         priority: Priority,
         grid: Grid,
     ) -> Self {
+        let surface = Surface::new(positions.to_vec(), triangles, conditions, grid);
+        Self::of(surface, triangles, triangles.len(), priority)
+    }
+
+    /// As [`new`](Self::new), for vertices that are placed near the surface, on either side of it.
+    /// Triangles from `fillers` on close holes.
+    pub fn near(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        fillers: usize,
+        conditions: Conditions,
+        grid: Grid,
+    ) -> Self {
+        let surface = Surface::near(positions.to_vec(), triangles, fillers, conditions, grid);
+        Self::of(surface, triangles, fillers, Priority::Program)
+    }
+
+    fn of(
+        surface: Surface,
+        triangles: &[[u32; 3]],
+        surface_triangles: usize,
+        priority: Priority,
+    ) -> Self {
+        let positions = surface.positions.clone();
         let mut edges = Edges {
-            surface: Surface::new(positions.to_vec(), triangles, conditions, grid),
+            surface,
             labels: (0..positions.len() as u32).collect(),
             instances: (0..triangles.len() as u32).collect(),
             states: FxHashMap::default(),
             around: Vec::new(),
             history: History {
-                positions: positions.to_vec(),
+                positions: positions.clone(),
                 original_vertices: positions.len() as u32,
                 original_triangles: triangles.to_vec(),
+                surface_triangles,
                 ..History::default()
             },
             priority,
@@ -142,6 +167,7 @@ impl Engine {
         for t in surface.mesh.alive() {
             history.base.push(surface.mesh.corners[t as usize].map(|v| labels[v as usize]));
             history.base_instances.push(instances[t as usize]);
+            history.base_surface += usize::from((t as usize) < history.surface_triangles);
         }
         history
     }
@@ -166,7 +192,7 @@ impl Collapsing for Edges {
         } else if self.priority == Priority::Span {
             Ok(self.surface.span(ends))
         } else {
-            self.surface.place(ends, false).map(|placement| placement.volume)
+            self.surface.place(ends, false).map(|placement| placement.cost)
         };
         match cost {
             Ok(cost) => self.enqueue(cost, ends, schedule.now(), schedule),
@@ -194,9 +220,9 @@ impl Collapsing for Edges {
             }
             Ok(placement)
                 if self.priority == Priority::Span
-                    && placement.volume > 6.000_001 * candidate.cost =>
+                    && placement.cost > 6.000_001 * candidate.cost =>
             {
-                self.enqueue(placement.volume / 6.0, ends, schedule.now(), schedule);
+                self.enqueue(placement.cost / 6.0, ends, schedule.now(), schedule);
                 false
             }
             Ok(placement) => self.apply(ends, placement).is_some(),
@@ -212,7 +238,9 @@ impl Collapsing for Edges {
         let eager = self.surface.mesh.alive_count() <= EAGER_BELOW;
         let mut around = std::mem::take(&mut self.around);
         around.clear();
-        for &v in ring {
+        // No edge of a vertex with more triangles may collapse: it is the centre of a large hole.
+        let is_small = |v: &&u32| self.surface.mesh.at(**v).len() <= MAX_STAR;
+        for &v in ring.iter().filter(is_small) {
             let others = self.surface.mesh.neighbours(v).filter(|&w| w != vertex);
             around.extend(others.map(|w| [v.min(w), v.max(w)]));
         }
@@ -278,13 +306,14 @@ impl Edges {
         self.history.fine.extend(fine.map(|&t| self.instances[t as usize]));
         self.history.collapses.push(collapse);
         self.history.positions.push(placement.position);
-        self.history.added_volume.push(placement.volume / 6.0);
+        if self.surface.encloses() {
+            self.history.added_volume.push(placement.cost / 6.0);
+        }
 
         for v in self.surface.mesh.neighbours(b) {
             self.states.remove(&[b.min(v), b.max(v)]);
         }
-        self.surface.mesh.collapse(a, b);
-        self.surface.move_vertex(a, placement.position);
+        self.surface.collapse(a, b, placement.position);
         self.labels[a as usize] = vertex;
         let first = self.history.first_coarse(index);
         for (i, &t) in ring.triangles.iter().enumerate() {

@@ -30,8 +30,10 @@ pub struct History {
     pub positions: Vec<DVec3>,
     /// Vertices of the original mesh.
     pub original_vertices: u32,
-    /// Triangles of the original mesh.
+    /// Triangles of the original mesh: those of the surface, then those that close its holes.
     pub original_triangles: Vec<[u32; 3]>,
+    /// Triangles of the surface.
+    pub surface_triangles: usize,
     /// The collapses.
     pub collapses: Vec<Collapse>,
     /// Ring labels of all collapses, counter-clockwise, each starting at the left wing.
@@ -39,12 +41,14 @@ pub struct History {
     /// Instances of the fine fragment of each collapse, `ring_len + 2` each, in the slot order of
     /// [`Split`](meshsweep_core::internal::hull::format::Split).
     pub fine: Vec<u32>,
-    /// Volume that each collapse adds, local frame.
+    /// Volume that each collapse adds, local frame. Empty if vertices are placed near the surface.
     pub added_volume: Vec<f64>,
-    /// Corners (labels) of the base hull.
+    /// Corners (labels) of the base hull: first those of the surface, then those that close holes.
     pub base: Vec<[u32; 3]>,
     /// Instances of the base hull's triangles.
     pub base_instances: Vec<u32>,
+    /// Triangles of the base hull that began as triangles of the surface.
+    pub base_surface: usize,
 }
 
 impl History {

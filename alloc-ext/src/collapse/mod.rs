@@ -2,12 +2,14 @@
 //! history that can be inverted.
 //!
 //! Progressive hulls after Platis & Theoharis 2003, 3.1. Topology never looks at positions
-//! (`star`), placement never at topology (`placement`), and the loop at neither (`greedy`).
+//! (`star`), placement never at topology (`placement` outside of the surface, `quadric` near it),
+//! and the loop at neither (`greedy`).
 
 mod engine;
 mod greedy;
 mod history;
 mod placement;
+mod quadric;
 mod star;
 mod surface;
 mod thin;

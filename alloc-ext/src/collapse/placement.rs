@@ -49,8 +49,9 @@ pub struct StarFace {
 pub struct Placement {
     /// The new vertex.
     pub position: DVec3,
-    /// Six times the volume that the collapse adds.
-    pub volume: f64,
+    /// Outside of the surface: six times the volume that the collapse adds. Near it: the weighted
+    /// squared distances.
+    pub cost: f64,
 }
 
 /// Why there is no placement.
@@ -85,7 +86,7 @@ pub fn place(
         .map(|f| f.facet.normal.dot(position - f.corners[0]) * f.facet.double_area)
         .sum();
     check_shape(faces, position, conditions).map_err(|()| Refusal::Condition(volume))?;
-    Ok(Placement { position, volume })
+    Ok(Placement { position, cost: volume })
 }
 
 /// The linear program of a star in the star's own frame: origin at the edge's midpoint, farthest
@@ -183,7 +184,7 @@ fn compactness([a, b, c]: [DVec3; 3], double_area: f64) -> f64 {
 /// The paper's two conditions on the resulting vertex: compactness does not decline too much, no
 /// normal turns too far.
 #[inline]
-fn check_shape(faces: &[StarFace], position: DVec3, conditions: &Conditions) -> Result<(), ()> {
+pub fn check_shape(faces: &[StarFace], position: DVec3, conditions: &Conditions) -> Result<(), ()> {
     let mut worst_before = f64::INFINITY;
     let mut worst_after = f64::INFINITY;
     for face in faces {

@@ -2,6 +2,7 @@
 
 use super::Conditions;
 use super::placement::{Facet, Placement, Refusal, StarFace, place};
+use super::quadric::Quadrics;
 use super::star::Connectivity;
 use crate::lp::HalfSpace;
 use crate::surface::{Grid, compact_in_order};
@@ -14,6 +15,10 @@ pub struct Surface {
     facets: Vec<Facet>,
     conditions: Conditions,
     grid: Grid,
+    /// Triangles from this one on close holes. No condition is about them.
+    fillers: usize,
+    /// Where vertices are placed near the surface, and not outside of it.
+    quadrics: Option<Quadrics>,
     /// Linear programs solved.
     pub programs: u64,
     /// Star of the current edge, and its linear program: kept to save allocations.
@@ -36,11 +41,31 @@ impl Surface {
             positions,
             conditions,
             grid,
+            fillers: triangles.len(),
+            quadrics: None,
             programs: 0,
             star: Vec::new(),
             faces: Vec::new(),
             planes: Vec::new(),
         }
+    }
+
+    /// As [`new`](Self::new), for vertices that are placed near the surface. Triangles from
+    /// `fillers` on close holes.
+    pub fn near(
+        positions: Vec<DVec3>,
+        triangles: &[[u32; 3]],
+        fillers: usize,
+        conditions: Conditions,
+        grid: Grid,
+    ) -> Self {
+        let quadrics = Some(Quadrics::new(&positions, triangles, fillers));
+        Surface { fillers, quadrics, ..Self::new(positions, triangles, conditions, grid) }
+    }
+
+    /// Whether vertices are placed outside of the surface.
+    pub fn encloses(&self) -> bool {
+        self.quadrics.is_none()
     }
 
     /// Gathers the star of an edge for its placement; `false` if the edge may not collapse.
@@ -50,7 +75,7 @@ impl Surface {
             return false;
         }
         self.faces.clear();
-        for &t in &self.star {
+        for &t in self.star.iter().filter(|&&t| (t as usize) < self.fillers) {
             let corners = self.mesh.corners[t as usize];
             let [p, q, r] = corners.map(|v| v == a || v == b);
             let moving = match (p, q, r) {
@@ -73,6 +98,11 @@ impl Surface {
     /// # Errors
     /// Why there is no place.
     pub fn place(&mut self, [a, b]: [u32; 2], exact: bool) -> Result<Placement, Refusal> {
+        if let Some(quadrics) = &self.quadrics {
+            let at = [a, b].map(|v| self.positions[v as usize]);
+            let grid = exact.then_some(&self.grid);
+            return quadrics.place([a, b], at, &self.faces, &self.conditions, grid);
+        }
         self.programs += 1;
         let middle = (self.positions[a as usize] + self.positions[b as usize]) * 0.5;
         place(&self.faces, middle, &self.conditions, &self.grid, exact, &mut self.planes)
@@ -112,8 +142,17 @@ impl Surface {
         only_of_b.fold(of_a, |sum, &t| sum + volume(t)) / 6.0
     }
 
+    /// Collapses edge `a b` into `a`, which moves to `x`.
+    pub fn collapse(&mut self, a: u32, b: u32, x: DVec3) {
+        self.mesh.collapse(a, b);
+        self.move_vertex(a, x);
+        if let Some(quadrics) = &mut self.quadrics {
+            quadrics.merge(a, b);
+        }
+    }
+
     /// Moves a vertex, and the planes of its faces with it.
-    pub fn move_vertex(&mut self, v: u32, x: DVec3) {
+    fn move_vertex(&mut self, v: u32, x: DVec3) {
         self.positions[v as usize] = x;
         for &t in self.mesh.at(v) {
             let corners = self.mesh.corners[t as usize];

@@ -80,8 +80,7 @@ impl<F: FnMut(usize) -> bool> Collapsing for Rounds<F> {
             self.costs[candidate.rank as usize] = f64::INFINITY;
             return false;
         };
-        self.surface.mesh.collapse(a, b);
-        self.surface.move_vertex(a, placement.position);
+        self.surface.collapse(a, b, placement.position);
         if let Some(round) = &mut self.round {
             round.collapsed += 1;
         }

@@ -9,7 +9,7 @@ use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, Ve
 use crate::error::BuildError;
 use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::{Input, Mesh};
-use crate::surface::{SignedVolume, Stored, VertexBits, store};
+use crate::surface::{Closed, SignedVolume, Stored, VertexBits, close, require_valid, store};
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{MAX_RING, START_GROUP};
@@ -57,10 +57,27 @@ pub struct BuildReport {
     pub sweep_time: Duration,
     /// Time of certifying the levels' distances.
     pub certify_time: Duration,
-    /// Volume of the mesh, input units.
-    pub volume: f64,
+    /// The kind of its levels.
+    pub kind: Kind,
     /// What the surface error carries of wires, input units; see [`wires_off_surface`].
     pub wires: f64,
+}
+
+/// The kind of a hierarchy's levels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Outer hulls of a closed mesh.
+    Hulls {
+        /// Volume of the mesh, input units.
+        volume: f64,
+    },
+    /// Meshes near the surface.
+    SweepOnly {
+        /// Holes of the mesh, after vertices were copied.
+        holes: usize,
+        /// Copies of vertices where the mesh is no manifold.
+        copies: usize,
+    },
 }
 
 /// A blob, its tables, and the report of its build.
@@ -105,14 +122,73 @@ pub fn build(
     let started = Instant::now();
     let (history, stuck, programs) =
         collapse(&stored, mesh, options, options.base_faces, &mut on_progress);
-    let collapse_time = started.elapsed();
+    let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
+    finish(input, collapsed, Kind::Hulls { volume }, wires)
+}
+
+/// Builds a hierarchy for distances and segments of any mesh: open, crossing itself, inside out,
+/// with edges of many triangles. Its levels lie near the surface and enclose nothing. See
+/// [`Hull::encloses`].
+///
+/// Vertices are copied where the mesh is no manifold, and holes are closed by triangles that stand
+/// for no part of the surface (see [`close`]). `options.priority` does not count.
+///
+/// # Errors
+/// [`BuildError`].
+pub fn build_for_sweep(
+    input: Input<'_>,
+    options: &BuildOptions,
+    mut on_progress: impl FnMut(Progress),
+) -> Result<Built, BuildError> {
+    let mesh = input.mesh;
+    require_valid(mesh, MAX_TRIANGLES)?;
+    if mesh.triangles.is_empty() {
+        return Err(BuildError::Empty);
+    }
+    let stored = store_solid(mesh, options.vertex_bits);
+    let wires = wires_off_surface(mesh)?;
+    let started = Instant::now();
+    let Closed { triangles, fillers, holes, places } =
+        close(stored.positions.len(), &mesh.triangles);
+    let count = triangles.len();
+    if count > MAX_TRIANGLES {
+        return Err(BuildError::TooLarge { triangles: count, most: MAX_TRIANGLES });
+    }
+    let copies = (places.len() - holes).saturating_sub(stored.positions.len());
+    let at = |&v: &u32| stored.positions[v as usize];
+    let positions: Vec<DVec3> = places.iter().map(at).collect();
+    let (conditions, grid) = (options.conditions, stored.grid);
+    let engine = Engine::near(&positions, &triangles, count - fillers, conditions, grid);
+    let (history, stuck, programs) = run(engine, options.base_faces, &mut on_progress);
+    let collapsed = Collapsed { stored, history, stuck, programs, time: started.elapsed() };
+    finish(input, collapsed, Kind::SweepOnly { holes, copies }, wires)
+}
+
+/// A mesh and its collapses.
+struct Collapsed {
+    stored: Stored,
+    history: History,
+    stuck: Option<Stuck>,
+    programs: u64,
+    time: Duration,
+}
+
+/// From the collapses to the blob.
+fn finish(
+    input: Input<'_>,
+    collapsed: Collapsed,
+    kind: Kind,
+    wires: f64,
+) -> Result<Built, BuildError> {
+    let Collapsed { stored, history, stuck, programs, time: collapse_time } = collapsed;
     let started = Instant::now();
     let order = VertexOrder::new(&history);
     let forest = grow(&history);
     let sweep_time = started.elapsed();
     let started = Instant::now();
     let mut tables = assemble(&stored, input, &history, &order, &forest);
-    tables.levels = levels(&history, volume);
+    tables.encloses = matches!(kind, Kind::Hulls { .. });
+    tables.levels = levels(&history, &kind);
     certify(&mut tables, &history)?;
     // Levels were measured to the triangles with an area, without it.
     if wires > 0.0 {
@@ -122,6 +198,10 @@ pub fn build(
     let bytes = tables.to_bytes();
     Hull::open(&bytes).map_err(BuildError::Reopen)?;
     let scale = meshsweep_core::internal::num::exp2(stored.scale_exponent);
+    let kind = match kind {
+        Kind::Hulls { volume } => Kind::Hulls { volume: volume * scale * scale * scale },
+        kind @ Kind::SweepOnly { .. } => kind,
+    };
     let report = BuildReport {
         base_faces: tables.base.len(),
         stuck,
@@ -129,7 +209,7 @@ pub fn build(
         collapse_time,
         sweep_time,
         certify_time: started.elapsed(),
-        volume: volume * scale * scale * scale,
+        kind,
         wires,
     };
     Ok(Built { tables, bytes, report })
@@ -190,13 +270,16 @@ fn collapse(
     faces: usize,
     on_progress: &mut impl FnMut(Progress),
 ) -> (History, Option<Stuck>, u64) {
-    let mut engine = Engine::new(
-        &stored.positions,
-        &mesh.triangles,
-        options.conditions,
-        options.priority,
-        stored.grid,
-    );
+    let Stored { positions, grid, .. } = stored;
+    let (conditions, priority) = (options.conditions, options.priority);
+    run(Engine::new(positions, &mesh.triangles, conditions, priority, *grid), faces, on_progress)
+}
+
+fn run(
+    mut engine: Engine,
+    faces: usize,
+    on_progress: &mut impl FnMut(Progress),
+) -> (History, Option<Stuck>, u64) {
     let stuck = engine.run(faces, on_progress);
     let programs = engine.progress().programs;
     let mut history = engine.finish();
@@ -218,13 +301,16 @@ fn level_splits(history: &History) -> Vec<u32> {
     splits
 }
 
-fn levels(history: &History, volume: f64) -> Vec<Level> {
+fn levels(history: &History, kind: &Kind) -> Vec<Level> {
     let total = history.collapses.len();
     let mut added = vec![0.0; total + 1];
     for (i, volume) in history.added_volume.iter().enumerate() {
         added[i + 1] = added[i] + volume;
     }
-    let void = |splits: u32| added[total - splits as usize] / volume;
+    let void = |splits: u32| match kind {
+        Kind::Hulls { volume } => added[total - splits as usize] / volume,
+        Kind::SweepOnly { .. } => 0.0,
+    };
     level_splits(history)
         .into_iter()
         .map(|splits| Level {
@@ -250,7 +336,7 @@ fn assemble(
     let radius = |instance: u32| Radius8::round_up(forest.radius[instance as usize]);
     let mut radii: Vec<Radius8> = history.base_instances.iter().map(|&i| radius(i)).collect();
     // The triangles of the mesh are the first instances.
-    let originals = history.original_triangles.len() as u32;
+    let originals = history.surface_triangles as u32;
     let numbers = |instances: &[u32]| {
         let finals = instances.iter().filter(|&&instance| instance < originals);
         finals.map(|&t| input.mesh.source[t as usize]).collect::<Vec<u32>>()
@@ -314,18 +400,19 @@ fn assemble(
         levels: Vec::new(),
         queue_capacity: forest.queue_entries,
         is_cut: false,
+        encloses: true,
     }
 }
 
-/// Fills in certified distances between each level's hull and the surface, both ways. The surface
-/// is asked by a box tree of its triangles.
+/// Fills in certified distances between each level's hull and the surface, both ways, and counts the
+/// faces. The surface is asked by a box tree of its triangles.
 fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError> {
     let bytes = tables.to_bytes();
     let model = Hull::open(&bytes).map_err(BuildError::Reopen)?;
     let position = |label: usize| history.positions[label].as_vec3().to_array();
     let surface = Mesh::new(
         (0..history.original_vertices as usize).map(position).collect(),
-        history.original_triangles.clone(),
+        history.original_triangles[..history.surface_triangles].to_vec(),
     );
     let tree = exact_blob(&surface)?;
     let tree = Bvh::open(&tree).map_err(BuildError::Reopen)?;
@@ -333,14 +420,21 @@ fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError> {
     let at = |v: VertIdx| tables.vertices[v.0 as usize].as_dvec3();
     let last = tables.levels.len() - 1;
     let mut measured = Vec::new();
-    for level in &tables.levels[..last] {
+    for (index, level) in tables.levels.iter().enumerate() {
         let faces: Vec<_> = model.faces(level).collect();
+        let count = faces.len() as u32;
+        if index == last {
+            measured.push((count, 0.0, 0.0));
+            break;
+        }
         let surface_to_hull = faces.iter().map(|face| face.radius).fold(0f32, f32::max);
         let triangles = faces.iter().map(|face| face.corners.map(at));
         let hull_to_surface = farthest(triangles, 0.0, &mut nearest).upper;
-        measured.push((up_to_f32(hull_to_surface), surface_to_hull));
+        measured.push((count, up_to_f32(hull_to_surface), surface_to_hull));
     }
-    for (level, (hull_to_surface, surface_to_hull)) in tables.levels.iter_mut().zip(measured) {
+    for (level, (faces, hull_to_surface, surface_to_hull)) in tables.levels.iter_mut().zip(measured)
+    {
+        level.faces = faces;
         level.hull_to_surface = hull_to_surface;
         level.surface_to_hull = surface_to_hull;
     }

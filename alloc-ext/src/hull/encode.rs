@@ -5,7 +5,7 @@ use crate::emit::Sections;
 use glam::Vec3;
 use meshsweep_core::SectionKind;
 use meshsweep_core::internal::format::Header;
-use meshsweep_core::internal::format::layout::{FLAG_CUT, VertexFormat, none};
+use meshsweep_core::internal::format::layout::{FLAG_CUT, FLAG_SWEEP_ONLY, VertexFormat, none};
 use meshsweep_core::internal::hull::format::layout::{LEFT_BEFORE, RIGHT_BEFORE};
 use meshsweep_core::internal::num::exp2;
 
@@ -30,7 +30,8 @@ impl Tables {
 
     fn header(&self, bare: Header) -> Header {
         Header {
-            flags: if self.is_cut { FLAG_CUT } else { 0 },
+            flags: if self.is_cut { FLAG_CUT } else { 0 }
+                | if self.encloses { 0 } else { FLAG_SWEEP_ONLY },
             vertex_format: self.grid.format,
             grid_exponent: self.grid.exponent,
             grid_origin: self.grid.origin,

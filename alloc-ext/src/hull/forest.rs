@@ -8,12 +8,13 @@ use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
 /// The forest over all triangle instances of a [`History`].
 #[derive(Clone, Debug)]
 pub struct Forest {
-    /// Radius of each instance, local frame, before it is rounded for storage.
+    /// Radius of each instance, local frame, before it is rounded for storage. Infinite where it
+    /// stands for no part of the surface.
     pub radius: Vec<f64>,
     /// For each collapse, whether the fine triangle at the right and at the left wing is a child of
     /// the coarse triangle before the wing, and not of the one after it.
     pub wings: Vec<[bool; 2]>,
-    /// Original vertices below each instance of the base hull, in the order of
+    /// Vertices of the surface below each instance of the base hull, in the order of
     /// `History::base_instances`.
     pub base_vertices: Vec<Vec<u32>>,
     /// Queue entries that a depth-first sweep may need.
@@ -30,15 +31,21 @@ pub fn cover_radius(positions: &[DVec3], vertices: &[u32], [a, b, c]: [DVec3; 3]
 
 /// Replays the collapses fine to coarse. A fine triangle at a ring edge is a child of the coarse
 /// one at the same edge. Each of the two at the wings is a child of one of the coarse two beside
-/// it: of the one that covers it more tightly.
+/// it: of the one that covers it more tightly. Triangles that stand for no part of the surface
+/// rather join each other.
 ///
 /// Cost: linear in the vertices below each fragment.
 pub fn grow(history: &History) -> Forest {
     let count = history.instances();
     let mut radius = vec![0.0; count];
+    // A triangle that closes a hole stands for no part of the surface.
+    radius[history.surface_triangles..history.original_triangles.len()].fill(f64::INFINITY);
     let mut waiting = vec![0u32; count];
     let mut wings = Vec::with_capacity(history.collapses.len());
-    let mut below: Vec<Vec<u32>> = history.original_triangles.iter().map(|t| t.to_vec()).collect();
+    let mut below: Vec<Vec<u32>> = history.original_triangles[..history.surface_triangles]
+        .iter()
+        .map(|t| t.to_vec())
+        .collect();
     below.resize(count, Vec::new());
     for (index, collapse) in history.collapses.iter().enumerate() {
         let first = history.first_coarse(index) as usize;
@@ -51,20 +58,29 @@ pub fn grow(history: &History) -> Forest {
         let right = collapse.right as usize;
         let before = [(right, right - 1), (0, ring_len - 1)].map(|(after, before)| {
             let vertices = &below[fine[ring_len + usize::from(after == 0)] as usize];
-            let reach = |i: usize| cover_radius(&history.positions, vertices, at(i));
-            reach(before) < reach(after)
+            let joins_part = |i: usize| {
+                let is_partless = below[fine[i] as usize].is_empty();
+                let reach = cover_radius(&history.positions, vertices, at(i));
+                (is_partless != vertices.is_empty(), reach)
+            };
+            joins_part(before) < joins_part(after)
         });
         wings.push(before);
         children[if before[0] { right - 1 } else { right }].push(fine[ring_len]);
         children[if before[1] { ring_len - 1 } else { 0 }].push(fine[ring_len + 1]);
         for (i, children) in children.into_iter().enumerate() {
             let coarse = first + i;
-            waiting[coarse] = entries(children.iter().map(|&child| waiting[child as usize])).max(1);
+            let waits = entries(children.iter().map(|&child| waiting[child as usize])).max(1);
             for child in children {
                 let vertices = std::mem::take(&mut below[child as usize]);
                 merge(&mut below[coarse], vertices);
             }
-            radius[coarse] = cover_radius(&history.positions, &below[coarse], at(i));
+            if below[coarse].is_empty() {
+                radius[coarse] = f64::INFINITY;
+            } else {
+                radius[coarse] = cover_radius(&history.positions, &below[coarse], at(i));
+                waiting[coarse] = waits;
+            }
         }
     }
     let base_vertices =

@@ -7,7 +7,7 @@ use glam::DVec3;
 use meshsweep_core::internal::hull::format::layout::BASE_GROUP;
 
 /// Puts the base triangles in an order in which sixteen consecutive ones lie together: recursive
-/// median splits at multiples of sixteen.
+/// median splits at multiples of sixteen. Triangles that close holes come last.
 pub fn sort_base(history: &mut History) {
     let centre = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|l| history.positions[l as usize]);
@@ -20,7 +20,7 @@ pub fn sort_base(history: &mut History) {
         .map(|(corners, &instance)| (centre(corners), *corners, instance))
         .collect();
     let group = BASE_GROUP as usize;
-    let mut open = vec![(0, faces.len())];
+    let mut open = vec![(0, history.base_surface), (history.base_surface, faces.len())];
     while let Some((from, to)) = open.pop() {
         if to - from <= group {
             continue;
@@ -42,12 +42,18 @@ pub fn sort_base(history: &mut History) {
 }
 
 /// For each sixteen base triangles a swept triangle that contains them and their parts of the
-/// surface: corners (labels) and radius.
+/// surface: corners (labels) and radius. Triangles without a part do not count. The radius is
+/// infinite if all are without.
 pub fn base_groups(history: &History, forest: &Forest) -> Vec<([u32; 3], f64)> {
     let size = BASE_GROUP as usize;
     let groups = history.base.chunks(size).zip(forest.base_vertices.chunks(size));
     groups
         .map(|(faces, below)| {
+            let standing = faces.iter().zip(below).filter(|(_, below)| !below.is_empty());
+            let faces: Vec<[u32; 3]> = standing.map(|(&face, _)| face).collect();
+            if faces.is_empty() {
+                return ([history.base[0][0]; 3], f64::INFINITY);
+            }
             let mut corners: Vec<u32> = faces.iter().flatten().copied().collect();
             corners.sort_unstable();
             corners.dedup();
@@ -55,7 +61,7 @@ pub fn base_groups(history: &History, forest: &Forest) -> Vec<([u32; 3], f64)> {
                 corners.iter().chain(below.iter().flatten()).copied().collect();
             vertices.sort_unstable();
             vertices.dedup();
-            best_cover(&history.positions, faces, &corners, &vertices)
+            best_cover(&history.positions, &faces, &corners, &vertices)
         })
         .collect()
 }

@@ -15,7 +15,7 @@ mod swept;
 mod tables;
 mod wires;
 
-pub use build::{BuildOptions, BuildReport, Built, build, hull_of};
+pub use build::{BuildOptions, BuildReport, Built, Kind, build, build_for_sweep, hull_of};
 pub use cut::cut;
 pub use tables::{SplitRecord, Tables};
 pub use wires::wires_off_surface;

@@ -68,6 +68,8 @@ pub struct Tables {
     pub queue_capacity: u32,
     /// Whether finer levels were cut off.
     pub is_cut: bool,
+    /// Whether every level encloses the surface.
+    pub encloses: bool,
 }
 
 impl Tables {
@@ -168,6 +170,7 @@ impl Tables {
             levels: hull.levels().collect(),
             queue_capacity: h.queue_capacity,
             is_cut: hull.is_cut(),
+            encloses: hull.encloses(),
         })
     }
 }

@@ -1,7 +1,8 @@
-//! One triangle surface for all builders: stored precision, connected components, compaction,
+//! One triangle surface for all builders: stored precision, connected components, compaction, closing,
 //! signed volume, enclosure, and one static tree for searches.
 
 mod bounds;
+mod closing;
 mod compact;
 mod components;
 mod enclosures;
@@ -12,6 +13,7 @@ mod valid;
 
 pub(crate) use crate::mesh::{EdgeTable, Enclosure, SignedVolume, ends};
 pub(crate) use bounds::{Bounds, Plane};
+pub use closing::{Closed, close};
 pub(crate) use compact::{compact, compact_in_order};
 pub use components::components_whose_boxes_meet;
 pub(crate) use components::{components, least_connected};

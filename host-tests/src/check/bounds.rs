@@ -69,7 +69,8 @@ pub(super) fn groups(blob: &Blob, forest: &Forest) -> Result<(), String> {
         let (corners, radius) = blob.groups[index];
         let first = 16 * index;
         let below = forest.below[first..first + faces.len()].iter().flatten();
-        for &v in faces.iter().flatten().chain(below) {
+        let standing = faces.iter().enumerate().filter(|(i, _)| forest.has_part[first + i]);
+        for &v in standing.flat_map(|(_, face)| face).chain(below) {
             let d = distance(DVec3::from(blob.vertices[v as usize]), at(blob, corners));
             if d > radius * ROUNDING + ABSOLUTE {
                 return Err(format!(
@@ -111,13 +112,18 @@ pub(super) fn sources(blob: &Blob) -> Result<(), String> {
             blob.surface.len()
         ));
     }
-    let is_final = |t: &[u32; 3]| t.iter().all(|&v| blob.splits_with[v as usize].is_none());
-    let mut before = blob.base.iter().filter(|t| is_final(t)).count();
+    let is_counted = |t: &[u32; 3], index: usize| blob.is_final(*t) && blob.has_part(index);
+    let count = |triangles: &[[u32; 3]], first: usize| {
+        triangles.iter().zip(first..).filter(|&(t, index)| is_counted(t, index)).count()
+    };
+    let (mut before, mut first) = (count(&blob.base, 0), blob.base.len());
     for index in 0..blob.splits.len() {
         if index % 8 == 0 && blob.source_starts[index / 8] as usize != before {
             return Err(format!("split {index} does not start at triangle {before}"));
         }
-        before += blob.fine(index).iter().filter(|t| is_final(t)).count();
+        let fine = blob.fine(index);
+        before += count(&fine, first);
+        first += fine.len();
     }
     Ok(())
 }

@@ -14,6 +14,8 @@ pub(super) struct Forest {
     pub(super) number: HashMap<[u32; 3], usize>,
     /// The vertices of the surface that each stands for. Empty in a cut blob.
     pub(super) below: Vec<Vec<u32>>,
+    /// Whether each stands for a part of the surface.
+    pub(super) has_part: Vec<bool>,
     triangles: Vec<[u32; 3]>,
     /// Queue entries that a sweep needs below each triangle; 0 for one that no split removes.
     waiting: Vec<u32>,
@@ -37,12 +39,16 @@ impl Forest {
         if number.len() != triangles.len() {
             return Err("a triangle occurs twice".into());
         }
-        let is_final = |t: &[u32; 3]| t.iter().all(|&v| blob.splits_with[v as usize].is_none());
-        let mut below: Vec<Vec<u32>> = triangles
-            .iter()
-            .map(|t| if is_final(t) && !blob.is_cut { t.to_vec() } else { Vec::new() })
-            .collect();
-        let mut has_children: Vec<bool> = triangles.iter().map(is_final).collect();
+        let mut below: Vec<Vec<u32>> = vec![Vec::new(); triangles.len()];
+        let mut has_children: Vec<bool> = triangles.iter().map(|&t| blob.is_final(t)).collect();
+        // The surface, and beyond a cut what stands for it.
+        let mut has_part = vec![false; triangles.len()];
+        for (index, &t) in triangles.iter().enumerate().filter(|(_, t)| blob.is_final(**t)) {
+            has_part[index] = blob.has_part(index);
+            if has_part[index] && !blob.is_cut {
+                below[index] = t.to_vec();
+            }
+        }
         let mut waiting = vec![0; triangles.len()];
         let mut first = triangles.len();
         for (index, split) in blob.splits.iter().enumerate().rev() {
@@ -59,7 +65,10 @@ impl Forest {
                 if std::mem::replace(&mut has_children[parent], true) {
                     return Err(format!("split {index}: {coarse:?} was removed before"));
                 }
-                waiting[parent] = together(children.iter().map(|&child| waiting[child])).max(1);
+                has_part[parent] = children.iter().any(|&child| has_part[child]);
+                if has_part[parent] {
+                    waiting[parent] = together(children.iter().map(|&child| waiting[child])).max(1);
+                }
                 let mut part: Vec<u32> =
                     children.iter().flat_map(|&child| below[child].clone()).collect();
                 part.sort_unstable();
@@ -69,7 +78,7 @@ impl Forest {
         }
         match has_children.iter().position(|has| !has) {
             Some(lonely) => Err(format!("triangle {lonely} is split and has no children")),
-            None => Ok(Self { number, below, triangles, waiting }),
+            None => Ok(Self { number, below, has_part, triangles, waiting }),
         }
     }
 
@@ -77,6 +86,9 @@ impl Forest {
     pub(super) fn covers(&self, blob: &Blob, report: &mut CheckReport) -> Result<(), String> {
         for (index, (&triangle, below)) in self.triangles.iter().zip(&self.below).enumerate() {
             let radius = small_radius(blob.radii[index]);
+            if self.has_part[index] != blob.has_part(index) {
+                return Err(format!("triangle {index}: its radius {radius:e} denies its part"));
+            }
             let corners = at(blob, triangle);
             for &v in below {
                 let d = distance(DVec3::from(blob.vertices[v as usize]), corners);

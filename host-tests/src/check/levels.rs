@@ -25,6 +25,10 @@ fn volume(blob: &Blob, triangles: &[[u32; 3]]) -> f64 {
 
 /// Void ratios are those of the meshes, and never grow from coarse to fine.
 pub(super) fn volumes(blob: &Blob, hulls: &[Vec<[u32; 3]>]) -> Result<(), String> {
+    if !blob.encloses {
+        let has_void = blob.levels.iter().any(|level| level.void_ratio != 0.0);
+        return if has_void { Err("a void of what encloses nothing".into()) } else { Ok(()) };
+    }
     if blob.is_cut {
         return Ok(());
     }

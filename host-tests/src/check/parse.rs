@@ -40,6 +40,8 @@ pub struct Level {
 pub struct Blob {
     /// Whether finer levels were cut off.
     pub is_cut: bool,
+    /// Whether its levels claim to enclose the surface.
+    pub(super) encloses: bool,
     /// Vertices of the base hull.
     pub base_vertices: u32,
     /// Coordinates, exact.
@@ -142,7 +144,7 @@ impl Blob {
             return Err("vertices are not those of the base and two for each split".into());
         }
         let (wv, ws, wr, wt) = (width(vertices), width(splits), width(rings), width(surface));
-        let is_cut = at(24)? & 1 != 0;
+        let (is_cut, encloses) = (at(24)? & 1 != 0, at(24)? & 2 == 0);
         let numbers =
             |kind: u32, name: &'static str, count: u32, width: usize| -> Result<Vec<u32>, String> {
                 let mut cursor = section(kind, name)?;
@@ -193,6 +195,7 @@ impl Blob {
         let starts = if is_cut { 0 } else { splits.div_ceil(8) };
         let mut blob = Blob {
             is_cut,
+            encloses,
             base_vertices,
             vertices: read_vertices(bytes, section(1, "vertices")?, vertices)?,
             base: triples(2, "base triangles", base)?,
@@ -215,13 +218,22 @@ impl Blob {
             dependency_depth: at(144)?,
         };
         if !is_cut {
-            let named = blob.triangles();
-            let is_final = |t: &[u32; 3]| {
-                t.iter().all(|&v| blob.splits_with.get(v as usize).is_none_or(Option::is_none))
-            };
-            blob.surface = named.into_iter().filter(is_final).collect();
+            let named = blob.triangles().into_iter().zip(0..);
+            let finals = named.filter(|&(t, index)| blob.is_final(t) && blob.has_part(index));
+            blob.surface = finals.map(|(t, _)| t).collect();
         }
         Ok(blob)
+    }
+
+    /// Whether no split removes a triangle.
+    pub(super) fn is_final(&self, triangle: [u32; 3]) -> bool {
+        triangle.iter().all(|&v| self.splits_with.get(v as usize).is_none_or(Option::is_none))
+    }
+
+    /// Whether a triangle claims to stand for a part of the surface. Its number is that of its
+    /// radius.
+    pub(super) fn has_part(&self, triangle: usize) -> bool {
+        self.encloses || self.radii.get(triangle) != Some(&255)
     }
 
     /// The triangles of all levels, in the order of their radii.

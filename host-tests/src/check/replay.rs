@@ -4,8 +4,9 @@ use super::CheckReport;
 use super::exact::side;
 use super::mesh::{Mesh, canonical};
 use super::parse::Blob;
+use std::collections::HashSet;
 
-/// The triangles of each level's hull.
+/// The triangles of each level's hull, without those that close holes.
 pub(super) type Hulls = Vec<Vec<[u32; 3]>>;
 
 /// Replays every split; returns the hull of every level.
@@ -24,6 +25,7 @@ pub(super) fn replay(blob: &Blob, report: &mut CheckReport) -> Result<Hulls, Str
         mesh.add(triangle)?;
     }
     mesh.closed_manifold().map_err(|e| format!("base hull: {e}"))?;
+    let partless = partless(blob);
     let mut hulls = Hulls::new();
     for level in &blob.levels {
         while report.splits < level.splits as usize {
@@ -32,7 +34,8 @@ pub(super) fn replay(blob: &Blob, report: &mut CheckReport) -> Result<Hulls, Str
             report.splits += 1;
         }
         mesh.closed_manifold().map_err(|e| format!("after {} splits: {e}", level.splits))?;
-        let hull = mesh.triangles();
+        let mut hull = mesh.triangles();
+        hull.retain(|triangle| !partless.contains(triangle));
         if hull.len() != level.faces as usize {
             return Err(format!("a level of {} faces has {}", level.faces, hull.len()));
         }
@@ -41,7 +44,8 @@ pub(super) fn replay(blob: &Blob, report: &mut CheckReport) -> Result<Hulls, Str
     if report.splits != blob.splits.len() {
         return Err("the last level lacks splits".into());
     }
-    let finest = mesh.triangles();
+    let mut finest = mesh.triangles();
+    finest.retain(|triangle| !partless.contains(triangle));
     report.triangles = finest.len();
     if !blob.is_cut {
         let mut surface: Vec<[u32; 3]> = blob.surface.iter().map(|&t| canonical(t)).collect();
@@ -51,6 +55,12 @@ pub(super) fn replay(blob: &Blob, report: &mut CheckReport) -> Result<Hulls, Str
         }
     }
     Ok(hulls)
+}
+
+/// The triangles of all levels that claim to stand for no part of the surface.
+fn partless(blob: &Blob) -> HashSet<[u32; 3]> {
+    let named = blob.triangles().into_iter().zip(0..);
+    named.filter(|&(_, index)| !blob.has_part(index)).map(|(t, _)| canonical(t)).collect()
 }
 
 /// "Splits with" is the inverse of the splits' vertices.
@@ -96,7 +106,7 @@ fn split(
         let (sign, was_exact) = side(blob.corners(triangle), apex);
         report.planes += 1;
         report.exact_planes += usize::from(was_exact);
-        if sign < 0 {
+        if sign < 0 && blob.encloses {
             return Err(format!("its vertex lies inside the plane of {triangle:?}"));
         }
         mesh.add(triangle)?;

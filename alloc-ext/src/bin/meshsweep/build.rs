@@ -13,9 +13,10 @@ use crate::unmet::Tightness;
 use crate::{curve, describe};
 use meshsweep::BuildError;
 use meshsweep::bvh::{self, TreeOptions};
+use meshsweep::collapse::Progress;
 use meshsweep::counted::Counted;
 use meshsweep::emit::{self, Sections};
-use meshsweep::hull::{self, BuildReport, Built};
+use meshsweep::hull::{self, BuildReport, Built, Kind};
 use meshsweep::surface::{VertexBits, components_whose_boxes_meet};
 use meshsweep::tight::{self, ChainOptions, Goal, HullReport, Stage};
 use meshsweep::tribox::{self, TriboxReport};
@@ -28,7 +29,8 @@ use std::time::Duration;
 const TRIBOXES: u32 = 64;
 
 /// The remedy for a mesh that is not closed.
-const INSTEAD: &str = "for distances and segments, --for closest,segment needs no closed mesh";
+const INSTEAD: &str =
+    "for distances and segments, --for closest,segment and --for sweep need no closed mesh";
 
 pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     let wanted = args.wanted();
@@ -40,10 +42,12 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
     }
     let loaded = if wanted.hull {
         mesh_file::load_solid(&args.mesh, args.vertex_bits.format(), Some(INSTEAD))?
+    } else if wanted.sweep {
+        mesh_file::load_snapped(&args.mesh, args.vertex_bits.format())?
     } else {
         mesh_file::load(&args.mesh)?
     };
-    let hull = if wanted.hull { Some(build_hull(args, &loaded)?) } else { None };
+    let hull = if wanted.hierarchy() { Some(build_hull(args, &loaded)?) } else { None };
     let options = TreeOptions::default()
         .with_closest(wanted.closest)
         .with_segments(wanted.segment)
@@ -89,7 +93,7 @@ fn refuse_options(args: &BuildArgs) -> Option<String> {
     if args.closed && !args.is_curve() {
         return Some("--closed is for curves; add --for curve".to_owned());
     }
-    if let Some(option) = args.hull_option().filter(|_| !wanted.hull) {
+    if let Some(option) = args.hull_option().filter(|_| !wanted.hierarchy()) {
         return Some(format!("{option} is for a hull; add hull to --for"));
     }
     if args.triboxes.is_some() && !wanted.triboxes {
@@ -107,10 +111,13 @@ fn build_hull(args: &BuildArgs, loaded: &Loaded) -> Result<Built, Failure> {
     let options = args.collapse.options(args.base.unwrap_or(FACES), args.vertex_bits);
     let faces = loaded.mesh.triangles.len();
     let bar = Bar::new(faces.saturating_sub(options.base_faces), "collapsing", "faces");
-    hull::build(loaded.input(), &options, |progress| {
-        bar.show(faces.saturating_sub(progress.faces));
-    })
-    .map_err(|error| Failure::build(&args.mesh, error))
+    let on_progress = |progress: Progress| bar.show(faces.saturating_sub(progress.faces));
+    let built = if args.wanted().hull {
+        hull::build(loaded.input(), &options, on_progress)
+    } else {
+        hull::build_for_sweep(loaded.input(), &options, on_progress)
+    };
+    built.map_err(|error| Failure::build(&args.mesh, error))
 }
 
 fn build_triboxes(args: &BuildArgs, loaded: &Loaded) -> Result<(Sections, TriboxReport), Failure> {
@@ -156,7 +163,7 @@ impl Report<'_> {
         writeln!(out, "{}", args.mesh.display())?;
         writeln!(out, "  {}", loaded.report)?;
         if let Some(report) = hull {
-            writeln!(out, "  volume {}", About(report.volume))?;
+            write_kind(out, &report.kind)?;
             write_wires(out, report.wires)?;
         }
         if loaded.moved > 0.0 {
@@ -204,6 +211,19 @@ impl Report<'_> {
             write!(out, ", tight hulls {:.3}", time.as_secs_f64())?;
         }
         writeln!(out)
+    }
+}
+
+/// Says what the levels of the hierarchy are.
+fn write_kind(out: &mut dyn Write, kind: &Kind) -> io::Result<()> {
+    match *kind {
+        Kind::Hulls { volume } => writeln!(out, "  volume {}", About(volume)),
+        Kind::SweepOnly { holes, copies } => writeln!(
+            out,
+            "  no hulls, distances and segments only: {}, {} where the mesh is no manifold",
+            Counted(holes, "hole"),
+            Counted(copies, "copied vertex")
+        ),
     }
 }
 

@@ -50,6 +50,8 @@ pub enum Failure {
         other: Option<&'static str>,
         served: String,
     },
+    /// The levels of the blob's hierarchy enclose nothing.
+    NoHulls { file: PathBuf },
     /// All tight hulls of the blob have more faces.
     NoTightHull { file: PathBuf, faces: u32, least: u32 },
     /// The mesh bounds no solid, and signs are wanted.
@@ -206,6 +208,12 @@ impl fmt::Display for Failure {
                 write!(f, "{}: {unmet}; nothing is written", file.display())
             }
             Failure::Build { file, error } => write!(f, "{}: {error}", file.display()),
+            Failure::NoHulls { file } => write!(
+                f,
+                "{}: was built --for sweep, and its levels are no hulls; build it --for hull from \
+                 a closed mesh, or draw its levels with meshsweep refine",
+                file.display()
+            ),
             Failure::Open { file, error } => {
                 write!(f, "{}: {error}; {}", file.display(), remedy(error))
             }

@@ -17,7 +17,7 @@ const QUESTIONS: [(&str, Serves); 13] = [
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some()),
     ("cull", |blob| tree(blob, BuildFor::Cull).is_some()),
-    ("hull --level", |blob| blob.hull().is_ok()),
+    ("hull --level", |blob| blob.hull().is_ok_and(|hull| hull.encloses())),
     ("refine", |blob| blob.hull().is_ok()),
     ("hull --tight", |blob| blob.tight_hulls().is_ok()),
     ("triboxes", |blob| blob.triboxes().is_ok()),
@@ -91,6 +91,12 @@ pub fn require_tree<'a>(
     build_for: BuildFor,
 ) -> Result<Bvh<'a>, Failure> {
     tree(blob, build_for).ok_or_else(|| not_served(file, blob, build_for, None))
+}
+
+/// The blob's hull hierarchy, if its levels are hulls.
+pub fn require_hulls<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failure> {
+    let hull = require_hull(file, blob)?;
+    if hull.encloses() { Ok(hull) } else { Err(Failure::NoHulls { file: file.to_owned() }) }
 }
 
 /// The blob's hull hierarchy.

@@ -35,7 +35,7 @@ pub struct BuildArgs {
         hide_possible_values = true
     )]
     pub vertex_bits: StoredBits,
-    /// Faces of the base hull, with --for hull [default: 200]
+    /// Faces of the base hull, with --for hull or sweep [default: 200]
     #[arg(long, value_name = "FACES", value_parser = whole::<4, { u32::MAX }>)]
     pub base: Option<u32>,
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
@@ -102,6 +102,7 @@ pub enum Serves {
     Closest,
     Segment,
     Hull,
+    Sweep,
     Cull,
     Triboxes,
     Tight,
@@ -114,6 +115,8 @@ pub struct Wanted {
     pub closest: bool,
     pub segment: bool,
     pub hull: bool,
+    /// A hierarchy for sweeps alone. Hulls serve sweeps too.
+    pub sweep: bool,
     pub cull: bool,
     pub triboxes: bool,
     pub tight: bool,
@@ -124,6 +127,11 @@ impl Wanted {
     pub fn tree(self) -> bool {
         self.closest || self.segment || self.cull
     }
+
+    /// Whether any question needs the hull hierarchy.
+    pub fn hierarchy(self) -> bool {
+        self.hull || self.sweep
+    }
 }
 
 impl BuildArgs {
@@ -133,6 +141,7 @@ impl BuildArgs {
             closest: has(Serves::Closest),
             segment: has(Serves::Segment),
             hull: has(Serves::Hull),
+            sweep: has(Serves::Sweep) && !has(Serves::Hull),
             cull: has(Serves::Cull),
             triboxes: has(Serves::Triboxes),
             tight: has(Serves::Tight),
@@ -266,7 +275,7 @@ pub struct InfoArgs {
     ArgGroup::new("kept").args(["level", "triboxes", "tight"]).required(true).multiple(true)
 ))]
 pub struct CutArgs {
-    /// Blob file, built --for hull, triboxes or tight
+    /// Blob file, built --for hull, sweep, triboxes or tight
     pub blob: PathBuf,
     /// Finest level of the hull hierarchy to keep, 0 being the coarsest
     #[arg(long, value_parser = whole::<0, { u32::MAX }>)]

@@ -26,6 +26,7 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     cull      cull: half a byte a triangle more\n  \
     hull      hull --level, refine, cut, and closest and segment with --engine hull: 25 to 40 \
     bytes a triangle more\n  \
+    sweep     as hull, of any mesh, open or not, whose levels enclose nothing\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 \
     bytes a tribox\n  \
     tight     closest and within, by an interval, and hull --tight: hulls of few faces, 16 to 23 \
@@ -34,7 +35,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     for its node\n\
     closest, segment and cull share a box tree. Any mesh will do for it, open or not, manifold or \
     not. It takes a second for a hundred thousand triangles. hull is the progressive hull with \
-    its split tables. It needs a closed manifold mesh and takes far longer. triboxes take any \
+    its split tables. It needs a closed manifold mesh and takes far longer. sweep makes the same \
+    tables of any mesh: their distances and hits are as true, but no level is a hull. triboxes take any \
     mesh; those of a closed mesh hold its inside too. They take as long as the command tribox. \
     tight makes tight hulls of --tight faces, as the command hull does, of any mesh. Each \
     encloses the mesh and stores the distance of its faces from it. Each takes some seconds. \

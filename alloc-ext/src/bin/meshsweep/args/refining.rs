@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct RefineArgs {
-    /// Blob file, built --for hull
+    /// Blob file, built --for hull or sweep
     pub blob: PathBuf,
     /// PLY file to write
     #[arg(short, long, value_name = "PLY")]

@@ -52,7 +52,9 @@ fn format_name(format: VertexFormat) -> &'static str {
 
 pub(super) fn write(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     let h = hull.header();
-    writeln!(out, "hull hierarchy")?;
+    let enclosing =
+        if hull.encloses() { "" } else { ", for sweeps only: its levels enclose nothing" };
+    writeln!(out, "hull hierarchy{enclosing}")?;
     writeln!(
         out,
         "  surface error {} (coordinates: {})",
@@ -119,6 +121,7 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
         .collect();
     json!({
         "is_cut": hull.is_cut(),
+        "encloses": hull.encloses(),
         "vertex_format": format_name(h.vertex_format),
         "surface_error": surface_error(h),
         "vertices": h.vertices,

@@ -29,7 +29,7 @@ pub fn write_tight(args: &HullArgs, faces: u32) -> Result<(), Failure> {
 /// Writes level `index` of the hull hierarchy.
 pub fn write_level(args: &HullArgs, index: u32) -> Result<(), Failure> {
     let blob = blob_file::open(&args.input)?;
-    let hierarchy = served::require_hull(&args.input, &blob)?;
+    let hierarchy = served::require_hulls(&args.input, &blob)?;
     let levels = hierarchy.header().levels;
     let no_level = || Failure::Build {
         file: args.input.clone(),
