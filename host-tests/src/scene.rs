@@ -1,7 +1,7 @@
 //! Meshes as they were given, with their blobs, and places to put queries.
 
 use meshsweep::bvh::{TreeOptions, build as build_tree};
-use meshsweep::hull::{BuildOptions, build as build_hull};
+use meshsweep::hull::{BuildOptions, build as build_hull, build_for_sweep};
 use meshsweep::mesh::{Mesh, RawMesh, repair, require_closed_manifold};
 use meshsweep_core::{Bvh, Hull};
 
@@ -22,6 +22,8 @@ pub struct Scene {
     pub triangles: Vec<[u32; 3]>,
     /// The blob.
     pub bytes: Vec<u8>,
+    /// Whether some of its points lie on triangles without area alone, of [`Scene::sweep`].
+    pub has_wires: bool,
     /// The same with f32 vertices, of [`Scene::both`] and [`Scene::moved`].
     pub f32_bytes: Vec<u8>,
 }
@@ -29,7 +31,8 @@ pub struct Scene {
 impl Scene {
     fn new(name: impl Into<String>, (positions, triangles): Triangles) -> Self {
         let name = name.into();
-        Self { name, positions, triangles, bytes: Vec::new(), f32_bytes: Vec::new() }
+        let (bytes, f32_bytes) = (Vec::new(), Vec::new());
+        Self { name, positions, triangles, bytes, has_wires: false, f32_bytes }
     }
 
     /// A closed mesh with a hull hierarchy.
@@ -43,6 +46,21 @@ impl Scene {
         let (repaired, _) = repair(raw).expect("a sound mesh");
         require_closed_manifold(&repaired).expect("a closed mesh");
         scene.bytes = build_hull(repaired.as_input(), options, |_| ()).expect("builds").bytes;
+        scene
+    }
+
+    /// Any mesh with a hierarchy for sweeps.
+    ///
+    /// # Panics
+    /// The mesh has no area.
+    #[must_use]
+    pub fn sweep(name: impl Into<String>, mesh: Triangles, options: &BuildOptions) -> Self {
+        let mut scene = Self::new(name, mesh);
+        let raw = RawMesh::from_f32(&scene.positions, &scene.triangles);
+        let (repaired, _) = repair(raw).expect("a sound mesh");
+        scene.has_wires = !repaired.wires.is_empty();
+        let built = build_for_sweep(repaired.as_input(), options, |_| ());
+        scene.bytes = built.expect("builds").bytes;
         scene
     }
 

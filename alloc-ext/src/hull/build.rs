@@ -148,13 +148,12 @@ pub fn build_for_sweep(
     let stored = store_solid(mesh, options.vertex_bits);
     let wires = wires_off_surface(mesh)?;
     let started = Instant::now();
-    let Closed { triangles, fillers, holes, places } =
+    let Closed { triangles, fillers, holes, copies, places } =
         close(stored.positions.len(), &mesh.triangles);
     let count = triangles.len();
     if count > MAX_TRIANGLES {
         return Err(BuildError::TooLarge { triangles: count, most: MAX_TRIANGLES });
     }
-    let copies = (places.len() - holes).saturating_sub(stored.positions.len());
     let at = |&v: &u32| stored.positions[v as usize];
     let positions: Vec<DVec3> = places.iter().map(at).collect();
     let (conditions, grid) = (options.conditions, stored.grid);

@@ -5,6 +5,7 @@ mod check;
 mod closest;
 mod edge_cases;
 mod kept_sweep;
+mod open;
 mod outer_hits;
 mod refined;
 mod scenes;
