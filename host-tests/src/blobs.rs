@@ -15,7 +15,7 @@ use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Clock, Kind, Plan, Recorder, run};
 
 use crate::generate::{Triangles, bracket, torus};
-use crate::golden::{bracket_hulls, fence_curves, tool_path_curve, torus_triboxes};
+use crate::golden::{bracket_hulls, fence_curves, tool_path_curve, torus_sieve, torus_triboxes};
 
 /// A blob of the images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +30,8 @@ pub enum Blob {
     Grid24,
     /// The torus, cut after the level that follows the base hull.
     Cut,
+    /// The hierarchy for sweeps of the torus with holes.
+    Sieve,
     /// The torus's box tree, vertices on a grid.
     TorusTree,
     /// The bracket's box tree.
@@ -51,12 +53,13 @@ pub enum Blob {
 
 impl Blob {
     /// All blobs.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Torus,
         Self::Bracket,
         Self::Grid16,
         Self::Grid24,
         Self::Cut,
+        Self::Sieve,
         Self::TorusTree,
         Self::BracketTree,
         Self::SingleTree,
@@ -76,6 +79,7 @@ impl Blob {
             Self::Grid16 => "grid16",
             Self::Grid24 => "grid24",
             Self::Cut => "cut",
+            Self::Sieve => "sieve",
             Self::TorusTree => "torus_tree",
             Self::BracketTree => "bracket_tree",
             Self::SingleTree => "single_tree",
@@ -101,6 +105,7 @@ impl Blob {
                 let model = Hull::open(&bytes).map_err(|error| error.to_string())?;
                 Ok(cut(&model, 1).map_err(|error| error.to_string())?.to_bytes())
             }
+            Self::Sieve => Ok(torus_sieve()),
             Self::TorusTree => Ok(box_tree(small_torus(), &default)),
             Self::BracketTree => Ok(box_tree(bracket(), &default)),
             // Fewer triangles: with f32 vertices and all questions the image just fits into the
@@ -225,7 +230,8 @@ mod tests {
     use meshsweep_suite::ask::hull;
     use meshsweep_suite::ask::tight::Hulls;
 
-    const HULLS: [Blob; 5] = [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut];
+    const HULLS: [Blob; 6] =
+        [Blob::Torus, Blob::Bracket, Blob::Grid16, Blob::Grid24, Blob::Cut, Blob::Sieve];
     const TREES: [Blob; 4] = [Blob::TorusTree, Blob::BracketTree, Blob::SingleTree, Blob::SoupTree];
 
     #[test]

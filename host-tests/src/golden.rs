@@ -6,7 +6,7 @@ use std::path::Path;
 
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::curve;
-use meshsweep::hull::BuildOptions;
+use meshsweep::hull::{BuildOptions, build_for_sweep};
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::{ChainOptions, chain};
 use meshsweep::tribox::store;
@@ -33,7 +33,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
         .map_err(|error| format!("cannot write {}: {error}", folder.display()))?;
     let hull = bracket_model(folder)?;
     let (tree, triboxes, tight) = (groove_tree(), torus_triboxes(), bracket_hulls());
-    let fence = fence_curves();
+    let (fence, sieve) = (fence_curves(), torus_sieve());
+    put("sieve.msw", &sieve)?;
     let blobs = [
         ("bracket", &hull),
         ("groove", &tree),
@@ -50,7 +51,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
         + &tree_answers("groove.msw", &tree).map_err(refused)?
         + &tribox_answers("torus.msw", &triboxes).map_err(refused)?
         + &tight_answers("hulls.msw", &tight).map_err(refused)?
-        + &curve_answers("fence.msw", &fence).map_err(refused)?;
+        + &curve_answers("fence.msw", &fence).map_err(refused)?
+        + &hull_answers("sieve.msw", &sieve).map_err(refused)?;
     put("answers.txt", answers.as_bytes())
 }
 
@@ -61,6 +63,20 @@ pub fn write(folder: &Path) -> Result<(), String> {
 pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
     let subject = workload::Subject::load(&folder.join("bracket.stl"))?;
     Ok(subject.build_with(&BuildOptions::default())?.bytes)
+}
+
+/// The hierarchy for sweeps of a small torus with a hole in place of every fifth triangle.
+///
+/// # Panics
+/// Never: the mesh has an area.
+#[must_use]
+pub fn torus_sieve() -> Vec<u8> {
+    let (positions, mut triangles) = torus(2.0, 0.75, 20, 12);
+    let mut number = 0u32..;
+    triangles.retain(|_| number.next().is_some_and(|n| n % 5 != 3));
+    let mesh = Mesh::new(positions, triangles);
+    let options = BuildOptions { base_faces: 50, ..BuildOptions::default() };
+    build_for_sweep(mesh.as_input(), &options, |_| ()).expect("an area").bytes
 }
 
 /// The box tree of `groove_block()`, with every section that a tree can have.

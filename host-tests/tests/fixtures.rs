@@ -6,7 +6,7 @@ use meshsweep::curve::{read_csv, store};
 use meshsweep_core::{Bvh, Curve, Hull, TightHulls, Triboxes};
 use meshsweep_host_tests::golden::{
     bracket_hulls, bracket_model, curve_answers, fence_curves, groove_tree, hull_answers,
-    tight_answers, torus_triboxes, tree_answers, tribox_answers,
+    tight_answers, torus_sieve, torus_triboxes, tree_answers, tribox_answers,
 };
 use meshsweep_host_tests::picture;
 
@@ -80,6 +80,17 @@ fn committed_fence_is_what_the_builder_makes_of_its_file() {
 }
 
 #[test]
+fn committed_hierarchy_of_an_open_mesh_is_what_the_builder_makes() {
+    let bytes = read("sieve.msw");
+    assert!(
+        bytes == torus_sieve(),
+        "fixtures/sieve.msw is out of date: run `cargo xtask fixtures`"
+    );
+    let hull = Hull::open(&bytes).expect("opens");
+    assert!(!hull.encloses() && hull.triangle_count() == 384);
+}
+
+#[test]
 fn the_core_packs_the_same_blobs() {
     for name in ["bracket.msw", "fence.msw", "groove.msw", "hulls.msw", "torus.msw"] {
         let packed = read(&format!("../core/fixtures/{name}"));
@@ -96,7 +107,8 @@ fn answers_have_the_committed_bits() {
         + &tree_answers("groove.msw", &read("groove.msw")).expect("opens")
         + &tribox_answers("torus.msw", &read("torus.msw")).expect("opens")
         + &tight_answers("hulls.msw", &read("hulls.msw")).expect("opens")
-        + &curve_answers("fence.msw", &read("fence.msw")).expect("opens");
+        + &curve_answers("fence.msw", &read("fence.msw")).expect("opens")
+        + &hull_answers("sieve.msw", &read("sieve.msw")).expect("opens");
     let committed = String::from_utf8(read("answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
         assert_eq!(

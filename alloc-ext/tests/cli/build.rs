@@ -331,3 +331,35 @@ fn the_half_width_that_is_promised_is_that_of_the_answers() {
         }
     }
 }
+
+#[test]
+fn an_open_mesh_is_built_for_sweeps_and_its_levels_are_no_hulls() {
+    let directory = scratch("build_for_sweep");
+    let (mesh, out) = (directory.join("open.obj"), directory.join("open.msw"));
+    let text = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\n";
+    fs::write(&mesh, text).unwrap();
+    let refusal = run(["build", arg(&mesh), "-o", arg(&out), "--for", "hull"]);
+    let refusal = String::from_utf8(refusal.stderr).unwrap();
+    assert!(refusal.contains("not closed") && refusal.contains("--for sweep"), "{refusal}");
+    assert!(!out.exists());
+    let report = ok(["build", arg(&mesh), "-o", arg(&out), "--for", "sweep", "--base", "4"]);
+    for part in [
+        "no hulls, distances and segments only: 1 hole, 0 copied vertices",
+        "serves closest, segment, refine, cut",
+        "hull hierarchy, for sweeps only: its levels enclose nothing",
+    ] {
+        assert!(report.contains(part), "{part} in {report}");
+    }
+    assert_eq!(info(&out)["hull"]["encloses"], false);
+    let near = ok(["closest", arg(&out), "1,-3,0"]);
+    assert_eq!(number(near.lines().nth(1).unwrap().split(',').next().unwrap()), 3.0);
+    let hits = ok(["segment", arg(&out), "1,0.5,2,1,0.5,-2", "0.5,1,2,0.5,1,-2"]);
+    let hits: Vec<&str> = hits.lines().skip(1).map(|line| &line[..2]).collect();
+    assert_eq!(hits, ["ye", "no"]);
+    let drawn = directory.join("level.ply");
+    let refused_level = run(["hull", arg(&out), "--level", "0", "-o", arg(&drawn)]);
+    let line = refused(&refused_level, 1, "open.msw");
+    assert!(line.contains("no hulls") && line.contains("closed mesh"), "{line}");
+    let refined = ok(["refine", arg(&out), "-o", arg(&drawn)]);
+    assert!(refined.contains("3 faces of 3"), "{refined}");
+}

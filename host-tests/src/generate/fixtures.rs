@@ -52,6 +52,7 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
          | `torus.msw` | triboxes of `torus.ply` |\n\
          | `hulls.msw` | tight hulls of `bracket.stl` |\n\
          | `fence.msw` | the curves of `fence.csv`, by `meshsweep build fence.csv -o fence.msw --closed` |\n\
+         | `sieve.msw` | the hierarchy for sweeps of a torus with holes |\n\
          | `answers.txt` | a hash of the answers to each kind of query: other bits are noticed |\n\
          | `part.svg` | the picture of `README.md`, by `cargo xtask picture` |\n\
          \n## evil/\n\n\

@@ -46,9 +46,15 @@ impl Blob {
     }
 
     /// Blobs whose bits are compared beside the standard ones: other formats of vertices, a cut
-    /// blob, and a soup of triangles.
-    pub const VARIANTS: [Self; 5] =
-        [hull("grid16"), hull("grid24"), hull("cut"), tree("single_tree"), tree("soup_tree")];
+    /// blob, an open mesh, and a soup of triangles.
+    pub const VARIANTS: [Self; 6] = [
+        hull("grid16"),
+        hull("grid24"),
+        hull("cut"),
+        hull("sieve"),
+        tree("single_tree"),
+        tree("soup_tree"),
+    ];
 
     /// The blob of a name.
     ///

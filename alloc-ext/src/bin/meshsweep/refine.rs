@@ -35,7 +35,7 @@ pub fn run(args: &RefineArgs) -> Result<(), Failure> {
             "{}: {} of {}, error left {}",
             args.output.display(),
             Counted(faces, "face"),
-            hull.header().base_triangles + 2 * hull.split_count(),
+            hull.levels().last().map_or(0, |level| level.faces),
             AtMost(error_left)
         )
     })

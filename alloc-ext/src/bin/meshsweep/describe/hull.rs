@@ -85,6 +85,12 @@ fn write_memory(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     )
 }
 
+/// Void of a level, in percent.
+fn void(hull: &Hull<'_>, level: &Level) -> String {
+    let percent = Percent(f64::from(level.void_ratio) * 100.0);
+    if hull.encloses() { percent.to_string() } else { "-".to_owned() }
+}
+
 /// The level table.
 fn write_levels(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
     writeln!(out, "  levels, with certified distances")?;
@@ -96,7 +102,7 @@ fn write_levels(out: &mut dyn Write, hull: &Hull<'_>) -> io::Result<()> {
             "  {index:>5} {:>10} {:>10} {:>10} {:>15} {:>15}",
             level.faces,
             level.splits,
-            Percent(f64::from(level.void_ratio) * 100.0),
+            void(hull, &level),
             AtMost(hull_to_mesh),
             AtMost(mesh_to_hull)
         )?;
@@ -113,7 +119,7 @@ pub(super) fn as_json(hull: &Hull<'_>, hull_box: [[f64; 3]; 2]) -> Value {
             json!({
                 "faces": level.faces,
                 "splits": level.splits,
-                "void_ratio": level.void_ratio,
+                "void_ratio": hull.encloses().then_some(level.void_ratio),
                 "hull_to_mesh": hull_to_mesh,
                 "mesh_to_hull": mesh_to_hull,
             })
