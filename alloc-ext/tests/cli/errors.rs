@@ -142,7 +142,10 @@ fn a_hull_of_a_mesh_with_holes_is_refused_in_one_line_with_places_and_a_way_out(
             "open_box.stl",
         );
         assert!(line.contains("not closed") && line.contains("edge ["), "{line}");
-        assert!(line.contains("--for closest,segment and --for sweep need no closed mesh"), "{line}");
+        assert!(
+            line.contains("--for closest,segment and --for sweep need no closed mesh"),
+            "{line}"
+        );
     }
     let (mesh, ply) = (fixture("evil/stuck_cap.obj"), directory.join("out.ply"));
     let line =

@@ -5,7 +5,7 @@ use super::scenes::options;
 use meshsweep::BuildError;
 use meshsweep::cut::cut;
 use meshsweep::hull::{Kind, build_for_sweep};
-use meshsweep::mesh::Mesh;
+use meshsweep::mesh::{Mesh, read_bytes, repair};
 use meshsweep_core::{
     Budget, ClosestPoint, Ended, Focus, Hit, Hull, Interval, OpenError, QueryError, RefinedHull,
     ScratchEntry, Search,
@@ -13,11 +13,13 @@ use meshsweep_core::{
 use meshsweep_host_tests::check::check_blob;
 use meshsweep_host_tests::corrupt::{entry, put_u32, seal, word};
 use meshsweep_host_tests::generate::corpus::soups;
+use meshsweep_host_tests::generate::evil::{Outcome, evil};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, icosphere, inverted, rough_sphere, scaled, torus,
 };
 use meshsweep_host_tests::oracle::{contacts, gap_to_triangle};
 use meshsweep_host_tests::scene::Scene;
+use std::path::Path;
 use std::sync::LazyLock;
 
 /// Offset of the header's flags, and the flag of a hierarchy for sweeps.
@@ -283,6 +285,27 @@ fn any_mesh_with_an_area_builds_and_the_report_counts_its_holes() {
     let beyond = Mesh::new(vec![[0.0; 3]; 3], vec![[0, 1, 3]]);
     let wanted = BuildError::NoSuchVertex { triangle: 0, vertex: 3, vertices: 3 };
     assert_eq!(built(&beyond).map(|_| ()), Err(wanted));
+}
+
+#[test]
+fn every_evil_file_that_can_be_read_builds_or_has_no_area() {
+    let mut built = 0;
+    for file in evil() {
+        let name = file.name;
+        if matches!(file.outcome, Outcome::Unreadable(_)) {
+            continue;
+        }
+        let raw = read_bytes(Path::new(name), file.bytes).expect("readable");
+        let (mesh, _) = repair(raw).expect("mended");
+        match build_for_sweep(mesh.as_input(), &options(8), |_| ()) {
+            Ok(of) => {
+                check_blob(&of.bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
+                built += 1;
+            }
+            Err(error) => assert_eq!((error, mesh.triangles.len()), (BuildError::Empty, 0)),
+        }
+    }
+    assert!(built > 10, "{built} built");
 }
 
 #[test]
