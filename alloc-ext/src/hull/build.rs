@@ -2,19 +2,18 @@
 
 use super::forest::{Forest, grow};
 use super::groups::{base_groups, sort_base};
+use super::levels::{certify, levels};
 use super::tables::{SplitRecord, Tables};
 use super::wires::wires_off_surface;
-use crate::bvh::exact_blob;
 use crate::collapse::{Conditions, Engine, History, Priority, Progress, Stuck, VertexOrder};
 use crate::error::BuildError;
-use crate::hausdorff::{farthest, nearest_in};
 use crate::mesh::{Input, Mesh};
 use crate::surface::{Closed, SignedVolume, Stored, VertexBits, close, require_valid, store};
 use glam::{DVec3, Vec3};
+use meshsweep_core::Hull;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{MAX_RING, START_GROUP};
 use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
-use meshsweep_core::{Bvh, Hull, Level, VertIdx};
 use std::time::{Duration, Instant};
 
 /// Options of a build.
@@ -186,8 +185,12 @@ fn finish(
     let sweep_time = started.elapsed();
     let started = Instant::now();
     let mut tables = assemble(&stored, input, &history, &order, &forest);
-    tables.encloses = matches!(kind, Kind::Hulls { .. });
-    tables.levels = levels(&history, &kind);
+    let volume = match kind {
+        Kind::Hulls { volume } => Some(volume),
+        Kind::SweepOnly { .. } => None,
+    };
+    tables.encloses = volume.is_some();
+    tables.levels = levels(&history, volume);
     certify(&mut tables, &history)?;
     // Levels were measured to the triangles with an area, without it.
     if wires > 0.0 {
@@ -286,42 +289,6 @@ fn run(
     (history, stuck, programs)
 }
 
-/// Split counts of the levels: the base hull, then every doubling of the faces, then all.
-fn level_splits(history: &History) -> Vec<u32> {
-    let total = history.collapses.len() as u32;
-    let base = history.base.len() as u32;
-    let mut splits = Vec::new();
-    let mut faces = base;
-    while faces.saturating_sub(base) / 2 < total {
-        splits.push((faces - base) / 2);
-        faces = faces.saturating_mul(2);
-    }
-    splits.push(total);
-    splits
-}
-
-fn levels(history: &History, kind: &Kind) -> Vec<Level> {
-    let total = history.collapses.len();
-    let mut added = vec![0.0; total + 1];
-    for (i, volume) in history.added_volume.iter().enumerate() {
-        added[i + 1] = added[i] + volume;
-    }
-    let void = |splits: u32| match kind {
-        Kind::Hulls { volume } => added[total - splits as usize] / volume,
-        Kind::SweepOnly { .. } => 0.0,
-    };
-    level_splits(history)
-        .into_iter()
-        .map(|splits| Level {
-            faces: (history.base.len() + 2 * splits as usize) as u32,
-            splits,
-            hull_to_surface: 0.0,
-            surface_to_hull: 0.0,
-            void_ratio: up_to_f32(void(splits)),
-        })
-        .collect()
-}
-
 fn assemble(
     stored: &Stored,
     input: Input<'_>,
@@ -401,41 +368,4 @@ fn assemble(
         is_cut: false,
         encloses: true,
     }
-}
-
-/// Fills in certified distances between each level's hull and the surface, both ways, and counts the
-/// faces. The surface is asked by a box tree of its triangles.
-fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError> {
-    let bytes = tables.to_bytes();
-    let model = Hull::open(&bytes).map_err(BuildError::Reopen)?;
-    let position = |label: usize| history.positions[label].as_vec3().to_array();
-    let surface = Mesh::new(
-        (0..history.original_vertices as usize).map(position).collect(),
-        history.original_triangles[..history.surface_triangles].to_vec(),
-    );
-    let tree = exact_blob(&surface)?;
-    let tree = Bvh::open(&tree).map_err(BuildError::Reopen)?;
-    let mut nearest = nearest_in(&tree, &surface);
-    let at = |v: VertIdx| tables.vertices[v.0 as usize].as_dvec3();
-    let last = tables.levels.len() - 1;
-    let mut measured = Vec::new();
-    for (index, level) in tables.levels.iter().enumerate() {
-        let faces: Vec<_> = model.faces(level).collect();
-        let count = faces.len() as u32;
-        if index == last {
-            measured.push((count, 0.0, 0.0));
-            break;
-        }
-        let surface_to_hull = faces.iter().map(|face| face.radius).fold(0f32, f32::max);
-        let triangles = faces.iter().map(|face| face.corners.map(at));
-        let hull_to_surface = farthest(triangles, 0.0, &mut nearest).upper;
-        measured.push((count, up_to_f32(hull_to_surface), surface_to_hull));
-    }
-    for (level, (faces, hull_to_surface, surface_to_hull)) in tables.levels.iter_mut().zip(measured)
-    {
-        level.faces = faces;
-        level.hull_to_surface = hull_to_surface;
-        level.surface_to_hull = surface_to_hull;
-    }
-    Ok(())
 }

@@ -1,4 +1,4 @@
-//! From a closed mesh to the tables of a hull hierarchy and their certified radii.
+//! From a mesh to the tables of a hull hierarchy and their certified radii.
 //!
 //! Each collapse replaces a fine fragment by a coarse one. Every fine triangle gets one parent in
 //! the coarse fragment, so that all levels form a forest whose leaves are the mesh's own triangles;
@@ -11,6 +11,7 @@ mod cut;
 mod encode;
 mod forest;
 mod groups;
+mod levels;
 mod swept;
 mod tables;
 mod wires;

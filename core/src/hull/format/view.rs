@@ -13,8 +13,9 @@ use crate::geom::Aabb;
 use crate::num::{Radius8, Radius16, exp2, up_to_f32};
 use glam::Vec3;
 
-/// The hull hierarchy of a blob: nested outer hulls under split tables. Copies are cheap: it
-/// borrows the bytes and holds the header.
+/// The hull hierarchy of a blob: nested outer hulls under split tables; or meshes near an open
+/// surface, see [`encloses`](Hull::encloses). Copies are cheap: it borrows the bytes and holds the
+/// header.
 #[derive(Clone, Copy, Debug)]
 pub struct Hull<'a> {
     pub(crate) header: Header,
