@@ -214,12 +214,10 @@ impl<'a, 'm> Front<'a, 'm> {
         }
         self.queue.begin_children(count as u32);
         let mut found = [Candidate::EMPTY; CHILDREN];
-        let mut greatest = 0.0;
         for (child, slot) in children.iter().zip(&mut found).take(count) {
             *slot = self.candidate(child)?;
-            greatest = slot.radius.max(greatest);
         }
-        if self.is_partless(greatest) {
+        if !self.model.encloses() && found.iter().any(|child| self.is_partless(child.radius)) {
             count = self.leave_out(&mut found, count);
         }
         visitor.visit(found.get(..count)?, &mut self.queue);
@@ -248,7 +246,7 @@ impl<'a, 'm> Front<'a, 'm> {
     /// Whether a radius says that its triangle stands for no part of the surface.
     #[inline(always)]
     fn is_partless(&self, radius: f32) -> bool {
-        radius == f32::INFINITY && !self.model.encloses()
+        !self.model.encloses() && radius == f32::INFINITY
     }
 
     /// Moves the triangles that stand for a part of the surface to the front, and counts them.
