@@ -44,8 +44,8 @@ pub fn levels(history: &History, volume: Option<f64>) -> Vec<Level> {
         .collect()
 }
 
-/// Fills in certified distances between each level's hull and the surface, both ways, and counts the
-/// faces. The surface is asked by a box tree of its triangles.
+/// Fills in certified distances between each level's hull and the surface, both ways, and counts
+/// the faces. The surface is asked by a box tree of its triangles.
 pub fn certify(tables: &mut Tables, history: &History) -> Result<(), BuildError> {
     let bytes = tables.to_bytes();
     let model = Hull::open(&bytes).map_err(BuildError::Reopen)?;

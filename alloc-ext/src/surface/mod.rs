@@ -1,5 +1,5 @@
-//! One triangle surface for all builders: stored precision, connected components, compaction, closing,
-//! signed volume, enclosure, and one static tree for searches.
+//! One triangle surface for all builders: stored precision, connected components, compaction,
+//! closing, signed volume, enclosure, and one static tree for searches.
 
 mod bounds;
 mod closing;

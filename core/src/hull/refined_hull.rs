@@ -18,8 +18,9 @@ use core::marker::PhantomData;
 /// [`update`](Self::update) refines and coarsens it around a [`Focus`](crate::Focus).
 /// [`Hull::outer_hits`] refines it along a segment. Every state is a closed mesh that encloses the
 /// surface, under the conditions that [`Hull::outer_hits`] names. Where the hierarchy does not
-/// [enclose](Hull::encloses) the surface, every state is a mesh near it, open where the surface is. A hull of *f* faces needs (*f* −
-/// base faces) / 2 splits. RAM: 16 bytes a split and 24 more, whatever the size of the hierarchy.
+/// [enclose](Hull::encloses) the surface, every state is a mesh near it, open where the surface is.
+/// A hull of *f* faces needs (*f* − base faces) / 2 splits. RAM: 16 bytes a split and 24 more,
+/// whatever the size of the hierarchy.
 ///
 /// The state belongs to one hull at a time. With another hull it starts from that one's base. It
 /// borrows the blob's bytes, so they cannot change between updates.

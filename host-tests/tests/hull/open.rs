@@ -1,5 +1,5 @@
 //! Hierarchies for sweeps of meshes that no hull encloses: open, crossing themselves, inside out,
-//! with edges of many triangles. Their answers are those of the mesh, and their levels are no hulls.
+//! with edges of many triangles. Their answers are those of the mesh, their levels are no hulls.
 
 use super::scenes::options;
 use meshsweep::BuildError;

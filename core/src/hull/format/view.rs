@@ -222,8 +222,8 @@ impl Hull<'_> {
         self.header.flags & FLAG_CUT != 0
     }
 
-    /// Whether every level encloses the surface. A blob that was built with `--for sweep` has levels
-    /// that lie near the surface, on both sides of it. Distances and hits are as true for it.
+    /// Whether every level encloses the surface. The levels of a blob that was built with
+    /// `--for sweep` lie near the surface, on both sides of it. Its distances and hits are as true.
     #[inline(always)]
     pub fn encloses(&self) -> bool {
         self.header.flags & FLAG_SWEEP_ONLY == 0
