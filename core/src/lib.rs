@@ -78,7 +78,7 @@ mod tribox;
 pub use blob::Blob;
 pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentQuery, Eye, Facing, FrontFacing, Hint,
-    KNearest, Neighbor, Overlap, Overlaps, SignedDistance, TrianglePair, Within,
+    KNearest, Neighbor, SignedDistance, Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};
@@ -89,8 +89,8 @@ pub use hull::{
     Change, Focus, Hull, HullFace, Level, OuterHits, RefinedHull, Refinement, Search, Sweep,
 };
 pub use query::{
-    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, PosedPoint, QueryError, Scratch,
-    ScratchEntry, Side, Undecided, Verdict, Work,
+    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PosedPoint,
+    QueryError, Scratch, ScratchEntry, Side, TrianglePair, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{
