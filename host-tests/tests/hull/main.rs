@@ -6,6 +6,7 @@ mod closest;
 mod edge_cases;
 mod kept_sweep;
 mod outer_hits;
+mod overlap;
 mod refined;
 mod scenes;
 mod segments;
