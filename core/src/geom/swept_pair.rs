@@ -1,8 +1,8 @@
 //! Whether two triangles, each swept by a sphere, are certainly apart.
 //!
-//! They are compared along the axes and along both normals. A direction is taken as it was computed,
-//! and all corners are measured along it. So a normal misjudged on a sliver costs tightness and not
-//! truth. Derivation: `core/docs/rounding.md` §15.
+//! They are compared along the axes, along the way from centre to centre and along both normals. A
+//! direction is taken as it was computed, and all corners are measured along it. So a normal
+//! misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §15.
 
 use super::triangle_pair::{Point, Real, cross, dot, minus};
 use crate::num::tolerance::{SQUARED_SLACK, U32};
@@ -45,24 +45,37 @@ impl<T: Real> SweptTriangle<T> {
     pub fn is_apart(&self, other: &SweptTriangle<T>, margin: T) -> bool {
         let reach = ((self.radius + other.radius) + margin) * T::from(1.0 + 4.0 * U32);
         let (before, behind) = (minus(other.low, self.high), minus(self.low, other.high));
-        before.into_iter().chain(behind).any(|gap| gap > reach)
-            || self.has_behind(other, reach)
-            || other.has_behind(self, reach)
+        if before.into_iter().chain(behind).any(|gap| gap > reach) {
+            return true;
+        }
+        self.is_apart_along(minus(other.sum(), self.sum()), other, reach)
+            || self.is_apart_along(self.normal(), other, reach)
+            || self.is_apart_along(other.normal(), other, reach)
     }
 
-    /// Whether the other's corners are farther than `reach` from this triangle along its normal.
+    /// Thrice the centre.
     #[inline(always)]
-    fn has_behind(&self, other: &SweptTriangle<T>, reach: T) -> bool {
+    fn sum(&self) -> Point<T> {
+        let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = self.corners;
+        [(ax + bx) + cx, (ay + by) + cy, (az + bz) + cz]
+    }
+
+    #[inline(always)]
+    fn normal(&self) -> Point<T> {
         let [a, b, c] = self.corners;
-        let (first, second) = (minus(b, a), minus(c, a));
-        let normal = cross(first, second);
-        let [p, q, r] = other.corners.map(|corner| dot(normal, minus(corner, a)));
-        // The normal is rounded, so that even the own corners are not at height 0.
-        let (s, t) = (dot(normal, first), dot(normal, second));
-        let above = lesser(lesser(p, q), r) - greater(greater(s, t), T::ZERO);
-        let below = lesser(lesser(s, t), T::ZERO) - greater(greater(p, q), r);
+        cross(minus(b, a), minus(c, a))
+    }
+
+    /// Whether all corners of one are farther than `reach` from all of the other along a direction.
+    #[inline(always)]
+    fn is_apart_along(&self, way: Point<T>, other: &SweptTriangle<T>, reach: T) -> bool {
+        let [from, ..] = self.corners;
+        let height = |corner: Point<T>| dot(way, minus(corner, from));
+        let ([p, q, r], [s, t, u]) = (self.corners.map(height), other.corners.map(height));
+        let above = lesser(lesser(s, t), u) - greater(greater(p, q), r);
+        let below = lesser(lesser(p, q), r) - greater(greater(s, t), u);
         let gap = greater(above, below);
-        let length_sq = dot(normal, normal);
+        let length_sq = dot(way, way);
         let limit = (reach * reach) * length_sq;
         // Below the least number to be trusted the squares may have lost all digits.
         gap > T::ZERO
