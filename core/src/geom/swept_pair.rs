@@ -2,7 +2,7 @@
 //!
 //! They are compared along the axes, along the way from centre to centre and along both normals. A
 //! direction is taken as it was computed, and all corners are measured along it. So a normal
-//! misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §15.
+//! misjudged on a sliver costs tightness and not truth. Derivation: `core/docs/rounding.md` §16.
 
 use super::triangle_pair::{Point, Real, cross, dot, minus};
 use crate::num::tolerance::{SQUARED_SLACK, U32};

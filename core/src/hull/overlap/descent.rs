@@ -30,11 +30,15 @@ pub(super) fn descend(
     let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, Work::NONE)) };
     let is_f32 = is_f32_enough(&pose, [a, b]);
     let exact = Places::<f64>::of(&pose);
+    // No pair is opened twice. So a search also ends on tables that open and yet name a triangle
+    // more than once.
+    let pairs = sides[0].triangles().saturating_mul(sides[1].triangles());
+    let steps = budget.steps.min(pairs);
     let stack = Stack { slots: scratch, used: 0, is_short: false };
     let found = if is_f32 {
-        run(sides, &Places::<f32>::of(&pose), &exact, stack, budget.steps, visitor)
+        run(sides, &Places::<f32>::of(&pose), &exact, stack, steps, visitor)
     } else {
-        run(sides, &exact, &exact, stack, budget.steps, visitor)
+        run(sides, &exact, &exact, stack, steps, visitor)
     };
     found.ok_or(QueryError::Unchecked)
 }

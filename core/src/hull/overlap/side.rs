@@ -2,7 +2,7 @@
 
 use crate::geom::Aabb;
 use crate::hull::format::{Hull, Instance};
-use crate::hull::sweep::{Candidate, Fate, Front, Visit};
+use crate::hull::sweep::{Candidate, Fate, Front, Visit, triangles};
 use crate::num::greater;
 use crate::query::{Extended, Frame, QueryError};
 use glam::{DVec3, Vec3};
@@ -96,6 +96,11 @@ impl<'a> Side<'a> {
     /// of a split.
     pub(super) fn entries(hull: &Hull<'_>) -> usize {
         hull.scratch_entries().saturating_add(20)
+    }
+
+    /// Triangles of all levels.
+    pub(super) fn triangles(&self) -> u32 {
+        self.front.as_ref().map_or(1, |front| triangles(&front.model))
     }
 
     pub(super) fn is_cut(&self) -> bool {
