@@ -6,7 +6,8 @@ use crate::generate::Rng;
 use crate::oracle::moved::{Place, meeting_pairs};
 use crate::scene::Scene;
 
-type Point = [f32; 3];
+/// A place.
+pub type Point = [f32; 3];
 
 fn places(scene: &Scene, at: impl Fn(Point) -> Place) -> Vec<[Place; 3]> {
     let places: Vec<Place> = scene.positions.iter().map(|&p| at(p)).collect();
