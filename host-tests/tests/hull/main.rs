@@ -10,3 +10,4 @@ mod overlap;
 mod refined;
 mod scenes;
 mod segments;
+mod starts;
