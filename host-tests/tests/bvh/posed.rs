@@ -172,10 +172,7 @@ fn an_error_of_the_place_is_in_every_distance() {
         for bad in [-1.0, f32::NAN, f32::INFINITY] {
             assert_eq!(tree.with_error(bad).err(), Some(QueryError::Tolerance));
         }
-        assert_eq!(
-            tree.with_error(0.0).expect("none").surface_error() >= tree.surface_error(),
-            true
-        );
+        assert!(tree.with_error(0.0).expect("none").surface_error() >= tree.surface_error());
     }
 }
 
