@@ -25,8 +25,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     triangle\n  \
     segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
-    hull      hull --level, refine, cut, and closest, segment and overlap with --engine hull: 25 to 40 \
-    bytes a triangle more\n  \
+    hull      hull --level, refine, cut, and closest, segment and overlap with --engine hull: \
+    25 to 40 bytes a triangle more\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 \
     bytes a tribox\n  \
     tight     closest and within, by an interval, and hull --tight: hulls of few faces, 16 to 23 \
