@@ -34,6 +34,7 @@
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
+//! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::overlaps`] |
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
@@ -78,7 +79,7 @@ mod tribox;
 pub use blob::Blob;
 pub use bvh::{
     AllWithin, AnyHit, Bvh, CoherentClosest, CoherentQuery, Eye, Facing, FrontFacing, Hint,
-    KNearest, Neighbor, Overlap, Overlaps, SignedDistance, TrianglePair, Within,
+    KNearest, Neighbor, SignedDistance, Within,
 };
 pub use curve::{Curve, CurveClosest, CurveSegment, CurveWithin};
 pub use format::layout::{BuildFor, SectionKind};
@@ -87,10 +88,11 @@ pub use geom::Pose;
 pub use hull::format::VertIdx;
 pub use hull::{
     Change, Focus, Hull, HullFace, Level, OuterHits, RefinedHull, Refinement, Search, Sweep,
+    TriangleOverlap,
 };
 pub use query::{
-    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, PosedPoint, QueryError, Scratch,
-    ScratchEntry, Side, Undecided, Verdict, Work,
+    AllHits, Budget, ClosestPoint, Ended, FirstHit, Hit, Interval, Overlap, Overlaps, PosedPoint,
+    QueryError, Scratch, ScratchEntry, Side, TrianglePair, Undecided, Verdict, Work,
 };
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{

@@ -9,6 +9,7 @@ pub mod generate;
 pub mod golden;
 #[cfg(doctest)]
 mod guide;
+pub mod motion;
 pub mod oracle;
 pub mod picture;
 pub mod scene;

@@ -117,6 +117,35 @@ fn contacts_and_pairs_are_those_of_the_mesh_files() {
 }
 
 #[test]
+fn hull_hierarchies_give_the_contacts_of_the_box_trees() {
+    let directory = scratch("overlap_hulls");
+    let both = blob(&directory, "bracket.stl", &["--for", "segment,hull", "--vertex-bits", "32"]);
+    let poses: Vec<String> = (0..24)
+        .map(|i| format!("{},{},10,3,{},1,{}", 30 * (i % 6), 25 * (i / 6), i % 5, i % 3))
+        .collect();
+    let poses: Vec<&str> = poses.iter().map(String::as_str).collect();
+    let ask = |options: &[&str]| {
+        let files = ["overlap", arg(&both), arg(&both)];
+        parse_csv(&ok([&files[..], options, &["--pose"], &poses[..]].concat()), HEADER)
+    };
+    let (trees, hulls) = (ask(&[]), ask(&["--engine", "hull"]));
+    let contacts = |rows: &[Vec<String>]| rows.iter().map(|row| row[1].clone()).collect::<Vec<_>>();
+    assert_eq!(contacts(&trees), contacts(&hulls));
+    assert!(["apart", "meets"].iter().all(|&word| contacts(&hulls).iter().any(|is| is == word)));
+    let pairs = |options: &[&str]| -> BTreeSet<Vec<String>> {
+        ask(options).into_iter().map(|row| row[..4].to_vec()).collect()
+    };
+    assert_eq!(pairs(&["--all"]), pairs(&["--all", "--engine", "hull"]));
+    // Without a box tree the hull hierarchies answer.
+    let bare = blob(&scratch("overlap_bare"), "bracket.stl", &["--for", "hull"]);
+    let rows = parse_csv(&ok(["overlap", arg(&bare), arg(&both), "--pose", poses[0]]), HEADER);
+    assert_eq!(rows.len(), 1);
+    let torus = blob(&directory, "torus.ply", &[]);
+    let output = run(["overlap", arg(&bare), arg(&torus), "--engine", "hull"]);
+    assert!(refused(&output, 1, "torus.msw").contains("--for hull"));
+}
+
+#[test]
 fn without_a_pose_meshes_are_where_they_were_built_and_coincide_openly() {
     let directory = scratch("overlap_still");
     let torus = blob(&directory, "torus.ply", &[]);

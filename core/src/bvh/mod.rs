@@ -70,7 +70,7 @@ pub use format::Bvh;
 pub use front_facing::{Eye, FrontFacing};
 pub use nearest::KNearest;
 pub use neighbors::Neighbor;
-pub use overlap::{Overlap, Overlaps, TrianglePair};
+
 pub use segment_leaf::Facing;
 pub use signed_distance::SignedDistance;
 pub use within::Within;

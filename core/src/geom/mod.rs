@@ -8,6 +8,7 @@ mod point_triangle;
 mod pose;
 mod segment_triangle;
 mod support;
+mod swept_pair;
 mod swept_triangle;
 mod triangle_pair;
 
@@ -18,6 +19,7 @@ pub use point_triangle::{PointTriangle, point_triangle};
 pub use pose::Pose;
 pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
 pub use support::Support;
+pub use swept_pair::SweptTriangle;
 pub use swept_triangle::{SweptPoint, SweptSegment, direction_bound};
 pub use triangle_pair::{
     Contact, Real, determinant_margin, straddling_triangles_meet, triangles_meet,

@@ -25,7 +25,7 @@ pub enum Contact {
 
 /// A precision of the test.
 pub trait Real:
-    Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+    Copy + PartialOrd + From<f32> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// Zero.
     const ZERO: Self;
@@ -59,20 +59,21 @@ impl Real for f64 {
     }
 }
 
-type Point<T> = [T; 3];
+/// A place or a direction.
+pub(super) type Point<T> = [T; 3];
 
 #[inline(always)]
-fn minus<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
+pub(super) fn minus<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
     [ax - bx, ay - by, az - bz]
 }
 
 #[inline(always)]
-fn cross<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
+pub(super) fn cross<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> Point<T> {
     [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
 #[inline(always)]
-fn dot<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> T {
+pub(super) fn dot<T: Real>([ax, ay, az]: Point<T>, [bx, by, bz]: Point<T>) -> T {
     ax * bx + ay * by + az * bz
 }
 

@@ -12,6 +12,7 @@
 //! | `closest_point` | closest point by a sweep |
 //! | `kept_sweep` | a sweep that is interrupted, moved, or gives triangle after triangle |
 //! | `segment_hits` | first hit and all hits by a sweep |
+//! | `overlap/` | a triangle, or another hull hierarchy, against the surface |
 //! | `outer_hits` | hits from outside on the refined hull |
 
 mod closest_point;
@@ -20,6 +21,7 @@ pub mod format;
 mod hull_faces;
 mod kept_sweep;
 mod outer_hits;
+mod overlap;
 mod refine;
 mod refined_hull;
 mod segment_hits;
@@ -31,5 +33,6 @@ pub use format::{Hull, Level};
 pub use hull_faces::HullFace;
 pub use kept_sweep::Sweep;
 pub use outer_hits::{OuterHits, Search};
+pub use overlap::TriangleOverlap;
 pub use refine::{Change, Refinement};
 pub use refined_hull::RefinedHull;

@@ -99,8 +99,8 @@ impl Batch {
 /// Children of a triangle.
 const CHILDREN: usize = 3;
 
-/// Triangles and groups of all levels.
-fn triangles(model: &Hull<'_>) -> u32 {
+/// Triangles and groups of all levels. No search on sound tables replaces more.
+pub(crate) fn triangles(model: &Hull<'_>) -> u32 {
     let h = model.header();
     let triangles = h.rings.saturating_add(h.base_triangles).saturating_add(2 * h.splits);
     triangles.saturating_add(model.base_groups())

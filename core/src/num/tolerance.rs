@@ -90,6 +90,11 @@ pub const SWEEP_KEPT: f64 = 1.0 / 32.0;
 /// motion: with a larger value they lose digits, and triangles are bounded in vain.
 pub const SWEEP_MOTION: f64 = 16.0;
 
+/// Least extent of the smaller of two models, in units of the larger one, for which pairs of swept
+/// triangles are compared in f32: 2^-12. There the margin is a few percent of the smaller model.
+/// Smaller ones are compared in f64 (§16).
+pub const F32_EXTENT: f64 = 1.0 / 4096.0;
+
 /// A sum of motions is rounded up by this factor: less than four roundings of f64 each.
 pub const SUMMED: f64 = 1.0 + 1.0 / (1u64 << 48) as f64;
 

@@ -8,6 +8,8 @@
 //! | `verdict` | [`Verdict`], [`Side`], [`Undecided`]: why there is no verdict |
 //! | `hits` | [`Hit`], [`FirstHit`], [`AllHits`], and the caller's slice of hits |
 //! | `posed_point` | [`PosedPoint`]: a point in the frame of a moved model |
+//! | `overlap` | [`Overlap`], [`Overlaps`], [`TrianglePair`], and what collects pairs |
+//! | `relative_pose` | the pose of one model in the frame of another, and the rounding in it |
 //! | `work` | [`Work`]: counters |
 //! | `error` | [`QueryError`]: why a query was refused |
 //! | `sweep_queue` | the priority queue of the sweeping process |
@@ -18,7 +20,9 @@ mod budget;
 mod error;
 mod frame;
 mod hits;
+mod overlap;
 mod posed_point;
+mod relative_pose;
 mod scratch;
 mod sweep_queue;
 mod verdict;
@@ -30,7 +34,10 @@ pub use error::QueryError;
 pub(crate) use frame::Frame;
 pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit};
+pub(crate) use overlap::{AllPairs, FirstPair, PairVisitor};
+pub use overlap::{Overlap, Overlaps, TrianglePair};
 pub use posed_point::PosedPoint;
+pub(crate) use relative_pose::{DIRECTIONS, Extended, ModelFrame, RelativePose};
 pub use scratch::{Scratch, ScratchEntry};
 pub(crate) use sweep_queue::{SweepQueue, Taken, before};
 pub use verdict::{Side, Undecided, Verdict};

@@ -5,7 +5,7 @@ use core::ops::{Deref, DerefMut};
 /// Eight bytes of working memory. Its contents mean nothing between queries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScratchEntry {
-    /// A bound with a lane in its low bits, or the bits of an integer below 2^24.
+    /// A bound with a lane in its low bits, or the bits of an integer below `SMALL_WORDS`.
     key: f32,
     /// The node that the key belongs to, or any word.
     node: u32,
@@ -20,8 +20,11 @@ impl ScratchEntry {
         ScratchEntry { key, node }
     }
 
-    /// Two words, the first below 2^24. Such a word is the bits of an f32 that is not NaN, and a
-    /// copy keeps these bits on every target.
+    /// The words below this one are the bits of f32 that are not NaN: 2^31 − 2^23.
+    pub(crate) const SMALL_WORDS: u32 = f32::INFINITY.to_bits();
+
+    /// Two words, the first below [`SMALL_WORDS`](Self::SMALL_WORDS). A copy keeps the bits of an
+    /// f32 that is not NaN on every target.
     #[inline(always)]
     pub(crate) const fn of_words([small, any]: [u32; 2]) -> ScratchEntry {
         ScratchEntry { key: f32::from_bits(small), node: any }

@@ -10,6 +10,7 @@ use std::path::Path;
 
 use meshsweep_core::{Budget, Hit, Hull, QueryError, RefinedHull, ScratchEntry, Search};
 
+use crate::workload::pose::{poses, sphere};
 use crate::workload::{Points, Subject, points, segments};
 
 /// Queries that are placed, whether they are asked or not, so that placing them is no part of a
@@ -51,6 +52,14 @@ fn hull(fixtures: &Path, question: &str, queries: usize) -> Result<(), String> {
     if let Some(kind) = Points::ALL.into_iter().find(|kind| kind.name() == question) {
         for point in points(&subject, kind, PLACED).into_iter().take(queries) {
             black_box(model.closest_point(point, Budget::EXACT, &mut queue).map_err(failed)?);
+        }
+        return Ok(());
+    }
+    if question == "overlap" {
+        let mut stack = vec![ScratchEntry::EMPTY; model.overlap_entries(&model)];
+        let all: Vec<_> = poses(&sphere(&subject), PLACED).map(|(_, core)| core).collect();
+        for pose in all.into_iter().take(queries) {
+            black_box(model.overlap(&model, pose, Budget::EXACT, &mut stack).map_err(failed)?);
         }
         return Ok(());
     }

@@ -7,7 +7,7 @@ use meshsweep::mesh::Mesh;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{
     Blob, Budget, Change, ClosestPoint, Ended, Focus, Hit, Hull, QueryError, RefinedHull,
-    ScratchEntry, Search,
+    ScratchEntry, Search, TrianglePair, Verdict,
 };
 use std::sync::OnceLock;
 
@@ -135,6 +135,51 @@ pub fn segment(data: &[u8]) {
             answer.stored <= hits.len() && hits[..answer.stored].is_sorted_by(|x, y| x.t <= y.t)
         );
         assert!(answer.work.total() <= bound(&model), "{:?}", answer.work);
+    }
+}
+
+/// Whether a triangle, and a moved edited blob, meet an edited blob, in at most so many steps: every
+/// pair of triangles may have to be opened.
+pub fn overlap(data: &[u8]) {
+    let mut input = Input(data);
+    let (first, second) = (input.blob(seeds()), input.blob(seeds()));
+    let (Ok(a), Ok(b)) = (Hull::open(&first), Hull::open(&second)) else { return };
+    let mut queue = queue(&mut input);
+    let mut pairs = vec![TrianglePair::EMPTY; usize::from(input.byte() % 16)];
+    let stop = Budget::EXACT.with_steps(u32::from(input.byte()));
+    let in_range = |[first, second]: [u32; 2]| {
+        let numbers = [a.header().input_triangles, b.header().input_triangles];
+        assert!(first < numbers[0] && second < numbers[1], "{first} {second}");
+    };
+    for _ in 0..3 {
+        let (pose, corners) = (input.pose(), [input.point(), input.point(), input.point()]);
+        match a.overlap(&b, pose, stop, &mut queue) {
+            Ok(answer) => {
+                assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                let named = answer.triangles.is_some();
+                assert!(named || answer.verdict != Verdict::Yes, "{answer:?}");
+                answer.triangles.into_iter().for_each(in_range);
+            }
+            Err(error) => assert_ne!(error, QueryError::Unchecked),
+        }
+        match a.overlaps(&b, pose, &mut pairs, stop, &mut queue) {
+            Ok(answer) => {
+                assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                assert!(answer.dropped == 0 || answer.stored == pairs.len(), "{answer:?}");
+                pairs[..answer.stored].iter().for_each(|pair| in_range(pair.triangles));
+            }
+            Err(error) => assert_ne!(error, QueryError::Unchecked),
+        }
+        // A triangle is paired with each triangle once: without a budget too the search ends.
+        for stop in [stop, Budget::EXACT] {
+            match a.meets_triangle(corners, stop, &mut queue) {
+                Ok(answer) => {
+                    assert!(answer.work.splits <= stop.steps, "{answer:?}");
+                    assert!(answer.work.total() <= bound(&a), "{answer:?}");
+                }
+                Err(error) => assert_ne!(error, QueryError::Unchecked),
+            }
+        }
     }
 }
 

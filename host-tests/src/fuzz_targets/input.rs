@@ -2,6 +2,7 @@
 
 use crate::corrupt::{put_u32, seal};
 use crate::generate::Rng;
+use meshsweep_core::Pose;
 
 /// Numbers that arithmetic has trouble with.
 const ODD: [f32; 11] = [
@@ -45,6 +46,17 @@ impl Input<'_> {
 
     pub(super) fn point(&mut self) -> [f32; 3] {
         std::array::from_fn(|_| self.float())
+    }
+
+    /// Any motion, more often a plausible one.
+    pub(super) fn pose(&mut self) -> Pose {
+        let translation = self.point();
+        let rotation = match self.byte() % 4 {
+            0 => [self.point(), self.point(), self.point()],
+            1 => Pose::IDENTITY.rotation,
+            _ => [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]],
+        };
+        Pose { rotation, translation }
     }
 
     /// One of some blobs with up to fifteen edits, with right CRCs.

@@ -13,7 +13,7 @@ mod tribox;
 mod triboxes;
 
 pub use curves::{ask_curve, curve_seeds, curves};
-pub use hull::{closest, open, outer, refine, seeds, segment};
+pub use hull::{closest, open, outer, overlap, refine, seeds, segment};
 pub use input::random_input;
 pub use tight::{ask_tight, tight, tight_seeds};
 pub use tree::{tree_closest, tree_coherent, tree_open, tree_overlap, tree_seeds, tree_segment};

@@ -7,7 +7,7 @@ use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::emit;
 use meshsweep::hull::{self, BuildOptions};
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Blob, Budget, Bvh, CoherentQuery, Pose};
+use meshsweep_core::{Blob, Budget, Bvh, CoherentQuery};
 use std::sync::OnceLock;
 
 /// Small valid blobs with a box tree: on the grid and exact, with either kind of boxes alone,
@@ -175,13 +175,7 @@ pub fn tree_overlap(data: &[u8]) {
     let asker = Asker::new(usize::from(input.byte() % 160), usize::from(input.byte() % 16));
     let steps = u32::from(input.byte());
     for _ in 0..3 {
-        let translation = input.point();
-        let rotation = match input.byte() % 4 {
-            0 => [input.point(), input.point(), input.point()],
-            1 => Pose::IDENTITY.rotation,
-            _ => [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]],
-        };
-        let pose = Pose { rotation, translation };
+        let pose = input.pose();
         asker.overlap(&a, &b, &pose, steps);
         asker.overlap(&b, &a, &pose, steps);
     }

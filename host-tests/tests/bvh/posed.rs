@@ -1,11 +1,11 @@
 //! Questions about a model that a pose moved, beside the mesh with every vertex moved in 106 bits.
 
 use super::distance::scenes::{STACK, all, stack};
-use super::overlap::motions::{Point, placed, rotation};
 use meshsweep_core::{
     Budget, Ended, Facing, Hull, Interval, Pose, PosedPoint, QueryError, Verdict,
 };
 use meshsweep_host_tests::generate::{Rng, rough_sphere};
+use meshsweep_host_tests::motion::{Point, placed, rotation};
 use meshsweep_host_tests::oracle::moved::{Place, triangles_meet};
 use meshsweep_host_tests::oracle::{Bounded, distance_to_moved_mesh};
 use meshsweep_host_tests::scene::Scene;
@@ -172,10 +172,7 @@ fn an_error_of_the_place_is_in_every_distance() {
         for bad in [-1.0, f32::NAN, f32::INFINITY] {
             assert_eq!(tree.with_error(bad).err(), Some(QueryError::Tolerance));
         }
-        assert_eq!(
-            tree.with_error(0.0).expect("none").surface_error() >= tree.surface_error(),
-            true
-        );
+        assert!(tree.with_error(0.0).expect("none").surface_error() >= tree.surface_error());
     }
 }
 

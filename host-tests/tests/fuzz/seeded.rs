@@ -1,7 +1,7 @@
 //! The fuzz targets on seeded bytes, so that a stable compiler runs them too.
 
 use meshsweep_host_tests::fuzz_targets::{
-    closest, curves, open, outer, random_input, refine, segment, tight, tree_closest,
+    closest, curves, open, outer, overlap, random_input, refine, segment, tight, tree_closest,
     tree_coherent, tree_open, tree_overlap, tree_segment, tribox, triboxes,
 };
 use meshsweep_host_tests::generate::Rng;
@@ -37,6 +37,11 @@ fn segment_survives_seeded_edits() {
 #[test]
 fn outer_survives_seeded_edits() {
     drive(4, outer);
+}
+
+#[test]
+fn overlap_survives_seeded_edits() {
+    drive(14, overlap);
 }
 
 #[test]

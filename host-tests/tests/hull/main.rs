@@ -7,6 +7,8 @@ mod edge_cases;
 mod kept_sweep;
 mod open;
 mod outer_hits;
+mod overlap;
 mod refined;
 mod scenes;
 mod segments;
+mod starts;

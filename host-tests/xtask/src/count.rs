@@ -14,13 +14,14 @@ use crate::tables;
 use crate::valgrind::Valgrind;
 
 /// Questions by their words on the host program's command line.
-const QUESTIONS: [&str; 19] = [
+const QUESTIONS: [&str; 20] = [
     "far",
     "near",
     "path",
     "first_hit",
     "outer_first",
     "outer_all",
+    "overlap",
     "refine bracket.msw 0.06 0.0005",
     "sweep bracket.msw 0 0.05",
     "sweep bracket.msw 0.0001 0",

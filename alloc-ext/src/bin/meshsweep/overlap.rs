@@ -1,12 +1,13 @@
 //! `meshsweep overlap`: poses of a second mesh in, whether it meets the first one out.
 
-use crate::args::{Given, OverlapArgs, files};
+use crate::args::{Engine, Given, OverlapArgs, files};
 use crate::ask::{self, Answer, Question, write_end};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
+use crate::served::Both;
 use crate::{blob_file, served};
-use meshsweep_core::{BuildFor, Bvh, Ended, Pose, TrianglePair, Verdict, Work};
+use meshsweep_core::{Ended, Pose, TrianglePair, Verdict, Work};
 use std::io::{self, Write};
 
 // Words of the column `contact`.
@@ -21,12 +22,11 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
     let OverlapArgs { first, second, pose, matrix, search, .. } = args;
     let inputs = [files(&[first, second], pose), files(&[], matrix)].concat();
     refuse_same_file(search.output.as_deref(), &inputs)?;
-    let trees = [
-        served::require_tree(first, &blob_file::open(first)?, BuildFor::Segment)?,
-        served::require_tree(second, &blob_file::open(second)?, BuildFor::Segment)?,
-    ];
+    let blobs = [blob_file::open(first)?, blob_file::open(second)?];
+    let tree_chosen = args.engine.map(|engine| engine == Engine::Tree);
+    let models = served::choose_both([first, second], &blobs, tree_chosen)?;
     if !matrix.is_empty() {
-        return ask_poses(args, trees, Queries::read(matrix)?, of_matrix);
+        return ask_poses(args, models, Queries::read(matrix)?, of_matrix);
     }
     let as_built = [Given::Query([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])];
     let mut poses = Queries::read(if pose.is_empty() { &as_built } else { pose })?;
@@ -34,20 +34,20 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
         let failure = Failure::NoRotation { place: poses.place(index) };
         poses.end_at(index, failure)?;
     }
-    ask_poses(args, trees, poses, of_quaternion)
+    ask_poses(args, models, poses, of_quaternion)
 }
 
 fn ask_poses<const N: usize>(
     args: &OverlapArgs,
-    trees: [Bvh<'_>; 2],
+    models: Both<'_>,
     poses: Queries<N>,
     pose_of: fn([f32; N]) -> Pose,
 ) -> Result<(), Failure> {
     let question = Question::new("pose,contact,first,second,work", poses, &args.search);
     if args.all {
-        ask_all(args, trees, question, pose_of)
+        ask_all(args, models, question, pose_of)
     } else {
-        ask_any(args, trees, question, pose_of)
+        ask_any(args, models, question, pose_of)
     }
 }
 
@@ -73,15 +73,15 @@ fn of_matrix([a, b, c, x, d, e, f, y, g, h, i, z]: [f32; 12]) -> Pose {
 /// Asks whether the meshes meet.
 fn ask_any<const N: usize>(
     OverlapArgs { search, .. }: &OverlapArgs,
-    [first, second]: [Bvh<'_>; 2],
+    models: Both<'_>,
     question: Question<'_, N>,
     pose_of: fn([f32; N]) -> Pose,
 ) -> Result<(), Failure> {
     question.ask(
         || {
-            let mut scratch = search.scratch(Bvh::OVERLAP_ENTRIES);
+            let mut scratch = search.scratch(models.entries());
             move |row| {
-                let found = first.overlap(&second, pose_of(row), search.budget(), &mut scratch)?;
+                let found = models.overlap(pose_of(row), search.budget(), &mut scratch)?;
                 Ok(Answer { found, ended: ask::ended(found.verdict), work: found.work })
             }
         },
@@ -100,20 +100,20 @@ fn ask_any<const N: usize>(
 /// there is none, or if pairs may be missing.
 fn ask_all<const N: usize>(
     OverlapArgs { search, .. }: &OverlapArgs,
-    [first, second]: [Bvh<'_>; 2],
+    models: Both<'_>,
     question: Question<'_, N>,
     pose_of: fn([f32; N]) -> Pose,
 ) -> Result<(), Failure> {
     question.ask(
         || {
-            let mut scratch = search.scratch(Bvh::OVERLAP_ENTRIES);
+            let mut scratch = search.scratch(models.entries());
             let mut buffer = vec![TrianglePair::EMPTY; PAIRS];
             move |row| {
                 let pose = pose_of(row);
                 let (all, found) = ask::all(
                     &mut buffer,
                     TrianglePair::EMPTY,
-                    |buffer| first.overlaps(&second, pose, buffer, search.budget(), &mut scratch),
+                    |buffer| models.overlaps(pose, buffer, search.budget(), &mut scratch),
                     |all| (all.stored, all.dropped),
                 )?;
                 Ok(Answer { found, ended: all.ended, work: all.work })

@@ -1,7 +1,10 @@
 //! Which questions a blob answers, and by which of its structures.
 
 use crate::failure::Failure;
-use meshsweep_core::{Blob, BuildFor, Bvh, Hull, TightHull};
+use meshsweep_core::{
+    Blob, Budget, BuildFor, Bvh, Hull, Overlap, Overlaps, Pose, QueryError, ScratchEntry,
+    TightHull, TrianglePair,
+};
 use std::path::Path;
 
 /// Whether a blob serves a question.
@@ -15,7 +18,7 @@ const QUESTIONS: [(&str, Serves); 13] = [
     ("field", knows_triangles),
     ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| tree.is_closed())),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
-    ("overlap", |blob| tree(blob, BuildFor::Segment).is_some()),
+    ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("cull", |blob| tree(blob, BuildFor::Cull).is_some()),
     ("hull --level", |blob| blob.hull().is_ok_and(|hull| hull.encloses())),
     ("refine", |blob| blob.hull().is_ok()),
@@ -182,6 +185,69 @@ pub fn choose<'a>(
         (Some(false), tree, Err(_)) => refuse(BuildFor::Hull, tree.map(|_| "tree")),
         (Some(true), None, hull) => refuse(build_for, hull.ok().map(|_| "hull")),
         (None, None, Err(_)) => refuse(build_for, None),
+    }
+}
+
+/// Structures of the same kind of two blobs.
+#[derive(Clone, Copy)]
+pub enum Both<'a> {
+    Trees([Bvh<'a>; 2]),
+    Hulls([Hull<'a>; 2]),
+}
+
+impl Both<'_> {
+    /// Scratch entries with which no overlap ends for want of memory.
+    pub fn entries(&self) -> usize {
+        match self {
+            Both::Trees(_) => Bvh::OVERLAP_ENTRIES,
+            Both::Hulls([first, second]) => first.overlap_entries(second),
+        }
+    }
+
+    pub fn overlap(
+        &self,
+        pose: Pose,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Overlap, QueryError> {
+        match self {
+            Both::Trees([first, second]) => first.overlap(second, pose, budget, scratch),
+            Both::Hulls([first, second]) => first.overlap(second, pose, budget, scratch),
+        }
+    }
+
+    pub fn overlaps(
+        &self,
+        pose: Pose,
+        pairs: &mut [TrianglePair],
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Overlaps, QueryError> {
+        match self {
+            Both::Trees([first, second]) => first.overlaps(second, pose, pairs, budget, scratch),
+            Both::Hulls([first, second]) => first.overlaps(second, pose, pairs, budget, scratch),
+        }
+    }
+}
+
+/// The engine that `--engine` chooses for both blobs; or else the box trees, unless one is missing
+/// and both blobs have a hull hierarchy.
+pub fn choose_both<'a>(
+    files: [&Path; 2],
+    blobs: &[Blob<'a>; 2],
+    tree_chosen: Option<bool>,
+) -> Result<Both<'a>, Failure> {
+    let has_tree = |blob: &Blob<'_>| tree(blob, BuildFor::Segment).is_some();
+    let is_tree = tree_chosen.unwrap_or_else(|| {
+        blobs.iter().all(has_tree) || !blobs.iter().all(|blob| blob.hull().is_ok())
+    });
+    let [file, other] = files;
+    let [first, second] = blobs;
+    if is_tree {
+        let tree = |file, blob| require_tree(file, blob, BuildFor::Segment);
+        Ok(Both::Trees([tree(file, first)?, tree(other, second)?]))
+    } else {
+        Ok(Both::Hulls([require_hull(file, first)?, require_hull(other, second)?]))
     }
 }
 

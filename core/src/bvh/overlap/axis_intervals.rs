@@ -5,11 +5,11 @@
 //! they separate few more boxes (van den Bergen, *Efficient Collision Detection of Complex
 //! Deformable Models using AABB Trees*, 1997).
 
-use super::relative_pose::{DIRECTIONS, TreeFrame};
 use crate::bvh::format::layout::{BOXES_BYTES, boxes};
 use crate::bvh::node::{WIDE, in_memory};
 use crate::geom::fan::WIDTH;
 use crate::num::lesser;
+use crate::query::{DIRECTIONS, ModelFrame};
 
 /// `[direction][child]`, common units.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ impl AxisIntervals {
     /// Intervals of a node's first `count` children.
     #[inline(always)]
     pub(crate) fn of(
-        frame: &TreeFrame,
+        frame: &ModelFrame,
         record: &[u8; BOXES_BYTES],
         count: u32,
     ) -> Option<AxisIntervals> {

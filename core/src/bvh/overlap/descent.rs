@@ -7,19 +7,34 @@
 
 use super::axis_intervals::{AxisIntervals, Pairs, pairs};
 use super::leaf_pair::LeafPair;
-use super::relative_pose::RelativePose;
 use crate::bvh::format::layout::boxes;
 use crate::bvh::format::{Bvh, BvhChild};
 use crate::geom::{Contact, Pose};
-use crate::query::{Budget, Ended, QueryError, ScratchEntry, Work};
+use crate::num::greater;
+use crate::query::{
+    Budget, Ended, Extended, PairVisitor, QueryError, RelativePose, ScratchEntry, Work,
+};
 
 /// Places of two triangles: node, child and lane in each tree.
 pub(crate) type PairPlace = [[u32; 3]; 2];
 
-/// A question's visitor for pairs of triangles that meet or may meet.
-pub(crate) trait PairVisitor {
-    /// Whether to go on. `None` says that a tree is unchecked.
-    fn pair(&mut self, place: PairPlace, contact: Contact) -> Option<bool>;
+/// The tree in grid units, from the grid's origin: vertices are stored without the origin, f32
+/// vertices with it. Each extent is one more, for boxes without extent.
+fn extended(tree: &Bvh<'_>) -> Extended {
+    let header = tree.header();
+    let origin = if header.is_f32() { [0.0; 3] } else { header.grid_origin.map(f64::from) };
+    let (low, high) = tree.grid_bounds();
+    let along = |low: f32, high: f32, origin: f64| {
+        let (low, high) = ((f64::from(low) - origin).abs(), (f64::from(high) - origin).abs());
+        1.0 + greater(high, low)
+    };
+    let [x, y, z] = origin;
+    Extended {
+        exponent: tree.scale_exponent().wrapping_add(header.grid_exponent),
+        origin,
+        extent: [along(low.x, high.x, x), along(low.y, high.y, y), along(low.z, high.z, z)],
+        error: f64::from(tree.units().surface_error),
+    }
 }
 
 /// The size of a node up to a factor of two: the sum of its boxes' steps, grid units.
@@ -40,7 +55,7 @@ pub(crate) fn descend(
     pose: &Pose,
     budget: &Budget,
     scratch: &mut [ScratchEntry],
-    visitor: &mut impl PairVisitor,
+    visitor: &mut impl PairVisitor<PairPlace>,
 ) -> Result<(Option<Ended>, Work), QueryError> {
     let mut work = Work::default();
     if !(a.serves_segments() && b.serves_segments()) {
@@ -48,7 +63,9 @@ pub(crate) fn descend(
     }
     budget.check_with(scratch)?;
     let (stack, _) = scratch.as_chunks_mut::<2>();
-    let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, work)) };
+    let Some(pose) = RelativePose::new(&extended(a), &extended(b), pose)? else {
+        return Ok((None, work));
+    };
     let models = Models { a, b, pose: &pose };
     let mut truncated = None;
     let mut used = 0usize;
@@ -179,7 +196,7 @@ impl Models<'_> {
         nodes: [u32; 2],
         indices: [u32; 2],
         [first, second]: [BvhChild; 2],
-        visitor: &mut impl PairVisitor,
+        visitor: &mut impl PairVisitor<PairPlace>,
         work: &mut Work,
     ) -> Option<bool> {
         let p = self.a.leaf_at(first.at, first.shape)?;

@@ -1,13 +1,12 @@
 //! Two leaves: which of their triangles may meet, then each of these pairs in f32, and in f64 where
 //! f32 cannot decide.
 
-use super::relative_pose::RelativePose;
 use crate::bvh::format::FanLeaf;
 use crate::bvh::node::WIDE;
 use crate::geom::fan::{LANES_BELOW, WIDTH};
 use crate::geom::{Contact, determinant_margin, straddling_triangles_meet, triangles_meet};
 use crate::num::{greater, lesser};
-use crate::query::Work;
+use crate::query::{RelativePose, Work};
 
 /// Slots for a leaf's vertices: two centres, the ring, and spare ones so that eight can be read at
 /// shift 1.

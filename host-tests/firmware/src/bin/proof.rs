@@ -51,6 +51,10 @@ ask! {
     ask_hull_outer_hits: hull::Model<'t>, |model, input, scratch, fold| {
         hull::outer_hits(model, ends(input), scratch, &mut (), fold)
     };
+    ask_hull_overlap: hull::Model<'t>, |model, input, scratch, fold| {
+        let (a, b) = (input.a, input.b);
+        hull::overlap(model, tree::pose(motion(input)), [a, b, a], scratch, &mut (), fold)
+    };
     ask_hull_refine: hull::Model<'t>, |model, input, scratch, fold| {
         let [radius, cosine, error] = input.b;
         let focuses = [

@@ -29,6 +29,7 @@ pub mod rival;
 mod segments;
 pub(crate) mod stopwatch;
 mod storage;
+mod table_3;
 pub mod tight;
 mod tree;
 pub mod triboxes;
@@ -119,7 +120,7 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
         storage::sections(&Blob::open(&built.bytes).map_err(|error| error.to_string())?),
         storage::limits(&model),
     ]);
-    tables.push(segments::work(&subject)?);
+    tables.extend(segments::work(&subject)?);
     tables.push(segments::engines(&subject, &model)?);
     tables.extend(closest::tables(&subject, &model)?);
     tables.push(kept::table(&subject, &model)?);

@@ -2,7 +2,8 @@
 //! parry3d's.
 
 use meshsweep::bvh::{TreeOptions, build};
-use meshsweep_core::{Budget, Bvh, Pose, ScratchEntry, TrianglePair, Verdict, Work};
+use meshsweep::collapse::Priority;
+use meshsweep_core::{Budget, Bvh, Hull, Pose, ScratchEntry, TrianglePair, Verdict, Work};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
 use meshsweep_host_tests::workload::pose::{FARTHEST, Pose as Motion, poses, sphere};
@@ -13,6 +14,7 @@ use parry3d::query::intersection_test;
 use super::bounds::pose::parry;
 use super::rival::Rival;
 use super::stopwatch::{Stopwatch, fastest};
+use super::{BASE_FACES, open};
 
 /// Motions.
 const MOTIONS: usize = 1_000;
@@ -73,10 +75,23 @@ struct Verdicts {
     time: [f64; 2],
 }
 
-fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
-    let mut stack = [ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES];
+/// A structure that tells whether it meets its copy.
+enum Engine<'a> {
+    Tree(Bvh<'a>),
+    Hull(Hull<'a>),
+}
+
+fn ours(engine: &Engine<'_>, cases: &[Case]) -> Result<Verdicts, String> {
+    let mut stack = match engine {
+        Engine::Tree(_) => vec![ScratchEntry::EMPTY; Bvh::OVERLAP_ENTRIES],
+        Engine::Hull(hull) => vec![ScratchEntry::EMPTY; hull.overlap_entries(hull)],
+    };
     let ask = |case: &Case| {
-        tree.overlap(tree, case.pose, Budget::EXACT, &mut stack).map_err(|error| error.to_string())
+        match engine {
+            Engine::Tree(tree) => tree.overlap(tree, case.pose, Budget::EXACT, &mut stack),
+            Engine::Hull(hull) => hull.overlap(hull, case.pose, Budget::EXACT, &mut stack),
+        }
+        .map_err(|error| error.to_string())
     };
     let Run { answers, nanoseconds } = fastest_run(cases, ask)?;
     let mut verdicts = Verdicts {
@@ -99,7 +114,11 @@ fn ours(tree: &Bvh<'_>, cases: &[Case]) -> Result<Verdicts, String> {
     }
     let mut pairs = vec![TrianglePair::EMPTY; 1 << 20];
     let every = |case: &Case| {
-        let found = tree.overlaps(tree, case.pose, &mut pairs, Budget::EXACT, &mut stack);
+        let (pose, exact) = (case.pose, Budget::EXACT);
+        let found = match engine {
+            Engine::Tree(tree) => tree.overlaps(tree, pose, &mut pairs, exact, &mut stack),
+            Engine::Hull(hull) => hull.overlaps(hull, pose, &mut pairs, exact, &mut stack),
+        };
         found.map(|found| found.stored).map_err(|error| error.to_string())
     };
     verdicts.all_pairs = run(cases, every)?.nanoseconds;
@@ -135,8 +154,10 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     ];
     let mut times =
         Table::new("overlap", "A mesh against itself, moved: do the surfaces meet?", &columns);
-    let columns = ["engine", "motions", "boxes", "nodes opened", "triangle pairs", "in f64"];
+    let columns = ["engine", "motions", "bounds", "opened", "triangle pairs", "in f64"];
     let mut work = Table::new("overlap_work", "What that took, in mean", &columns);
+    let hull = subject.build(BASE_FACES, Priority::Program);
+    let mut blobs = Vec::new();
     for (name, single) in [("16-bit grid", false), ("f32 vertices", true)] {
         let options = TreeOptions::default().with_closest(false).with_f32(single);
         let bytes = build(
@@ -149,12 +170,22 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
         .expect("builds")
         .0
         .to_bytes();
-        let tree = Bvh::open(&bytes).map_err(|error| error.to_string())?;
-        let verdicts = ours(&tree, &cases)?;
+        blobs.push((name, bytes));
+    }
+    let mut engines = Vec::new();
+    for (name, bytes) in &blobs {
+        engines.push((*name, Engine::Tree(Bvh::open(bytes).map_err(|error| error.to_string())?)));
+    }
+    // A mesh that is not closed has no hull hierarchy.
+    if let Ok(built) = &hull {
+        engines.push(("hull hierarchy", Engine::Hull(open(&built.bytes)?)));
+    }
+    for (name, engine) in &engines {
+        let verdicts = ours(engine, &cases)?;
         let [apart, meets] = verdicts.time;
         let times_faster = |ours: f64, theirs: f64| fixed(theirs / ours, 1);
         times.push(row![
-            name,
+            *name,
             verdicts.wrong,
             verdicts.open,
             fixed(apart / 1e3, 2),

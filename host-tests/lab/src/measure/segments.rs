@@ -9,6 +9,7 @@ use super::open;
 use super::paper::{HORSE, Model as Paper, STRATEGIES};
 use super::rival::Rival;
 use super::stopwatch::{Stopwatch, fastest};
+use super::table_3::Times;
 use super::{BASE_FACES, Subject};
 
 /// Segments of the paper's tests.
@@ -97,8 +98,8 @@ fn hull(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result<
     })
 }
 
-/// Faces tested and splits a segment for each base hull, beside the paper's Table 3.
-pub fn work(subject: &Subject) -> Result<Table, String> {
+/// Faces tested and splits a segment for each base hull, and times, beside the paper's Table 3.
+pub fn work(subject: &Subject) -> Result<[Table; 2], String> {
     let columns = [
         "strategy",
         "base faces",
@@ -119,9 +120,10 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
     );
     let segments = segments(subject, COUNT);
     let paper = Paper::of(&subject.name);
+    let mut times = Times::new(subject, &segments, paper.is_some_and(Paper::is_horse));
     let (mut hit_count, mut unsettled) = (0, 0);
     for (strategy, (priority, name)) in STRATEGIES.into_iter().enumerate() {
-        for (base_faces, theirs) in HORSE {
+        for (place, (base_faces, theirs)) in HORSE.into_iter().enumerate() {
             if base_faces > subject.mesh.triangles.len() {
                 continue;
             }
@@ -145,6 +147,7 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
                 first.mean(3),
                 outer.disagreements(&reference) + first.disagreements(&reference),
             ]);
+            times.push(name, &model, [place, strategy])?;
             hit_count = reference.hit_count();
             unsettled += outer.unsettled + first.unsettled + reference.unsettled;
         }
@@ -171,7 +174,7 @@ pub fn work(subject: &Subject) -> Result<Table, String> {
     if let Some(remark) = paper.and_then(|paper| paper.remark(subject.mesh.triangles.len())) {
         table.note(remark);
     }
-    Ok(table)
+    Ok([table, times.finish()])
 }
 
 /// First hits by each engine and by parry3d: time, work and agreement.

@@ -2,7 +2,7 @@
 
 mod extremes;
 mod limits;
-pub mod motions;
+mod motions;
 mod pairs;
 mod touching;
 mod truth;

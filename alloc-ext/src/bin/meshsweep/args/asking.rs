@@ -205,6 +205,10 @@ pub struct OverlapArgs {
     /// All pairs of triangles that meet, one on a line
     #[arg(long)]
     pub all: bool,
+    /// tree, the box trees; or hull, both hull hierarchies, each refined where the other is
+    /// [default: tree if both blobs have one]
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub engine: Option<Engine>,
     #[command(flatten)]
     pub search: SearchArgs,
 }

@@ -8,7 +8,8 @@ pub const QUEUE: &str = "Scratch entries to search with [default: what the blob 
     hull hierarchy 4096 more]";
 
 /// `--queue` of pairs of nodes.
-pub const PAIRS: &str = "Scratch entries to search with [default: 256, which always suffice]";
+pub const PAIRS: &str = "Scratch entries to search with [default: 256, on hull hierarchies \
+    what the blobs need, which always suffice]";
 
 const QUERIES: &str = "Queries are arguments, files, or both, in any number. They are answered in \
     the order given. A file holds one query on a line: decimal numbers with commas, semicolons or \
@@ -24,8 +25,8 @@ pub const BUILD: &str = "Values of --for, and what they cost:\n  \
     triangle\n  \
     segment   segment, overlap: 12 bytes a triangle; with closest 15\n  \
     cull      cull: half a byte a triangle more\n  \
-    hull      hull --level, refine, cut, and closest and segment with --engine hull: 25 to 40 \
-    bytes a triangle more\n  \
+    hull      hull --level, refine, cut, and closest, segment and overlap with --engine hull: \
+    25 to 40 bytes a triangle more\n  \
     sweep     as hull, of any mesh, open or not, whose levels enclose nothing\n  \
     triboxes  a union of 1, 2, 4, ... --triboxes chamfered boxes that holds the mesh: 84 to 98 \
     bytes a tribox\n  \

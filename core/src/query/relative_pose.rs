@@ -1,45 +1,56 @@
-//! Two trees in one frame: the pose of the second in the frame of the first.
+//! Two models in one frame: the pose of the second in the frame of the first.
 //!
-//! Lengths are in *common units*: the grid units of the tree with the larger ones, so that no
-//! number grows when it is converted. The frame is the first tree's, with the origin of the first
-//! tree's grid, so that a mesh far from its own origin costs no precision. See
-//! `core/docs/rounding.md` §11.
+//! Lengths are in *common units*: the units of the model with the larger ones, so that no number
+//! grows when it is converted. The frame is the first model's, with the first model's origin, so
+//! that a mesh far from its own zero costs no precision. See `core/docs/rounding.md` §11.
 
-use crate::bvh::format::Bvh;
+use super::error::QueryError;
 use crate::geom::Pose;
 use crate::num::tolerance::{
     OVERLAP_FARTHEST, OVERLAP_INTERVAL, OVERLAP_UNDERFLOW, OVERLAP_VERTEX, U32, U64,
 };
 use crate::num::{exp2, greater};
-use crate::query::QueryError;
 
-/// Directions along which boxes are compared: the axes of both trees' boxes.
+/// Directions along which boxes are compared: the axes of both models' boxes.
 pub(crate) const DIRECTIONS: usize = 6;
 
-/// Largest ratio of the trees' grid units, as a power of two. At 2^40 the smaller model is a point
+/// Largest ratio of the models' units, as a power of two. At 2^40 the smaller model is a point
 /// to the larger one.
 const RATIO: i32 = 40;
 
-/// The place of a tree along the directions.
+/// A model in its own units.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TreeFrame {
-    /// A place `q` of this tree, in its grid units from `origin`, is at `rows[d]·q + shift[d]`
+pub(crate) struct Extended {
+    /// Input units of one unit: 2^this.
+    pub(crate) exponent: i32,
+    /// The place that its vertices are taken from.
+    pub(crate) origin: [f64; 3],
+    /// How far its vertices are from the origin, along each axis.
+    pub(crate) extent: [f64; 3],
+    /// How far a vertex of the input may be from the stored one.
+    pub(crate) error: f64,
+}
+
+/// The place of a model along the directions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ModelFrame {
+    /// A place `q` of this model, in its units from `origin`, is at `rows[d]·q + shift[d]`
     /// along direction d.
     pub(crate) rows: [[f32; 3]; DIRECTIONS],
     pub(crate) shift: [f32; DIRECTIONS],
-    /// Origin of the tree's grid.
+    /// The model's origin.
     pub(crate) origin: [f32; 3],
     /// Intervals are made longer by this at both ends.
     pub(crate) grow: [f32; DIRECTIONS],
-    /// Common units in one grid unit.
+    /// Common units in one unit of the model.
     pub(crate) unit: f32,
 }
 
-/// The pose of both trees in common units.
+/// The pose of both models in common units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativePose {
-    pub(crate) frames: [TreeFrame; 2],
-    /// A place `q` of the second tree is at `matrix·q + shift`.
+    pub(crate) frames: [ModelFrame; 2],
+    /// A place `q` of the second model, from its origin, is at `matrix·q + shift`.
     pub(crate) matrix: [[f32; 3]; 3],
     pub(crate) shift: [f32; 3],
     pub(crate) shift_exact: [f64; 3],
@@ -47,22 +58,10 @@ pub(crate) struct RelativePose {
     pub(crate) vertex_error: f32,
     /// The same in f64.
     pub(crate) vertex_error_exact: f64,
-}
-
-/// The grid origin that a tree's vertices are stored without; 0 for f32 vertices.
-fn origin(tree: &Bvh<'_>) -> [f64; 3] {
-    if tree.header().is_f32() { [0.0; 3] } else { tree.header().grid_origin.map(f64::from) }
-}
-
-/// Extent of a tree's box from its origin along each axis, in grid units, and one more for boxes
-/// without extent.
-fn extent(tree: &Bvh<'_>, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let (low, high) = tree.grid_bounds();
-    let along = |low: f32, high: f32, origin: f64| {
-        let (low, high) = ((f64::from(low) - origin).abs(), (f64::from(high) - origin).abs());
-        1.0 + greater(high, low)
-    };
-    [along(low.x, high.x, x), along(low.y, high.y, y), along(low.z, high.z, z)]
+    /// What rounding has in `vertex_error`, and in `vertex_error_exact`.
+    pub(crate) rounding: [f64; 2],
+    /// Upper bound of the length in common units of a moved unit of the second model.
+    pub(crate) longest: f64,
 }
 
 fn dot([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
@@ -79,10 +78,10 @@ fn greatest(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 impl RelativePose {
-    /// `None` if the trees are so far from each other that no pair can meet.
+    /// `None` if the models are so far from each other that no pair can meet.
     pub(crate) fn new(
-        a: &Bvh<'_>,
-        b: &Bvh<'_>,
+        a: &Extended,
+        b: &Extended,
         pose: &Pose,
     ) -> Result<Option<RelativePose>, QueryError> {
         let entries = || pose.rotation.iter().flatten();
@@ -92,9 +91,7 @@ impl RelativePose {
         if entries().any(|x| x.abs() > 2.0) {
             return Err(QueryError::PoseOutOfDomain);
         }
-        let exponent =
-            |tree: &Bvh<'_>| tree.scale_exponent().wrapping_add(tree.header().grid_exponent);
-        let (ea, eb) = (exponent(a), exponent(b));
+        let (ea, eb) = (a.exponent, b.exponent);
         let common = greater(eb, ea);
         if ea - eb > RATIO || eb - ea > RATIO {
             return Err(QueryError::PoseOutOfDomain);
@@ -104,7 +101,7 @@ impl RelativePose {
         let rotation = pose.rotation.map(|row| row.map(f64::from));
         let [r0, r1, r2] = rotation;
         // Products of f32 are exact in f64; the sum of seven terms is rounded six times.
-        let (from, into) = (origin(b), origin(a));
+        let (from, into) = (b.origin, a.origin);
         let scale = exp2(common.wrapping_neg());
         let [t0, t1, t2] = pose.translation.map(|x| f64::from(x) * scale);
         let [p0, p1, p2] = into;
@@ -113,10 +110,9 @@ impl RelativePose {
             (dot(r1, from) * unit_b - p1 * unit_a) + t1,
             (dot(r2, from) * unit_b - p2 * unit_a) + t2,
         ];
-        let (extent_a, extent_b) =
-            (extent(a, into).map(|x| x * unit_a), extent(b, from).map(|x| x * unit_b));
-        let error_a = f64::from(a.units().surface_error) * unit_a;
-        let error_b = f64::from(b.units().surface_error) * (unit_b * stretch(&rotation));
+        let (extent_a, extent_b) = (a.extent.map(|x| x * unit_a), b.extent.map(|x| x * unit_b));
+        let longest = unit_b * stretch(&rotation);
+        let (error_a, error_b) = (a.error * unit_a, b.error * longest);
         let columns = [[r0[0], r1[0], r2[0]], [r0[1], r1[1], r2[1]], [r0[2], r1[2], r2[2]]];
         let [c0, c1, c2] = columns;
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -124,7 +120,7 @@ impl RelativePose {
         let back = directions.map(|d| columns.map(|column| dot(column, d)));
         let away = directions.map(|d| dot(d, shift_exact));
         // Along each axis, an upper bound of a moved vertex's coordinate, and of its difference
-        // from a vertex of the first tree.
+        // from a vertex of the first model.
         let along = [(r0, 0), (r1, 1), (r2, 2)].map(|(row, axis)| {
             most(row, extent_b)
                 + extent_a.get(axis).copied().unwrap_or(0.0)
@@ -153,14 +149,14 @@ impl RelativePose {
             return Err(QueryError::PoseOutOfDomain);
         }
         let narrow = |v: [f64; 3]| v.map(|x| x as f32);
-        let first = TreeFrame {
+        let first = ModelFrame {
             rows: directions.map(|d| narrow(d.map(|x| x * unit_a))),
             shift: [0.0; DIRECTIONS],
             origin: narrow(into),
             grow,
             unit: unit_a as f32,
         };
-        let second = TreeFrame {
+        let second = ModelFrame {
             rows: back.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: away.map(|x| x as f32),
             origin: narrow(from),
@@ -168,14 +164,16 @@ impl RelativePose {
             unit: unit_b as f32,
         };
         let larger = greater(error_b, error_a);
+        let rounded_f32 = OVERLAP_VERTEX * f64::from(U32) * near;
         Ok(Some(RelativePose {
             frames: [first, second],
             matrix: rotation.map(|row| narrow(row.map(|x| x * unit_b))),
             shift: narrow(shift_exact),
             shift_exact,
-            vertex_error: (larger + OVERLAP_VERTEX * f64::from(U32) * near) as f32
-                * (1.0 + 2.0 * U32),
+            vertex_error: (larger + rounded_f32) as f32 * (1.0 + 2.0 * U32),
             vertex_error_exact: larger + rounded,
+            rounding: [rounded_f32, rounded],
+            longest,
         }))
     }
 }

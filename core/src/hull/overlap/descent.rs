@@ -1,0 +1,199 @@
+//! The refinement of two models where they meet, depth first.
+//!
+//! A pair of triangles stands for the parts of both surfaces that the triangles, swept by their
+//! radii, contain. A pair that is certainly apart is dropped. Of any other pair the larger triangle
+//! is replaced by its children. So each model is refined only where the other is near. Pairs of
+//! triangles of both surfaces are told exactly.
+
+use super::places::{Places, is_f32_enough};
+use super::side::Side;
+use crate::geom::{Contact, Pose, Real, SweptTriangle};
+use crate::hull::format::Instance;
+use crate::hull::sweep::{Candidate, Fate, Visit};
+use crate::query::{
+    Budget, Ended, PairVisitor, QueryError, RelativePose, ScratchEntry, SweepQueue, Work,
+};
+
+/// Two triangles, the first model's first.
+pub(super) type Pair = [Instance; 2];
+
+/// Visits every pair of triangles that meet or may meet. Returns why it missed some.
+pub(super) fn descend(
+    sides: &mut [Side<'_>; 2],
+    pose: &Pose,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+    visitor: &mut impl PairVisitor<Pair>,
+) -> Result<(Option<Ended>, Work), QueryError> {
+    budget.check_with(scratch)?;
+    let [a, b] = [&sides[0].extended, &sides[1].extended];
+    let Some(pose) = RelativePose::new(a, b, pose)? else { return Ok((None, Work::NONE)) };
+    let is_f32 = is_f32_enough(&pose, [a, b]);
+    let exact = Places::<f64>::of(&pose);
+    // No pair is opened twice. So a search also ends on tables that open and yet name a triangle
+    // more than once.
+    let pairs = sides[0].triangles().saturating_mul(sides[1].triangles());
+    let steps = budget.steps.min(pairs);
+    let stack = Stack { slots: scratch, used: 0, is_short: false };
+    let found = if is_f32 {
+        run(sides, &Places::<f32>::of(&pose), &exact, stack, steps, visitor)
+    } else {
+        run(sides, &exact, &exact, stack, steps, visitor)
+    };
+    found.ok_or(QueryError::Unchecked)
+}
+
+fn run<T: Real>(
+    sides: &mut [Side<'_>; 2],
+    places: &Places<T>,
+    exact: &Places<f64>,
+    stack: Stack<'_>,
+    steps: u32,
+    visitor: &mut impl PairVisitor<Pair>,
+) -> Option<(Option<Ended>, Work)> {
+    let is_cut = sides.iter().any(Side::is_cut);
+    let [side_a, side_b] = sides;
+    let mut pair = [side_a.root, side_b.root];
+    let fixed = places.swept(0, &pair[0]);
+    let work = Work::NONE;
+    let mut search = Search {
+        places,
+        exact,
+        stack,
+        visitor,
+        work,
+        is_cut,
+        found: Some(true),
+        opened: 0,
+        pair,
+        fixed,
+    };
+    loop {
+        if search.work.splits >= steps {
+            return Some((Some(Ended::Steps), search.work));
+        }
+        search.work.splits += 1;
+        let swept = [places.swept(0, &pair[0]), places.swept(1, &pair[1])];
+        let [opens_a, opens_b] = pair.map(|triangle| triangle.fate == Fate::Splits);
+        // A model is opened before it waits.
+        let first = opens_a
+            && (!opens_b
+                || pair[0].instance == side_a.root.instance
+                || swept[0].size() >= swept[1].size());
+        search.opened = usize::from(!first);
+        search.pair = pair;
+        if first {
+            search.fixed = swept[1];
+            side_a.open(pair[0].instance, &mut search)?;
+        } else {
+            search.fixed = swept[0];
+            side_b.open(pair[1].instance, &mut search)?;
+        }
+        if !search.found? {
+            let cut = if is_cut { Some(Ended::Resolution) } else { None };
+            return Some((cut, search.work));
+        }
+        let Some([a, b]) = search.stack.pop() else {
+            let short = if search.stack.is_short { Some(Ended::Scratch) } else { None };
+            return Some((short, search.work));
+        };
+        pair = [side_a.look(a)?, side_b.look(b)?];
+    }
+}
+
+/// The pairs that wait.
+struct Stack<'s> {
+    slots: &'s mut [ScratchEntry],
+    used: usize,
+    /// Some pairs did not fit.
+    is_short: bool,
+}
+
+impl Stack<'_> {
+    fn push(&mut self, [a, b]: Pair) {
+        match self.slots.get_mut(self.used) {
+            Some(slot) if a.0 < ScratchEntry::SMALL_WORDS => {
+                *slot = ScratchEntry::of_words([a.0, b.0]);
+                self.used += 1;
+            }
+            _ => self.is_short = true,
+        }
+    }
+
+    fn pop(&mut self) -> Option<Pair> {
+        self.used = self.used.checked_sub(1)?;
+        self.slots.get(self.used).map(|entry| entry.words().map(Instance))
+    }
+}
+
+/// What is done with the children of a triangle.
+struct Search<'s, T, V> {
+    places: &'s Places<T>,
+    exact: &'s Places<f64>,
+    stack: Stack<'s>,
+    visitor: &'s mut V,
+    work: Work,
+    is_cut: bool,
+    /// Whether to go on. `None`: a model is unchecked.
+    found: Option<bool>,
+    /// Which of the models is opened.
+    opened: usize,
+    /// The opened triangle, and the other model's.
+    pair: [Candidate; 2],
+    /// The other model's, in common units.
+    fixed: SweptTriangle<T>,
+}
+
+impl<T: Real, V: PairVisitor<Pair>> Visit for Search<'_, T, V> {
+    #[inline(always)]
+    fn visit(&mut self, found: &[Candidate], _: &mut SweepQueue<'_>) {
+        self.work.nodes = self.work.nodes.saturating_add(found.len() as u32);
+        let mut near = 0u32;
+        for (i, child) in found.iter().enumerate() {
+            let swept = self.places.swept(self.opened, child);
+            near |= u32::from(!self.places.is_apart(&swept, &self.fixed)) << i;
+        }
+        if near == 0 {
+            return;
+        }
+        // Triangles that cannot be opened come last, so that they are taken first: the memory for
+        // those that can be opened is what the builder counted.
+        for splits in [true, false] {
+            for (i, child) in found.iter().enumerate() {
+                if near >> i & 1 != 0 && (child.fate == Fate::Splits) == splits {
+                    self.take(child);
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real, V: PairVisitor<Pair>> Search<'_, T, V> {
+    /// A pair that is not certainly apart.
+    fn take(&mut self, child: &Candidate) {
+        if self.found != Some(true) {
+            return;
+        }
+        let [a, b] = &self.pair;
+        let pair = if self.opened == 0 { [child, b] } else { [a, child] };
+        let instances = pair.map(|triangle| triangle.instance);
+        if pair.iter().any(|triangle| triangle.fate == Fate::Splits) {
+            self.stack.push(instances);
+            return;
+        }
+        if self.is_cut {
+            // No pair of a cut blob is certain, and none has numbers.
+            self.found = Some(false);
+            return;
+        }
+        self.work.triangles = self.work.triangles.saturating_add(1);
+        let mut contact = self.places.meet(pair);
+        if contact == Contact::Undecided {
+            self.work.exact = self.work.exact.saturating_add(1);
+            contact = self.exact.meet(pair);
+        }
+        if contact != Contact::Apart {
+            self.found = self.visitor.pair(instances, contact);
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! A hull hierarchy and another one, or a triangle: whether their surfaces meet, and where.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `query` | the questions and their answers |
+//! | `side` | one of the two: a hull hierarchy, or a triangle |
+//! | `places` | the corners of both in one frame, and what rounding leaves open |
+//! | `descent` | the refinement of both where they meet |
+
+mod descent;
+mod places;
+mod query;
+mod side;
+
+pub use query::TriangleOverlap;

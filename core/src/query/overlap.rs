@@ -1,0 +1,137 @@
+//! Whether two surfaces meet, and which of their triangles do.
+
+use super::answer::Ended;
+use super::verdict::{Undecided, Verdict};
+use super::work::Work;
+use crate::geom::Contact;
+
+/// Whether two surfaces meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Overlap {
+    /// `Yes`: the surfaces of the input meshes meet. `No`: they have no common point. Undecided for
+    /// [`Resolution`](Undecided::Resolution): they come nearer to each other than the stored meshes
+    /// can tell.
+    pub verdict: Verdict,
+    /// With `Yes` two triangles that meet, the first mesh's first. With an undecided
+    /// [`Resolution`](Undecided::Resolution) two triangles that may meet. Numbers in the input
+    /// files.
+    pub triangles: Option<[u32; 2]>,
+    /// The work of the search: pairs of boxes as `nodes`, pairs of triangles as `triangles` (in
+    /// f32) and `exact` (in f64), pairs of nodes opened as `splits`.
+    pub work: Work,
+}
+
+/// Two triangles that meet or may meet: their numbers in the input files, the first mesh's first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TrianglePair {
+    /// The triangles.
+    pub triangles: [u32; 2],
+    /// Whether it is proved that they meet.
+    pub is_certain: bool,
+}
+
+impl TrianglePair {
+    /// Any value, for filling arrays.
+    pub const EMPTY: TrianglePair = TrianglePair { triangles: [u32::MAX; 2], is_certain: false };
+}
+
+/// All pairs that meet or may meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Overlaps {
+    /// Pairs in the slice.
+    pub stored: usize,
+    /// Pairs that did not fit. The slice keeps the first ones that were found.
+    pub dropped: u32,
+    /// The work of the search, as in [`Overlap::work`].
+    pub work: Work,
+    /// [`Ended::Exact`]: these are all of the input's pairs. [`Ended::Resolution`]: pairs that are
+    /// not certain may not meet; no other pair does. [`Ended::Scratch`]: some pairs did not fit the
+    /// slice or the scratch memory. [`Ended::Steps`]: more pairs may exist.
+    pub ended: Ended,
+}
+
+/// A question's visitor for pairs of triangles that meet or may meet. A place names a pair in its
+/// structure.
+pub(crate) trait PairVisitor<Place> {
+    /// Whether to go on. `None` says that the structure is unchecked.
+    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool>;
+}
+
+/// The visitor that wants a pair that meets, or else one that may meet.
+#[derive(Debug)]
+pub(crate) struct FirstPair<Place> {
+    met: Option<Place>,
+    undecided: Option<Place>,
+}
+
+impl<Place> FirstPair<Place> {
+    pub(crate) const NONE: FirstPair<Place> = FirstPair { met: None, undecided: None };
+
+    /// The verdict, and the place of its witness. `truncated`: why the search missed pairs.
+    pub(crate) fn answer(self, truncated: Option<Ended>) -> (Verdict, Option<Place>) {
+        match (self.met, truncated, self.undecided) {
+            (Some(place), _, _) => (Verdict::Yes, Some(place)),
+            (None, Some(why), _) => (Verdict::Undecided(why.undecided()), None),
+            (None, None, Some(place)) => (Verdict::Undecided(Undecided::Resolution), Some(place)),
+            (None, None, None) => (Verdict::No, None),
+        }
+    }
+}
+
+impl<Place> PairVisitor<Place> for FirstPair<Place> {
+    #[inline(always)]
+    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool> {
+        if contact == Contact::Meets {
+            self.met = Some(place);
+            return Some(false);
+        }
+        if self.undecided.is_none() {
+            self.undecided = Some(place);
+        }
+        Some(true)
+    }
+}
+
+/// The visitor that wants all pairs in the caller's slice.
+pub(crate) struct AllPairs<'a, Numbers> {
+    pairs: &'a mut [TrianglePair],
+    /// Numbers in the input files of the triangles at a place.
+    numbers: Numbers,
+    stored: usize,
+    dropped: u32,
+    is_undecided: bool,
+}
+
+impl<'a, Numbers> AllPairs<'a, Numbers> {
+    pub(crate) fn new(pairs: &'a mut [TrianglePair], numbers: Numbers) -> Self {
+        AllPairs { pairs, numbers, stored: 0, dropped: 0, is_undecided: false }
+    }
+
+    pub(crate) fn answer(self, truncated: Option<Ended>, work: Work) -> Overlaps {
+        let ended = match truncated {
+            Some(why) => why,
+            None if self.dropped > 0 => Ended::Scratch,
+            None if self.is_undecided => Ended::Resolution,
+            None => Ended::Exact,
+        };
+        Overlaps { stored: self.stored, dropped: self.dropped, work, ended }
+    }
+}
+
+impl<Place, Numbers: Fn(&Place) -> Option<[u32; 2]>> PairVisitor<Place> for AllPairs<'_, Numbers> {
+    fn pair(&mut self, place: Place, contact: Contact) -> Option<bool> {
+        let is_certain = contact == Contact::Meets;
+        self.is_undecided |= !is_certain;
+        match self.pairs.get_mut(self.stored) {
+            Some(slot) => {
+                *slot = TrianglePair { triangles: (self.numbers)(&place)?, is_certain };
+                self.stored += 1;
+            }
+            None => self.dropped = self.dropped.saturating_add(1),
+        }
+        Some(true)
+    }
+}
