@@ -16,9 +16,6 @@ use crate::surface::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// Faces left below which evaluation is eager.
-const EAGER_BELOW: usize = 4000;
-
 /// Progress of the loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -69,6 +66,8 @@ struct Edges {
     around: Vec<[u32; 2]>,
     history: History,
     priority: Priority,
+    lazy_above: usize,
+    puts_back: bool,
 }
 
 impl Engine {
@@ -93,6 +92,8 @@ impl Engine {
                 ..History::default()
             },
             priority,
+            lazy_above: conditions.lazy_above,
+            puts_back: conditions.puts_back,
         };
         edges.states.reserve(triangles.len() * 3 / 2);
         let mut schedule = Schedule::new(positions.len());
@@ -177,8 +178,8 @@ impl Collapsing for Edges {
     /// Places the vertex exactly and collapses; `false` if the edge is refused or put back.
     ///
     /// The span is only an estimate of the volume that a collapse adds. An edge that adds more than
-    /// its span goes back into the queue with the true volume; the paper would collapse it. This
-    /// costs no further linear program for the other edges, and the last few hundred faces are
+    /// its span goes back into the queue with the true volume, unless the conditions are the paper's.
+    /// This costs no further linear program for the other edges, and the last few hundred faces are
     /// better by it.
     fn collapse(&mut self, candidate: &Candidate, schedule: &mut Schedule) -> bool {
         let ends = candidate.ends;
@@ -193,7 +194,8 @@ impl Collapsing for Edges {
                 false
             }
             Ok(placement)
-                if self.priority == Priority::Span
+                if self.puts_back
+                    && self.priority == Priority::Span
                     && placement.volume > 6.000_001 * candidate.cost =>
             {
                 self.enqueue(placement.volume / 6.0, ends, schedule.now(), schedule);
@@ -209,7 +211,7 @@ impl Collapsing for Edges {
         for &v in ring {
             self.evaluate([vertex.min(v), vertex.max(v)], schedule);
         }
-        let eager = self.surface.mesh.alive_count() <= EAGER_BELOW;
+        let eager = self.surface.mesh.alive_count() <= self.lazy_above;
         let mut around = std::mem::take(&mut self.around);
         around.clear();
         for &v in ring {

@@ -32,12 +32,12 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
     let number = |word: &str| word.parse::<f32>().map_err(|_| format!("`{word}` is not a number"));
     let read =
         |blob| std::fs::read(fixtures.join(blob)).map_err(|error| format!("{blob}: {error}"));
-    let laid = match words.as_slice() {
-        &["bvh", blob, relative] => read(blob).and_then(|bytes| {
+    let laid = match *words.as_slice() {
+        ["bvh", blob, relative] => read(blob).and_then(|bytes| {
             let bounds = of(&bytes, |blob| Ok(blob.bvh()?.bounds()))?;
             Ok(written(Question::Tree(number(relative)?), &bytes, &far(bounds, count)))
         }),
-        &["sweep", blob, step, relative] => read(blob).and_then(|bytes| {
+        ["sweep", blob, step, relative] => read(blob).and_then(|bytes| {
             let bounds = of(&bytes, |blob| Ok(blob.hull()?.bounds()))?;
             let (step, relative) = (number(step)? * diagonal(bounds), number(relative)?);
             let places = far(bounds, count.max(2));
@@ -48,7 +48,7 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
                 written(Question::KeptSweep(relative), &bytes, &places)
             })
         }),
-        &["refine", blob, radius, error] => read(blob).and_then(|bytes| {
+        ["refine", blob, radius, error] => read(blob).and_then(|bytes| {
             let hull = of(&bytes, Blob::hull)?;
             let diagonal = diagonal(hull.bounds());
             let part = |word| number(word).map(|part| part * diagonal);
