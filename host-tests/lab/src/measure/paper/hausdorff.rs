@@ -12,9 +12,9 @@ use meshsweep_xtask::table::{Cell, Table, fixed, row};
 /// The paper's simplified mesh has 4,450 of 29,200 triangles.
 const KEPT: f64 = 4_450.0 / 29_200.0;
 
-/// Widths at which the search may stop, as parts of the diagonal; the last leaves it to the search's
-/// own limit, a twentieth of the distance.
-const ENOUGH: [f64; 6] = [0.2, 0.1, 0.05, 0.02, 0.01, 0.0];
+/// Upper bounds at which the search may stop, in parts of the last one; 0 leaves the end to the
+/// search's own limit, a twentieth of the distance.
+const ENOUGH: [f64; 6] = [4.0, 2.0, 1.5, 1.2, 1.1, 0.0];
 
 /// Parts of the samples that are farther than the distance of a row.
 const FARTHER: [f64; 10] = [0.9, 0.75, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01, 0.001, 0.0001];
@@ -43,13 +43,18 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
         subject.mesh.triangles.len()
     );
     let mut bounds = Table::new("hausdorff", title, &columns);
-    for (i, enough) in ENOUGH.into_iter().enumerate() {
+    let mut search = |enough: f64| {
         let mut samples = 0u32;
-        let found = farthest(corners(), enough * subject.diagonal() / 100.0, |p| {
+        let found = farthest(corners(), enough, |p| {
             samples += 1;
             nearest(p)
         });
-        let is_last = i + 1 == ENOUGH.len();
+        (found, samples)
+    };
+    let (last, _) = search(0.0);
+    for enough in ENOUGH {
+        let (found, samples) = search(enough * last.upper);
+        let is_last = enough == 0.0;
         bounds.push(row![
             samples,
             fixed(share(found.lower), 4),

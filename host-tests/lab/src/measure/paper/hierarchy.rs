@@ -50,14 +50,41 @@ impl<'a> Hierarchy<'a> {
         tree
     }
 
-    /// Tells the elements of all leaves that may meet a segment; the nodes that were tested.
-    pub fn meeting(&self, ends: [DVec3; 2], mut told: impl FnMut(u32)) -> u64 {
+    /// Tells the elements of all leaves whose bound meets the segment's own; the nodes that were
+    /// tested.
+    pub fn meeting(&self, ends: [DVec3; 2], told: impl FnMut(u32)) -> u64 {
         let segment = Dop::of(self.slabs, ends.into_iter());
+        self.passing(|dop| dop.meets(&segment), told)
+    }
+
+    /// The same of the leaves whose bound the segment itself meets.
+    pub fn crossed(&self, ends: [DVec3; 2], told: impl FnMut(u32)) -> u64 {
+        let along = |end: DVec3| self.slabs.directions.iter().map(move |d| d.dot(end));
+        let slabs: Vec<[f64; 2]> = along(ends[0])
+            .zip(along(ends[1]))
+            .map(|(from, to)| [from, 1.0 / (to - from)])
+            .collect();
+        let meets = |dop: &Dop| {
+            let (mut enters, mut leaves) = (0f64, 1f64);
+            for ([low, high], [from, inverse]) in dop.ranges.iter().zip(&slabs) {
+                let (a, b) = ((low - from) * inverse, (high - from) * inverse);
+                // A segment that does not leave a side of the slab.
+                if a.is_nan() || b.is_nan() {
+                    continue;
+                }
+                (enters, leaves) = (enters.max(a.min(b)), leaves.min(a.max(b)));
+            }
+            enters <= leaves
+        };
+        self.passing(meets, told)
+    }
+
+    fn passing(&self, passes: impl Fn(&Dop) -> bool, mut told: impl FnMut(u32)) -> u64 {
         let (mut open, mut tested) = (vec![0], 0);
         while let Some(index) = open.pop() {
             let node = &self.nodes[index];
             tested += 1;
-            if node.dop.meets(&segment) {
+            if passes(&node.dop) {
                 match node.second {
                     Some(second) => open.extend([second, index + 1]),
                     None => self.elements[node.range.clone()].iter().for_each(|&e| told(e)),
