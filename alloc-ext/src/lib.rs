@@ -33,7 +33,7 @@ pub mod curve;
 pub mod cut;
 pub mod emit;
 mod error;
-mod hausdorff;
+pub mod hausdorff;
 pub mod hull;
 pub mod lp;
 pub mod mesh;

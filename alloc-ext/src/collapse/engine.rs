@@ -16,9 +16,6 @@ use crate::surface::Grid;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// Faces left below which evaluation is eager.
-const EAGER_BELOW: usize = 4000;
-
 /// Progress of the loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -203,8 +200,8 @@ impl Collapsing for Edges {
     /// Places the vertex exactly and collapses; `false` if the edge is refused or put back.
     ///
     /// The span is only an estimate of the volume that a collapse adds. An edge that adds more than
-    /// its span goes back into the queue with the true volume; the paper would collapse it. This
-    /// costs no further linear program for the other edges, and the last few hundred faces are
+    /// its span goes back into the queue with the true volume, unless the conditions are the paper's.
+    /// This costs no further linear program for the other edges, and the last few hundred faces are
     /// better by it.
     fn collapse(&mut self, candidate: &Candidate, schedule: &mut Schedule) -> bool {
         let ends = candidate.ends;
@@ -219,7 +216,8 @@ impl Collapsing for Edges {
                 false
             }
             Ok(placement)
-                if self.priority == Priority::Span
+                if self.surface.conditions.puts_back
+                    && self.priority == Priority::Span
                     && placement.cost > 6.000_001 * candidate.cost =>
             {
                 self.enqueue(placement.cost / 6.0, ends, schedule.now(), schedule);
@@ -235,7 +233,7 @@ impl Collapsing for Edges {
         for &v in ring {
             self.evaluate([vertex.min(v), vertex.max(v)], schedule);
         }
-        let eager = self.surface.mesh.alive_count() <= EAGER_BELOW;
+        let eager = self.surface.mesh.alive_count() <= self.surface.conditions.lazy_above;
         let mut around = std::mem::take(&mut self.around);
         around.clear();
         // No edge of a vertex with more triangles may collapse: it is the centre of a large hole.

@@ -50,21 +50,39 @@ pub struct Conditions {
     /// The order in which the program takes the planes of a star. The paper's is
     /// [`Order::Shuffled`]; the default is faster.
     pub order: Order,
+    /// Faces left above which costs are evaluated lazily: the edges around a collapse keep their
+    /// old cost until they reach the top of the queue. The paper evaluates them at once, as
+    /// `usize::MAX` does.
+    pub lazy_above: usize,
+    /// Whether an edge of [`Priority::Span`] goes back into the queue if its collapse would add more
+    /// than the span. The paper collapses it.
+    pub puts_back: bool,
 }
 
 impl Conditions {
     /// The defaults.
-    pub const PAPER: Self = Self {
+    pub const STANDARD: Self = Self {
         max_valence: 12,
         compactness_ratio: 0.8,
         min_normal_cosine: core::f64::consts::FRAC_1_SQRT_2,
         second_term: 1e-3,
         order: Order::MostViolated,
+        lazy_above: 4000,
+        puts_back: true,
+    };
+
+    /// The paper's algorithm: costs evaluated at once, no edge put back, Seidel's order. The second
+    /// term stays, for a vertex has to be unique.
+    pub const PAPER: Self = Self {
+        order: Order::Shuffled(0),
+        lazy_above: usize::MAX,
+        puts_back: false,
+        ..Self::STANDARD
     };
 }
 
 impl Default for Conditions {
     fn default() -> Self {
-        Self::PAPER
+        Self::STANDARD
     }
 }

@@ -13,7 +13,7 @@ pub struct Surface {
     pub mesh: Connectivity,
     pub positions: Vec<DVec3>,
     facets: Vec<Facet>,
-    conditions: Conditions,
+    pub conditions: Conditions,
     grid: Grid,
     /// Triangles from this one on close holes. No condition is about them.
     fillers: usize,

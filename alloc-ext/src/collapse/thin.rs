@@ -190,7 +190,7 @@ mod tests {
         let mesh = torus(40);
         let stored = store(&mesh, VertexBits::F32);
         for target in [400, 1000, 3199, 3200, 5000] {
-            let conditions = Conditions { compactness_ratio: 0.4, ..Conditions::PAPER };
+            let conditions = Conditions { compactness_ratio: 0.4, ..Conditions::STANDARD };
             let thinned = |stop| {
                 thin(&stored.positions, &mesh.triangles, target, conditions, stored.grid, |_| stop)
             };
@@ -222,8 +222,14 @@ mod tests {
                 );
             }
         }
-        let (_, after_a_round) =
-            thin(&stored.positions, &mesh.triangles, 100, Conditions::PAPER, stored.grid, |_| true);
+        let (_, after_a_round) = thin(
+            &stored.positions,
+            &mesh.triangles,
+            100,
+            Conditions::STANDARD,
+            stored.grid,
+            |_| true,
+        );
         assert!(
             after_a_round.len() > 2000 && after_a_round.len() < 3200,
             "{}",

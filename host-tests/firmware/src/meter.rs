@@ -29,6 +29,26 @@ impl Meter {
     }
 }
 
+impl Meter {
+    /// Prints the hash of a block of answers, and looks how deep the stack was.
+    pub fn block_of(&mut self, name: &str, index: u32, hash: u64) {
+        // Before and after printing, whose own frames must not count.
+        self.deepest = self.deepest.max(stack::depth());
+        println!("block {name} {index} {hash:016x}");
+        stack::paint();
+    }
+
+    /// Prints ticks and stack.
+    pub fn costs_of(&self, name: &str) {
+        let Self { queries, min, sum, max, deepest, .. } = *self;
+        // What a blob says of itself is not timed.
+        if queries > 0 {
+            println!("ticks {name} {queries} {min} {sum} {max}");
+            println!("stack {name} {deepest}");
+        }
+    }
+}
+
 impl Default for Meter {
     fn default() -> Self {
         Self::new()
@@ -62,18 +82,10 @@ impl Recorder for Meter {
     }
 
     fn block(&mut self, kind: Kind, index: u32, hash: u64) {
-        // Before and after printing, whose own frames must not count.
-        self.deepest = self.deepest.max(stack::depth());
-        println!("block {} {index} {hash:016x}", kind.name());
-        stack::paint();
+        self.block_of(kind.name(), index, hash);
     }
 
     fn kind_ends(&mut self, kind: Kind) {
-        let Self { queries, min, sum, max, deepest, .. } = *self;
-        // What a blob says of itself is not timed.
-        if queries > 0 {
-            println!("ticks {} {queries} {min} {sum} {max}", kind.name());
-            println!("stack {} {deepest}", kind.name());
-        }
+        self.costs_of(kind.name());
     }
 }

@@ -37,7 +37,7 @@ fn main() {
         }
     }
     for (faces, programs) in recorded(Path::new(&mesh)) {
-        report(&format!("build, {faces} faces"), Conditions::PAPER.second_term, &programs);
+        report(&format!("build, {faces} faces"), Conditions::STANDARD.second_term, &programs);
     }
     for (family, large) in Family::LARGE {
         for count in [10, 100, 1000, 10_000] {
@@ -54,7 +54,7 @@ fn recorded(mesh: &Path) -> Vec<(usize, Vec<Program>)> {
     let mut engine = Engine::new(
         &stored.positions,
         &subject.mesh.triangles,
-        Conditions::PAPER,
+        Conditions::STANDARD,
         Priority::Program,
         stored.grid,
     );
@@ -66,7 +66,7 @@ fn recorded(mesh: &Path) -> Vec<(usize, Vec<Program>)> {
         let mut mesh = Connectivity::new(positions.len(), &triangles);
         let (mut star, mut programs) = (Vec::new(), Vec::new());
         for [a, b] in mesh.edges() {
-            if mesh.collapsible_star(a, b, Conditions::PAPER.max_valence, &mut star) {
+            if mesh.collapsible_star(a, b, Conditions::STANDARD.max_valence, &mut star) {
                 let corners = |&t: &u32| mesh.corners[t as usize].map(|v| positions[v as usize]);
                 let faces: Vec<_> = star.iter().map(corners).collect();
                 let middle = (positions[a as usize] + positions[b as usize]) / 2.0;

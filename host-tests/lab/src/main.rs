@@ -13,15 +13,18 @@ mod rival;
 
 use std::process::ExitCode;
 
+use meshsweep_lab::measure::paper;
+use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
-cargo xtask measure [--tree | --triboxes | --overlap | --tight [--firmware] | --bounds [--count]] [--plot FILE.svg] [--picture FILE.svg] [MESH...]
+cargo xtask measure [--tree | --triboxes | --overlap | --tight [--firmware] | --bounds [--count] | --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH...]
                                     work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/);
                                     --tree: only the box tree's; --triboxes: the stored ones; --overlap: the mesh
                                     against itself; --tight: tight hulls, each proved, drawn with --picture, on a Cortex-M4F
                                     with --firmware; --bounds: how tight boxes, triboxes, hulls... are, with --count what
-                                    they cost; --plot: loss against cost
+                                    they cost; --paper: a table of the papers, alone: which there are; --plot: loss
+                                    against cost
 cargo xtask race [--quick] [MESH...]
                                     this library, parry3d and obvhs on the same queries
                                     (AVX2: RUSTFLAGS=\"-C target-cpu=x86-64-v3\" cargo xtask race)
@@ -33,6 +36,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let mut steps = Steps::new();
     match words.as_slice() {
+        ["measure", "--paper"] => say::text(paper::list().text()),
         ["measure", rest @ ..] => match measuring::Options::parse(rest) {
             Some(options) => measuring::run(&mut steps, options),
             None => return usage(),

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use meshsweep_lab::measure::bounds::cost::{Cost, counted};
+use meshsweep_lab::measure::paper;
 use meshsweep_lab::measure::plot::{self, Measured};
 use meshsweep_lab::measure::tight::picture;
 use meshsweep_lab::measure::{
@@ -36,11 +37,13 @@ enum Part {
     Overlap,
     Triboxes,
     Tight,
+    /// A table of [`paper::ALL`].
+    Paper(usize),
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --overlap | --tight [--firmware] | --bounds [--count]]
-    /// [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if
+    /// `[--tree | --triboxes | --overlap | --tight [--firmware] | --bounds [--count] |
+    /// --paper TABLE] [--plot FILE.svg] [--picture FILE.svg] [MESH…]`, the picture with `--tight` alone; `None` if
     /// that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
@@ -53,6 +56,10 @@ impl Options {
                 "--overlap" => Part::Overlap,
                 "--triboxes" => Part::Triboxes,
                 "--tight" => Part::Tight,
+                "--paper" => {
+                    let name = words.next()?;
+                    Part::Paper(paper::ALL.iter().position(|table| table.name == *name)?)
+                }
                 "--count" | "--firmware" if only.is_none() => {
                     only = Some(if word == "--count" { Part::Bounds } else { Part::Tight });
                     continue;
@@ -112,6 +119,7 @@ pub fn run(steps: &mut Steps, options: Options) {
                 Some(Part::Bounds) => measure_bounds(mesh, counts.as_deref())?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
+                Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
                 Some(Part::Tight) => match &tools {
                     Some(tools) => vec![hulls_on_board::table(tools, mesh)?],
                     None => {
@@ -194,6 +202,9 @@ mod tests {
             &["--count"],
             &["--firmware", "--tree"],
             &["--picture", "hulls.svg"],
+            &["--paper"],
+            &["--paper", "000.9"],
+            &["--paper", "000.1", "--tree"],
         ] {
             assert_eq!(Options::parse(words), None, "{words:?}");
         }

@@ -82,7 +82,7 @@ pub fn run(steps: &mut Steps, options: &Options) {
         for engine in ENGINES {
             let answers = steps.run(&format!("{what}: {engine}"), || {
                 let image = race(&cross, engine, &course)?;
-                let answers = Answers::parse(&qemu.run(BOARD.machine, &image)?, &BOARD)?;
+                let answers = Answers::parse(&qemu.run(BOARD.machine, &image, None)?, &BOARD)?;
                 agree(&answers, &expected, grid(&course))?;
                 Ok(answers)
             });

@@ -5,6 +5,8 @@
 //! host picture            writes fixtures/part.svg
 //! host blobs FOLDER       writes the firmware's blobs, each beside this machine's answers
 //! host ask QUESTION N     asks the first N queries of a question, for a simulator that counts
+//! host lay QUESTION N FILE
+//!                         writes such a question for a board; prints means, then this machine's answers
 //! ```
 
 use std::path::Path;
@@ -27,8 +29,13 @@ fn main() -> ExitCode {
             .map_err(|_| format!("`{queries}` is not a number"))
             .and_then(|queries| counted::ask(&fixtures, question, queries))
             .map(|line| println!("{line}")),
+        ["lay", question, queries, file] => queries
+            .parse()
+            .map_err(|_| format!("`{queries}` is not a number"))
+            .and_then(|queries| counted::lay(&fixtures, question, queries, Path::new(file)))
+            .map(|lines| print!("{lines}")),
         _ => {
-            Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N".to_owned())
+            Err("host fixtures | host picture | host blobs FOLDER | host ask QUESTION N | host lay QUESTION N FILE".to_owned())
         }
     };
     match result {

@@ -1,7 +1,6 @@
-//! Questions to fixtures that a simulator counts: the first so many of a seeded list.
+//! Questions to fixtures and blobs that a simulator counts: the first so many of a seeded list.
 
-mod refine;
-mod sweep;
+mod placed;
 mod tree;
 mod triboxes;
 
@@ -30,15 +29,26 @@ pub fn ask(fixtures: &Path, question: &str, queries: usize) -> Result<String, St
         let (work, triangles) = tree::ask(fixtures, question, queries)?;
         return Ok(format!("{} {} {triangles}", work.splits, work.triangles));
     }
-    if let Some(question) = question.strip_prefix("refine ") {
-        return refine::ask(fixtures, question, queries);
+    if let Some(laid) = placed::lay(fixtures, question, PLACED) {
+        return Ok(format!("0 0 1 {}", placed::ask(&laid?, queries)?));
     }
     match question.split_once(' ') {
         Some(("triboxes", question)) => triboxes::ask(fixtures, question, queries),
-        Some(("sweep", question)) => sweep::ask(fixtures, question, queries),
         _ => hull(fixtures, question, queries),
     }
     .map(|()| "0 0 1".to_owned())
+}
+
+/// Writes a question at places for a board; the line of [`ask`], and what the board prints for the
+/// first `queries`, but for its costs.
+///
+/// # Errors
+/// A question that is not at places, or a blob that is missing or refused.
+pub fn lay(fixtures: &Path, question: &str, queries: usize, file: &Path) -> Result<String, String> {
+    let laid = placed::lay(fixtures, question, queries)
+        .ok_or_else(|| format!("`{question}` is not: bvh, sweep or refine BLOB ..."))??;
+    std::fs::write(file, &laid).map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok(format!("{}\n{}", placed::ask(&laid, queries)?, placed::expected(&laid, queries)?))
 }
 
 /// Questions to the hull hierarchy.

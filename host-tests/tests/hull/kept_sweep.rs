@@ -61,6 +61,28 @@ fn a_moved_sweep_names_the_triangle_of_a_fresh_one() {
     assert!(spared > 1000, "only {spared} answers took fewer splits");
 }
 
+/// Bounds that are beyond the nearest triangle by less than the rounding of a key are seldom: only
+/// long walks meet them. A sweep that put them back unchanged would not end.
+#[test]
+fn a_sweep_ends_on_a_long_walk_of_small_steps() {
+    for scene in all() {
+        let model = scene.model();
+        let mut scratch = vec![ScratchEntry::EMPTY; 512];
+        let mut rng = Rng::new(54);
+        let (from, to) = (scene.around(1.5, &mut rng), scene.around(1.5, &mut rng));
+        let mut sweep = model.sweep(from, &mut scratch).expect("finite");
+        let place = |i: u32| {
+            let part = i as f32 / 6000.0;
+            std::array::from_fn(|k| from[k] + (to[k] - from[k]) * part)
+        };
+        for p in (0..=6000).map(place) {
+            sweep.move_to(p).expect("finite");
+            sweep.closest_point(Budget::EXACT).expect("answers");
+        }
+        contains_truth(scene, to, &sweep.closest_point(Budget::EXACT).expect("answers"));
+    }
+}
+
 #[test]
 fn any_memory_and_any_budget_give_an_interval_that_holds() {
     let mut short = 0;

@@ -1,17 +1,23 @@
-//! `cargo xtask count`: instructions a query on this machine, counted by callgrind.
+//! `cargo xtask count`: instructions a query on this machine, counted by callgrind; on a Cortex-M4F,
+//! counted by the emulator.
 //!
 //! Times on a busy machine are noise; instructions are not. The host's program runs in the
 //! simulator twice, with different numbers of queries: the difference is the queries' alone.
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::process::Command;
 
+use crate::boards::BOARDS;
+use crate::firmware::Tools;
 use crate::host;
 use crate::process;
+use crate::reading::Reading;
 use crate::steps::Steps;
 use crate::table::{Cell, Table, fixed};
 use crate::tables;
 use crate::valgrind::Valgrind;
+use crate::workspace;
 
 /// Questions by their words on the host program's command line.
 const QUESTIONS: [&str; 20] = [
@@ -66,6 +72,54 @@ pub struct Each {
 /// Counted questions by their words.
 pub type Counts<'a> = BTreeMap<&'a str, Each>;
 
+/// Queries that a board is asked.
+const ON_BOARD: &str = "2500";
+
+/// Where the image `ask` finds its question: in the external RAM of the first board.
+const LOADED: u32 = 0x2100_0000;
+
+/// Counts questions at places on the Cortex-M4F, in the emulator, and prints the table. The answers'
+/// bits are this machine's, or it is an error.
+pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
+    let [board, ..] = BOARDS;
+    let Some(program) = steps.run("the host's program, optimised", host::optimised) else { return };
+    let Some(image) = steps.run("the image", || tools.image(&board, "ask")) else { return };
+    let title = format!("Instructions a query on a {}", board.cpu);
+    let columns = ["question", "mean", "least", "most", "stack", "scratch", "answers"];
+    let mut table = Table::new("board_instructions", title, &columns);
+    for &question in asked {
+        let counted = steps.run(question, || {
+            let file = workspace::target().join("question.bin");
+            let mut command = Command::new(&program);
+            let printed = process::capture(command.args(["lay", question, ON_BOARD]).arg(&file))?;
+            let (means, expected) = printed.split_once('\n').unwrap_or_default();
+            let expected = Reading::parse(expected, None)?;
+            let reading = tools.asked(&board, &image, Some((&file, LOADED)), &expected)?;
+            let cost = reading.costs.first().ok_or("the image told no cost")?;
+            table.push(vec![
+                Cell::from(question),
+                fixed(cost.mean, 0),
+                fixed(cost.min, 0),
+                fixed(cost.max, 0),
+                cost.stack.into(),
+                reading.scratch.into(),
+                Cell::from(means),
+            ]);
+            Ok(())
+        });
+        if counted.is_none() {
+            return;
+        }
+    }
+    table.note(format!(
+        "{ON_BOARD} queries; stack, scratch: bytes of RAM; a tick is 40 instructions"
+    ));
+    table.note(
+        "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: closest points; refine BLOB RADIUS ERROR",
+    );
+    say!("{}", table.text());
+}
+
 /// Counts questions and prints the table: those of `asked`, or all that are listed here. A question
 /// of `asked` may name any file, with its whole path.
 pub fn run<'a>(steps: &mut Steps, asked: &[&'a str]) {
@@ -92,7 +146,7 @@ pub fn run<'a>(steps: &mut Steps, asked: &[&'a str]) {
     );
     table.note("tree: to the box tree, triboxes: to 64 of them, the others to the hull hierarchy");
     table.note(
-        "sweep BLOB STEP RELATIVE: far points; a step of 0: fresh queries, else one kept sweep that moves",
+        "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: far points; a step of 0: fresh queries, else one kept sweep that moves",
     );
     table.note(
         "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by the paper's test",

@@ -27,6 +27,35 @@ pub fn setup(steps: &mut Steps) -> Option<Tools> {
     Some(Tools { cross: cross?, qemu: qemu? })
 }
 
+impl Tools {
+    /// Builds an image that carries no blob, for a board; its path.
+    ///
+    /// # Errors
+    /// The compiler's.
+    pub fn image(&self, board: &Board, name: &str) -> Result<PathBuf, String> {
+        let mut command = images::cargo(&self.cross, "build", &[board.target], Profile::Release);
+        process::capture(command.args(["--bin", name]))?;
+        Ok(images::image(&self.cross, board.target, Profile::Release, name))
+    }
+
+    /// Runs an image on a board, with a file in memory. Its answers are `expected`, bit by bit.
+    ///
+    /// # Errors
+    /// Other bits, or an image that does not end.
+    pub fn asked(
+        &self,
+        board: &Board,
+        image: &Path,
+        loaded: Option<(&Path, u32)>,
+        expected: &Reading,
+    ) -> Result<Reading, String> {
+        let printed = self.qemu.run(board.machine, image, loaded)?;
+        let reading = Reading::parse(&printed, Some(board))?;
+        reading.compare(expected)?;
+        Ok(reading)
+    }
+}
+
 /// An image of the suite, built for one board.
 struct Image {
     board: Board,
@@ -36,7 +65,7 @@ struct Image {
 
 /// Runs all of it, and prints the table.
 pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
-    let Tools { cross, qemu } = tools;
+    let cross = &tools.cross;
     if steps.run("the host's answers", blobs::write).is_none() {
         return Vec::new();
     }
@@ -47,7 +76,7 @@ pub fn run(steps: &mut Steps, tools: &Tools) -> Vec<Row> {
     let readings = std::thread::scope(|scope| {
         let readings = scope.spawn(|| {
             process::parallel(&images, |Image { board, blob, file }| {
-                asked(qemu, board, file, &blob.expected()?)
+                tools.asked(board, file, None, &blob.expected()?)
             })
         });
         built(steps, cross);
@@ -135,13 +164,7 @@ pub fn reading(
 ) -> Result<Reading, String> {
     let files = images::suite(&tools.cross, &[board.target], Profile::Release, image, blob)?;
     let file = files.first().ok_or("no image")?;
-    asked(&tools.qemu, board, file, &Reading::parse(expected, None)?)
-}
-
-fn asked(qemu: &Qemu, board: &Board, image: &Path, expected: &Reading) -> Result<Reading, String> {
-    let reading = Reading::parse(&qemu.run(board.machine, image)?, Some(board))?;
-    reading.compare(expected)?;
-    Ok(reading)
+    tools.asked(board, file, None, &Reading::parse(expected, None)?)
 }
 
 /// Questions whose code is measured, each by an image of its own.

@@ -15,6 +15,8 @@ cargo xtask fixtures                writes fixtures/ anew
 cargo xtask picture                 writes fixtures/part.svg anew, the picture of README.md
 cargo xtask tables                  writes the documents' tables of bytes and instructions anew
 cargo xtask count [QUESTION...]     instructions a query, by callgrind; are eight lanes vectors?
+cargo xtask count --board QUESTION...
+                                    the same on a Cortex-M4F, of `bvh`, `sweep` and `refine` BLOB ...
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
 environment:
@@ -60,7 +62,14 @@ fn main() -> ExitCode {
             let facts = Facts { counts: counts.as_ref(), rows: &rows };
             steps.run("tables of the documents", || tables::write(&facts));
         }
-        ["count", questions @ ..] => count::run(&mut steps, questions),
+        ["count", "--board", questions @ ..] if !questions.is_empty() => {
+            if let Some(tools) = firmware::setup(&mut steps) {
+                count::on_board(&mut steps, &tools, questions);
+            }
+        }
+        ["count", questions @ ..] if !questions.contains(&"--board") => {
+            count::run(&mut steps, questions)
+        }
         ["measure" | "race" | "rival", ..] => return checks::lab(&words),
         _ => return usage(),
     }

@@ -74,8 +74,13 @@ impl Qemu {
     }
 
     /// Runs an image to its end: what it printed. An image that exits with another status than 0 is
-    /// an error.
-    pub fn run(&self, machine: Machine, image: &Path) -> Result<String, String> {
+    /// an error. The bytes of a file may lie in memory from an address on.
+    pub fn run(
+        &self,
+        machine: Machine,
+        image: &Path,
+        loaded: Option<(&Path, u32)>,
+    ) -> Result<String, String> {
         let mut command = self.command(machine);
         command.args(["-M", machine.name(), "-nographic", "-monitor", "none", "-serial", "none"]);
         // One nanosecond of the board's time an instruction: counters become instruction counts,
@@ -83,6 +88,12 @@ impl Qemu {
         command.args(["-icount", "shift=0", "-semihosting-config", "enable=on,target=native"]);
         if matches!(machine, Machine::Riscv32(_)) {
             command.args(["-bios", "none"]);
+        }
+        if let Some((file, address)) = loaded {
+            // A comma in a file's name is doubled.
+            let file = file.to_string_lossy().replace(',', ",,");
+            let loader = format!("loader,file={file},addr={address:#x},force-raw=on");
+            command.args(["-device", &loader]);
         }
         process::capture_within(command.arg("-kernel").arg(image), LIMIT)
     }

@@ -13,7 +13,7 @@ use meshsweep_core::internal::num::exp2;
 /// staircase, of which the paper's conditions refuse most collapses; the edges that are left stand
 /// out.
 pub(crate) const STAIR_CONDITIONS: Conditions =
-    Conditions { compactness_ratio: 0.2, min_normal_cosine: 0.2, ..Conditions::PAPER };
+    Conditions { compactness_ratio: 0.2, min_normal_cosine: 0.2, ..Conditions::STANDARD };
 
 /// Most faces of a closure that is an initial hull without any collapse.
 const MOST_FACES: usize = 10_000;

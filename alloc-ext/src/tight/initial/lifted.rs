@@ -34,7 +34,7 @@ pub(crate) fn lifted_levels(
     let surface = ClosedSurface {
         positions: &stored.positions,
         triangles: &mesh.triangles,
-        conditions: Conditions::PAPER,
+        conditions: Conditions::STANDARD,
     };
     let mut hulls = |thins| {
         let mut levels = surface.levels(input, target, thins, on_progress).unwrap_or_default();

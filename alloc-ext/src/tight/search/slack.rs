@@ -120,7 +120,7 @@ impl<'a> HullSearch<'a, '_> {
         let input = self.initial_input();
         let mut is_within = false;
         // Walls along the axes do better by the first, all others by the second.
-        for conditions in [Conditions::PAPER, STAIR_CONDITIONS] {
+        for conditions in [Conditions::STANDARD, STAIR_CONDITIONS] {
             if self.is_late() {
                 break;
             }

@@ -64,7 +64,7 @@ fn distance_sq(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
 
 /// Parameter at which a line crosses a triangle's plane (Möller & Trumbore 1997), and by what
 /// margin it is inside the triangle and the segment: negative outside.
-fn cross(from: DVec3, direction: DVec3, &[a, b, c]: &[DVec3; 3]) -> (f64, f64) {
+pub fn cross(from: DVec3, direction: DVec3, &[a, b, c]: &[DVec3; 3]) -> (f64, f64) {
     let (ab, ac) = (b - a, c - a);
     let p = direction.cross(ac);
     let determinant = ab.dot(p);

@@ -2,8 +2,8 @@
 //! `DESIGN.md`.
 //!
 //! ```text
-//! subject (mesh, builds) ─┬─ hulls    (paper 000, Tables 1 and 2)
-//! workload (queries) ─────┼─ segments (paper 000, Table 3) ─┐
+//! subject (mesh, builds) ─┬─ paper    (the papers' tables) ─┐
+//! workload (queries) ─────┼─ segments (engines) ────────────┤
 //! rival (parry3d) ────────┼─ closest                        ├─ table (text and JSON from the same cells)
 //! brute (f64 oracle) ─────┼─ cuts     (bytes for accuracy)  │
 //!                         ├─ storage  (bytes, levels) ──────┤
@@ -20,10 +20,9 @@ pub mod bounds;
 pub(crate) mod brute;
 mod closest;
 mod cuts;
-mod hulls;
 mod kept;
 mod overlap;
-mod paper;
+pub mod paper;
 pub mod plot;
 pub mod rival;
 mod segments;
@@ -115,12 +114,11 @@ pub fn measure(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load(file)?;
     let built = subject.build(BASE_FACES, Priority::Program)?;
     let model = open(&built.bytes)?;
-    let mut tables = vec![subject_table(&subject), hulls::table(&subject)];
+    let mut tables = vec![subject_table(&subject)];
     tables.extend([
         storage::sections(&Blob::open(&built.bytes).map_err(|error| error.to_string())?),
         storage::limits(&model),
     ]);
-    tables.extend(segments::work(&subject)?);
     tables.push(segments::engines(&subject, &model)?);
     tables.extend(closest::tables(&subject, &model)?);
     tables.push(kept::table(&subject, &model)?);

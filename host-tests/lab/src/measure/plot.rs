@@ -26,7 +26,7 @@ struct View {
 
 const INSTRUCTIONS: [&str; 2] = ["to move it and test it once, instructions", "both"];
 
-const VIEWS: [View; 3] = [
+const VIEWS: [View; 4] = [
     View {
         table: "bounds_instructions",
         title: "false positives of bounds, about their own vertices and the hull's",
@@ -47,6 +47,13 @@ const VIEWS: [View; 3] = [
         series: "bound",
         x: ["faces", "faces"],
         y: ["void, % of the mesh's volume", "void %"],
+    },
+    View {
+        table: "hausdorff_samples",
+        title: "samples of a simplified mesh by their distances",
+        series: "mesh",
+        x: ["distance, % of the diagonal", "distance, %"],
+        y: ["samples that are farther, %", "samples that are farther, %"],
     },
 ];
 

@@ -6,21 +6,22 @@ use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
 use super::brute::Brute;
 use super::open;
-use super::paper::{HORSE, Model as Paper, STRATEGIES};
+use super::paper::figures::{HORSE, Model as Paper, STRATEGIES};
 use super::rival::Rival;
 use super::stopwatch::{Stopwatch, fastest};
 use super::table_3::Times;
 use super::{BASE_FACES, Subject};
 
 /// Segments of the paper's tests.
-const COUNT: usize = 10_000;
+pub const COUNT: usize = 10_000;
 /// Segments compared with every triangle in f64.
 const BRUTE: usize = 300;
 
 /// What a run over all segments gave.
-struct Run {
+pub struct Run {
     hits: Vec<Option<Hit>>,
-    nanoseconds: f64,
+    /// A segment's, mean.
+    pub nanoseconds: f64,
     work: [u64; 4],
     /// Answers that did not end exact, or were not given because the segment starts inside the
     /// base hull's box.
@@ -52,12 +53,13 @@ impl Run {
         Ok(run)
     }
 
-    fn hit_count(&self) -> usize {
+    /// Segments that hit.
+    pub fn hit_count(&self) -> usize {
         self.hits.iter().flatten().count()
     }
 
     /// Mean of a counter: nodes, triangles, exact, splits.
-    fn mean(&self, counter: usize) -> Cell {
+    pub fn mean(&self, counter: usize) -> Cell {
         fixed(self.work[counter] as f64 / self.hits.len() as f64, 1)
     }
 
@@ -84,7 +86,8 @@ fn cover(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], queue: usize) -> Result<R
 /// Splits of the refined hull.
 const SPLITS: usize = 4096;
 
-fn hull(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result<Run, String> {
+/// All segments on the refined hull, from the base hull each.
+pub fn hull(model: &Hull<'_>, segments: &[[[f32; 3]; 2]], search: Search) -> Result<Run, String> {
     let mut refined = Box::new(RefinedHull::<SPLITS>::new());
     let mut scratch = [ScratchEntry::EMPTY; 1024];
     let mut hits = [Hit::EMPTY; 64];

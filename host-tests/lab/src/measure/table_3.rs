@@ -7,7 +7,7 @@ use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
 use super::brute::Brute;
-use super::paper::HORSE;
+use super::paper::figures::HORSE;
 use super::stopwatch::{Stopwatch, fastest};
 
 type Segment = [[f32; 3]; 2];

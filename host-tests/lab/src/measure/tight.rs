@@ -13,7 +13,7 @@ use meshsweep_host_tests::check::{Surface, check_enclosure};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
 
-use super::paper::STRATEGIES;
+use super::paper::figures::STRATEGIES;
 use super::stopwatch::Stopwatch;
 
 /// Faces of the hulls.

@@ -1,7 +1,6 @@
-//! The box tree on a mesh: what it takes, what its fans are, what it costs and how right it is.
+//! The box tree on a mesh: what it takes, what it costs and how right it is.
 
 mod accuracy;
-mod fans;
 mod trade;
 
 use meshsweep::bvh::{TreeOptions, TreeReport, build};
@@ -19,7 +18,7 @@ use super::stopwatch::Stopwatch;
 pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
     let grid = Built::new(subject, &TreeOptions::default());
     let single = Built::new(subject, &TreeOptions::default().with_f32(true));
-    let mut tables = vec![shape(&grid), sections(subject), fans::table(subject, &grid)?];
+    let mut tables = vec![shape(&grid), sections(subject)];
     tables.push(accuracy::table(subject, &grid, &single)?);
     tables.extend(trade::tables(subject, &grid)?);
     tables.push(proofs(subject, [("16-bit grid", &grid), ("f32", &single)])?);
@@ -27,14 +26,16 @@ pub fn tables(subject: &Subject) -> Result<Vec<Table>, String> {
 }
 
 /// A tree's blob and what building it said.
-struct Built {
+pub struct Built {
     tables: Sections,
-    report: TreeReport,
+    /// What building said.
+    pub report: TreeReport,
     bytes: Vec<u8>,
 }
 
 impl Built {
-    fn new(subject: &Subject, options: &TreeOptions) -> Self {
+    /// Builds the tree.
+    pub fn new(subject: &Subject, options: &TreeOptions) -> Self {
         let (tables, report) = build(
             meshsweep::mesh::Input {
                 input_triangles: subject.triangles_read,
@@ -47,7 +48,8 @@ impl Built {
         Self { tables, report, bytes }
     }
 
-    fn open(&self) -> Result<Bvh<'_>, String> {
+    /// Opens it.
+    pub fn open(&self) -> Result<Bvh<'_>, String> {
         Bvh::open(&self.bytes).map_err(|error| error.to_string())
     }
 }

@@ -4,7 +4,8 @@
 use meshsweep::tribox::store;
 use meshsweep_core::Pose as CorePose;
 use meshsweep_core::ScratchEntry;
-use meshsweep_core::{Budget, NodePair, Triboxes};
+use meshsweep_core::internal::tribox::FACES;
+use meshsweep_core::{Budget, NodePair, Tribox, Triboxes};
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_host_tests::workload::contact::Surface;
 use meshsweep_host_tests::workload::pose::{by_vertices, poses, sphere};
@@ -24,6 +25,13 @@ pub fn blob(subject: &Subject, count: u32) -> Result<Vec<u8>, String> {
     let mesh = &subject.mesh;
     let (tables, _) = store(mesh.as_input(), count).map_err(|error| error.to_string())?;
     Ok(tables.to_bytes())
+}
+
+/// Faces of a tribox that its clean-up leaves.
+#[must_use]
+pub fn faces(tribox: &Tribox) -> usize {
+    let boundary = tribox.boundary().cleaned();
+    (0..FACES).filter(|&face| !boundary.face(face).is_empty()).count()
 }
 
 /// The tables.

@@ -7,6 +7,7 @@
 
 pub mod curve;
 pub mod hull;
+pub mod placed;
 pub mod tight;
 pub mod tree;
 pub mod tribox;

@@ -1,5 +1,6 @@
 //! Void of other bounds: convex ones, and triboxes.
 
+use crate::measure::triboxes;
 use glam::DVec3;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::mesh::Mesh;
@@ -7,7 +8,6 @@ use meshsweep::tribox::{Extent, Hierarchy, SplitOptions, box_tree};
 use meshsweep_core::Bvh;
 use meshsweep_core::internal::num::Radius16;
 use meshsweep_core::internal::tight::format::layout::{TIGHT_BYTES, TIGHT_HULL_BYTES};
-use meshsweep_core::internal::tribox::FACES;
 use meshsweep_core::internal::tribox::format::layout::{
     TRIBOX_BYTES, TRIBOX_LEVEL_BYTES, TRIBOX_SPLIT_BYTES, TRIBOXES_BYTES,
 };
@@ -92,12 +92,7 @@ pub fn table(subject: &Subject, volume: f64, hulls: &[Measured]) -> Result<Table
     for (count, faces) in counts {
         let leaves = all.leaves(count);
         let proxies = || leaves.iter().map(|&leaf| all.nodes[leaf as usize].proxy);
-        let sides: usize = proxies()
-            .map(|tribox| {
-                let boundary = tribox.boundary().cleaned();
-                (0..FACES).filter(|&face| !boundary.face(face).is_empty()).count()
-            })
-            .sum();
+        let sides: usize = proxies().map(|tribox| triboxes::faces(&tribox)).sum();
         let name = if leaves.len() == 1 {
             "1 tribox".to_owned()
         } else {

@@ -14,6 +14,10 @@ pub struct Model {
     pub void: [[f64; 2]; 2],
     /// Table 4: segments of 10,000 that hit.
     pub hits: u32,
+    /// Seconds for them in trees of 6-, 14-, 18- and 26-DOPs.
+    pub dops: [u32; 4],
+    /// The same with progressive hulls.
+    pub hull: u32,
 }
 
 const MODELS: [Model; 4] = [
@@ -23,6 +27,8 @@ const MODELS: [Model; 4] = [
         seconds: [54, 8],
         void: [[2.87, 5.72], [28.90, 62.91]],
         hits: 2_044,
+        dops: [45, 24, 21, 18],
+        hull: 14,
     },
     Model {
         name: "screwdriver",
@@ -30,6 +36,8 @@ const MODELS: [Model; 4] = [
         seconds: [161, 26],
         void: [[2.21, 3.53], [20.70, 38.99]],
         hits: 1_641,
+        dops: [120, 69, 50, 45],
+        hull: 24,
     },
     Model {
         name: "horse",
@@ -37,6 +45,8 @@ const MODELS: [Model; 4] = [
         seconds: [298, 45],
         void: [[4.11, 6.86], [65.06, 65.60]],
         hits: 1_119,
+        dops: [216, 79, 76, 52],
+        hull: 21,
     },
     Model {
         name: "igea",
@@ -44,6 +54,8 @@ const MODELS: [Model; 4] = [
         seconds: [478, 69],
         void: [[2.04, 3.02], [12.06, 17.14]],
         hits: 1_808,
+        dops: [298, 107, 68, 45],
+        hull: 35,
     },
 ];
 

@@ -1,7 +1,8 @@
 //! Triangle fans: those of the paper (Galin & Akkouche 2005, 5.2 and 5.3), and those that the
 //! tree's leaves hold.
 
-use super::Built;
+use crate::measure::tree::Built;
+use meshsweep::bvh::TreeOptions;
 use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_host_tests::workload::Subject;
 use meshsweep_xtask::table::{Cell, Table, fixed, row};
@@ -11,7 +12,8 @@ use std::collections::{BTreeMap, BinaryHeap};
 ///
 /// # Errors
 /// A triangle is in no fan, or in several; or the tree does not open.
-pub(super) fn table(subject: &Subject, built: &Built) -> Result<Table, String> {
+pub fn table(subject: &Subject) -> Result<Table, String> {
+    let built = &Built::new(subject, &TreeOptions::default());
     let columns = [
         "decomposition",
         "triangles",
@@ -25,7 +27,9 @@ pub(super) fn table(subject: &Subject, built: &Built) -> Result<Table, String> {
     ];
     let mut table = Table::new("fans", "Triangle fans", &columns);
     let mesh = &subject.mesh;
-    let (papers, leaves) = (decompose(&mesh.triangles, mesh.positions.len()), of_leaves(built)?);
+    let papers = decompose(&mesh.triangles, mesh.positions.len());
+    let papers: Vec<usize> = papers.iter().map(|fan| fan.len() - 2).collect();
+    let leaves = of_leaves(built)?;
     let kinds = [
         ("paper 003, fans of up to 8", papers, mesh.triangles.len(), None),
         ("leaves: one or two fans", leaves, built.report.triangles, Some(&built.report.header)),
@@ -79,7 +83,8 @@ fn of_leaves(built: &Built) -> Result<Vec<usize>, String> {
     Ok(fans)
 }
 
-/// Sizes of the fans of 1 to [`WIDTH`] triangles into which a soup is split.
+/// The fans of 1 to [`WIDTH`] triangles into which a soup is split: the centre, then the rim in
+/// order.
 ///
 /// The paper's rule: the front starts at the open edges, or at the first triangle left if there are
 /// none. Of the vertices about the front, the one with the largest `f(c) = α v + β r − γ t` becomes
@@ -89,7 +94,7 @@ fn of_leaves(built: &Built) -> Result<Vec<usize>, String> {
 ///
 /// `O(n log n)`: the three counts are kept up to date as triangles go, and a centre's corners are
 /// walked at most [`WIDTH`] times in a row.
-fn decompose(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<usize> {
+pub fn decompose(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<Vec<u32>> {
     Front::new(vertex_count, Adjacency::new(triangles)).run()
 }
 
@@ -221,7 +226,7 @@ impl<'a> Front<'a> {
         front
     }
 
-    fn run(mut self) -> Vec<usize> {
+    fn run(mut self) -> Vec<Vec<u32>> {
         let mut fans = Vec::new();
         for (seed, triangle) in self.adjacency.triangles.iter().enumerate() {
             if self.taken[seed] {
@@ -266,13 +271,15 @@ impl<'a> Front<'a> {
 
     /// Takes the longest runs about `centre`, all those of one length, so that a vertex is visited
     /// at most [`WIDTH`] times between changes by others however many runs it has.
-    fn take_fans(&mut self, centre: u32, fans: &mut Vec<usize>) {
+    fn take_fans(&mut self, centre: u32, fans: &mut Vec<Vec<u32>>) {
         let runs = self.runs(centre);
         let longest = runs.iter().map(Vec::len).max().unwrap_or(0).min(WIDTH);
         let full = runs.iter().filter(|run| run.len() >= longest);
         for fan in full.flat_map(|run| run.chunks_exact(longest)) {
             fan.iter().for_each(|corner| self.take(corner / 3));
-            fans.push(fan.len());
+            let rim = fan.iter().map(|&corner| self.adjacency.vertex(preceding(corner)));
+            let begin = fan.iter().take(1).map(|&corner| self.adjacency.vertex(following(corner)));
+            fans.push(std::iter::once(centre).chain(begin).chain(rim).collect());
         }
     }
 

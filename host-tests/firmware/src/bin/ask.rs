@@ -1,0 +1,51 @@
+//! Asks one question to one blob at many places, all of them in the board's external RAM, where the
+//! emulator puts the host's file: blobs of any size fit.
+//!
+//! Prints the lines of the suite, for one kind of question with the name `asked`.
+#![no_std]
+#![no_main]
+
+use core::ptr::addr_of_mut;
+
+use meshsweep_firmware::{board, meter::Meter, stack};
+use meshsweep_suite::ask::placed::{self, Answer, Memory, Placed};
+use meshsweep_suite::fold::Fold;
+use semihosting::{println, process};
+
+/// mps2-an386: 16 MiB.
+const LOADED: *const u8 = 0x2100_0000 as *const u8;
+const BYTES: usize = 16 << 20;
+
+static mut MEMORY: Memory<'static> = Memory::new();
+
+#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
+#[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
+fn main() -> ! {
+    board::start_counter();
+    // SAFETY: memory that nothing writes.
+    let bytes = unsafe { core::slice::from_raw_parts(LOADED, BYTES) };
+    let Some(placed) = Placed::read(bytes) else {
+        println!("refused 0");
+        process::exit(1)
+    };
+    println!("blob {} {:016x}", placed.blob.len(), Fold::of_bytes(placed.blob));
+    let (instructions, ticks) = board::calibrate();
+    println!("calibration {instructions} {ticks}");
+    // SAFETY: the entry runs once, so this is the only reference.
+    let memory = unsafe { &mut *addr_of_mut!(MEMORY) };
+    let (mut meter, mut fold) = (Meter::new(), Fold::new());
+    stack::paint();
+    let told = |answer: &Answer| answer.told(&mut fold);
+    let asked = placed::ask(&placed, usize::MAX, memory, &mut meter, told);
+    meter.block_of("asked", 0, fold.finish());
+    match asked {
+        Ok(bytes) => println!("scratch {bytes}"),
+        Err(refused) => {
+            println!("refused {}", refused.0);
+            process::exit(1)
+        }
+    }
+    meter.costs_of("asked");
+    println!("done");
+    process::exit(0)
+}

@@ -1,0 +1,153 @@
+//! Questions of any blob at places in a row: closest points of the box tree and of sweeps on the
+//! split tables, and a refined hull that follows a point.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use glam::Vec3;
+use meshsweep::mesh::Mesh;
+use meshsweep_core::{Blob, Hull, VertIdx};
+use meshsweep_suite::ask::placed::{self, Answer, Memory, Placed, Question};
+use meshsweep_suite::fold::Fold;
+
+use crate::workload::{Points, Subject, points};
+
+/// A step of the point that a refined hull follows, as a part of the diagonal.
+const STEP: f32 = 1e-3;
+
+/// The bytes of a question with `count` places, as a board reads them; `None` if the words are no such question.
+///
+/// - `bvh BLOB RELATIVE`: closest points of the box tree, to a relative tolerance, at
+///   [`Points::Far`].
+/// - `sweep BLOB STEP RELATIVE`: the same of the hull hierarchy. With a step of 0 each query is a
+///   fresh one, else one kept sweep moves from each point to the next by such a part of the
+///   diagonal.
+/// - `refine BLOB RADIUS ERROR`: updates for a ball that runs from vertex to vertex of the base
+///   hull, by a thousandth of the diagonal each; radius and error are parts of the diagonal.
+///
+/// # Errors
+/// A blob that is missing or refused, or numbers that are none.
+pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u8>, String>> {
+    let words: Vec<&str> = question.split(' ').collect();
+    let number = |word: &str| word.parse::<f32>().map_err(|_| format!("`{word}` is not a number"));
+    let read =
+        |blob| std::fs::read(fixtures.join(blob)).map_err(|error| format!("{blob}: {error}"));
+    let laid = match *words.as_slice() {
+        ["bvh", blob, relative] => read(blob).and_then(|bytes| {
+            let bounds = of(&bytes, |blob| Ok(blob.bvh()?.bounds()))?;
+            Ok(written(Question::Tree(number(relative)?), &bytes, &far(bounds, count)))
+        }),
+        ["sweep", blob, step, relative] => read(blob).and_then(|bytes| {
+            let bounds = of(&bytes, |blob| Ok(blob.hull()?.bounds()))?;
+            let (step, relative) = (number(step)? * diagonal(bounds), number(relative)?);
+            let places = far(bounds, count.max(2));
+            Ok(if step == 0.0 {
+                written(Question::Sweep(relative), &bytes, &places)
+            } else {
+                let places = walk(places.into_iter(), step, count);
+                written(Question::KeptSweep(relative), &bytes, &places)
+            })
+        }),
+        ["refine", blob, radius, error] => read(blob).and_then(|bytes| {
+            let hull = of(&bytes, Blob::hull)?;
+            let diagonal = diagonal(hull.bounds());
+            let part = |word| number(word).map(|part| part * diagonal);
+            let question = Question::Refine(part(radius)?, part(error)?);
+            Ok(written(question, &bytes, &walk(along_base(&hull), STEP * diagonal, count)))
+        }),
+        _ => return None,
+    };
+    Some(laid)
+}
+
+/// What a blob has, as a result with text.
+fn of<'t, T>(
+    bytes: &'t [u8],
+    has: impl FnOnce(&Blob<'t>) -> Result<T, meshsweep_core::QueryError>,
+) -> Result<T, String> {
+    let blob = Blob::open(bytes).map_err(|error| error.to_string())?;
+    has(&blob).map_err(|error| error.to_string())
+}
+
+fn diagonal([least, greatest]: [[f32; 3]; 2]) -> f32 {
+    Vec3::from_array(least).distance(Vec3::from_array(greatest))
+}
+
+fn far(bounds: [[f32; 3]; 2], count: usize) -> Vec<[f32; 3]> {
+    let corners = Subject::of("box", Mesh::new(bounds.to_vec(), Vec::new()));
+    points(&corners, Points::Far, count)
+}
+
+/// The first vertex of the base hull, then the others from the last to the first, again and again.
+fn along_base(hull: &Hull<'_>) -> impl Iterator<Item = [f32; 3]> {
+    let targets = (0..hull.header().base_vertices).rev().cycle();
+    std::iter::once(0).chain(targets).filter_map(|v| hull.vertex(VertIdx(v)))
+}
+
+/// `count` places from corner to corner, in steps of at most `step`.
+fn walk(mut corners: impl Iterator<Item = [f32; 3]>, step: f32, count: usize) -> Vec<[f32; 3]> {
+    let mut places = Vec::with_capacity(count);
+    let mut next = || corners.next().map(Vec3::from_array);
+    let Some(mut from) = next() else { return places };
+    while let Some(to) = next() {
+        let steps = (from.distance(to) / step).ceil().max(1.0);
+        let way = (0..steps as u32).map(|i| from + (to - from) * (i as f32 / steps));
+        places.extend(way.take(count - places.len()).map(|place| place.to_array()));
+        if places.len() == count {
+            break;
+        }
+        from = to;
+    }
+    places
+}
+
+fn written(question: Question, blob: &[u8], places: &[[f32; 3]]) -> Vec<u8> {
+    let header = placed::header(question, blob.len() as u32, places.len() as u32);
+    let places = places.as_flattened().iter().flat_map(|x| x.to_le_bytes());
+    header.into_iter().chain(blob.iter().copied()).chain(places).collect()
+}
+
+/// Asks at the first `queries` places. With means of an update's faces and changed splits, and the
+/// part of the updates that lacked memory.
+///
+/// # Errors
+/// The core's refusal.
+pub fn ask(laid: &[u8], queries: usize) -> Result<String, String> {
+    let (mut faces, mut changed, mut short) = (0u64, 0u64, 0u64);
+    told(laid, queries, |answer| {
+        if let Answer::Refined(update) = black_box(answer) {
+            faces += u64::from(update.faces);
+            changed += u64::from(update.performed + update.undone);
+            short += u64::from(update.error_left > 0.0);
+        }
+    })?;
+    let mean = |sum: u64| sum as f64 / queries.max(1) as f64;
+    Ok(if faces == 0 {
+        String::new()
+    } else {
+        let [faces, changed, short] = [faces, changed, short].map(mean);
+        format!("{faces:.0} faces, {changed:.1} splits changed, {short:.2} of the updates short")
+    })
+}
+
+/// The lines that a board prints for the first `queries` places, without its costs.
+///
+/// # Errors
+/// The core's refusal.
+pub fn expected(laid: &[u8], queries: usize) -> Result<String, String> {
+    let mut fold = Fold::new();
+    told(laid, queries, |answer| answer.told(&mut fold))?;
+    let blob = read(laid)?.blob;
+    let hash = Fold::of_bytes(blob);
+    Ok(format!("blob {} {hash:016x}\nblock asked 0 {:016x}\ndone\n", blob.len(), fold.finish()))
+}
+
+fn told(laid: &[u8], queries: usize, each: impl FnMut(&Answer)) -> Result<usize, String> {
+    let memory = &mut Box::new(Memory::new());
+    let bytes = placed::ask(&read(laid)?, queries, memory, &mut (), each);
+    bytes.map_err(|refused| format!("the core refuses the blob: error {}", refused.0))
+}
+
+fn read(laid: &[u8]) -> Result<Placed<'_>, String> {
+    Placed::read(laid).ok_or_else(|| "the bytes of a question end early".to_owned())
+}
