@@ -73,7 +73,7 @@ pub struct Each {
 pub type Counts<'a> = BTreeMap<&'a str, Each>;
 
 /// Queries that a board is asked.
-const ON_BOARD: &str = "2500";
+const ON_BOARD: &str = "1000";
 
 /// Where the image `ask` finds its question: in the external RAM of the first board.
 const LOADED: u32 = 0x2100_0000;
