@@ -213,9 +213,11 @@ impl Sweep<'_, '_> {
         loop {
             let mut keep = self.keep(0.0)?;
             let is_safe = !is_new && self.moved <= self.safe.motion;
-            let known = if is_safe { self.safe.near.as_slice() } else { self.best.as_slice() };
-            for &instance in known {
-                keep.nearest.evaluate(&self.front.look(instance)?);
+            if let Some(best) = self.best {
+                keep.nearest.evaluate(&self.front.look(best)?);
+            }
+            if is_safe {
+                self.settle_near(&mut keep)?;
             }
             keep.dives = self.best.is_none();
             let ended = if is_safe {
@@ -287,18 +289,21 @@ impl Sweep<'_, '_> {
             }
             let instance = Instance(entry.node());
             let candidate = self.front.look(instance)?;
+            keep.limit_to(margin);
             if candidate.fate != Fate::Splits {
-                let lower = keep.nearest.evaluate(&candidate);
-                keep.dives = false;
+                let near = keep.least(&candidate);
+                let lower = if near > keep.nearest.upper() {
+                    near
+                } else {
+                    keep.dives = false;
+                    keep.nearest.evaluate(&candidate)
+                };
                 let key = stored(lower.max(bound), self.moved);
                 self.front.queue.set_aside(ScratchEntry::new(key, instance.0));
                 continue;
             }
-            keep.limit_to(margin);
             if self.moved > 0.0 {
-                let [now, ..] = keep.nearest.bounds(&[candidate]);
-                let now = now.min(keep.nearest.limit());
-                let key = stored(f64::from(now), self.moved);
+                let key = stored(keep.least(&candidate), self.moved);
                 // The key's bound, which rounding made less: else the entry could come back at
                 // once, without end.
                 if bound_of(key, self.moved) > keep.nearest.upper() + wider {
@@ -319,6 +324,18 @@ impl Sweep<'_, '_> {
         }
         self.front.queue.take_back();
         Some(ended)
+    }
+
+    /// The nearest of the triangles that may be nearest within the safe motion, and of the best one,
+    /// which was evaluated. On a Cortex-M f64 runs in software, so f32 tells first which may be.
+    fn settle_near(&self, keep: &mut Keep) -> Option<()> {
+        for &instance in &self.safe.near {
+            let candidate = self.front.look(instance)?;
+            if Some(instance) != self.best && keep.least(&candidate) <= keep.nearest.upper() {
+                keep.nearest.evaluate(&candidate);
+            }
+        }
+        Some(())
     }
 
     /// The motion up to which one of the triangles that were set aside stays the nearest. Nothing
@@ -429,6 +446,12 @@ impl Sweep<'_, '_> {
 }
 
 impl Keep {
+    /// A lower bound of a triangle's distance, or of the limit if that is less.
+    fn least(&self, candidate: &Candidate) -> f64 {
+        let [bound, ..] = self.nearest.bounds(core::slice::from_ref(candidate));
+        f64::from(bound.min(self.nearest.limit()))
+    }
+
     /// Triangles farther than the nearest by more than this are not kept.
     fn limit_to(&mut self, margin: f64) {
         self.nearest.set_limit(self.nearest.upper() + margin);
