@@ -128,7 +128,7 @@ fn the_checker_proves_every_radius_of_every_level() {
         for bytes in &cuts {
             check_blob(bytes).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         }
-        assert!(is_exact(&model) == !scene.has_wires, "{}", scene.name);
+        assert_eq!(is_exact(&model), !scene.has_wires, "{}", scene.name);
         let finest = model.levels().last().expect("a level");
         assert_eq!(finest.faces, model.header().surface_triangles);
         assert_eq!(model.faces(&finest).count(), finest.faces as usize);
